@@ -2,10 +2,8 @@
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
-#include "runner/experiments/accuracy/studies/accuracy_run.h"
+#include "runner/experiments/accuracy/studies/studies.h"
 #include "runner/experiments/run/run_drives.h"
-#include "runner/files/output_folder.h"
-#include "runner/findings/run_context.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -62,7 +60,7 @@ int accuracy(const AccuracyFlags& flags, const std::vector<std::string>& command
         request.drives.push_back(read_drive(file));
     refuse_equal_names(request.drives);
     request.backend = flags.backend;
-    request.folder = flags.out.empty() ? default_output_folder("accuracy", utc_now()) : std::filesystem::path(flags.out);
+    request.folder = result_folder(flags.out, "accuracy");
     request.command = command;
     request.quiet = flags.quiet;
     request.write = [&](const AccuracyResult& result) {
@@ -116,9 +114,7 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
     sub->add_option("--samples", flags->sweep.most_samples, "maximum samples per reference pixel")
         ->check(CLI::Range(16, 1 << 20))
         ->capture_default_str();
-    sub->add_option("--seed", flags->sweep.seed, "seed of the reference and of the order in each round")
-        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
-        ->capture_default_str();
+    add_seed_flag(*sub, flags->sweep.seed, "seed of the reference and of the order in each round");
     sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--out", flags->out, "new or empty folder for the results");
     add_tables_flag(*sub, flags->tables);

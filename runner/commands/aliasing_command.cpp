@@ -3,9 +3,6 @@
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/aliasing/aliasing_run.h"
-#include "runner/experiments/aliasing/sequence_run.h"
-#include "runner/files/output_folder.h"
-#include "runner/findings/run_context.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -118,7 +115,7 @@ SequenceRequest sequence_request_of(const AliasingFlags& flags) {
 
 AliasingResult run(const AliasingFlags& flags, const std::vector<std::string>& command, std::filesystem::path& folder) {
     const auto place = [&](const std::string& name) {
-        folder = flags.out.empty() ? default_output_folder(name + "-aliasing", utc_now()) : std::filesystem::path(flags.out);
+        folder = result_folder(flags.out, name + "-aliasing");
         return folder;
     };
     const auto write = [&](const AliasingResult& result) {

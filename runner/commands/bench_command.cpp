@@ -3,8 +3,6 @@
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/bench/bench_run.h"
-#include "runner/files/output_folder.h"
-#include "runner/findings/run_context.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -46,7 +44,7 @@ int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
     request.rounds = flags.rounds;
     request.seed = flags.seed;
     request.backend = flags.backend;
-    request.folder = flags.out.empty() ? default_output_folder("bench", utc_now()) : std::filesystem::path(flags.out);
+    request.folder = result_folder(flags.out, "bench");
     request.command = command;
     request.quiet = flags.quiet;
     request.write = [&](const BenchResult& result) {
@@ -72,9 +70,7 @@ void add_bench_command(CLI::App& app, const std::vector<std::string>& command, s
         fmt::format("number of moments, spread evenly over the drive (default: {}, or all of a shorter drive)", usual_bench_moments));
     sub->add_option("--rounds", flags->rounds, "number of rounds; in each, every technique renders the moments once")
         ->capture_default_str();
-    sub->add_option("--seed", flags->seed, "seed of the order in each round")
-        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
-        ->capture_default_str();
+    add_seed_flag(*sub, flags->seed, "seed of the order in each round");
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT (default: the drive's)");
     sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--out", flags->out, "new or empty folder for the results");

@@ -1,5 +1,8 @@
 #include "runner/commands/flag_values.h"
 
+#include "runner/files/output_folder.h"
+#include "runner/findings/run_context.h"
+#include "runner/play/progress.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/values/errors.h"
 
@@ -9,6 +12,58 @@
 #include <fmt/format.h>
 
 namespace fernlicht {
+namespace {
+
+std::string today_of(const JudgingFlags& flags) {
+    if (flags.today.empty())
+        return utc_now().substr(0, 10);
+    if (!is_date(flags.today))
+        refuse_flag("--today", flags.today, "a date, e.g. 2026-12-31");
+    if (flags.known.empty())
+        refuse_flag("--today", flags.today, "--known beside it: nothing else asks for the day");
+    return flags.today;
+}
+
+constexpr const char* offset_form = "hours and minutes as +02:00 or -0330";
+
+std::int64_t utc_offset_of(const std::string& text) {
+    std::string digits;
+    for (const char c : text.substr(text.empty() ? 0 : 1))
+        if (c != ':')
+            digits += c;
+    const bool shaped = !text.empty() && (text[0] == '+' || text[0] == '-') && digits.size() == 4 && (text.size() == 5 || text[3] == ':');
+    if (!shaped || digits.find_first_not_of("0123456789") != std::string::npos)
+        refuse_flag("--utc-offset", text, offset_form);
+    const int hours = std::stoi(digits.substr(0, 2)), minutes = std::stoi(digits.substr(2));
+    if (hours > 14 || minutes > 59)
+        refuse_flag("--utc-offset", text, offset_form);
+    return (text[0] == '-' ? -1 : 1) * (hours * 3600 + minutes * 60);
+}
+
+} // namespace
+
+std::filesystem::path result_folder(const std::string& out, const std::string& name) {
+    return out.empty() ? default_output_folder(name, utc_now()) : std::filesystem::path(out);
+}
+
+void refuse_existing(const char* flag, const std::filesystem::path& path, bool force) {
+    std::error_code error;
+    if (!force && std::filesystem::exists(path, error))
+        throw InputError({{}, 0, 0, flag}, printable(path.string(), 400) + " is there already", "a new file, or --force");
+}
+
+std::vector<std::pair<std::string, std::filesystem::path>> lamps_of(const std::vector<std::string>& texts) {
+    std::vector<std::pair<std::string, std::filesystem::path>> lamps;
+    for (const std::string& text : texts) {
+        const std::size_t at = text.find('=');
+        lamps.emplace_back(at == std::string::npos ? "" : text.substr(0, at), at == std::string::npos ? text : text.substr(at + 1));
+    }
+    return lamps;
+}
+
+void add_seed_flag(CLI::App& command, std::uint64_t& seed, const char* text) {
+    command.add_option("--seed", seed, text)->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))->capture_default_str();
+}
 
 void add_tables_flag(CLI::App& command, std::string& tables) {
     command.add_option("--tables", tables, "csv or tex: write each table of the page also as a file in tables/");
@@ -89,6 +144,101 @@ std::vector<std::optional<BeamTexels>> beams_of(const std::vector<std::string>& 
         beams.emplace_back(BeamTexels{width, height, depth == "8" ? 8 : depth == "16" ? 16 : 32});
     }
     return beams;
+}
+
+TickRange tick_range(const std::string& frames) {
+    TickRange range;
+    if (frames.empty())
+        return range;
+    constexpr const char* expected = "FIRST:LAST with FIRST 0 or more and FIRST <= LAST, e.g. 0:59";
+    const auto [first, last] = two_numbers("--frames", frames, ':', true, expected);
+    range.first = first < 0 ? 0 : first;
+    range.last = last < 0 ? range.last : last;
+    if (range.first > range.last)
+        refuse_flag("--frames", frames, expected);
+    return range;
+}
+
+void add_judging_flags(CLI::App& command, JudgingFlags& flags) {
+    command.add_option("--references", flags.references, "folder of accepted results to judge against");
+    command.add_flag("--across-devices", flags.across_devices,
+                     "where nothing is accepted for this device class, judge by results of other classes");
+    command.add_option("--repeat", flags.repeats, "times to play each lamp set; results that differ in a byte are flaky, which is red")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command.add_option("--known", flags.known, "YAML list of known failures and flakes, each with reason and expiry");
+    command.add_option("--today", flags.today, "YYYY-MM-DD, the day used to expire known failures (default: today, UTC)");
+}
+
+std::optional<KnownFailures> take(const JudgingFlags& flags, RunOptions& options) {
+    if (flags.across_devices && flags.references.empty())
+        throw InputError({{}, 0, 0, "--across-devices"}, "found no --references", "the folder of accepted results");
+    options.references = flags.references;
+    options.across_devices = flags.across_devices;
+    options.repeats = flags.repeats;
+    options.today = today_of(flags);
+    return flags.known.empty() ? std::nullopt : std::optional(read_known_failures(flags.known));
+}
+
+void add_log_flags(CLI::App& command, LogFlags& flags) {
+    command.add_option("--stamps", flags.stamps,
+                       "what timestamps count from: absolute, zero (-tz) or delta (-td); detected where possible");
+    command.add_option("--start", flags.start, "time of the first frame in s, where timestamps are zero or delta (default: 0)");
+    command.add_option("--utc-offset", flags.utc_offset, "UTC offset of dates in timestamps (-tA), e.g. +02:00 (default: UTC)");
+    command.add_flag("--lenient", flags.lenient, "skip lines that are not frames, and report how many");
+}
+
+std::int64_t nanoseconds_of(const char* flag, const std::string& text, bool negative) {
+    const char* expected =
+        negative ? "seconds, at most nine digits behind the point" : "seconds from 0 up, at most nine digits behind the point";
+    const bool minus = negative && text.starts_with('-');
+    const std::string digits = text.substr(minus || (negative && text.starts_with('+')) ? 1 : 0);
+    const std::size_t point = std::min(digits.find('.'), digits.size());
+    const std::string whole = digits.substr(0, point), fraction = point < digits.size() ? digits.substr(point + 1) : "0";
+    const auto is_number = [](const std::string& number, std::size_t most) {
+        return !number.empty() && number.size() <= most && number.find_first_not_of("0123456789") == std::string::npos;
+    };
+    if (!is_number(whole, 10) || !is_number(fraction, 9) || std::stoll(whole) > 9223372035)
+        refuse_flag(flag, text, expected);
+    const std::int64_t value = std::stoll(whole) * 1'000'000'000 + std::stoll(fraction + std::string(9 - fraction.size(), '0'));
+    return minus ? -value : value;
+}
+
+CandumpReading reading_of(const LogFlags& flags) {
+    CandumpReading reading;
+    if (flags.stamps == "absolute")
+        reading.stamps = CandumpStamps::absolute;
+    else if (flags.stamps == "zero")
+        reading.stamps = CandumpStamps::zero;
+    else if (flags.stamps == "delta")
+        reading.stamps = CandumpStamps::delta;
+    else if (!flags.stamps.empty())
+        refuse_flag("--stamps", flags.stamps, "absolute, zero or delta");
+    if (!flags.start.empty())
+        reading.first_ns = nanoseconds_of("--start", flags.start);
+    if (!flags.utc_offset.empty())
+        reading.utc_offset_s = utc_offset_of(flags.utc_offset);
+    reading.stopped = Interruption::asked;
+    return reading;
+}
+
+LenientStream::LenientStream(const std::filesystem::path& path, const LogFlags& flags)
+    : log_(path, reading_of(flags)), lenient_(flags.lenient) {}
+
+CandumpStream::What LenientStream::next() {
+    for (;;) {
+        try {
+            const CandumpStream::What what = log_.next();
+            if (what == CandumpStream::What::end && skipped_ > 1)
+                fmt::print(stderr, "fernlicht: {}: {} lines skipped that are no frames\n", printable(log_.path().string(), 400), skipped_);
+            return what;
+        } catch (const InputError& error) {
+            if (!lenient_ || error.where().line == 0)
+                throw;
+            if (skipped_++ == 0)
+                fmt::print(stderr, "fernlicht: skipped: {}\n", error.what());
+        }
+    }
 }
 
 } // namespace fernlicht

@@ -1,9 +1,12 @@
-// Values of command-line flags that are more than a word.
+// Values of command-line flags that are more than a word, and flags that several commands share.
 #pragma once
 
+#include "runner/experiments/run/run_drives.h"
 #include "runner/write/document.h"
+#include "scenarios/can/candump_stream.h"
 #include "scenarios/lamps/beam_texels.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,9 +37,64 @@ double share_of(const char* flag, const std::string& text);
 /// "float" (nullopt), "eight-bit" or "512x128x8". Throws InputError naming --beams.
 std::vector<std::optional<BeamTexels>> beams_of(const std::vector<std::string>& texts);
 
+/// The folder of --out; for "" a new one, named after what is played and the time.
+std::filesystem::path result_folder(const std::string& out, const std::string& name);
+
+/// Throws InputError naming the flag where there is a file of this name and `force` does not say to replace it.
+void refuse_existing(const char* flag, const std::filesystem::path& path, bool force);
+
+/// What --lamp says, "[SIDE=]FILE" each: lamps by a part of their names ("": all), and files.
+std::vector<std::pair<std::string, std::filesystem::path>> lamps_of(const std::vector<std::string>& texts);
+
+void add_seed_flag(CLI::App& command, std::uint64_t& seed, const char* text);
 /// --tables, the same for all commands that write a document.
 void add_tables_flag(CLI::App& command, std::string& tables);
 /// "csv", "tex" or "". Throws InputError naming --tables.
 TableFormat table_format(const std::string& text);
+
+/// "FIRST:LAST", "FIRST:" or ":LAST" of --frames; all for "". Throws InputError naming the flag.
+TickRange tick_range(const std::string& frames);
+
+/// By what results of `run` and `study` are judged, as typed.
+struct JudgingFlags {
+    std::string references, known, today;
+    int repeats = 1;
+    bool across_devices = false;
+};
+
+void add_judging_flags(CLI::App& command, JudgingFlags& flags);
+
+/// Sets references, across_devices, repeats and today of `options`, and reads the list of known failures, where there is one. The only
+/// place that asks the clock for the day. Throws InputError for flags without effect, what is no date, and a list that cannot be read.
+std::optional<KnownFailures> take(const JudgingFlags& flags, RunOptions& options);
+
+/// With which the tools of `fernlicht can` read logs of candump.
+struct LogFlags {
+    std::string stamps, start, utc_offset; ///< "": by itself, 0, UTC
+    bool lenient = false;                  ///< lines that are no frames are skipped and told
+};
+
+/// --stamps, --start, --utc-offset, --lenient
+void add_log_flags(CLI::App& command, LogFlags& flags);
+
+/// Throws InputError naming the flag.
+CandumpReading reading_of(const LogFlags& flags);
+
+/// Seconds with up to nine digits behind the point, exactly; a sign where `negative` is allowed. Throws InputError naming the flag.
+std::int64_t nanoseconds_of(const char* flag, const std::string& text, bool negative = false);
+
+/// A stream that steps over bad lines where the flags say so: the first is told on standard error, the others are counted.
+class LenientStream {
+  public:
+    LenientStream(const std::filesystem::path& path, const LogFlags& flags);
+    /// As CandumpStream::next.
+    CandumpStream::What next();
+    const CandumpStream& log() const { return log_; }
+
+  private:
+    CandumpStream log_;
+    bool lenient_;
+    std::uint64_t skipped_ = 0;
+};
 
 } // namespace fernlicht

@@ -1,6 +1,6 @@
-#include "runner/commands/import_command.h"
 
 #include "runner/commands/commands.h"
+#include "runner/commands/flag_values.h"
 #include "runner/commands/model_command.h"
 #include "scenarios/values/errors.h"
 
@@ -84,8 +84,7 @@ int import_command(const ImportRequest& request) {
     std::error_code error;
     if (request.out.extension() != ".glb")
         throw InputError({{}, 0, 0, "OUT"}, "found '" + printable(request.out.string()) + "'", "a name that ends in .glb");
-    if (!request.force && std::filesystem::exists(request.out, error))
-        throw InputError({{}, 0, 0, "OUT"}, printable(request.out.string(), 400) + " is there already", "a new file, or --force");
+    refuse_existing("OUT", request.out, request.force);
     const std::filesystem::path program = request.program.empty() ? beside_this_program() : request.program;
     if (!std::filesystem::exists(program, error))
         throw DeviceError("there is no " + program.string() + ": it is built where OpenSceneGraph (libopenscenegraph-dev) is installed");

@@ -2,7 +2,6 @@
 
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
-#include "runner/commands/lamp_regulation.h"
 #include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/compare/lamps/lamp_description.h"
 #include "runner/files/json_text.h"

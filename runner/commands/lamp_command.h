@@ -48,4 +48,16 @@ void write_lamp_picture(const plots::Figure& figure, const LampRequest& request)
 /// DeviceError.
 int lamp_command(const LampRequest& request);
 
+/// Prints the check; 0 when every row passes, else 1. Throws InputError.
+int lamp_regulation(const LampRequest& request);
+
+/// Prints the cut-off's figures; 0. Throws InputError.
+int lamp_cut_off(const LampRequest& request);
+
+/// Throws InputError where flags of these two are given without either.
+void refuse_regulation_options(const LampRequest& request);
+
+/// The flags of both.
+void add_regulation_options(CLI::App& command, LampRequest& request);
+
 } // namespace fernlicht

@@ -1,4 +1,4 @@
-#include "runner/commands/lamp_regulation.h"
+#include "runner/commands/lamp_command.h"
 
 #include "runner/experiments/regulation/regulation_result.h"
 #include "runner/write/document.h"

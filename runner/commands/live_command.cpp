@@ -4,8 +4,6 @@
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/live/live_run.h"
 #include "runner/experiments/run/report_writers.h"
-#include "runner/files/output_folder.h"
-#include "runner/findings/run_context.h"
 #include "scenarios/drives/keys/bus_keys.h"
 #include "scenarios/values/errors.h"
 
@@ -86,7 +84,7 @@ int live(const LiveFlags& flags, const std::vector<std::string>& command) {
     options.command = command;
     options.write = [&options, tables = table_format(flags.tables)](const Report& report) { write_report(report, options.folder, tables); };
     Drive drive = drive_of(flags);
-    options.folder = flags.out.empty() ? default_output_folder(drive.name, utc_now()) : std::filesystem::path(flags.out);
+    options.folder = result_folder(flags.out, drive.name);
     const Report report = run_and_name(std::move(drive), options);
     fmt::print("{}", live_text(*report.live));
     if (!report.live->replay.empty())

@@ -3,6 +3,7 @@
 #include "renderer/device.h"
 #include "renderer/renderer.h"
 #include "runner/commands/commands.h"
+#include "runner/commands/flag_values.h"
 #include "runner/files/json_text.h"
 #include "runner/files/picture_file.h"
 #include "scenarios/lamps/lamp_model.h"
@@ -133,12 +134,6 @@ const OwnBody bodies[] = {{"car", car_body, {{4.5, 1.8, 1.45}, -0.9, glm::vec3(0
                           {"bicycle", bicycle_body, {{1.8, 0.6, 1.7}, -0.4, glm::vec3(0.2F)}},
                           {"pedestrian", pedestrian_body, {{0.5, 0.6, 1.75}, -0.25, glm::vec3(0.1F)}}};
 
-void refuse_to_overwrite(const std::filesystem::path& path, bool force, const char* option) {
-    std::error_code error;
-    if (!path.empty() && !force && std::filesystem::exists(path, error))
-        throw InputError({{}, 0, 0, option}, printable(path.string(), 400) + " is there already", "a new file, or --force");
-}
-
 void write_model_picture(const Model& model, const ModelRequest& request) {
     const Scene scene = model_scene(model, request);
     const Moment moment = lit_moment(request);
@@ -217,8 +212,8 @@ std::string model_json(const Model& model, double scale) {
 }
 
 int model_command(const ModelRequest& request) {
-    refuse_to_overwrite(request.picture, request.force, "--picture");
-    refuse_to_overwrite(request.write, request.force, "--write");
+    refuse_existing("--picture", request.picture, request.force);
+    refuse_existing("--write", request.write, request.force);
     if (!request.write.empty() && !request.file.empty())
         throw InputError({{}, 0, 0, "--write"}, "found it beside a file", "--body KIND");
     const Model model = model_of(request);

@@ -1,9 +1,8 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
-#include "runner/experiments/accuracy/lamp_discs.h"
+#include "runner/experiments/accuracy/drive_error.h"
 #include "runner/experiments/reference/reference_run.h"
-#include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
 #include "runner/write/document.h"
 #include "runner/write/plots/png.h"
@@ -71,10 +70,7 @@ void check_given(const ReferenceFlags& flags) {
 
 DriveEdits edits_of(const ReferenceFlags& flags) {
     DriveEdits edits;
-    for (const std::string& lamp : flags.lamps) {
-        const std::size_t at = lamp.find('=');
-        edits.lamps.emplace_back(at == std::string::npos ? "" : lamp.substr(0, at), at == std::string::npos ? lamp : lamp.substr(at + 1));
-    }
+    edits.lamps = lamps_of(flags.lamps);
     if (!flags.road.empty())
         edits.road = flags.road;
     if (!flags.resolution.empty())
@@ -115,8 +111,7 @@ int draw_reference(const ReferenceFlags& flags, const std::vector<std::string>& 
     request.variant = flags.variant;
     request.view = flags.view;
     request.moment_s = flags.moment_s;
-    request.folder =
-        flags.out.empty() ? default_output_folder(request.drive.name + "-reference", utc_now()) : std::filesystem::path(flags.out);
+    request.folder = result_folder(flags.out, request.drive.name + "-reference");
     request.resolution_asked = !flags.resolution.empty();
     request.resume = flags.resume;
     request.quiet = flags.quiet;
@@ -188,9 +183,7 @@ void add_reference_command(CLI::App& app, const std::vector<std::string>& comman
         ->allow_extra_args(false);
     sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's");
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of a perspective view");
-    sub->add_option("--seed", flags->seed, "seed of the samples")
-        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
-        ->capture_default_str();
+    add_seed_flag(*sub, flags->seed, "seed of the samples");
     sub->add_option("--out", flags->out, "new or empty folder for the results");
     sub->add_flag("--resume", flags->resume, "continue what was interrupted in the --out folder");
     sub->add_flag("--quiet", flags->quiet, "show no progress");

@@ -8,6 +8,7 @@
 #include "runner/judge/reference_choice.h"
 #include "runner/judge/reference_difference.h"
 #include "runner/judge/reference_json.h"
+#include "runner/write/aligned_table.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -29,23 +30,9 @@ struct ReferencesFlags {
     bool json = false, dry = false, all = false, unreferenced = false;
 };
 
-/// Rows of text in columns, two spaces between them; the first row is the head.
+/// The first row is the head.
 std::string table(const std::vector<std::vector<std::string>>& rows) {
-    std::vector<std::size_t> widths;
-    for (const auto& row : rows)
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            widths.resize(std::max(widths.size(), i + 1));
-            widths[i] = std::max(widths[i], row[i].size());
-        }
-    std::string text;
-    for (const auto& row : rows) {
-        std::string line;
-        for (std::size_t i = 0; i < row.size(); ++i)
-            line += i + 1 == row.size() ? row[i] : fmt::format("{:<{}}  ", row[i], widths[i]);
-        line.erase(line.find_last_not_of(' ') + 1);
-        text += line + "\n";
-    }
-    return text;
+    return aligned_table(std::string(rows.front().size(), '<'), rows.front(), {rows.begin() + 1, rows.end()});
 }
 
 /// A folder without references is one without; a folder that is none was misspelt.

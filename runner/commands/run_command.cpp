@@ -2,11 +2,7 @@
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
-#include "runner/commands/judging_flags.h"
-#include "runner/commands/log_flags.h"
 #include "runner/experiments/run/run_drives.h"
-#include "runner/files/output_folder.h"
-#include "runner/findings/run_context.h"
 #include "runner/judge/verdict_line.h"
 #include "scenarios/values/errors.h"
 
@@ -33,10 +29,7 @@ struct RunFlags {
 
 DriveEdits edits_of(const RunFlags& flags) {
     DriveEdits edits;
-    for (const std::string& lamp : flags.lamps) {
-        const std::size_t at = lamp.find('=');
-        edits.lamps.emplace_back(at == std::string::npos ? "" : lamp.substr(0, at), at == std::string::npos ? lamp : lamp.substr(at + 1));
-    }
+    edits.lamps = lamps_of(flags.lamps);
     if (!flags.road.empty())
         edits.road = flags.road;
     if (!flags.technique.empty())
@@ -103,7 +96,7 @@ int run(const RunFlags& flags, const std::vector<std::string>& command) {
     for (const std::filesystem::path& file : flags.drives)
         drives.push_back(read_drive(file, edits));
     refuse_equal_names(drives);
-    options.folder = flags.out.empty() ? default_output_folder(drives.front().name, utc_now()) : std::filesystem::path(flags.out);
+    options.folder = result_folder(flags.out, drives.front().name);
     const Report report = run_drives(drives, options);
     const VerdictKind verdict = overall(report);
     print_verdicts(report);

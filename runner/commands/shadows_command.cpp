@@ -4,8 +4,6 @@
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/run/run_drives.h"
 #include "runner/experiments/shadows/shadow_study.h"
-#include "runner/files/output_folder.h"
-#include "runner/findings/run_context.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -94,7 +92,7 @@ int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) 
     request.variant = flags.variant;
     request.moments = flags.moments;
     request.backend = flags.backend;
-    request.folder = flags.out.empty() ? default_output_folder("shadows", utc_now()) : std::filesystem::path(flags.out);
+    request.folder = result_folder(flags.out, "shadows");
     request.command = command;
     request.quiet = flags.quiet;
     request.write = [&](const ShadowResult& result) {
@@ -136,9 +134,7 @@ void add_shadows_command(CLI::App& app, const std::vector<std::string>& command,
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the timed frames")->capture_default_str();
-    sub->add_option("--seed", flags->seed, "seed of the order in each round")
-        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
-        ->capture_default_str();
+    add_seed_flag(*sub, flags->seed, "seed of the order in each round");
     sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--out", flags->out, "new or empty folder for the results");
     add_tables_flag(*sub, flags->tables);

@@ -88,9 +88,7 @@ int run(const StoryboardFlags& flags) {
         refuse_flag("--duration", fmt::format("{}", flags.most_s), "seconds above 0, at most 100 000");
     if (!(flags.step_s >= 1e-4 && flags.step_s <= 1.0))
         refuse_flag("--step", fmt::format("{}", flags.step_s), "seconds from 0.0001 to 1");
-    std::error_code error;
-    if (!flags.out.empty() && !flags.force && std::filesystem::exists(flags.out, error))
-        throw InputError({{}, 0, 0, "--out"}, printable(flags.out, 400) + " is there already", "a new file, or --force");
+    refuse_existing("--out", flags.out, flags.force);
     osc::StoryboardOptions options = options_of(flags);
     std::string rows = "case,time_s,entity,x_m,y_m,z_m,heading_rad,pitch_rad,roll_rad,speed_mps,road,lane,s_m,t_m,visible\n";
     if (is_variation(flags.file)) {

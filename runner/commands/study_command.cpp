@@ -1,11 +1,9 @@
 #include "runner/commands/commands.h"
 
 #include "renderer/device.h"
-#include "runner/commands/judging_flags.h"
+#include "runner/commands/flag_values.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/experiments/study/study_run.h"
-#include "runner/files/output_folder.h"
-#include "runner/findings/run_context.h"
 #include "runner/write/document.h"
 #include "runner/write/report_texts.h"
 #include "scenarios/values/errors.h"
@@ -50,7 +48,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     if (flags.resume && flags.out.empty())
         throw InputError({{}, 0, 0, "--resume"}, "found no --out beside it", "the folder to go on in");
     StudyOptions options;
-    options.folder = flags.out.empty() ? default_output_folder(study.name, utc_now()) : std::filesystem::path(flags.out);
+    options.folder = result_folder(flags.out, study.name);
     options.only = flags.only;
     options.resume = flags.resume;
     options.run.backend = flags.backend;

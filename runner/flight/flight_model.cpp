@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <map>
+#include <optional>
 #include <osg/ComputeBoundsVisitor>
 #include <osg/Geode>
 #include <osg/Geometry>
@@ -31,6 +32,61 @@
 
 namespace fernlicht {
 namespace {
+
+std::string lower(std::string text) {
+    for (char& c : text)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+/// Whether the word stands in the text with no letters beside it.
+bool has_word(const std::string& text, const std::string& word) {
+    const auto letter = [&](std::size_t at) { return at < text.size() && std::isalpha(static_cast<unsigned char>(text[at])) != 0; };
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+        if ((at == 0 || !letter(at - 1)) && !letter(at + word.size()))
+            return true;
+    return false;
+}
+
+struct NamedLamp {
+    std::string function; ///< "low", "high", "fog", "tail", "brake", "indicator-front", "indicator-rear", "reverse", "position"
+    bool rear = false;
+    std::optional<bool> left; ///< nullopt: the name does not say
+};
+
+/// nullopt for names that are no lamp's. Case does not matter; left and right are "left", "right", or l, r, lh, rh, lt, rt set apart by
+/// anything but letters.
+std::optional<NamedLamp> lamp_named(const std::string& given) {
+    const std::string name = lower(given);
+    const auto has = [&](const char* part) { return name.find(part) != std::string::npos; };
+    NamedLamp lamp;
+    const bool front = has("front") || has_word(name, "f"), light = has("lamp") || has("light") || has("lite");
+    if (has("high") && (has("beam") || light))
+        lamp.function = "high";
+    else if (has("headl") || has("head_l") || has("low_beam") || has("lowbeam") || (has("low") && light))
+        lamp.function = "low";
+    else if (has("fog") && light)
+        std::tie(lamp.function, lamp.rear) = std::pair("fog", has("rear"));
+    else if (has("brake") || (has("stop") && light))
+        std::tie(lamp.function, lamp.rear) = std::pair("brake", true);
+    else if (has("taill") || has("tail_l") || (has("rear") && light))
+        std::tie(lamp.function, lamp.rear) = std::pair("tail", true);
+    else if (has("indicator") || has("blinker") || (has("turn") && (light || has("sig"))))
+        std::tie(lamp.function, lamp.rear) = front ? std::pair("indicator-front", false) : std::pair("indicator-rear", true);
+    else if (has("reverse") && light)
+        std::tie(lamp.function, lamp.rear) = std::pair("reverse", true);
+    else if ((has("parking") || has("position")) && light)
+        lamp.function = "position";
+    else
+        return std::nullopt;
+    for (const char* word : {"l", "lh", "lt"})
+        if (has("left") || has_word(name, word))
+            lamp.left = true;
+    for (const char* word : {"r", "rh", "rt"})
+        if (has("right") || has_word(name, word))
+            lamp.left = false;
+    return lamp;
+}
 
 void note_once(std::vector<std::string>& notes, std::string note) {
     if (notes.size() < 50 && std::ranges::find(notes, note) == notes.end())
@@ -83,6 +139,12 @@ class Gathering : public osg::NodeVisitor {
     }
 
     void apply(osg::Group& group) override {
+        if (const auto* switches = dynamic_cast<const osgSim::MultiSwitch*>(&group)) { // which the visitor does not know by name
+            const osgSim::MultiSwitch::ValueList values = switches->getValueList(switches->getActiveSwitchSet());
+            for (unsigned i = 0; i < group.getNumChildren(); ++i)
+                on_or_off(*group.getChild(i), i >= values.size() || values[i]);
+            return;
+        }
         name(group);
         // Each level of detail is a node of its own beside the others: those that begin nearest to the eye are the finest.
         float nearest = HUGE_VALF;
@@ -118,12 +180,6 @@ class Gathering : public osg::NodeVisitor {
         for (unsigned i = 0; i < geode.getNumDrawables(); ++i)
             if (const osg::Geometry* geometry = geode.getDrawable(i)->asGeometry())
                 add(*geometry, paint_of(*geometry, geode));
-    }
-
-    void visit_switches(osgSim::MultiSwitch& node) {
-        const osgSim::MultiSwitch::ValueList values = node.getValueList(node.getActiveSwitchSet());
-        for (unsigned i = 0; i < node.getNumChildren(); ++i)
-            on_or_off(*node.getChild(i), i >= values.size() || values[i]);
     }
 
     TriangleSoup& soup() { return soup_; }
@@ -298,19 +354,6 @@ class Gathering : public osg::NodeVisitor {
     std::map<const osg::Image*, int> pictures_;
 };
 
-/// MultiSwitch is a group that the visitor does not know by name.
-class Walking : public Gathering {
-  public:
-    using Gathering::Gathering;
-    void apply(osg::Group& group) override {
-        if (auto* switches = dynamic_cast<osgSim::MultiSwitch*>(&group))
-            visit_switches(*switches);
-        else
-            Gathering::apply(group);
-    }
-    using Gathering::apply;
-};
-
 } // namespace
 
 FlightModel read_flight(const std::filesystem::path& path, FlightForward forward) {
@@ -327,7 +370,7 @@ FlightModel read_flight(const std::filesystem::path& path, FlightForward forward
         throw InputError({path, 0, 0, {}},
                          out.model.notes.empty() ? "OpenSceneGraph cannot read it" : printable(out.model.notes.back(), 300),
                          "an OpenFlight file");
-    Walking walking(out, forward);
+    Gathering walking(out, forward);
     try {
         root->accept(walking);
     } catch (const InputError& error) {
@@ -339,57 +382,6 @@ FlightModel read_flight(const std::filesystem::path& path, FlightForward forward
     add_meshes(out.model, walking.soup());
     std::ranges::sort(out.model.mounts, {}, &Mount::name);
     return out;
-}
-
-namespace {
-
-std::string lower(std::string text) {
-    for (char& c : text)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
-
-/// Whether the word stands in the text with no letters beside it.
-bool has_word(const std::string& text, const std::string& word) {
-    const auto letter = [&](std::size_t at) { return at < text.size() && std::isalpha(static_cast<unsigned char>(text[at])) != 0; };
-    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
-        if ((at == 0 || !letter(at - 1)) && !letter(at + word.size()))
-            return true;
-    return false;
-}
-
-} // namespace
-
-std::optional<NamedLamp> lamp_named(const std::string& given) {
-    const std::string name = lower(given);
-    const auto has = [&](const char* part) { return name.find(part) != std::string::npos; };
-    NamedLamp lamp;
-    const bool front = has("front") || has_word(name, "f"), light = has("lamp") || has("light") || has("lite");
-    if (has("high") && (has("beam") || light))
-        lamp.function = "high";
-    else if (has("headl") || has("head_l") || has("low_beam") || has("lowbeam") || (has("low") && light))
-        lamp.function = "low";
-    else if (has("fog") && light)
-        std::tie(lamp.function, lamp.rear) = std::pair("fog", has("rear"));
-    else if (has("brake") || (has("stop") && light))
-        std::tie(lamp.function, lamp.rear) = std::pair("brake", true);
-    else if (has("taill") || has("tail_l") || (has("rear") && light))
-        std::tie(lamp.function, lamp.rear) = std::pair("tail", true);
-    else if (has("indicator") || has("blinker") || (has("turn") && (light || has("sig"))))
-        std::tie(lamp.function, lamp.rear) = front ? std::pair("indicator-front", false) : std::pair("indicator-rear", true);
-    else if (has("reverse") && light)
-        std::tie(lamp.function, lamp.rear) = std::pair("reverse", true);
-    else if ((has("parking") || has("position")) && light)
-        lamp.function = "position";
-    else
-        return std::nullopt;
-    for (const char* word : {"l", "lh", "lt"})
-        if (has("left") || has_word(name, word))
-            lamp.left = true;
-    for (const char* word : {"r", "rh", "rt"})
-        if (has("right") || has_word(name, word))
-            lamp.left = false;
-    return lamp;
 }
 
 } // namespace fernlicht

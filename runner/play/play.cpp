@@ -1,10 +1,10 @@
 #include "runner/play/play.h"
 
 #include "metrics/folds/seeing_fold.h"
-#include "runner/play/drawn_by.h"
 #include "runner/play/extent_fold.h"
 #include "runner/play/frame_times.h"
 #include "runner/play/lux_map.h"
+#include "runner/play/shown_picture.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/drive_log.h"
 #include "scenarios/drives/play/motion.h"

@@ -1,8 +1,10 @@
-// Makes a renderer ready for a drive: everything that can be compiled is compiled before the first frame that is timed.
+// Makes a drive and its renderer ready: everything that can be compiled is compiled before the first frame that is timed, and numbers of
+// the tone mapper that the drive's own pictures decide are decided.
 #pragma once
 
 #include "renderer/renderer.h"
 #include "runner/play/play.h"
+#include "runner/play/stage.h"
 
 namespace fernlicht {
 
@@ -19,5 +21,13 @@ std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, con
 
 /// Compiles for all of these. Nothing compiles afterwards while the variant is played.
 void prepare(Renderer& renderer, const Drive& drive, const Route& route, const Variant& variant, TickRange ticks);
+
+/// Draws the driver's view of moments evenly spread over the drive, small, with each of its lamp sets, and closes the drive's tone mapper
+/// by what is seen there: one exposure for all its pictures. Adds a note with the numbers. Nothing for a mapper that is closed. Throws
+/// InputError where the technique computes no luminance or there is no driver's view.
+void fit_tone_mapper(Stage& stage, Device& device, const RendererSettings& settings);
+
+/// For programs that draw moments one by one and fit nothing. Throws InputError for a mapper that is open.
+void refuse_open_tone_mapper(const Drive& drive);
 
 } // namespace fernlicht

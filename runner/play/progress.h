@@ -1,4 +1,5 @@
-// How far a run is: a bar with rate and remaining time on a terminal, plain lines elsewhere, nothing when quiet. On stderr.
+// How far a run is, and whether it was asked to end. Progress: a bar with rate and remaining time on a terminal, plain lines elsewhere,
+// nothing when quiet. On stderr.
 #pragma once
 
 #include <chrono>
@@ -19,6 +20,18 @@ class Progress {
     int total_, count_ = 0, tenth_shown_ = 0;
     bool quiet_, terminal_;
     std::chrono::steady_clock::time_point start_, shown_;
+};
+
+/// Ctrl-C and SIGTERM ask a run to end after the moment at hand. While it lives, they set a flag; one that comes half a second after the
+/// first or later ends the program at once; what comes sooner is the same wish, as `timeout` sends it to a process and to its group. One
+/// within another, as a run within a study, hears what the outer one heard.
+class Interruption {
+  public:
+    Interruption();
+    ~Interruption();
+    Interruption(const Interruption&) = delete;
+    Interruption& operator=(const Interruption&) = delete;
+    static bool asked();
 };
 
 } // namespace fernlicht

@@ -10,6 +10,7 @@
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace fernlicht {
 
@@ -55,6 +56,24 @@ std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage
         moments.push_back(moment_at(state, stage.drive, stage.route, variant));
     }
     return moments;
+}
+
+const Variant& variant_of(const Drive& drive, const std::string& name) {
+    if (name.empty())
+        return drive.variants.front();
+    std::vector<std::string> names;
+    for (const Variant& variant : drive.variants) {
+        if (variant.name == name)
+            return variant;
+        names.push_back(variant.name);
+    }
+    throw InputError({drive.file, 0, 0, "--variant"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(names, ", ")));
+}
+
+View at_size(View view, int width_px, int height_px) {
+    view.width_px = width_px;
+    view.height_px = height_px;
+    return view;
 }
 
 void add_inputs(FilesRead& all, const FilesRead& more) {

@@ -21,6 +21,12 @@ struct Stage {
 /// The moments at these ticks, which rise.
 std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage, const Variant& variant);
 
+/// The drive's lamp set of that name, the first for "". Throws InputError that names --variant.
+const Variant& variant_of(const Drive& drive, const std::string& name);
+
+/// The view at another size, with the same field of view upwards.
+View at_size(View view, int width_px, int height_px);
+
 /// Adds what is not there yet, by path.
 void add_inputs(FilesRead& all, const FilesRead& more);
 

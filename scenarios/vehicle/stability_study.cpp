@@ -1,7 +1,6 @@
 #include "scenarios/vehicle/stability_study.h"
 
 #include "scenarios/vehicle/actuator.h"
-#include "scenarios/vehicle/car_run.h"
 #include "scenarios/vehicle/solver_study.h"
 
 #include <algorithm>
@@ -68,44 +67,7 @@ double found_limit(double angle_rad, double least, double greatest) {
     return least;
 }
 
-const std::vector<SpeedSegment> down_and_up{{0.0, 60.0, 0.0}, {1.0, 60.0, -7.5}, {9.0, 0.0, 0.0}, {12.0, 0.0, 3.0}, {32.0, 60.0, 0.0}};
-
-CarRun down_and_up_by(Solver solver) {
-    CarModel model;
-    model.car.solver = solver;
-    return run_car(model, down_and_up, 34.0);
-}
-
 } // namespace
-
-std::vector<ExtremeTrial> actuators_over_eight_decades() {
-    std::vector<ExtremeTrial> trials;
-    for (int decade = -1; decade <= 7; ++decade) {
-        const double hz = std::pow(10.0, decade);
-        trials.push_back({fmt::format("actuator of {:g} Hz", hz), step_error(2.0 * std::numbers::pi * hz, {}, 1.0)});
-    }
-    return trials;
-}
-
-std::vector<ExtremeTrial> from_60_mps_to_rest_and_back() {
-    std::vector<ExtremeTrial> trials;
-    const CarRun reference = down_and_up_by(Solver::automatic);
-    for (const Solver solver : {Solver::automatic, Solver::dormand_prince, Solver::rosenbrock}) {
-        const CarRun run = solver == Solver::automatic ? reference : down_and_up_by(solver);
-        double change = 0.0, apart_rad = 0.0;
-        constexpr double dt_s = 1.0e-3;
-        for (int k = 1; k <= 34'000; ++k) {
-            const CarPlace now = run.at(k * dt_s);
-            change = std::max(change, std::abs(now.speed_mps - run.at((k - 1) * dt_s).speed_mps));
-            apart_rad = std::max(apart_rad, std::abs(now.pitch_rad - reference.at(k * dt_s).pitch_rad));
-        }
-        // The air and the springing back add little to the friction's 1 g.
-        trials.push_back({fmt::format("{}: speed", name(solver)), std::max(0.0, change / (9.81 * dt_s) - 1.0)});
-        if (solver != Solver::automatic)
-            trials.push_back({fmt::format("{}: pitch beside auto's", name(solver)), apart_rad / 1.0e-3});
-    }
-    return trials;
-}
 
 std::vector<ExtremeTrial> steps_of_a_microsecond_and_of_ten_seconds() {
     const double w = 2.0 * std::numbers::pi * 5.0;

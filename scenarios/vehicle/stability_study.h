@@ -1,5 +1,4 @@
-// Extremes of the solvers, the car and the actuators: how far off each comes out. Seconds together, so for commands and tests, not for a
-// run.
+// Extremes of the solvers: how far off each comes out. Seconds together, so for commands and tests, not for a run.
 #pragma once
 
 #include <string>
@@ -11,15 +10,6 @@ struct ExtremeTrial {
     std::string what;   ///< "actuator of 10 MHz"
     double error = 0.0; ///< in the unit of its study
 };
-
-/// Actuators from 0.1 Hz to 10 MHz answer a step, solved by the automatic choice at a tolerance of 1e-6. Error: parts of the step, against
-/// the closed form.
-std::vector<ExtremeTrial> actuators_over_eight_decades();
-
-/// 60 m/s, braked with 7.5 m/s2 to rest, away with 3 m/s2 to 60 m/s again; by each solver. Error: the largest change of speed within a
-/// millisecond, over what the friction can do in it, minus 1, where above 0; a jump shows as a large number. And, as trials of their own,
-/// by how much the pitch of each solver differs from the automatic choice's, in rad / 1e-3.
-std::vector<ExtremeTrial> from_60_mps_to_rest_and_back();
 
 /// An actuator of 5 Hz with steps of 1e-6 s (a hundred thousand of them) against the closed form, and with steps of 10 s, 50 periods long,
 /// against where it settles. Error: parts of the step.

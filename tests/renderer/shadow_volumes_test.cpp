@@ -183,9 +183,9 @@ TEST_F(ShadowVolumesTest, MapsAndTargetsAboveTheRoad) {
     EXPECT_GT(differs_from_ground, 100) << "targets stand higher than the road: the low box hides fewer of them";
 }
 
-/// A count of 8 bits: 255 bodies one behind another are dark, 256 are as none.
+/// A count of 8 bits that wraps: 255 bodies one behind another are dark, 257 are, 256 are as none.
 TEST_F(ShadowVolumesTest, CountsEndAt255Layers) {
-    for (const int layers : {1, 255, 256}) {
+    for (const int layers : {1, 127, 128, 255, 256, 257}) {
         Scene scene = level_road_for_shadows();
         Mesh stack = thing({10.0, 0.6, 0.0}, "stack");
         for (int i = 0; i < layers; ++i) {

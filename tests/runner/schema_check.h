@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -74,5 +75,10 @@ class Schema {
     json root_;
     std::vector<std::string> complaints_;
 };
+
+/// Complaints about `value` by a schema in runner/experiments, as "run/report".
+inline std::vector<std::string> complaints(const nlohmann::json& value, const std::string& schema) {
+    return Schema(nlohmann::json::parse(std::ifstream(FERNLICHT_SOURCE_DIR "/runner/experiments/" + schema + ".schema.json"))).check(value);
+}
 
 } // namespace fernlicht::tests

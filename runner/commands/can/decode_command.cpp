@@ -1,21 +1,124 @@
 #include "runner/commands/can/can_command.h"
 
-#include "runner/commands/can/databases.h"
 #include "runner/commands/can/decoded_text.h"
 #include "runner/commands/can/line_output.h"
-#include "runner/commands/log_flags.h"
-#include "runner/play/interruption.h"
+#include "runner/commands/flag_values.h"
+#include "runner/play/progress.h"
+#include "scenarios/can/can_database.h"
 #include "scenarios/can/signal_codec.h"
+#include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <fmt/format.h>
 #include <iterator>
 #include <memory>
 #include <set>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace fernlicht {
 namespace {
+
+struct DatabaseFlags {
+    std::vector<std::string> files;
+    std::string id_mask; ///< "": all bits count
+};
+
+/// The DBC files that the tool was given, and what they know about a frame.
+class Databases {
+  public:
+    /// Reads all files. Throws InputError for what cannot be read, none given, or a mask that is no number.
+    explicit Databases(const DatabaseFlags& flags);
+
+    /// Of data frames; the first file that describes it counts. nullptr: none does.
+    const CanMessage* message(const CanFrame& frame) const;
+    const std::vector<CanDatabase>& all() const { return databases_; }
+
+  private:
+    std::vector<CanDatabase> databases_;
+    std::uint32_t mask_ = 0x1FFFFFFF;
+    std::unordered_map<std::uint64_t, const CanMessage*> by_id_;
+};
+
+/// Messages and signals that shall stay: "Message", "Message.Signal" (or with / in place of the point), or "Signal" of any message.
+class Selection {
+  public:
+    Selection() = default;
+    /// Throws InputError for a name that nothing in the databases has.
+    Selection(const std::vector<std::string>& names, const Databases& databases);
+    bool everything() const { return messages_.empty(); }
+    bool takes(const CanMessage& message) const { return everything() || messages_.contains(&message); }
+    bool takes(const CanSignal& signal) const { return everything() || signals_.contains(&signal); }
+
+  private:
+    std::unordered_set<const CanMessage*> messages_;
+    std::unordered_set<const CanSignal*> signals_;
+};
+
+std::uint32_t mask_of(const std::string& text) {
+    const bool hexadecimal = text.starts_with("0x") || text.starts_with("0X");
+    std::uint32_t mask = 0;
+    const char* begin = text.data() + (hexadecimal ? 2 : 0);
+    const auto [end, error] = std::from_chars(begin, text.data() + text.size(), mask, hexadecimal ? 16 : 10);
+    if (error != std::errc{} || end != text.data() + text.size() || mask > 0x1FFFFFFF)
+        refuse_flag("--frame-id-mask", text, "a number up to 0x1FFFFFFF");
+    return mask;
+}
+
+std::uint64_t lookup_key(std::uint32_t id, bool extended) { return id | (extended ? std::uint64_t{1} << 32 : 0); }
+
+/// --dbc, --frame-id-mask
+void add_database_flags(CLI::App& command, DatabaseFlags& flags) {
+    command.add_option("--dbc", flags.files, "DBC file; may be given several times, the first that describes a frame wins")
+        ->required()
+        ->allow_extra_args(false);
+    command.add_option("-m,--frame-id-mask", flags.id_mask, "identifier bits to compare, e.g. 0x00FFFF00 for J1939 (default: all)");
+}
+
+Databases::Databases(const DatabaseFlags& flags) {
+    if (!flags.id_mask.empty())
+        mask_ = mask_of(flags.id_mask);
+    FilesRead opened;
+    for (const std::string& file : flags.files)
+        databases_.push_back(read_dbc(file, opened));
+    for (const CanDatabase& database : databases_)
+        for (const CanMessage& message : database.messages)
+            by_id_.try_emplace(lookup_key(message.id & mask_, message.extended), &message);
+}
+
+const CanMessage* Databases::message(const CanFrame& frame) const {
+    if (frame.error || frame.remote)
+        return nullptr;
+    const auto found = by_id_.find(lookup_key(frame.id & mask_, frame.extended));
+    return found == by_id_.end() ? nullptr : found->second;
+}
+
+Selection::Selection(const std::vector<std::string>& names, const Databases& databases) {
+    for (const std::string& text : names) {
+        const std::size_t cut = text.find_first_of("./");
+        const std::string message_name = text.substr(0, cut), signal_name = cut == std::string::npos ? text : text.substr(cut + 1);
+        bool found = false;
+        for (const CanDatabase& database : databases.all())
+            for (const CanMessage& message : database.messages) {
+                const bool whole = cut == std::string::npos && message.name == text;
+                for (const CanSignal& signal : message.signals)
+                    if (whole || ((cut == std::string::npos || message.name == message_name) && signal.name == signal_name)) {
+                        signals_.insert(&signal);
+                        messages_.insert(&message);
+                        found = true;
+                    }
+                if (whole) { // one without signals may be chosen, too
+                    messages_.insert(&message);
+                    found = true;
+                }
+            }
+        if (!found)
+            throw InputError({{}, 0, 0, "--only"}, fmt::format("found '{}'", printable(text)),
+                             "a message, a signal or MESSAGE.SIGNAL of the databases");
+    }
+}
 
 struct DecodeFlags {
     std::vector<std::string> logs, only;

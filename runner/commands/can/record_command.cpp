@@ -1,14 +1,12 @@
 #include "runner/commands/can/can_command.h"
 
 #include "runner/commands/can/line_output.h"
-#include "runner/commands/log_flags.h"
+#include "runner/commands/flag_values.h"
 #include "runner/play/stage.h"
 #include "scenarios/can/candump_log.h"
 #include "scenarios/drives/play/bus_recording.h"
-#include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
@@ -20,19 +18,6 @@ struct RecordFlags {
     bool force = false;
 };
 
-const Variant& variant_named(const Drive& drive, const std::string& name) {
-    if (name.empty())
-        return drive.variants.front();
-    const auto found = std::ranges::find(drive.variants, name, &Variant::name);
-    if (found != drive.variants.end())
-        return *found;
-    std::vector<std::string> names;
-    for (const Variant& variant : drive.variants)
-        names.push_back(variant.name);
-    throw InputError({drive.file, 0, 0, "--variant"}, fmt::format("found '{}'", printable(name)),
-                     fmt::format("one of {}", fmt::join(names, ", ")));
-}
-
 int record_drive(const RecordFlags& flags) {
     const std::int64_t start_ns = nanoseconds_of("--start", flags.start);
     DriveEdits edits;
@@ -40,7 +25,7 @@ int record_drive(const RecordFlags& flags) {
     Stage stage(read_drive(flags.drive, edits));
     std::vector<std::string> notes;
     std::vector<CanFrame> frames =
-        recorded_inputs(stage.drive, stage.route, variant_named(stage.drive, flags.variant), stage.drive.opened, notes);
+        recorded_inputs(stage.drive, stage.route, variant_of(stage.drive, flags.variant), stage.drive.opened, notes);
     LineOutput out(flags.out, flags.force);
     for (CanFrame& frame : frames) {
         frame.time_ns += start_ns;

@@ -84,18 +84,8 @@ std::optional<Interval> time_of(const std::vector<double>& seconds);
 /// Where soft-map is among what was drawn: that its lamps are discs and those of the one reference points. A clause.
 std::optional<std::string> point_lamps_note(const DriveAccuracy& drive);
 
-/// At one resolution: error of illuminance on the road (95 % of the pixels) over time a frame; bars: the moments' least and most, the
-/// median's 95 % interval or, of fewer than six rounds, their least and most.
-WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int height_px);
-/// The same ways at more than one resolution: worst error of reach over time a frame.
-WorkPrecision resolutions_diagram(const DriveAccuracy& drive);
-/// The same way with other shadow maps: pixels of the view that are off by more than a fifth over time a frame.
-WorkPrecision shadow_maps_diagram(const DriveAccuracy& drive);
-/// By the same measure all techniques, and photometric by each shadow method, at the drive's resolution; no rows where no methods were
-/// tried.
-WorkPrecision shadow_methods_diagram(const DriveAccuracy& drive);
-/// The first for the drive's own resolution and each other at which more than two ways were measured, then the others where there is
-/// more than one resolution, shadow map or shadow method.
+/// All techniques at the drive's own resolution and each other at which more than two ways were measured, then what resolutions, shadow maps
+/// and shadow methods cost, where there is more than one of them.
 std::vector<WorkPrecision> sweep_diagrams(const DriveAccuracy& drive);
 
 /// docs/accuracy.md tells how to read it.

@@ -1,7 +1,7 @@
 #include "runner/experiments/accuracy/drive_error.h"
 
 #include "renderer/reference/reference.h"
-#include "runner/experiments/accuracy/lamp_discs.h"
+#include "renderer/technique.h"
 #include "runner/experiments/accuracy/picture_errors.h"
 #include "runner/experiments/bench/bench_run.h"
 #include "runner/play/extent_fold.h"
@@ -21,7 +21,7 @@ View small_enough(const View& view) {
     const double factor =
         std::min({1.0, static_cast<double>(most_width_px) / view.width_px, static_cast<double>(most_height_px) / view.height_px});
     const auto fewer = [&](int pixels) { return std::max(1, static_cast<int>(std::lround(pixels * factor))); };
-    return resized(view, fewer(view.width_px), fewer(view.height_px));
+    return at_size(view, fewer(view.width_px), fewer(view.height_px));
 }
 
 ReferenceSettings settings_for(const Drive& drive) {
@@ -131,6 +131,12 @@ DriveError measure_drive_error(const Stage& stage, const Variant& variant, const
         error.reach = errors_of_reach(stage, played, moments, reference, error);
     error.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return error;
+}
+
+double lamp_disc_radius_m(const Drive& drive) {
+    const Technique& technique = technique_named(drive.technique, drive.file);
+    const bool draws_it = technique.kind == TechniqueKind::ours && technique.name != "photometric-naive";
+    return draws_it && drive.shadows.method == ShadowMethod::soft_map ? drive.shadows.lamp_radius_m : 0.0;
 }
 
 } // namespace fernlicht

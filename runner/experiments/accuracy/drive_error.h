@@ -4,6 +4,7 @@
 #include "renderer/renderer.h"
 #include "runner/findings/report.h"
 #include "runner/play/stage.h"
+#include "scenarios/drives/drive.h"
 
 namespace fernlicht {
 
@@ -16,5 +17,9 @@ std::string no_drive_error(const Drive& drive, const PlayedVariant& played);
 /// the run measured it in these moments, against maps of the reference's. One of two cores for about a second. The renderer is of the
 /// stage's scene. The same errors each time, by the drive's seed. Throws DeviceError.
 DriveError measure_drive_error(const Stage& stage, const Variant& variant, const PlayedVariant& played, int first_tick, Renderer& renderer);
+
+/// Metres: of the discs that the drive's technique draws lamps as, by `soft-map`; 0: points, as everything else draws them. `auto` is to be
+/// chosen before.
+double lamp_disc_radius_m(const Drive& drive);
 
 } // namespace fernlicht

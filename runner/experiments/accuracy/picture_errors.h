@@ -1,13 +1,32 @@
-// Pictures of a renderer against those of the reference: what a drive's moments are compared in.
+// Pictures of a renderer against those of the reference: what a drive's moments are compared in, and what each pixel shows of the road.
 #pragma once
 
-#include "runner/experiments/accuracy/reference_shots.h"
+#include "renderer/reference/reference.h"
+#include "renderer/renderer.h"
+#include "runner/experiments/accuracy/accuracy_result.h"
+#include "runner/play/extent_fold.h"
+#include "runner/play/stage.h"
 
 #include <deque>
 #include <map>
 #include <set>
 
 namespace fernlicht {
+
+/// A view of a moment with its reference. `geometry` is drawn by a rasteriser: depth and ids.
+struct ReferenceShot {
+    View view;
+    ReferenceImage reference;
+    Frame geometry;
+    Image<float> road_m2; ///< of road surface in the pixel; below 0: the pixel shows none
+};
+
+/// m2 of road surface that each pixel of a perspective view shows, by the distances between what neighbouring pixels show; 0 where no
+/// neighbour shows the same mesh, -1 where it is no road (carriageway with its marks; not verge and terrain). The frame has depth and ids.
+Image<float> road_areas_m2(const Scene& scene, const Moment& moment, const View& view, const Frame& frame);
+
+/// True for meshes of carriageway.
+bool is_road(const Scene& scene, std::uint32_t id);
 
 /// The reference's pictures of a drive's moments: from the driver's seat at each size that is compared, and from above for reach.
 class References {
@@ -69,6 +88,23 @@ class ConfigurationErrors {
     PixelErrorFold road_, whole_, target_errors_, bright_;
     std::vector<std::size_t> moments_;
     std::vector<std::vector<LaneExtent>> rendered_; ///< by the moments_
+};
+
+/// Adds a picture. `edges`: the same view by the pixels' areas, whose marks say where shadows and surfaces end. The frame has illuminance,
+/// depth and ids. Pixels that several surfaces share, or whose mesh differs, or without light to speak of, are left out and counted.
+class TwinAgreementFold {
+  public:
+    explicit TwinAgreementFold(double least_lx) : least_lx_(least_lx) {}
+
+    void add(const Moment& moment, const View& view, const Frame& frame, const ReferenceImage& twin, const ReferenceImage& edges,
+             int picture);
+    TwinAgreement finish() const;
+
+  private:
+    double least_lx_;
+    PixelErrorFold flat_, of_bound_; ///< of_bound_: error over what gradient and angle error allow
+    TwinAgreement counts_;
+    std::size_t within_ = 0;
 };
 
 } // namespace fernlicht

@@ -1,11 +1,12 @@
-#include "runner/experiments/accuracy/simplifications.h"
+#include "runner/experiments/accuracy/technique_sweep.h"
 
 #include "renderer/projected_beam.h"
-#include "runner/experiments/accuracy/reference_shots.h"
+#include "runner/experiments/accuracy/picture_errors.h"
 #include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -39,33 +40,28 @@ double textured_cd(const ProjectedBeam& beam, const LampThere& at) {
                         (at.w.y / at.w.z - window.bottom) / (window.top - window.bottom));
 }
 
-struct Formula {
-    const char* name;
-    std::function<double(const LampThere&, const Lamps&, const TexturesOf&)> lx;
-};
+constexpr std::array formulas{"no cosine",
+                              "1 + d^2 for d^2",
+                              "1 + d for d^2",
+                              "one lamp's distance for all",
+                              "distance from the triangle's vertices",
+                              "beam texture 512 x 128, float",
+                              "beam texture 512 x 128, 8 bits",
+                              "as published: no cosine, 1 + d^2, distance from vertices, 8 bits"};
 
-const std::vector<Formula>& formulas() {
-    static const auto squared = [](double d) { return d * d; };
-    static const std::vector<Formula> all{
-        {"no cosine", [](const LampThere& l, const Lamps&, const TexturesOf&) { return l.cd / squared(l.d_m); }},
-        {"1 + d^2 for d^2", [](const LampThere& l, const Lamps&, const TexturesOf&) { return l.cd * l.cosine / (1.0 + squared(l.d_m)); }},
-        {"1 + d for d^2", [](const LampThere& l, const Lamps&, const TexturesOf&) { return l.cd * l.cosine / (1.0 + l.d_m); }},
-        {"one lamp's distance for all",
-         [](const LampThere& l, const Lamps& all_lamps, const TexturesOf&) { return l.cd * l.cosine / squared(all_lamps.front().d_m); }},
-        {"distance from the triangle's vertices",
-         [](const LampThere& l, const Lamps&, const TexturesOf&) { return l.cd * l.cosine / squared(l.d_by_vertices_m); }},
-        {"beam texture 512 x 128, float",
-         [](const LampThere& l, const Lamps&, const TexturesOf& t) {
-             return textured_cd(t.at(l.lamp->file.get()).fine, l) * l.cosine / squared(l.d_m);
-         }},
-        {"beam texture 512 x 128, 8 bits",
-         [](const LampThere& l, const Lamps&, const TexturesOf& t) {
-             return textured_cd(t.at(l.lamp->file.get()).steps, l) * l.cosine / squared(l.d_m);
-         }},
-        {"as published: no cosine, 1 + d^2, distance from vertices, 8 bits", [](const LampThere& l, const Lamps&, const TexturesOf& t) {
-             return textured_cd(t.at(l.lamp->file.get()).steps, l) / (1.0 + squared(l.d_by_vertices_m));
-         }}};
-    return all;
+/// What one of the lamps brings by each of the formulas.
+std::array<double, formulas.size()> lx_by_formula(const LampThere& l, const Lamps& all_lamps, const TexturesOf& textures) {
+    const auto squared = [](double d) { return d * d; };
+    const Textures& own = textures.at(l.lamp->file.get());
+    const double fine_cd = textured_cd(own.fine, l), steps_cd = textured_cd(own.steps, l);
+    return {l.cd / squared(l.d_m),
+            l.cd * l.cosine / (1.0 + squared(l.d_m)),
+            l.cd * l.cosine / (1.0 + l.d_m),
+            l.cd * l.cosine / squared(all_lamps.front().d_m),
+            l.cd * l.cosine / squared(l.d_by_vertices_m),
+            fine_cd * l.cosine / squared(l.d_m),
+            steps_cd * l.cosine / squared(l.d_m),
+            steps_cd / (1.0 + squared(l.d_by_vertices_m))};
 }
 
 struct Corner {
@@ -100,7 +96,7 @@ void spread_points(const std::array<Corner, 3>& t, const std::function<void(cons
 
 class Prices {
   public:
-    explicit Prices(const Stage& stage) : stage_(stage), folds_(formulas().size()) {}
+    explicit Prices(const Stage& stage) : stage_(stage), folds_(formulas.size()) {}
 
     void add(const Moment& moment, int picture) {
         const std::vector<const LitLamp*> lamps = from_left(moment);
@@ -116,7 +112,7 @@ class Prices {
     std::vector<Simplification> finish() const {
         std::vector<Simplification> all;
         for (std::size_t i = 0; i < folds_.size(); ++i)
-            all.push_back({formulas()[i].name, folds_[i].finish()});
+            all.push_back({formulas[i], folds_[i].finish()});
         return all;
     }
 
@@ -155,12 +151,12 @@ class Prices {
             truth += l.cd * l.cosine / (l.d_m * l.d_m);
             there.push_back(l);
         }
-        for (std::size_t i = 0; i < folds_.size(); ++i) {
-            double lx = 0.0;
-            for (const LampThere& l : there)
-                lx += formulas()[i].lx(l, there, textures_);
-            folds_[i].add({lx, truth, 0.0, area_m2, picture, 0, 0});
-        }
+        std::array<double, formulas.size()> lx{};
+        for (const LampThere& l : there)
+            for (std::size_t i = 0; const double one : lx_by_formula(l, there, textures_))
+                lx[i++] += one;
+        for (std::size_t i = 0; i < folds_.size(); ++i)
+            folds_[i].add({lx[i], truth, 0.0, area_m2, picture, 0, 0});
     }
 
     const Stage& stage_;

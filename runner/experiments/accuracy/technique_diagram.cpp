@@ -40,17 +40,31 @@ WorkPrecisionRow row_of(const ConfigurationResult& found, std::size_t moments) {
     return row;
 }
 
-/// Edges of shadows are too few pixels for the 95 % that others are held to: what a pixel is off by counts here, wherever it is.
-WorkPrecision view_diagram(const DriveAccuracy& drive, std::string_view name, std::string_view title) {
+/// Over the time a frame.
+WorkPrecision new_diagram(const DriveAccuracy& drive, const std::string& name, const std::string& title, const char* error_name,
+                          const char* error_unit, std::string note) {
     WorkPrecision diagram;
-    diagram.name = fmt::format("{}{}", name, drive.drive);
+    diagram.name = name;
     diagram.title = fmt::format("{}: {}, {}", title, drive.drive, drive.variant);
-    diagram.error_name = "pixels of the view off by more than 20 %";
-    diagram.error_unit = "%";
+    diagram.error_name = error_name;
+    diagram.error_unit = error_unit;
     diagram.time_name = "time a frame";
-    diagram.notes.emplace_back(
-        "illuminance in the driver's view where the reference has at least 0.05 lx, beyond its noise: edges of shadows, and of "
-        "things, whose pixels the reference averages");
+    diagram.notes.push_back(std::move(note));
+    return diagram;
+}
+
+void add_point_lamps_note(WorkPrecision& diagram, const DriveAccuracy& drive) {
+    if (auto note = point_lamps_note(drive))
+        diagram.notes.push_back(std::move(*note));
+}
+
+/// Edges of shadows are too few pixels for the 95 % that others are held to: what a pixel is off by counts here, wherever it is.
+WorkPrecision view_diagram(const DriveAccuracy& drive, const char* name, const char* title) {
+    WorkPrecision diagram =
+        new_diagram(drive, name + drive.drive, title, "pixels of the view off by more than 20 %", "%",
+                    "illuminance in the driver's view where the reference has at least 0.05 lx, beyond its noise: edges of shadows, and of "
+                    "things, whose pixels the reference averages");
+    add_point_lamps_note(diagram, drive);
     return diagram;
 }
 
@@ -96,44 +110,19 @@ std::string times_note(const DriveAccuracy& drive) {
     return time ? "times are " + timings_text(*time) : "times were not taken";
 }
 
-} // namespace
-
-std::optional<Interval> time_of(const std::vector<double>& seconds) {
-    const std::optional<Spread> spread = spread_of(seconds);
-    if (!spread)
-        return std::nullopt;
-    if (const auto interval = median_interval(seconds))
-        return Interval{spread->median, interval->low, interval->high, spread->count, true};
-    return Interval{spread->median, spread->minimum, spread->maximum, spread->count};
-}
-
-std::optional<std::string> point_lamps_note(const DriveAccuracy& drive) {
-    const auto soft = std::ranges::find_if(drive.configurations, [](const ConfigurationResult& found) {
-        const std::string& technique = found.configuration.technique;
-        return found.configuration.shadows.method == ShadowMethod::soft_map && technique.starts_with("photometric") &&
-               technique != "photometric-naive";
-    });
-    if (soft == drive.configurations.end())
-        return std::nullopt;
-    return fmt::format("lamps are points in the reference: the half shadows of soft-map, whose lamps are discs of {:g} cm radius, count as "
-                       "its errors here; `fernlicht shadows` holds it against discs (discs %)",
-                       100.0 * soft->configuration.shadows.lamp_radius_m);
-}
-
+/// At one resolution: error of illuminance on the road (95 % of the pixels) over time a frame; bars: the moments' least and most, the
+/// median's 95 % interval or, of fewer than six rounds, their least and most.
 WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int height_px) {
-    WorkPrecision diagram;
-    diagram.name = fmt::format("techniques-{}-{}x{}", drive.drive, width_px, height_px);
-    diagram.title = fmt::format("Techniques: {}, {}, {} x {} pixels", drive.drive, drive.variant, width_px, height_px);
-    diagram.error_name = "lux error on the road, 95 % of the pixels";
-    diagram.error_unit = "%";
-    diagram.time_name = "time a frame";
+    WorkPrecision diagram =
+        new_diagram(drive, fmt::format("techniques-{}-{}x{}", drive.drive, width_px, height_px), "Techniques",
+                    "lux error on the road, 95 % of the pixels", "%",
+                    fmt::format("{}; errors of illuminance in the driver's view where the reference has at least 0.05 lx, bars from the "
+                                "least to the most of the moments",
+                                counted(drive.moments.size(), "moment")));
+    diagram.title += fmt::format(", {} x {} pixels", width_px, height_px);
     diagram.floor_name = "noise of the reference";
-    diagram.notes.push_back(fmt::format("{}; errors of illuminance in the driver's view where the reference has at least 0.05 lx, bars "
-                                        "from the least to the most of the moments",
-                                        counted(drive.moments.size(), "moment")));
     diagram.notes.push_back(times_note(drive));
-    if (const auto note = point_lamps_note(drive))
-        diagram.notes.push_back(*note);
+    add_point_lamps_note(diagram, drive);
     const bool methods = has_shadow_methods(drive);
     if (methods)
         diagram.notes.push_back(own_method_note(drive));
@@ -152,17 +141,13 @@ WorkPrecision techniques_diagram(const DriveAccuracy& drive, int width_px, int h
     return diagram;
 }
 
+/// The same ways at more than one resolution: worst error of reach over time a frame.
 WorkPrecision resolutions_diagram(const DriveAccuracy& drive) {
-    WorkPrecision diagram;
-    diagram.name = "resolutions-" + drive.drive;
-    diagram.title = fmt::format("Resolutions: {}, {}", drive.drive, drive.variant);
-    diagram.error_name = "worst error of reach, 1 and 5 lx";
-    diagram.error_unit = "m";
-    diagram.time_name = "time a frame";
-    diagram.notes.emplace_back("reach on the own lane's centre, on the road and, where the technique has it, on targets, against the "
-                               "reference's finest map; maps for reach have as many pixels each way as the view has, in the same ratio");
-    if (const auto note = point_lamps_note(drive))
-        diagram.notes.push_back(*note);
+    WorkPrecision diagram =
+        new_diagram(drive, "resolutions-" + drive.drive, "Resolutions", "worst error of reach, 1 and 5 lx", "m",
+                    "reach on the own lane's centre, on the road and, where the technique has it, on targets, against the reference's "
+                    "finest map; maps for reach have as many pixels each way as the view has, in the same ratio");
+    add_point_lamps_note(diagram, drive);
     for (const ConfigurationResult& found : drive.configurations) {
         const auto others = std::ranges::count_if(drive.configurations, [&](const ConfigurationResult& other) {
             return other.configuration.technique == found.configuration.technique &&
@@ -187,10 +172,9 @@ WorkPrecision resolutions_diagram(const DriveAccuracy& drive) {
     return diagram;
 }
 
+/// The same way with other shadow maps: pixels of the view that are off by more than a fifth over time a frame.
 WorkPrecision shadow_maps_diagram(const DriveAccuracy& drive) {
     WorkPrecision diagram = view_diagram(drive, "shadow-maps-", "Shadow maps");
-    if (const auto note = point_lamps_note(drive))
-        diagram.notes.push_back(*note);
     for (const ConfigurationResult& found : drive.configurations) {
         const Configuration& c = found.configuration;
         if (c.technique == "photometric" && (c.varied.empty() || c.varied == "shadow maps"))
@@ -199,17 +183,41 @@ WorkPrecision shadow_maps_diagram(const DriveAccuracy& drive) {
     return diagram;
 }
 
+/// By the same measure all techniques, and photometric by each shadow method, at the drive's resolution; no rows where no methods were
+/// tried.
 WorkPrecision shadow_methods_diagram(const DriveAccuracy& drive) {
     WorkPrecision diagram = view_diagram(drive, "shadow-methods-", "Shadow methods and techniques");
     if (!has_shadow_methods(drive))
         return diagram;
-    if (const auto note = point_lamps_note(drive))
-        diagram.notes.push_back(*note);
     diagram.notes.push_back(own_method_note(drive));
     for (const ConfigurationResult& found : drive.configurations)
         if (const Configuration& c = found.configuration; c.varied.empty() || c.varied == "shadow method")
             diagram.rows.push_back(view_row_of(found, drive.moments.size(), label_among_methods(c)));
     return diagram;
+}
+
+} // namespace
+
+std::optional<Interval> time_of(const std::vector<double>& seconds) {
+    const std::optional<Spread> spread = spread_of(seconds);
+    if (!spread)
+        return std::nullopt;
+    if (const auto interval = median_interval(seconds))
+        return Interval{spread->median, interval->low, interval->high, spread->count, true};
+    return Interval{spread->median, spread->minimum, spread->maximum, spread->count};
+}
+
+std::optional<std::string> point_lamps_note(const DriveAccuracy& drive) {
+    const auto soft = std::ranges::find_if(drive.configurations, [](const ConfigurationResult& found) {
+        const std::string& technique = found.configuration.technique;
+        return found.configuration.shadows.method == ShadowMethod::soft_map && technique.starts_with("photometric") &&
+               technique != "photometric-naive";
+    });
+    if (soft == drive.configurations.end())
+        return std::nullopt;
+    return fmt::format("lamps are points in the reference: the half shadows of soft-map, whose lamps are discs of {:g} cm radius, count as "
+                       "its errors here; `fernlicht shadows` holds it against discs (discs %)",
+                       100.0 * soft->configuration.shadows.lamp_radius_m);
 }
 
 std::vector<WorkPrecision> sweep_diagrams(const DriveAccuracy& drive) {

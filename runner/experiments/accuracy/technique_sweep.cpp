@@ -1,9 +1,8 @@
 #include "runner/experiments/accuracy/technique_sweep.h"
 
 #include "runner/experiments/accuracy/picture_errors.h"
-#include "runner/experiments/accuracy/simplifications.h"
-#include "runner/experiments/accuracy/twin_agreement.h"
 #include "runner/experiments/bench/bench_run.h"
+#include "runner/play/preparation.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/values/errors.h"
 
@@ -91,7 +90,7 @@ std::vector<Configuration> drawable(std::vector<Configuration> configurations, c
         try {
             Renderer renderer(device, stage.scene, settings_of(drive, c));
             for (const Moment& moment : moments)
-                renderer.draw(moment, resized(view_to_compare(drive), 64, 48), {.illuminance = true});
+                renderer.draw(moment, at_size(view_to_compare(drive), 64, 48), {.illuminance = true});
             return false;
         } catch (const InputError& why) {
             result.refused.emplace_back(c, why.what());
@@ -106,7 +105,7 @@ void add_contestants(Contestants& contestants, std::vector<ConfigurationErrors>&
     const int finest_px = std::ranges::max(configurations, {}, &Configuration::width_px).width_px;
     for (const Configuration& c : configurations) {
         Renderer& renderer = contestants.renderers.emplace_back(device, stage.scene, settings_of(drive, c));
-        contestants.views.push_back(resized(view_to_compare(drive), c.width_px, c.height_px));
+        contestants.views.push_back(at_size(view_to_compare(drive), c.width_px, c.height_px));
         contestants.names.push_back(name_of(c));
         contestants.sizes.emplace(c.width_px, c.height_px);
         errors.emplace_back(references, renderer.technique(), c, contestants.views.back(), static_cast<double>(c.width_px) / finest_px);
@@ -131,7 +130,7 @@ std::optional<TwinAgreement> twin_agreement(const References& references, const 
         found, [](const ConfigurationResult& r) { return r.configuration.technique == "photometric" && r.configuration.varied.empty(); });
     if (ours == found.end())
         return std::nullopt;
-    const View view = resized(view_to_compare(stage.drive), ours->configuration.width_px, ours->configuration.height_px);
+    const View view = at_size(view_to_compare(stage.drive), ours->configuration.width_px, ours->configuration.height_px);
     Renderer renderer(device, stage.scene, settings_of(stage.drive, ours->configuration));
     const Reference reference(stage.scene);
     ReferenceSettings settings = references.settings();
@@ -192,26 +191,11 @@ std::string name_of(const Configuration& c) {
 }
 
 RendererSettings settings_of(const Drive& drive, const Configuration& configuration) {
-    RendererSettings settings;
+    RendererSettings settings = settings_for(drive, {});
     settings.technique = configuration.technique;
-    settings.tone_mapper = drive.tone_mapper;
     settings.beams = configuration.beams;
     settings.shadows = configuration.shadows;
-    if (drive.extent)
-        settings.target_height_m = drive.extent->target_height_m;
     return settings;
-}
-
-const Variant& variant_of(const Drive& drive, const std::string& name) {
-    if (name.empty())
-        return drive.variants.front();
-    std::vector<std::string> names;
-    for (const Variant& variant : drive.variants) {
-        if (variant.name == name)
-            return variant;
-        names.push_back(variant.name);
-    }
-    throw InputError({drive.file, 0, 0, "--variant"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(names, ", ")));
 }
 
 std::vector<Configuration> configurations_of(const SweepRequest& request, const Drive& drive) {
@@ -289,7 +273,7 @@ DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRe
         going_on = step("reference from above") && references.add_map(m, stop);
         for (const Size& size : contestants.sizes)
             going_on = step(fmt::format("reference {}x{}", size.first, size.second)) &&
-                       references.add_driver(m, resized(view_to_compare(drive), size.first, size.second), stop);
+                       references.add_driver(m, at_size(view_to_compare(drive), size.first, size.second), stop);
         for (std::size_t i = 0; i < errors.size() && step(contestants.names[i]); ++i, ++compared)
             errors[i].add(m, drawn_by(contestants.renderers[i]));
     }

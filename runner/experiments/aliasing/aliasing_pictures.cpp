@@ -104,15 +104,19 @@ Crop crop_of(const AliasingResult& result, const AliasingRow& row) {
     return crop;
 }
 
+void letter(plots::Canvas& canvas, double left, double base, const std::string& text) {
+    canvas.text(left, base, text, {.size_px = lettering_px});
+}
+
 void draw_legend(plots::Canvas& canvas, double left, double top, double limit) {
     constexpr int steps = 201;
     Image<Colour> strip(steps, 1);
     for (int i = 0; i < steps; ++i)
         strip.at(i, 0) = plots::diverging(2.0 * i / (steps - 1) - 1.0);
     const double width = half_width_px - 260.0;
-    canvas.text(left, top + 10.0, fmt::format("\xE2\x88\x92{:.2g} cd/m\xC2\xB2, too dark", limit), {.size_px = lettering_px});
+    letter(canvas, left, top + 10.0, fmt::format("\xE2\x88\x92{:.2g} cd/m\xC2\xB2, too dark", limit));
     canvas.picture(left + 140.0, top, width - 10.0, 12.0, strip);
-    canvas.text(left + 140.0 + width, top + 10.0, fmt::format("+{:.2g}, too bright", limit), {.size_px = lettering_px});
+    letter(canvas, left + 140.0 + width, top + 10.0, fmt::format("+{:.2g}, too bright", limit));
 }
 
 } // namespace
@@ -124,11 +128,10 @@ std::string aliasing_sheet_svg(const AliasingResult& result, const AliasingRow& 
     const double first_top = 64.0, second_top = first_top + height + 68.0, middle = 2.0 * gap_px + half_width_px;
     plots::Canvas canvas(2.0 * half_width_px + 3.0 * gap_px, second_top + quarter + gap_px, name_of(row.configuration));
     canvas.text(gap_px, 24.0, name_of(row.configuration), {.size_px = 16.0, .bold = true});
-    canvas.text(gap_px, 48.0, fmt::format("Luminance, white is {:.3g} cd/m\xC2\xB2", white), {.size_px = lettering_px});
-    canvas.text(middle, 48.0,
-                fmt::format("Aliasing: {:.3g} times what an eye just sees, contrast {:.3g} %", row.spatial.aliasing.visible,
-                            row.spatial.aliasing.contrast_percent),
-                {.size_px = lettering_px});
+    letter(canvas, gap_px, 48.0, fmt::format("Luminance, white is {:.3g} cd/m\xC2\xB2", white));
+    letter(canvas, middle, 48.0,
+           fmt::format("Aliasing: {:.3g} times what an eye just sees, contrast {:.3g} %", row.spatial.aliasing.visible,
+                       row.spatial.aliasing.contrast_percent));
     canvas.picture(gap_px, first_top, half_width_px, height, grey(row.picture, white));
     canvas.picture(middle, first_top, half_width_px, height, false_colours(row.spatial.aliasing_picture, limit));
     draw_legend(canvas, middle, first_top + height + 8.0, limit);
@@ -136,17 +139,16 @@ std::string aliasing_sheet_svg(const AliasingResult& result, const AliasingRow& 
     const Image<float> drawn = cut(row.picture, crop), ideal = cut(row.ideal, crop);
     const Image<double> aliasing = cut(row.spatial.aliasing_picture, crop), folded = cut(row.spatial.folded_picture, crop);
     const double crop_white = nearly_largest(drawn, 100), crop_limit = nearly_largest(aliasing, 100);
-    canvas.text(gap_px, second_top - 28.0,
-                fmt::format("{} x {} pixels from {}, {}, {}; white is {:.2g} cd/m\xC2\xB2, full colour is {:.2g}", crop.width, crop.height,
-                            crop.left, crop.top, crop.why, crop_white, crop_limit),
-                {.size_px = lettering_px});
+    letter(canvas, gap_px, second_top - 28.0,
+           fmt::format("{} x {} pixels from {}, {}, {}; white is {:.2g} cd/m\xC2\xB2, full colour is {:.2g}", crop.width, crop.height,
+                       crop.left, crop.top, crop.why, crop_white, crop_limit));
     const std::pair<const char*, Image<Colour>> crops[] = {{"As drawn", grey(drawn, crop_white)},
                                                            {"What the display could show", grey(ideal, crop_white)},
                                                            {"Aliasing", false_colours(aliasing, crop_limit)},
                                                            {"Of it, folded back", false_colours(folded, crop_limit)}};
     for (int i = 0; i < 4; ++i) {
         const double x = gap_px + i * (quarter + gap_px);
-        canvas.text(x, second_top - 8.0, crops[i].first, {.size_px = lettering_px});
+        letter(canvas, x, second_top - 8.0, crops[i].first);
         canvas.picture(x, second_top, quarter, quarter * crop.height / crop.width, enlarged(crops[i].second, 6));
     }
     return canvas.finish();
@@ -170,16 +172,14 @@ std::string ranking_svg(const AliasingResult& result) {
                          first_top + static_cast<double>(order.size()) * (side + gap_px),
                          "Ways to draw, by what an eye sees of their aliasing");
     canvas.text(gap_px, 24.0, "Ways to draw, least aliasing first", {.size_px = 16.0, .bold = true});
-    canvas.text(gap_px, 46.0,
-                fmt::format("{} x {} pixels, at the places where each way differs most from the first", places.front().width,
-                            places.front().height),
-                {.size_px = lettering_px});
+    letter(canvas, gap_px, 46.0,
+           fmt::format("{} x {} pixels, at the places where each way differs most from the first", places.front().width,
+                       places.front().height));
     for (std::size_t p = 0; p < places.size(); ++p) {
         const double x = left + static_cast<double>(p) * (side + gap_px);
         const double white = nearly_largest(cut(result.rows[order.front()].ideal, places[p]), 50);
-        canvas.text(x, first_top - 10.0,
-                    fmt::format("{}at {}, {}", places[p].why.empty() ? "" : places[p].why + ", ", places[p].left, places[p].top),
-                    {.size_px = lettering_px});
+        letter(canvas, x, first_top - 10.0,
+               fmt::format("{}at {}, {}", places[p].why.empty() ? "" : places[p].why + ", ", places[p].left, places[p].top));
         for (std::size_t i = 0; i < order.size(); ++i)
             canvas.picture(x, first_top + static_cast<double>(i) * (side + gap_px), side, side * places[p].height / places[p].width,
                            enlarged(grey(cut(result.rows[order[i]].picture, places[p]), white), 4));
@@ -189,19 +189,16 @@ std::string ranking_svg(const AliasingResult& result) {
         const double y = first_top + static_cast<double>(i) * (side + gap_px) + 20.0;
         canvas.text(gap_px, y, fmt::format("{}. {:.3g} times what an eye just sees", i + 1, row.spatial.aliasing.visible),
                     {.size_px = 14.0, .bold = true});
-        canvas.text(gap_px, y + 22.0, name_of(row.configuration), {.size_px = lettering_px});
-        canvas.text(gap_px, y + 42.0,
-                    fmt::format("contrast {:.3g} %, of it folded back {:.3g} %", row.spatial.aliasing.contrast_percent,
-                                row.spatial.folded.contrast_percent),
-                    {.size_px = lettering_px});
+        letter(canvas, gap_px, y + 22.0, name_of(row.configuration));
+        letter(canvas, gap_px, y + 42.0,
+               fmt::format("contrast {:.3g} %, of it folded back {:.3g} %", row.spatial.aliasing.contrast_percent,
+                           row.spatial.folded.contrast_percent));
         if (row.cut_off)
-            canvas.text(gap_px, y + 62.0, fmt::format("stairs of the cut-off {:.2f} px", row.cut_off->found.rms_px),
-                        {.size_px = lettering_px});
+            letter(canvas, gap_px, y + 62.0, fmt::format("stairs of the cut-off {:.2f} px", row.cut_off->found.rms_px));
         if (row.marks)
-            canvas.text(gap_px, y + 82.0, fmt::format("stairs of road marks {:.2f} px", row.marks->found.rms_px),
-                        {.size_px = lettering_px});
+            letter(canvas, gap_px, y + 82.0, fmt::format("stairs of road marks {:.2f} px", row.marks->found.rms_px));
         if (row.temporal)
-            canvas.text(gap_px, y + 102.0, fmt::format("flicker {:.3g} %", row.temporal->flicker_percent), {.size_px = lettering_px});
+            letter(canvas, gap_px, y + 102.0, fmt::format("flicker {:.3g} %", row.temporal->flicker_percent));
     }
     return canvas.finish();
 }
@@ -215,9 +212,8 @@ std::string flow_svg(const AliasingResult& result) {
     plots::Canvas canvas(3.0 * side + 4.0 * gap_px, top + height + 44.0, "Motion by optical flow");
     canvas.text(gap_px, 24.0, fmt::format("Motion by optical flow: {}, of {}", method_name(flow.method), flow.pictures),
                 {.size_px = 16.0, .bold = true});
-    canvas.text(gap_px, 44.0,
-                "length from one frame to the next, pixels; grey: not known, or left out because going there and back ends elsewhere",
-                {.size_px = lettering_px});
+    letter(canvas, gap_px, 44.0,
+           "length from one frame to the next, pixels; grey: not known, or left out because going there and back ends elsewhere");
     const auto coloured = [](const Image<float>& picture, double most) {
         Image<Colour> out(picture.width(), picture.height());
         std::ranges::transform(picture.pixels(), out.pixels().begin(), [most](float value) {
@@ -234,11 +230,11 @@ std::string flow_svg(const AliasingResult& result) {
         strip.at(i, 0) = plots::sequential(i / 100.0);
     double x = gap_px;
     for (const auto& [name, picture, most] : parts) {
-        canvas.text(x, top - 8.0, name, {.size_px = lettering_px});
+        letter(canvas, x, top - 8.0, name);
         canvas.picture(x, top, side, height, coloured(*picture, most));
-        canvas.text(x, top + height + 22.0, "0", {.size_px = lettering_px});
+        letter(canvas, x, top + height + 22.0, "0");
         canvas.picture(x + 16.0, top + height + 12.0, side - 130.0, 12.0, strip);
-        canvas.text(x + side - 106.0, top + height + 22.0, fmt::format("{:.3g} px and more", most), {.size_px = lettering_px});
+        letter(canvas, x + side - 106.0, top + height + 22.0, fmt::format("{:.3g} px and more", most));
         x += side + gap_px;
     }
     return canvas.finish();

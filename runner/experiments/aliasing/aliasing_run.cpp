@@ -4,15 +4,10 @@
 #include "runner/experiments/accuracy/technique_sweep.h"
 #include "runner/experiments/aliasing/flow_measures.h"
 #include "runner/experiments/aliasing/motion.h"
-#include "runner/experiments/aliasing/over_moments.h"
-#include "runner/experiments/aliasing/road_edges.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
-#include "runner/play/fit_tone_mapper.h"
-#include "runner/play/interruption.h"
 #include "runner/play/preparation.h"
 #include "runner/play/progress.h"
-#include "runner/play/shadows/check_planar.h"
 #include "runner/play/shadows/choose_shadows.h"
 #include "runner/play/stage.h"
 #include "scenarios/drives/play/advance.h"
@@ -54,7 +49,7 @@ struct Pictures {
 /// A view drawn n times as fine each way and averaged down by `average`. What is brighter than white is white: no display shows more.
 Pictures pictures_of(Renderer& renderer, const Moment& moment, const View& view, int n, int average, bool displayed, bool illuminance,
                      float white_cdm2) {
-    const Frame frame = renderer.draw(moment, resized(view, n * view.width_px, n * view.height_px),
+    const Frame frame = renderer.draw(moment, at_size(view, n * view.width_px, n * view.height_px),
                                       {.colour = displayed, .illuminance = illuminance, .luminance = !displayed});
     Pictures pictures;
     if (displayed) {
@@ -109,7 +104,7 @@ struct Session {
 void draw_edges(Session& s, const Technique& technique, const AliasingConfiguration& finest) {
     const Moment& moment = s.moments[s.result.shown];
     const View fine =
-        resized(s.result.view, s.request.supersample * s.result.view.width_px, s.request.supersample * s.result.view.height_px);
+        at_size(s.result.view, s.request.supersample * s.result.view.width_px, s.request.supersample * s.result.view.height_px);
     s.references.edges.ground = ground_of(s.device, s.stage.scene, moment, fine);
     if (!technique.illuminance)
         return;

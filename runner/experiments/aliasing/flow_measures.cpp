@@ -3,12 +3,24 @@
 #include "metrics/images/srgb.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fernlicht {
 namespace {
 
 bool too_few(const FlowPaths& followed) {
     return followed.paths.empty() || static_cast<double>(followed.paths.size()) < least_followed * static_cast<double>(followed.started);
+}
+
+void add_squares(AliasingPart& sum, const AliasingPart& part) {
+    sum.rms += part.rms * part.rms;
+    sum.contrast_percent += part.contrast_percent * part.contrast_percent;
+    sum.visible += part.visible * part.visible;
+}
+
+void root(AliasingPart& sum, double count) {
+    for (double* value : {&sum.rms, &sum.contrast_percent, &sum.visible})
+        *value = std::sqrt(*value / count);
 }
 
 } // namespace
@@ -52,6 +64,29 @@ std::optional<TemporalAliasing> flicker_along(const FlowPaths& followed, const s
     if (too_few(followed))
         return std::nullopt;
     return measure_flicker(samples_along(followed.paths, pictures), rate_hz, pixels_per_degree);
+}
+
+SpatialAliasing over_moments(std::vector<SpatialAliasing>& found, std::size_t shown) {
+    SpatialAliasing all = std::move(found[shown]);
+    const auto each = [&](auto use) {
+        use([](SpatialAliasing& a) -> AliasingPart& { return a.aliasing; });
+        use([](SpatialAliasing& a) -> AliasingPart& { return a.folded; });
+        use([](SpatialAliasing& a) -> AliasingPart& { return a.rest; });
+        use([](SpatialAliasing& a) -> AliasingPart& { return a.lost; });
+        for (std::size_t b = 0; b < all.bands.size(); ++b) {
+            use([b](SpatialAliasing& a) -> AliasingPart& { return a.bands[b].aliasing; });
+            use([b](SpatialAliasing& a) -> AliasingPart& { return a.bands[b].lost; });
+        }
+    };
+    found[shown].bands = all.bands;
+    each([&](auto part) {
+        AliasingPart sum;
+        for (SpatialAliasing& one : found)
+            add_squares(sum, part(one));
+        root(sum, static_cast<double>(found.size()));
+        part(all) = sum;
+    });
+    return all;
 }
 
 } // namespace fernlicht

@@ -1,8 +1,12 @@
-// What is measured over time along paths by optical flow: with a reference, or without.
+// One aliasing of many moments, and what is measured over time along paths by optical flow: with a reference, or without.
 #pragma once
 
 #include "metrics/aliasing/optical_flow.h"
+#include "metrics/aliasing/spatial_aliasing.h"
 #include "runner/experiments/aliasing/aliasing_result.h"
+
+#include <cstddef>
+#include <vector>
 
 namespace fernlicht {
 
@@ -21,5 +25,8 @@ std::optional<TemporalAliasing> aliasing_along(const FlowPaths& followed, const 
 /// Changes of brightness itself. nullopt where too few paths were followed.
 std::optional<TemporalAliasing> flicker_along(const FlowPaths& followed, const std::vector<Image<float>>& pictures, double rate_hz,
                                               double pixels_per_degree);
+
+/// Numbers: r.m.s. over the moments, at least one. Pictures and the worst place: of the one shown, which is used up.
+SpatialAliasing over_moments(std::vector<SpatialAliasing>& found, std::size_t shown);
 
 } // namespace fernlicht

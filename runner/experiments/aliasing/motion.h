@@ -1,9 +1,11 @@
-// Where the points of a scene that stands still go in the picture while the car drives: from depth and the car's poses, without any
-// estimate.
+// Where the points of a scene that stands still go in the picture while the car drives, from depth and the car's poses, and which pixels
+// show road and marks: without any estimate.
 #pragma once
 
+#include "metrics/aliasing/jaggedness.h"
 #include "metrics/aliasing/optical_flow.h"
 #include "metrics/aliasing/temporal_aliasing.h"
+#include "renderer/renderer.h"
 #include "scenarios/drives/play/frame.h"
 
 namespace fernlicht {
@@ -21,5 +23,8 @@ struct KnownFlow {
 /// For every pixel of frame `from`, where `to` shows the same point.
 KnownFlow known_flow(const std::vector<Moment>& moments, const View& view, const std::vector<Frame>& frames, std::size_t from,
                      std::size_t to);
+
+/// Which pixels show road and which its marks, drawn without any light. Throws DeviceError.
+Image<Ground> ground_of(Device& device, const Scene& scene, const Moment& moment, const View& view);
 
 } // namespace fernlicht

@@ -7,7 +7,6 @@
 #include "runner/findings/document.h"
 #include "runner/findings/report.h"
 #include "runner/play/contest.h"
-#include "runner/play/machine_load.h"
 
 #include <string>
 

@@ -6,9 +6,8 @@
 #include "runner/experiments/bench/contact_sheet.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
-#include "runner/play/interruption.h"
+#include "runner/play/preparation.h"
 #include "runner/play/progress.h"
-#include "runner/play/shadows/check_planar.h"
 #include "runner/play/shadows/choose_shadows.h"
 #include "runner/play/stage.h"
 #include "runner/write/plots/png.h"
@@ -25,31 +24,10 @@
 namespace fernlicht {
 namespace {
 
-const Variant& variant_named(const Drive& drive, const std::string& name) {
-    if (name.empty())
-        return drive.variants.front();
-    std::vector<std::string> names;
-    for (const Variant& variant : drive.variants) {
-        if (variant.name == name)
-            return variant;
-        names.push_back(variant.name);
-    }
-    throw InputError({drive.file, 0, 0, "--variant"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(names, ", ")));
-}
-
 const View& view_to_time(const Drive& drive) {
     if (const View* const view = driver_view(drive))
         return *view;
     throw InputError({drive.file, 0, 0, "views"}, "found only maps", "a perspective view to time");
-}
-
-RendererSettings settings_for(const Drive& drive, const Technique& technique) {
-    RendererSettings settings;
-    settings.tone_mapper = drive.tone_mapper;
-    settings.beams = drive.beams;
-    settings.shadows = drive.shadows;
-    settings.technique = technique.name;
-    return settings;
 }
 
 /// Why the GPU's clock is not used; "" where it can be believed.
@@ -84,7 +62,9 @@ std::vector<Contestant> take_part(const std::vector<Technique>& rows, Device& de
     constexpr Wanted wanted{.colour = true};
     std::vector<Contestant> contestants;
     for (const Technique& row : rows) {
-        Renderer* const renderer = &renderers.emplace_back(device, stage.scene, settings_for(stage.drive, row));
+        RendererSettings settings = settings_for(stage.drive, {});
+        settings.technique = row.name;
+        Renderer* const renderer = &renderers.emplace_back(device, stage.scene, settings);
         renderer->prepare(moments, view, wanted);
         BenchedTechnique& benched = result.techniques.emplace_back();
         benched.row = row;
@@ -161,7 +141,7 @@ std::vector<int> ticks_over(int count, int n) {
 BenchResult run_bench(const BenchRequest& request) {
     const std::vector<Technique> rows = chosen_techniques(request.techniques);
     Stage stage(request.drive);
-    const Variant& variant = variant_named(stage.drive, request.variant);
+    const Variant& variant = variant_of(stage.drive, request.variant);
     const View& view = view_to_time(stage.drive);
     const int ticks = tick_count(stage.drive);
     const std::vector<Moment> moments =

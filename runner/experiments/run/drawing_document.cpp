@@ -2,7 +2,6 @@
 #include "runner/experiments/run/run_document.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/figures.h"
-#include "runner/play/drawn_by.h"
 #include "runner/play/shadows/choose_shadows.h"
 #include "runner/play/shown_picture.h"
 #include "scenarios/display/tone_mapper.h"

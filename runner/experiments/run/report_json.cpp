@@ -9,7 +9,6 @@
 #include "runner/findings/context_json.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/judge/verdict_json.h"
-#include "runner/play/drawn_by.h"
 #include "runner/play/live/live_figures.h"
 #include "runner/play/shadows/choose_shadows.h"
 #include "runner/play/shown_picture.h"

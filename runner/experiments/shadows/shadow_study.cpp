@@ -5,7 +5,6 @@
 #include "runner/experiments/bench/bench_run.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
-#include "runner/play/interruption.h"
 #include "runner/play/progress.h"
 #include "runner/play/stage.h"
 #include "scenarios/drives/play/advance.h"

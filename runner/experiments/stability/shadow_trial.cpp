@@ -42,21 +42,19 @@ class Beholder {
             const glm::dvec3 across = glm::normalize(glm::cross(to_lamp, any)), up = glm::cross(across, to_lamp / d);
             const double raise = std::max(doubt_.raise_m, doubt_.raise_share * d), aside = doubt_.aside_m + doubt_.aside_share * d;
             for (int height = 0; height < (raise > 0.0 ? 3 : 1); ++height)
-                for (int upwards = 0; upwards < (doubt_.upwards_m > 0.0 ? 2 : 1); ++upwards)
-                    for (const glm::dvec2& at : beside_it) {
-                        const glm::dvec3 beside = aside * (at.x * across + at.y * up);
-                        const double above_surface = (height == 0 ? 1e-4 : height * raise) + std::max(0.0, -glm::dot(beside, place.normal));
-                        const glm::dvec3 from =
-                            place.point_m + beside + above_surface * place.normal + glm::dvec3(0.0, 0.0, upwards * doubt_.upwards_m);
-                        for (int k = 0; k < (doubt_.lamp_radius_m > 0.0 ? 17 : 1); ++k) { // the middle, 4 half-way, 12 on the rim
-                            const double r = k == 0 ? 0.0 : doubt_.lamp_radius_m * (k < 5 ? 0.5 : 1.0),
-                                         angle = 2.0 * pi * k / (k < 5 ? 4.0 : 12.0);
-                            cast(from, lamp_m + r * (std::cos(angle) * lamp.pose.left() + std::sin(angle) * lamp.pose.up()), lamp, seen,
-                                 hidden);
-                            if (seen && hidden)
-                                return Seen::perhaps;
-                        }
+                for (const glm::dvec2& at : beside_it) {
+                    const glm::dvec3 beside = aside * (at.x * across + at.y * up);
+                    const double above_surface = (height == 0 ? 1e-4 : height * raise) + std::max(0.0, -glm::dot(beside, place.normal));
+                    const glm::dvec3 from = place.point_m + beside + above_surface * place.normal;
+                    for (int k = 0; k < (doubt_.lamp_radius_m > 0.0 ? 17 : 1); ++k) { // the middle, 4 half-way, 12 on the rim
+                        const double r = k == 0 ? 0.0 : doubt_.lamp_radius_m * (k < 5 ? 0.5 : 1.0),
+                                     angle = 2.0 * pi * k / (k < 5 ? 4.0 : 12.0);
+                        cast(from, lamp_m + r * (std::cos(angle) * lamp.pose.left() + std::sin(angle) * lamp.pose.up()), lamp, seen,
+                             hidden);
+                        if (seen && hidden)
+                            return Seen::perhaps;
                     }
+                }
         }
         return seen ? Seen::yes : Seen::no;
     }

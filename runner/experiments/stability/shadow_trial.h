@@ -12,7 +12,6 @@ namespace fernlicht::stability {
 /// doubt and not judged. Distances d are from the lamp.
 struct ShadowDoubt {
     double raise_m = 0.0, raise_share = 0.0; ///< looked up from up to twice max(raise_m, raise_share d) above the surface, along its normal
-    double upwards_m = 0.0;                  ///< and from up to so much above it, upwards
     double aside_m = 1e-4, aside_share = 2e-5; ///< and from so far aside as the lamp sees it: m + share d
     double gap_m = 0.0, gap_share = 0.0;       ///< a shadow may begin so far behind its caster
     double lamp_radius_m = 0.0;                ///< the lamp is a disc across its axis
@@ -45,7 +44,6 @@ class ShadowTrial {
     /// Draws the illuminance and judges each pixel that shows what the ray sees, lit as it sees it. `seen_from`: where rays to the lamps
     /// end instead, one a lamp.
     ShadowTally tally(const Moment& moment, const View& view, const ShadowDoubt& doubt, const std::vector<glm::dvec3>& seen_from = {});
-    Renderer& renderer() { return renderer_; }
 
   private:
     const Scene& scene_;

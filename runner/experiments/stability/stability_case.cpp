@@ -42,40 +42,24 @@ void Found::add(double trial_error, const std::string& trial) {
     }
 }
 
-const char* judgement_name(Judgement judgement) {
-    switch (judgement) {
-    case Judgement::pass:
-        return "pass";
-    case Judgement::fail:
-        return "fail";
-    case Judgement::not_measured:
-        break;
-    }
-    return "not_measured";
-}
-
 StabilityRow judge(const StabilityCase& one, StabilityBench& bench) {
     StabilityRow row;
     row.of = &one;
     const auto began = std::chrono::steady_clock::now();
     try {
         row.found = one.measure(bench);
-        if (row.found.not_measured.empty())
-            row.verdict = std::isfinite(row.found.error) && row.found.error <= one.bound ? Judgement::pass : Judgement::fail;
+        row.passed = std::isfinite(row.found.error) && row.found.error <= one.bound;
     } catch (const DeviceError&) {
         if (!bench.drew())
             throw;
-        row.verdict = Judgement::fail;
         row.found.where = "the device gave up";
     } catch (const std::exception& thrown) {
-        row.verdict = Judgement::fail;
         row.found.error = std::nan("");
         row.found.where = fmt::format("thrown: {}", thrown.what());
     }
     // The folder may have a name of chance; what is said of its files may not depend on it.
-    for (std::string* text : {&row.found.where, &row.found.not_measured})
-        for (std::size_t at; (at = text->find(bench.folder() + "/")) != std::string::npos;)
-            text->erase(at, bench.folder().size() + 1);
+    for (std::size_t at; (at = row.found.where.find(bench.folder() + "/")) != std::string::npos;)
+        row.found.where.erase(at, bench.folder().size() + 1);
     row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return row;
 }
@@ -84,8 +68,8 @@ const std::vector<StabilityCase>& stability_cases() {
     static const std::vector<StabilityCase> all = [] {
         std::vector<StabilityCase> cases;
         for (const auto family : {lamp_cases, camera_cases, table_cases, tone_cases, geometry_cases, shadow_cases, shadow_plane_cases,
-                                  shadow_map_cases, shadow_volume_cases, road_cases, image_cases, comparison_cases, time_cases,
-                                  number_cases, motion_cases, weather_cases, traffic_cases, equation_cases})
+                                  shadow_map_cases, shadow_volume_cases, road_cases, image_cases, time_cases, number_cases, motion_cases,
+                                  weather_cases, traffic_cases, equation_cases})
             for (StabilityCase& one : family())
                 cases.push_back(std::move(one));
         return cases;

@@ -48,7 +48,6 @@ struct Found {
     double error = 0.0; ///< in the case's unit
     std::string where;  ///< at which of the values tried it was worst
     int trials = 0;
-    std::string not_measured; ///< why there is no error; "" where there is one
 
     /// Takes a trial's error when it is worse. One that is not finite is worse than all others and stays.
     void add(double trial_error, const std::string& trial);
@@ -65,13 +64,10 @@ struct StabilityCase {
     std::string full_name() const { return family + "/" + name; }
 };
 
-enum class Judgement { pass, fail, not_measured };
-const char* judgement_name(Judgement judgement);
-
 struct StabilityRow {
     const StabilityCase* of = nullptr;
     Found found;
-    Judgement verdict = Judgement::not_measured;
+    bool passed = false;
     double seconds = 0.0;
 };
 
@@ -95,7 +91,7 @@ std::string stability_json(const StabilityResult& result);
 
 // The families, one file each.
 std::vector<StabilityCase> lamp_cases(), camera_cases(), table_cases(), tone_cases(), geometry_cases(), shadow_cases(),
-    shadow_plane_cases(), shadow_map_cases(), shadow_volume_cases(), road_cases(), image_cases(), comparison_cases(), time_cases(),
-    number_cases(), motion_cases(), weather_cases(), traffic_cases(), equation_cases();
+    shadow_plane_cases(), shadow_map_cases(), shadow_volume_cases(), road_cases(), image_cases(), time_cases(), number_cases(),
+    motion_cases(), weather_cases(), traffic_cases(), equation_cases();
 
 } // namespace fernlicht

@@ -1,15 +1,14 @@
 #include "runner/experiments/stability/trial.h"
 
 #include "scenarios/drives/play/camera.h"
+#include "scenarios/lamps/beam_files.h"
 #include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
-#include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <iterator>
 #include <limits>
 
 namespace fernlicht::stability {
@@ -137,19 +136,10 @@ AgainstTwin against_twin(Renderer& renderer, const Scene& scene, const Moment& m
     return result;
 }
 
-std::string matrix_text(const CandelaTable& table) {
-    fmt::memory_buffer out;
-    const auto put = std::back_inserter(out);
-    fmt::format_to(put, "# unit: cd\n# angles: goniometer\nV\\H");
-    for (const double h : table.h_deg)
-        fmt::format_to(put, ",{}", h);
-    for (std::size_t v = 0; v < table.v_deg.size(); ++v) {
-        fmt::format_to(put, "\n{}", table.v_deg[v]);
-        for (std::size_t h = 0; h < table.h_deg.size(); ++h)
-            fmt::format_to(put, ",{}", table.at(v, h));
-    }
-    fmt::format_to(put, "\n");
-    return fmt::to_string(out);
+std::filesystem::path write_matrix(StabilityBench& bench, const std::string& name, const CandelaTable& table) {
+    LampFile lamp;
+    lamp.table = table;
+    return bench.write(name, beam_matrix_text(lamp));
 }
 
 std::string lane_text(int id, double width_m, const std::string& more) {
@@ -169,19 +159,10 @@ std::string road_text(double length_m, const std::string& plan, const std::strin
 std::filesystem::path write_drive_file(StabilityBench& bench, const std::string& name, const std::string& more, const std::string& time) {
     bench.write("straight.xodr", road_text(600.0, line_of_600_m, lane_text(-1, 3.5)));
     const CandelaTable table{{-40.0, 40.0}, {-20.0, 20.0}, {5000.0, 5000.0, 5000.0, 5000.0}, {}, BetweenSamples::linear_cd};
-    bench.write("even.csv", matrix_text(table));
+    write_matrix(bench, "even.csv", table);
     return bench.write(name, fmt::format("fernlicht: 1\nname: trial\nroad: straight.xodr\n{}\ncar:\n  lamps:\n    right: {{file: even.csv, "
                                          "position_m: [3.5, -0.6, 0.65]}}\n{}\n",
                                          time.empty() ? "speed_kmh: 60\nstep_s: 0.1\nduration_s: 8" : time, more));
-}
-
-std::string refusal(const std::function<void()>& read) {
-    try {
-        read();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
 }
 
 } // namespace fernlicht::stability

@@ -44,8 +44,8 @@ AgainstTwin against_plane(const Frame& frame, const Moment& moment, const View& 
 double rounding_bound_lx(const LitLamp& lamp, const glm::dvec3& to_lamp, const glm::dvec3& normal, double reach_m);
 
 // Files of a user, as the cases write them: lamps, a road, drives.
-/// A beam matrix in cd over goniometer angles.
-std::string matrix_text(const CandelaTable& table);
+/// A beam matrix of this name in the bench's folder.
+std::filesystem::path write_matrix(StabilityBench& bench, const std::string& name, const CandelaTable& table);
 
 /// One road of OpenDRIVE. `plan`: its geometry elements; `lanes`: of the right side; `profiles`: elevation and lateral profile.
 std::string road_text(double length_m, const std::string& plan, const std::string& lanes, const std::string& profiles = {});
@@ -57,8 +57,5 @@ inline const std::string line_of_600_m = R"(<geometry s="0" x="0" y="0" hdg="0" 
 /// the three of speed, step and duration.
 std::filesystem::path write_drive_file(StabilityBench& bench, const std::string& name, const std::string& more,
                                        const std::string& time = {});
-
-/// What the readers say to an input that they refuse; "" when they take it. Anything but InputError is thrown on.
-std::string refusal(const std::function<void()>& read);
 
 } // namespace fernlicht::stability

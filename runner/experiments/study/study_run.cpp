@@ -6,7 +6,7 @@
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
 #include "runner/play/capture.h"
-#include "runner/play/interruption.h"
+#include "runner/play/progress.h"
 #include "runner/play/shadows/choose_shadows.h"
 #include "runner/play/stage.h"
 #include "scenarios/drives/play/advance.h"

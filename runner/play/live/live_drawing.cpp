@@ -1,6 +1,5 @@
 #include "runner/play/live/live_drawing.h"
 
-#include "runner/play/fit_tone_mapper.h"
 #include "runner/play/lux_map.h"
 #include "runner/play/preparation.h"
 #include "scenarios/drives/play/motion.h"

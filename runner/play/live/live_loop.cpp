@@ -3,6 +3,10 @@
 #include "runner/play/capture.h"
 #include "scenarios/drives/play/advance.h"
 
+#include <algorithm>
+#include <limits>
+#include <memory>
+
 namespace fernlicht {
 namespace {
 
@@ -10,6 +14,13 @@ constexpr std::int64_t listening_step_ns = 5'000'000;
 constexpr std::size_t most_pending = 16;
 
 double seconds_of(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+
+constexpr std::int64_t stamp_step_ns = 1000;
+
+std::int64_t stamp_before(std::int64_t time_ns) {
+    const std::int64_t over_ns = time_ns % stamp_step_ns;
+    return time_ns - (over_ns < 0 ? over_ns + stamp_step_ns : over_ns);
+}
 
 } // namespace
 
@@ -112,6 +123,71 @@ void LiveLoop::run(LiveFigures& figures) {
         throw;
     }
     account();
+}
+
+FrameOrder::FrameOrder() : earliest_ns_(std::numeric_limits<std::int64_t>::min()), last_tick_ns_(earliest_ns_) {}
+
+void FrameOrder::add(CanFrame frame, std::int64_t now_ns) {
+    if (frame.time_ns > now_ns) {
+        ++from_future_;
+        frame.time_ns = now_ns;
+    }
+    if (frame.time_ns <= last_tick_ns_) {
+        ++late_;
+        latest_ns_ = std::max(latest_ns_, last_tick_ns_ - frame.time_ns);
+    }
+    frame.time_ns = std::max(stamp_before(frame.time_ns), earliest_ns_);
+    earliest_ns_ = frame.time_ns;
+    waiting_.push_back(std::move(frame));
+}
+
+std::span<const CanFrame> FrameOrder::due(std::int64_t tick_ns) {
+    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(handed_over_));
+    const auto later = std::ranges::upper_bound(waiting_, tick_ns, {}, &CanFrame::time_ns);
+    handed_over_ = static_cast<std::size_t>(later - waiting_.begin());
+    last_tick_ns_ = tick_ns;
+    earliest_ns_ = std::max(earliest_ns_, stamp_before(tick_ns) + stamp_step_ns);
+    return {waiting_.data(), handed_over_};
+}
+
+LiveBus live_bus_of(CanSocketOptions options) {
+    const auto socket = std::make_shared<CanSocket>(std::move(options));
+    const auto batch = std::make_shared<std::vector<CanFrame>>();
+    LiveBus bus;
+    bus.receive = [socket, batch](std::vector<CanFrame>& frames, TickClock& clock, std::int64_t) {
+        batch->clear();
+        socket->receive(*batch);
+        if (batch->empty())
+            return;
+        clock.look();
+        for (CanFrame& frame : *batch) {
+            frame.time_ns = clock.of_stamp(frame.time_ns);
+            if (!frame.error)
+                frames.push_back(std::move(frame));
+        }
+    };
+    bus.send = [socket](const CanFrame& frame) { socket->send(frame); };
+    bus.account = [socket](LiveFigures& figures, const TickClock& clock) {
+        figures.socket = socket->figures();
+        for (CanOutage& outage : figures.socket.outages) {
+            outage.from_ns = clock.of_monotonic(outage.from_ns);
+            outage.until_ns = outage.until_ns == 0 ? 0 : clock.of_monotonic(outage.until_ns);
+        }
+    };
+    return bus;
+}
+
+LiveBus live_bus_of(std::vector<CanFrame> recorded) {
+    const auto all = std::make_shared<const std::vector<CanFrame>>(std::move(recorded));
+    LiveBus bus;
+    bus.receive = [all, next = std::size_t{0}](std::vector<CanFrame>& frames, TickClock&, std::int64_t now_ns) mutable {
+        for (; next < all->size() && (*all)[next].time_ns <= now_ns; ++next)
+            if (!(*all)[next].error)
+                frames.push_back((*all)[next]);
+    };
+    bus.send = [](const CanFrame&) {};
+    bus.account = [](LiveFigures&, const TickClock&) {};
+    return bus;
 }
 
 } // namespace fernlicht

@@ -1,7 +1,9 @@
 // `shadows: auto`: the cheapest method that is right enough, found out on the drive itself.
 #pragma once
 
+#include "renderer/device.h"
 #include "renderer/renderer.h"
+#include "runner/play/play.h"
 #include "runner/play/stage.h"
 
 #include <optional>
@@ -47,5 +49,11 @@ std::optional<ShadowChoice> choose_shadows(Stage& stage, Device& device, const R
 
 /// For programs that do not know the drive beforehand. Throws InputError for `auto`.
 void refuse_open_shadows(const Drive& drive);
+
+/// Throws InputError, at the line of the drive's file that asks for it, where ground in the lamps' light is not one plane in one of these
+/// moments with any of the drive's lamp sets. Drives that do not draw by `planar` cost nothing.
+void check_planar_shadows(const Stage& stage, Device& device, TickRange ticks = {});
+/// The same of these moments alone.
+void check_planar_shadows(const Stage& stage, Device& device, const std::vector<Moment>& moments);
 
 } // namespace fernlicht

@@ -14,12 +14,6 @@ bool like_light(float drawn_lx, float true_lx) {
 
 } // namespace
 
-View at_size(View view, int width_px, int height_px) {
-    view.width_px = width_px;
-    view.height_px = height_px;
-    return view;
-}
-
 Image<float> true_degrees(const ShadowTruth::Found& truth, double floor_lx) {
     const ShadowImages images{truth.true_lx, truth.true_lx, truth.unshadowed_lx, {}, {}};
     Image<float> out(truth.true_lx.width(), truth.true_lx.height(), -1.0F);

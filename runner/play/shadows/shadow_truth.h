@@ -4,6 +4,7 @@
 #include "metrics/shadows/shadow_area.h"
 #include "renderer/reference/reference.h"
 #include "renderer/renderer.h"
+#include "runner/play/stage.h"
 
 #include <optional>
 #include <utility>
@@ -45,9 +46,6 @@ Image<float> true_degrees(const ShadowTruth::Found& truth, double floor_lx = sha
 
 /// The same settings without shadows and clocks.
 RendererSettings without_shadows(RendererSettings settings);
-
-/// The view at another size.
-View at_size(View view, int width_px, int height_px);
 
 /// Columns of the picture on which errors of shadows are counted; rows as the view's ratio has it.
 inline constexpr int shadow_error_width_px = 160;

@@ -1,7 +1,9 @@
+#include "metrics/images/ciede2000.h"
 #include "metrics/images/flip.h"
 #include "metrics/images/flip_filters.h"
 #include "metrics/images/image_difference.h"
 #include "metrics/images/quick_powers.h"
+#include "metrics/images/ssim.h"
 #include "scenarios/values/pose.h"
 #include "tests/metrics/images/direct_flip.h"
 #include "tests/metrics/images/made_pictures.h"
@@ -203,6 +205,52 @@ TEST(FlipHdr, ExtremesAreBoundedAndComparedAndTheSameIsZero) {
     const auto picture = grey_scene(30, 20, {0.0F, 0.01F, 3.0F, 200.0F, 1e4F});
     for (const auto map = flip_hdr(picture, picture, exposures_for(picture)); const float e : map.pixels())
         EXPECT_EQ(e, 0.0F);
+}
+
+constexpr std::pair<int, int> odd_sizes_px[] = {{1, 1}, {1, 40}, {40, 1}, {13, 7}};
+
+bool within(const Image<float>& map, float least, float most) {
+    return std::ranges::all_of(map.pixels(), [&](float v) { return v >= least && v <= most; }); // false for NaN
+}
+
+/// Every pair of these levels, in stripes over black, so that the picture has edges too.
+TEST(FlipHdr, AndTheOthersStayInTheirRangeFromTheLeastToTheGreatestFloat) {
+    const float levels[] = {1e-45F, 1e-38F, 1e-6F, 1.0F, 1e6F, 1e30F, std::numeric_limits<float>::max()};
+    for (const auto& [width, height] : odd_sizes_px)
+        for (const float a : levels)
+            for (const float b : levels) {
+                Image<float> reference(width, height, 0.0F), tested(width, height, 0.0F);
+                for (std::size_t i = 0; i < reference.size(); i += 2) {
+                    reference.pixels()[i] = a;
+                    tested.pixels()[i] = b;
+                }
+                const double peak = peak_of(reference);
+                const Ssim similarity = ssim(decades_of(tested, peak), decades_of(reference, peak), decades_below_peak);
+                const ImageDifference difference = compare_images(tested, reference, 0.0, 0.0);
+                EXPECT_TRUE(within(flip_hdr(tested, reference, exposures_for(reference)), 0.0F, 1.0F) && similarity.mean >= -1.0 - 1e-9 &&
+                            similarity.mean <= 1.0 + 1e-9 && similarity.minimum >= -1.0 - 1e-9 && std::isfinite(difference.rmse) &&
+                            std::isfinite(difference.psnr_db) == (a != b))
+                    << width << " x " << height << " pixels of " << b << " against " << a;
+            }
+}
+
+/// The corners of the display's colours, pictures smaller than the filters; and the same against the same, which is 0 to the bit.
+TEST(Flip, AndCiede2000StayInTheirRange) {
+    const auto corner = [](int i) {
+        const auto level = [i](int bit) { return static_cast<std::uint8_t>((i >> bit & 1) * 255); };
+        return Rgb8{level(0), level(1), level(2)};
+    };
+    for (const auto& [width, height] : odd_sizes_px)
+        for (int i = 0; i < 8; ++i)
+            for (int k = 0; k < 8; ++k)
+                for (const double density : {1.0, default_pixels_per_degree, 1000.0}) {
+                    if (density > 100.0 && width * height > 40) // filters of 270 pixels on pictures of ten: once is enough
+                        continue;
+                    const Image<Rgb8> reference(width, height, corner(i)), tested(width, height, corner(k));
+                    EXPECT_TRUE(within(flip_ldr(tested, reference, density), i == k ? 0.0F : 1e-3F, i == k ? 0.0F : 1.0F) &&
+                                within(ciede2000_map(tested, reference), i == k ? 0.0F : 1.0F, i == k ? 0.0F : 200.0F))
+                        << width << " x " << height << " pixels of colours " << k << " and " << i << " at " << density << " a degree";
+                }
 }
 
 // Every exposure as the paper writes it, in doubles; the worst of them. Floats as for one exposure (flip_test.cpp), whose largest is taken:

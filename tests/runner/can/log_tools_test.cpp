@@ -12,7 +12,7 @@
 namespace fernlicht {
 namespace {
 
-using testing::HasSubstr;
+using testing::AllOf, testing::HasSubstr, testing::StartsWith;
 
 std::string written(const TemporaryFolder& folder, const std::string& name, const std::string& text) {
     std::ofstream(folder / name, std::ios::binary) << text;
@@ -121,12 +121,11 @@ TEST(CanCut, SkipsBadLinesWhereAskedToAndTellsOfChannelsThatNoFrameHas) {
                   channels = run_program("can cut --channel can7 --channel can1 -o /dev/null " + written(folder, "c.log", mixed_log));
     EXPECT_EQ(std::tuple(lenient.exit_code, long_line.exit_code, channels.exit_code), std::tuple(0, 0, 0));
     EXPECT_THAT(lenient.output,
-                testing::AllOf(HasSubstr("skipped: "), HasSubstr("a.log:2:1: found 'x'"), HasSubstr("3 lines skipped that are no frames"),
-                               HasSubstr("(1.000000) can0 123#11\n(2.000000) can0 123#22\n")));
-    EXPECT_THAT(long_line.output, testing::AllOf(HasSubstr("b.log:1: found a line of more than 16384 bytes"),
-                                                 HasSubstr("(000.000000) can0 123#11\n(000.500000) can0 123#22\n")));
-    EXPECT_THAT(channels.output,
-                testing::AllOf(testing::EndsWith("c.log: no frame of channel can7\n"), testing::Not(HasSubstr("channel can1"))));
+                AllOf(HasSubstr("skipped: "), HasSubstr("a.log:2:1: found 'x'"), HasSubstr("3 lines skipped that are no frames"),
+                      HasSubstr("(1.000000) can0 123#11\n(2.000000) can0 123#22\n")));
+    EXPECT_THAT(long_line.output, AllOf(HasSubstr("b.log:1: found a line of more than 16384 bytes"),
+                                        HasSubstr("(000.000000) can0 123#11\n(000.500000) can0 123#22\n")));
+    EXPECT_THAT(channels.output, AllOf(testing::EndsWith("c.log: no frame of channel can7\n"), testing::Not(HasSubstr("channel can1"))));
 }
 
 /// What is read may be what is written; what fails leaves the file that was there, and nothing beside it.
@@ -138,19 +137,19 @@ TEST(CanTools, LoseNoFileThatIsReplaced) {
     for (const std::string& name : names) {
         for (const std::string tool : {"cut", "convert", "merge"}) {
             EXPECT_EQ(run_program("can " + tool + " " + log + " --force -o " + name).exit_code, 0) << tool;
-            EXPECT_THAT(content_of(folder / "a.log"), testing::StartsWith(kept)) << tool;
+            EXPECT_THAT(content_of(folder / "a.log"), StartsWith(kept)) << tool;
         }
     }
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.log"));
     EXPECT_EQ(run_program("can cut --to 10.4 " + log + " --force -o " + log).exit_code, 0);
-    EXPECT_THAT(content_of(folder / "a.log"), testing::StartsWith(kept));
+    EXPECT_THAT(content_of(folder / "a.log"), StartsWith(kept));
     const std::string before = content_of(folder / "a.log");
 
     const std::string half = written(folder, "half.log", kept + "junk\n");
     EXPECT_EQ(run_program("can cut " + half + " --force -o " + log).exit_code, 2);
     EXPECT_EQ(content_of(folder / "a.log"), before);
     const Outcome outcome = run_program("can cut " + half);
-    EXPECT_THAT(outcome.output, testing::StartsWith(kept)) << "good lines come out before a bad one is refused";
+    EXPECT_THAT(outcome.output, StartsWith(kept)) << "good lines come out before a bad one is refused";
     EXPECT_EQ(run_program("can cut " + written(folder, "junk.log", "junk\n") + " -o '" + (folder / "new.log") + "'").exit_code, 2);
     EXPECT_FALSE(std::filesystem::exists(folder / "new.log"));
     EXPECT_EQ(run_program("can cut " + log + " -o /dev/null").exit_code, 0);

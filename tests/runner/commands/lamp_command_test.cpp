@@ -2,10 +2,9 @@
 
 #include "scenarios/lamps/lamp_model.h"
 #include "scenarios/lamps/spots/spot_fit.h"
-#include "scenarios/values/errors.h"
+#include "tests/runner/program.h"
+#include "tests/trial.h"
 
-#include <filesystem>
-#include <fstream>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -16,16 +15,9 @@ using testing::HasSubstr;
 
 class LampCommand : public testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = std::filesystem::path(testing::TempDir()) /
-                  ("lamp_command_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     static LampRequest shipped(const std::string& name) {
         LampRequest request;
-        request.file = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/lamps" / (name + ".ies");
+        request.file = library_file("lamps/" + name + ".ies");
         return request;
     }
     std::string printed(const LampRequest& request) {
@@ -37,18 +29,9 @@ class LampCommand : public testing::Test {
         return text;
     }
     static std::string refusal(const LampRequest& request) {
-        try {
-            lamp_command(request);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "not refused";
+        return tests::refusal_of([&] { lamp_command(request); });
     }
-    static std::string content(const std::filesystem::path& path) {
-        std::ifstream in(path, std::ios::binary);
-        return {std::istreambuf_iterator<char>(in), {}};
-    }
-    std::filesystem::path folder_;
+    TemporaryFolder folder_;
 };
 
 TEST_F(LampCommand, TellsAShippedLamp) {
@@ -94,7 +77,7 @@ TEST_F(LampCommand, ModelsConvertToTheShippedFiles) {
         request.model = model.name;
         request.convert = folder_ / (model.name + ".ies");
         printed(request);
-        EXPECT_TRUE(content(request.convert) == content(shipped(model.name).file)) << model.name;
+        EXPECT_TRUE(content_of(request.convert) == content_of(shipped(model.name).file)) << model.name;
     }
 }
 
@@ -133,7 +116,7 @@ TEST_F(LampCommand, WhatWasChangedIsSaidInTheFileWritten) {
             said += key == "OTHER" && value ==
                                           "changed, other texts are of the lamp before: scaled by 1.05; mirrored, left and right traffic "
                                           "exchanged; added halogen high beam (model)";
-        EXPECT_EQ(said, 1U) << content(request.convert).substr(0, 1500);
+        EXPECT_EQ(said, 1U) << content_of(request.convert).substr(0, 1500);
     }
 }
 
@@ -142,7 +125,7 @@ TEST_F(LampCommand, SubtractedFromItselfALampIsDarkAndStillPrintsAndPictures) {
     request.subtract = {request.file};
     request.picture = folder_ / "dark.svg";
     EXPECT_THAT(printed(request), HasSubstr("no light in any direction"));
-    EXPECT_THAT(content(request.picture), HasSubstr("no light in any direction"));
+    EXPECT_THAT(content_of(request.picture), HasSubstr("no light in any direction"));
 }
 
 TEST_F(LampCommand, PicturesAreWrittenAsTheirNamesSay) {
@@ -150,14 +133,14 @@ TEST_F(LampCommand, PicturesAreWrittenAsTheirNamesSay) {
     request.picture = folder_ / "lamp.png";
     request.window = {-12, 14, -6, 4};
     printed(request);
-    EXPECT_EQ(content(request.picture).substr(1, 3), "PNG");
+    EXPECT_EQ(content_of(request.picture).substr(1, 3), "PNG");
     request.picture = folder_ / "lamp.svg";
     printed(request);
-    const std::string once = content(request.picture);
+    const std::string once = content_of(request.picture);
     EXPECT_THAT(once, HasSubstr("20 lx"));
     request.force = true;
     printed(request);
-    EXPECT_TRUE(content(request.picture) == once);
+    EXPECT_TRUE(content_of(request.picture) == once);
 }
 
 TEST_F(LampCommand, WhatCannotBeDoneIsRefusedInOneSentence) {
@@ -188,18 +171,18 @@ TEST_F(LampCommand, WhatCannotBeDoneIsRefusedInOneSentence) {
 }
 
 TEST_F(LampCommand, AFileThatIsReadIsNeverOverwritten) {
-    const auto copy = folder_ / "copy.ies";
+    const std::filesystem::path copy = folder_ / "copy.ies";
     std::filesystem::copy_file(shipped("halogen-low").file, copy);
-    const std::string before = content(copy);
+    const std::string before = content_of(copy);
     LampRequest request = shipped("halogen-low");
     request.add = {copy};
-    request.convert = folder_ / "." / "copy.ies";
+    request.convert = folder_ / "./copy.ies";
     EXPECT_THAT(refusal(request), HasSubstr("found a file that is read"));
-    EXPECT_TRUE(content(copy) == before);
+    EXPECT_TRUE(content_of(copy) == before);
 }
 
 TEST_F(LampCommand, AFileThatIsThereIsReplacedByForceAlone) {
-    const auto there = folder_ / "there.ies";
+    const std::filesystem::path there = folder_ / "there.ies";
     std::ofstream(there) << "somebody's work";
     LampRequest request = shipped("halogen-low");
     request.convert = there;
@@ -208,10 +191,10 @@ TEST_F(LampCommand, AFileThatIsThereIsReplacedByForceAlone) {
     request.convert.clear();
     request.picture = folder_ / "there.svg";
     EXPECT_THAT(refusal(request), HasSubstr("--picture: found a file of that name"));
-    EXPECT_EQ(content(request.picture), "somebody's work");
+    EXPECT_EQ(content_of(request.picture), "somebody's work");
     request.force = true;
     printed(request);
-    EXPECT_THAT(content(request.picture), HasSubstr("<svg"));
+    EXPECT_THAT(content_of(request.picture), HasSubstr("<svg"));
 }
 
 TEST_F(LampCommand, TellsWhatDiffersFromAnotherLamp) {
@@ -225,7 +208,7 @@ TEST_F(LampCommand, TellsWhatDiffersFromAnotherLamp) {
     const nlohmann::json told = nlohmann::json::parse(printed(request));
     EXPECT_NEAR(told.at("level_share").at("value").get<double>(), -0.03, 1e-4);
     EXPECT_EQ(told.at("zones").size(), 0U);
-    EXPECT_THAT(content(request.picture), HasSubstr("dimmer all over"));
+    EXPECT_THAT(content_of(request.picture), HasSubstr("dimmer all over"));
     request.spots = 3;
     request.force = true;
     EXPECT_THAT(refusal(request), HasSubstr("--against: found --spots or --convert beside it"));

@@ -42,6 +42,13 @@ TEST(Airlight, IsTheClosedFormForAnEvenLampInThinAir) {
             const double l = airlight_cdm2(even(500.0), thin, {from, h, 0.0}, {to, h, 0.0});
             EXPECT_NEAR(l, 1e-9 * 500.0 * angle / (4.0 * pi * h), 2e-4 * l) << h << ' ' << to;
         }
+    // From 1 mm to 1 km past the lamp, in steps that halve until the sum moves by 1e-7 twice.
+    for (const double h : {1e-3, 0.1, 10.0, 1000.0})
+        for (const double way : {1e-3, 1.0, 1000.0}) {
+            const double from = 2.0 * h, angle = std::atan((from + way) / h) - std::atan(from / h);
+            const double l = airlight_cdm2(even(1000.0), {1e-12, 1.0, 0.0, 0.0}, {from, h, 0.0}, {from + way, h, 0.0}, 1e-7);
+            EXPECT_NEAR(l / (1e-12 * 1000.0 * angle / (4.0 * pi * h)), 1.0, 1e-5) << h << ' ' << way;
+        }
     // A ray from behind the lamp: only the half before it counts.
     const double l = airlight_cdm2(even(500.0), thin, {-3.0, 1.0, 0.0}, {1e6, 1.0, 0.0});
     EXPECT_NEAR(l, 1e-9 * 500.0 * (pi / 2.0) / (4.0 * pi), 2e-4 * l);
@@ -125,6 +132,14 @@ TEST(WetRoad, IsDarkerFromAboveAndReturnsNoMoreThanItGets) {
     const double wet = wet_light(glm::dvec3(0.08), up, at_elevation(60.0), at_elevation(60.0, 90.0), 100.0 / std::sin(radians(60.0))).x;
     EXPECT_LT(wet, 0.7 * dry);
     EXPECT_NEAR(photometry::wet_albedo(0.08, 1.0, 1.0), 0.0449, 0.0002);
+    /// Seen and lit at grazing angles: no more than a mirror of its slope gives, the largest density of facets, 1 / (pi alpha^2), over
+    /// 2 alpha, where light grazes and the eye more so: 47.16 at alpha 0.15.
+    for (const double in : {1.0, 0.01, 1e-6, 1e-12, 0.0})
+        for (const double out : {1.0, 0.01, 1e-6, 1e-12, 0.0}) {
+            const glm::dvec3 to_light(std::sqrt(1.0 - in * in), 0.0, in), to_eye(-std::sqrt(1.0 - out * out), 0.0, out);
+            const double l = wet_light(glm::dvec3(0.5), up, to_light, to_eye, 1.0).x;
+            EXPECT_TRUE(l >= 0.0 && l <= 47.2) << in << ' ' << out << ": " << l;
+        }
     /// No more light comes back than came, whatever the direction: diffuse and mirrored, over the hemisphere.
     for (const double elevation : {5.0, 30.0, 90.0}) {
         const glm::dvec3 to_light = at_elevation(elevation);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace fernlicht {
@@ -96,7 +97,25 @@ TEST(SkyLight, HasNoSteps) {
         }
 }
 
+/// Also from pole to pole through four centuries, and at dates far from where the fits were made.
 TEST(Daylight, OneOfSunAndMoonShinesAtMost) {
+    const auto check = [](const SkyClock& clock) {
+        const Daylight daylight = daylight_at(Daylight{.clock = clock}, 0.0);
+        const double sky = daylight.horizontal_illuminance_lx, sun = daylight.sun.illuminance_lx, moon = daylight.moon.illuminance_lx;
+        EXPECT_TRUE(sun == 0.0 || moon == 0.0);
+        EXPECT_TRUE(sky > 1e-4 && sky < 60'000.0 && sun >= 0.0 && sun < 110'000.0 && moon >= 0.0 && moon < 0.4)
+            << clock.year << '-' << clock.month << ", latitude " << clock.latitude_deg << ": " << sky << ", " << sun << ", " << moon;
+        EXPECT_NEAR(glm::length(daylight.sun.towards()) + glm::length(daylight.moon.towards()), 2.0, 1e-12);
+    };
+    for (const double latitude_deg : {-90.0, -66.5, 0.0, 48.0, 69.0, 90.0}) {
+        for (int year = 1800; year < 2200; year += 7)
+            for (int k = 0; k < 12; ++k)
+                check({year, 1 + k, 1 + 2 * k, 7000 * k, 0.0, latitude_deg, 180.0 - 30.0 * k, covers[k % 3], 0.0});
+        for (const int year : {-4712, -2000, 0, 1582, 4000, 9999})
+            for (int month = 1; month <= 12; ++month)
+                for (const int hour : {0, 6, 12, 18})
+                    check({year, month, 21, 3600 * hour, 0.0, latitude_deg, 0.0, SkyCover::clear, 0.0});
+    }
     for (int month = 1; month <= 12; ++month)
         for (int hour = 0; hour < 24; ++hour) {
             const Daylight daylight = at(month, 15, hour, 0);
@@ -120,6 +139,19 @@ TEST(Daylight, TellsTheRightHour) {
     EXPECT_NEAR(degrees(noon.sun.azimuth_rad), 180.0, 1.5);
     EXPECT_GT(at(6, 21, 19, 15).sun.illuminance_lx, 0.0);
     EXPECT_EQ(at(6, 21, 19, 21).sun.illuminance_lx, 0.0);
+}
+
+/// At 69 degrees north the sun is up all day at midsummer and never at midwinter; at the pole a day's sky hardly changes.
+TEST(Daylight, HasPolarDaysAndNights) {
+    const auto north = [](int month, int hour, double latitude_deg) {
+        return daylight_at(Daylight{.clock = SkyClock{2026, month, 21, 3600 * hour, 0.0, latitude_deg, 0.0, SkyCover::clear, 0.0}}, 0.0);
+    };
+    const double at_midnight_lx = north(6, 0, 90.0).horizontal_illuminance_lx;
+    for (int hour = 0; hour < 24; ++hour) {
+        EXPECT_GT(north(6, hour, 69.0).sun.illuminance_lx, 0.0) << hour;
+        EXPECT_EQ(north(12, hour, 69.0).sun.illuminance_lx, 0.0) << hour;
+        EXPECT_NEAR(north(6, hour, 90.0).horizontal_illuminance_lx, at_midnight_lx, 0.01 * at_midnight_lx) << hour;
+    }
 }
 
 TEST(Daylight, RunsWithTheClock) {

@@ -1,18 +1,10 @@
-#include "runner/experiments/accuracy/studies/accuracy_run.h"
 
 #include "renderer/sanity.h"
-#include "runner/experiments/accuracy/reference_shots.h"
-#include "runner/experiments/accuracy/studies/classical_study.h"
-#include "runner/experiments/accuracy/studies/solver_diagrams.h"
+#include "runner/experiments/accuracy/picture_errors.h"
 #include "runner/experiments/accuracy/studies/studies.h"
-#include "runner/experiments/accuracy/studies/traffic_shadow_study.h"
-#include "runner/experiments/accuracy/studies/traffic_study.h"
-#include "runner/experiments/accuracy/studies/weather_study.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
-#include "runner/play/interruption.h"
 #include "runner/play/progress.h"
-#include "runner/play/shadows/check_planar.h"
 #include "runner/play/shadows/choose_shadows.h"
 #include "scenarios/drives/play/advance.h"
 
@@ -75,7 +67,7 @@ void add_studies(const AccuracyRequest& request, const Stage& stage, Device& dev
         const Moment moment = moments_at({tick_count(stage.drive) / 2}, stage, variant).front();
         ClassicalStudy study;
         study.seed = request.sweep.seed;
-        WorkPrecision diagram = classical_study(stage.scene, moment, resized(*driver_view(stage.drive), 64, 48), study, go_on);
+        WorkPrecision diagram = classical_study(stage.scene, moment, at_size(*driver_view(stage.drive), 64, 48), study, go_on);
         diagram.name += "-" + stage.drive.name;
         diagram.title += fmt::format(": {}, {}", stage.drive.name, variant.name);
         return diagram;

@@ -5,6 +5,7 @@
 #include "scenarios/photometry.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -110,6 +111,19 @@ WorkPrecision beam_study(const Stage& stage, const Variant& variant, const Study
             4U * own.cd.size()));
     }
     return diagram;
+}
+
+Interval timed(const std::function<void()>& work) {
+    using Clock = std::chrono::steady_clock;
+    constexpr double enough_s = 0.1;
+    constexpr std::size_t fewest = 3, most = 25;
+    std::vector<double> seconds;
+    for (double sum = 0.0; seconds.size() < fewest || (sum < enough_s && seconds.size() < most); sum += seconds.back()) {
+        const Clock::time_point start = Clock::now();
+        work();
+        seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    }
+    return time_of(seconds).value();
 }
 
 } // namespace fernlicht

@@ -1,4 +1,4 @@
-#include "runner/experiments/accuracy/studies/classical_study.h"
+#include "runner/experiments/accuracy/studies/studies.h"
 
 #include "metrics/images/pixel_errors.h"
 #include "runner/experiments/reference/reference_result.h"

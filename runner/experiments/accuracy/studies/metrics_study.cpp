@@ -1,6 +1,6 @@
 #include "metrics/images/image_difference.h"
 #include "renderer/renderer.h"
-#include "runner/experiments/accuracy/reference_shots.h"
+#include "runner/experiments/accuracy/picture_errors.h"
 #include "runner/experiments/accuracy/studies/studies.h"
 #include "scenarios/drives/play/advance.h"
 

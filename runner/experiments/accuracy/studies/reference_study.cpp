@@ -1,7 +1,7 @@
 #include "metrics/images/pixel_errors.h"
 #include "metrics/statistics/statistics.h"
 #include "renderer/reference/reference.h"
-#include "runner/experiments/accuracy/reference_shots.h"
+#include "runner/experiments/accuracy/picture_errors.h"
 #include "runner/experiments/accuracy/studies/studies.h"
 #include "runner/experiments/bench/bench_run.h"
 #include "scenarios/drives/play/advance.h"
@@ -39,7 +39,7 @@ Deviation deviation(const ReferenceImage& tested, const ReferenceImage& truth, d
 std::vector<WorkPrecision> reference_study(const Stage& stage, const Variant& variant, std::uint64_t seed, const StudyGoesOn& go_on) {
     const int ticks = tick_count(stage.drive);
     const Moment moment = moments_at({ticks / 2}, stage, variant).front();
-    const View view = resized(*driver_view(stage.drive), width_px, height_px);
+    const View view = at_size(*driver_view(stage.drive), width_px, height_px);
     const Reference reference(stage.scene);
     const auto draw = [&](Integrator integrator, int samples, std::uint64_t from_seed) {
         ReferenceSettings settings;

@@ -1,7 +1,8 @@
-#include "runner/experiments/accuracy/studies/traffic_study.h"
 
 #include "renderer/renderer.h"
 #include "renderer/traffic_levels.h"
+#include "runner/experiments/accuracy/studies/studies.h"
+#include "runner/play/shadows/shadow_truth.h"
 #include "scenarios/drives/play/advance.h"
 
 #include <algorithm>
@@ -20,6 +21,16 @@ std::vector<double> traffic_differences(const Image<float>& tested, const Image<
         all[i] = std::abs(static_cast<double>(tested.pixels()[i]) - static_cast<double>(truth.pixels()[i]));
     std::ranges::sort(all);
     return all;
+}
+
+constexpr int compared_moments = 5;
+constexpr double fully_shadowed = 4.0; ///< light of a unit, in least lux, from which on its shadow is drawn in full (docs/traffic.md)
+
+std::vector<Moment> traffic_shadow_moments(const Stage& stage, const Variant& variant) {
+    std::vector<int> ticks;
+    for (int i = 0; i < compared_moments; ++i)
+        ticks.push_back((2 * i + 1) * tick_count(stage.drive) / (2 * compared_moments));
+    return moments_at(ticks, stage, variant);
 }
 
 } // namespace
@@ -78,6 +89,85 @@ WorkPrecision traffic_study(const Stage& stage, const Variant& variant, Device& 
     }
     if (go_on())
         add(fine, own_lx, fmt::format("each lamp with its own beam, least {:g} lx", own_lx), "");
+    return diagram;
+}
+
+WorkPrecision traffic_shadow_study(const Stage& stage, const Variant& variant, Device& device, const StudyGoesOn& go_on) {
+    WorkPrecision diagram{"traffic-shadows-" + stage.drive.name,
+                          fmt::format("Shadows in the light of others: {}, {}", stage.drive.name, variant.name),
+                          "wrongly lit or dark of what others light in the driver's view",
+                          "%",
+                          "time of a frame",
+                          "",
+                          {},
+                          {}};
+    const View* const view = driver_view(stage.drive);
+    const std::vector<Moment> all = traffic_shadow_moments(stage, variant);
+    if (view == nullptr || !stage.drive.shadows.any() ||
+        std::ranges::all_of(all, [](const Moment& moment) { return moment.other_lamps.empty(); }))
+        return diagram;
+    RendererSettings settings;
+    settings.tone_mapper = stage.drive.tone_mapper;
+    settings.shadows = stage.drive.shadows;
+    std::vector<Moment> others = all; // own lamps' shadows are another diagram
+    for (Moment& moment : others)
+        moment.lamps.clear();
+    const Reference rays(stage.scene);
+    Renderer unshadowed(device, stage.scene, without_shadows(settings));
+    ShadowTruth truth(rays, unshadowed, others,
+                      at_size(*view, shadow_error_width_px, std::max(1, view->height_px * shadow_error_width_px / view->width_px)));
+    const int middle = tick_count(stage.drive) / 2;
+    const std::vector<Moment> timed_moments = moments_at({std::max(0, middle - 1), middle}, stage, variant); // in turn: all maps are drawn
+    const double floor_lx = std::max(shadow_floor_lx, all.front().least_traffic_lx);
+    ShadowArea area;
+    std::string bright; // errors where shadows are drawn in full
+    const auto add = [&](const RendererSettings& own, std::string label) {
+        if (!go_on())
+            return false;
+        Renderer renderer(device, stage.scene, own);
+        area = {};
+        ShadowArea whole; // where shadows are drawn in full
+        for (std::size_t m = 0; m < others.size(); ++m) {
+            const ShadowImages images = truth.images(renderer, m);
+            area += shadow_area(images, 1.0, floor_lx);
+            whole += shadow_area(images, 1.0, fully_shadowed * floor_lx);
+        }
+        WorkPrecisionRow row;
+        row.label = std::move(label);
+        row.note = own.shadows == stage.drive.shadows && own.traffic_shadows ? "the drive's own" : "";
+        bright += fmt::format("{}{} {:.2g} %", bright.empty() ? "" : ", ", row.label, 100.0 * whole.wrong_share());
+        const bool drawn = own.traffic_shadows;
+        row.parameters = {{"traffic_shadows", drawn ? "yes" : "no"},
+                          {"map_texels", drawn ? fmt::format("{}x{}", own.shadows.width / 2, own.shadows.height / 2) : "none"}};
+        const double percent = 100.0 * area.wrong_share();
+        row.error = Interval{percent, percent, percent};
+        renderer.prepare(timed_moments, *view, {.colour = true});
+        std::size_t next = 0;
+        row.seconds = timed([&] {
+            renderer.render(timed_moments[next++ % timed_moments.size()], *view, {.colour = true});
+            renderer.finish();
+        });
+        row.bytes = renderer.count(timed_moments.back(), *view, {.colour = true}).texture_bytes;
+        diagram.rows.push_back(std::move(row));
+        return true;
+    };
+    RendererSettings none = settings;
+    none.traffic_shadows = false;
+    bool going = add(none, "none");
+    for (const int factor : {1, 2, 4}) {
+        RendererSettings finer = settings;
+        finer.shadows.width = std::min(8192, factor * settings.shadows.width / 2);
+        finer.shadows.height = std::min(8192, factor * settings.shadows.height / 2);
+        going = going && add(finer, fmt::format("maps of {} x {}", finer.shadows.width / 2, finer.shadows.height / 2));
+    }
+    diagram.notes = {
+        fmt::format("against a ray from each pixel's centre to each lamp of others, in {} moments evenly spread over the drive, "
+                    "{} pixels wide; own lamps are off. A pixel that is half as dark as it should be counts half. Of {:.0f} "
+                    "pixels with at least {:g} lx {:.0f} lie in shadow",
+                    others.size(), shadow_error_width_px, area.counted, floor_lx, area.shadowed),
+        fmt::format("where others bring {:g} lx and more: {}", fully_shadowed * floor_lx, bright),
+        "times: the middle moment and the one before it in turn, own lamps on, whose maps have four times as many texels and grow as these "
+        "do"};
     return diagram;
 }
 

@@ -1,7 +1,7 @@
-#include "runner/experiments/accuracy/studies/weather_study.h"
+#include "runner/experiments/accuracy/studies/studies.h"
 
 #include "metrics/images/pixel_errors.h"
-#include "runner/experiments/accuracy/reference_shots.h"
+#include "runner/experiments/accuracy/picture_errors.h"
 #include "runner/experiments/accuracy/technique_sweep.h"
 #include "scenarios/drives/play/advance.h"
 
@@ -41,8 +41,8 @@ class MediaBench {
   public:
     MediaBench(const Stage& stage, const Moment& moment, Device& device)
         : scene_(without_textures(stage.scene)), device_(device),
-          compared_(resized(*driver_view(stage.drive), compared_width, compared_height)),
-          timed_(resized(*driver_view(stage.drive), timed_width, timed_height)) {
+          compared_(at_size(*driver_view(stage.drive), compared_width, compared_height)),
+          timed_(at_size(*driver_view(stage.drive), timed_width, timed_height)) {
         ReferenceSettings settings;
         settings.footprint = Footprint::centre;
         settings.shadows = stage.drive.shadows.things_cast;

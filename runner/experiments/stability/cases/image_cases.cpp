@@ -1,11 +1,14 @@
-// Cameras and pictures at the ends of what a view may ask for, and numbers on their way into files.
+// Cameras, tone mappers and pictures at the ends of what may be asked for: their numbers on their way into files, and pictures that are
+// hard to compare.
+#include "runner/experiments/stability/stability_case.h"
 #include "runner/experiments/stability/trial.h"
 #include "runner/files/picture_file.h"
+#include "scenarios/display/tone_mapper.h"
+#include "scenarios/photometry.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <glm/gtc/packing.hpp>
 #include <limits>
 
 namespace fernlicht {
@@ -40,13 +43,10 @@ Found fields_of_view(StabilityBench& bench) {
 }
 
 Found sizes(StabilityBench& bench) {
-    return against_a_street(bench, {{2.0, 1, 1}, {40.0, 1, 64}, {4.0, 64, 1}, {10.0, 1, 16384}, {0.1, 16384, 1}});
+    return against_a_street(bench, {{2.0, 1, 1}, {40.0, 1, 64}, {4.0, 64, 1}, {10.0, 1, 16384}, {0.1, 16384, 1}, {0.112, 16384, 16}});
 }
 
-/// 16384 x 16 pixels across 90 degrees: every pixel is finite, and those of a coarse grid are right.
-Found widest(StabilityBench& bench) { return against_a_street(bench, {{0.112, 16384, 16}}); }
-
-/// What is stored in EXR comes back to the bit. Beside it what half floats would have made of it.
+/// What is stored in EXR comes back to the bit.
 Found stored(StabilityBench& bench) {
     Frame frame;
     const float values[] = {0.0F,     1e-42F,  1.17549435e-38F, 1e-20F,   5.9e-8F, 0.01F,       0.25F, 1.0F,
@@ -64,17 +64,35 @@ Found stored(StabilityBench& bench) {
             worst.add(channel.values.at(x, 0) == values[x] ? 0.0 : 1.0, fmt::format("{}: {:g}", channel.name, values[x]));
     }
     worst.add(channels == 2 ? 0.0 : 1.0, fmt::format("{} channels", channels));
-    double half_relative = 0.0;
-    int half_infinite = 0;
-    for (double e = 0.01; e <= 1e5; e *= 1.0003) {
-        const double half = static_cast<double>(glm::unpackHalf1x16(glm::packHalf1x16(static_cast<float>(e))));
-        half_infinite += std::isfinite(half) ? 0 : 1;
-        half_relative = std::isfinite(half) ? std::max(half_relative, std::abs(half / e - 1.0)) : half_relative;
-    }
-    // A half path that did no harm would make this row's reason untrue.
-    worst.add(half_infinite > 0 && half_relative > 4e-4 ? 0.0 : 1.0, "half floats are harmless");
-    worst.where =
-        fmt::format("{}; half floats would be off by up to {:.1e} relative and infinite from 65520 lx on", worst.where, half_relative);
+    return worst;
+}
+
+/// A white wall under skies of every luminance, in 8 bits, against the formula in double.
+Found pictures(StabilityBench& bench) {
+    Scene scene = empty_scene();
+    scene.materials[0].albedo = glm::vec3(1.0F);
+    add_sheet(scene, "floor", 0, {-5.0, -5.0, -1.0}, {10.0, 0.0, 0.0}, {0.0, 10.0, 0.0});
+    const View view = camera({0.0, 0.0, 0.0}, 0.0, -0.5 * pi, 40.0, 4, 4);
+    Found worst;
+    for (const ToneMapperKind kind : {ToneMapperKind::linear, ToneMapperKind::rational, ToneMapperKind::logarithmic})
+        for (const double s : {1.0, 1.0 + 1e-7, 20.0, 1e6})
+            for (const double l_max : {1e-6, 100.0, 1e9}) {
+                if (kind == ToneMapperKind::linear && s != 1.0)
+                    continue;
+                RendererSettings settings;
+                settings.tone_mapper = {kind, s, l_max, {}};
+                Renderer renderer(bench.device(), scene, settings);
+                for (const double l : {0.0, 1e-42, 1e-30, 1e-6 * l_max, 0.5 * l_max, l_max * (1.0 - 1e-7), l_max, l_max * (1.0 + 1e-7),
+                                       10.0 * l_max, 1e30}) {
+                    Moment moment;
+                    moment.daylight.horizontal_illuminance_lx = pi * l;
+                    const Frame frame = renderer.draw(moment, view, {.colour = true, .luminance = true});
+                    const double shown = 255.0 * photometry::srgb_encoded(toned(settings.tone_mapper, l));
+                    const double error =
+                        not_finite(frame) > 0 ? std::numeric_limits<double>::infinity() : std::abs(frame.colour.at(1, 1).g - shown);
+                    worst.add(error, fmt::format("{}, s = {:g}, L_max = {:g}, L = {:g}", name(kind), s, l_max, l));
+                }
+            }
     return worst;
 }
 
@@ -85,11 +103,18 @@ std::vector<StabilityCase> image_cases() {
     return {
         {"image", "field-of-view", "0.1 to 179 degrees: tangents of 0.0009 and 115", 1.0, of_bound,
          "the projection only decides where a pixel looks; light comes from positions relative to the car", fields_of_view},
-        {"image", "sizes", "1 x 1, one row, one column, 16384 to a side", 1.0, of_bound, "a pixel does not know of its neighbours", sizes},
-        {"image", "16384x16", "the widest picture that OpenGL 4.5 promises", 1.0, of_bound, "a pixel does not know of its neighbours",
-         widest},
+        {"image", "sizes", "1 x 1, one row, one column, 16384 x 16: the widest that OpenGL 4.5 promises", 1.0, of_bound,
+         "a pixel does not know of its neighbours", sizes},
         {"image", "stored", "numbers on their way into EXR: 1e5 lx, denormals, the largest float", 0.0, "values changed",
          "channels are 32-bit floats; half floats end at 65504 lx and keep 11 bits", stored},
+    };
+}
+
+std::vector<StabilityCase> tone_cases() {
+    return {
+        {"tone", "pictures",
+         "s = 1, just above it, and 1e6; L = 0, denormal, L_max and far above; L_max from 1e-6 to 1e9: 0/0 and overflow", 0.52,
+         "8-bit steps", "half a step by rounding to 8 bits, 0.01 by the polynomial in place of the sRGB power, 0.01 by floats", pictures},
     };
 }
 

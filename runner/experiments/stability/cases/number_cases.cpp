@@ -1,24 +1,73 @@
 // Numbers themselves: rounding as IEEE 754 has it, denormals, the largest, and none that is not finite in a file.
 #include "renderer/reference/reference.h"
 #include "runner/experiments/run/run_drives.h"
-#include "runner/experiments/stability/float_habits.h"
 #include "runner/experiments/stability/trial.h"
 #include "runner/files/picture_file.h"
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <limits>
 #include <regex>
-#include <sstream>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
 
 namespace fernlicht {
 namespace {
 
 using namespace stability;
+
+/// A value that the compiler does not know.
+template <class T> T unknown(T value) {
+    volatile T hidden = value;
+    return hidden;
+}
+
+template <class T> void try_type(const std::string& type, T big, std::vector<std::string>& broken) {
+    const auto must = [&](bool holds, const char* rule) {
+        if (!holds)
+            broken.push_back(type + ": " + rule);
+    };
+    using Limits = std::numeric_limits<T>;
+    const T zero = unknown(T(0)), one = unknown(T(1)), nan = unknown(Limits::quiet_NaN()), infinity = unknown(Limits::infinity());
+    // With -ffinite-math-only these comparisons are folded away.
+    must(nan != nan && !(nan == nan) && !(nan < one) && std::isnan(nan * zero), "NaN is no number");
+    must(one / zero == infinity && std::isinf(infinity) && infinity > Limits::max(), "1 / 0 is infinite");
+    // -fno-signed-zeros, -freciprocal-math
+    must(std::signbit(-zero) && one / -zero == -infinity && !std::signbit(-zero + zero), "zeros have signs");
+    const T three = unknown(T(3)), ten = unknown(T(10));
+    must(three / ten != three * (one / ten) || sizeof(T) == 4, "a quotient is no product with the reciprocal");
+    // -fassociative-math would give back 1.
+    must((one + big) - big == zero && one + (big - big) == one, "sums are taken in the order written");
+    // (1 + e)^2 = 1 + 2 e + e^2: rounded the product loses e^2, fused it keeps it.
+    const T e = unknown(Limits::epsilon()), factor = one + e, product = factor * factor;
+    must(unknown(factor) * unknown(factor) + unknown(-product) == zero && std::fma(factor, factor, -product) == e * e,
+         "a product is rounded before it is added");
+    const T smallest = unknown(Limits::min()), half = unknown(T(0.5));
+    must(smallest * half > zero && (smallest * half) * (one + one) == smallest, "denormals are kept");
+    must(unknown(Limits::denorm_min()) > zero, "the least denormal is not 0");
+}
+
+/// On the calling thread: each rule of IEEE 754 that does not hold, in words; empty where all do. Tried are NaN, signed zeros, infinities,
+/// the order of sums, products that are not fused into sums, denormals, and where there is one, the control register (MXCSR).
+std::vector<std::string> broken_float_rules() {
+    std::vector<std::string> broken;
+    try_type<float>("float", 1e9F, broken);
+    try_type<double>("double", 1e17, broken);
+    if (std::fegetround() != FE_TONEAREST)
+        broken.emplace_back("rounding is to nearest");
+#if defined(__SSE2__)
+    constexpr unsigned flush_to_zero = 1U << 15U, denormals_are_zero = 1U << 6U;
+    if ((_mm_getcsr() & (flush_to_zero | denormals_are_zero)) != 0)
+        broken.emplace_back("MXCSR: neither flush-to-zero nor denormals-are-zero is set");
+#endif
+    return broken;
+}
 
 /// Before and after a device, Embree and oneTBB had their chance to set flush-to-zero, on this thread and on theirs.
 Found float_rules(StabilityBench& bench) {
@@ -96,13 +145,6 @@ Found brightest(StabilityBench& bench) {
     return worst;
 }
 
-std::string content_of(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
-
 /// Numbers that are none, in a text of JSON or CSV.
 std::size_t not_numbers(const std::string& text) {
     static const std::regex word(R"((^|[\s,:\[])-?(nan|inf|infinity)($|[\s,\]}]))", std::regex::icase);
@@ -132,11 +174,8 @@ Played play_to_the_end(StabilityBench& bench, const std::filesystem::path& drive
 
 /// A dark lamp, the brightest lamp, probes in the dark and right at a lamp: whatever is written must be a number.
 Found reports(StabilityBench& bench) {
-    const auto table = [](double cd) {
-        return matrix_text({{-40.0, 40.0}, {-20.0, 20.0}, {cd, cd, cd, cd}, {}, BetweenSamples::linear_cd});
-    };
-    bench.write("dark.csv", table(0.0));
-    bench.write("brightest.csv", table(1e12));
+    for (const auto& [name, cd] : {std::pair("dark.csv", 0.0), std::pair("brightest.csv", 1e12)})
+        write_matrix(bench, name, {{-40.0, 40.0}, {-20.0, 20.0}, {cd, cd, cd, cd}, {}, BetweenSamples::linear_cd});
     Found worst;
     for (const char* file : {"dark.csv", "brightest.csv"}) {
         const std::string more = fmt::format(
@@ -145,8 +184,9 @@ Found reports(StabilityBench& bench) {
             "  probes: {{at_lamp: {{ahead_m: 3.5, left_m: 0.6, above_m: 0.65}}, dark: {{ahead_m: -50}}, road: {{ahead_m: 20}}}}",
             file);
         const Played played = play_to_the_end(bench, write_drive_file(bench, "report.yaml", more), "report");
+        FilesRead read;
         for (const char* text : {"report.json", "readings.csv", "times.csv"})
-            worst.add(static_cast<double>(not_numbers(content_of(played.folder / text))), fmt::format("{} with {}", text, file));
+            worst.add(static_cast<double>(not_numbers(read_file(played.folder / text, read))), fmt::format("{} with {}", text, file));
         std::size_t pictures = 0, values = 0, bad = 0;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(played.folder))
             if (entry.path().extension() == ".exr")

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <list>
 
 namespace fernlicht {
 namespace {
@@ -107,55 +106,6 @@ Moment lit_from(const glm::dvec3& lamp_m) {
     return moment;
 }
 
-Found degenerate_bodies(StabilityBench& bench) {
-    const Triangles whole = box({0.5, 0.7, 0.9}, 0.3);
-    std::list<std::pair<std::string, Triangles>> bodies;
-    Triangles body = whole; // an edge cut in two on one side alone
-    const glm::dvec3 middle = 0.5 * (body[0][0] + body[0][1]);
-    body.push_back({middle, body[0][1], body[0][2]});
-    body[0][1] = middle;
-    bodies.emplace_back("a crack without a triangle in it", body);
-    body.push_back({whole[0][0], whole[0][1], middle});
-    bodies.emplace_back("a crack filled by a triangle without area", body);
-    body = whole;
-    body.insert(body.end(), whole.begin(), whole.begin() + 5);
-    bodies.emplace_back("five triangles twice", body);
-    body = whole;
-    body.insert(body.end(), whole.begin(), whole.end());
-    bodies.emplace_back("all triangles twice", body);
-    body = whole;
-    for (const std::array<glm::dvec3, 3>& t : turned_round(whole))
-        body.push_back(t);
-    bodies.emplace_back("from both sides", body);
-    body = whole;
-    body.push_back({whole[0][0], whole[0][1], glm::dvec3(0.9, 1.4, 1.6)});
-    bodies.emplace_back("a fin on an edge", body);
-    body = whole;
-    for (const std::size_t i : {0U, 3U, 7U})
-        std::swap(body[i][1], body[i][2]);
-    bodies.emplace_back("three triangles turned round", body);
-    bodies.emplace_back("inside out", turned_round(whole));
-    body = whole;
-    for (int i = 0; i < 4; ++i)
-        body.push_back({whole[0][0], whole[0][0], whole[0][i % 2 == 0 ? 0 : 2]});
-    bodies.emplace_back("triangles with corners in one place", body);
-    body = whole;
-    for (const std::array<glm::dvec3, 3>& t : turned_round(box({0.5, 0.7, 0.9}, 0.3)))
-        body.push_back({t[0] + 2.0 * whole[0][0], t[1] + 2.0 * whole[0][0], t[2] + 2.0 * whole[0][0]});
-    bodies.emplace_back("and its mirror image inside out at one corner", body);
-    Found worst;
-    for (const auto& [name, triangles] : bodies) {
-        const Scene scene = street_with({12.0, 0.0, 0.95}, triangles);
-        ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::volumes));
-        ShadowTally all;
-        for (const glm::dvec3& at : {glm::dvec3(0.0, 0.3, 0.65), glm::dvec3(5.0, -2.0, 3.0), glm::dvec3(12.1, 0.2, 0.9)})
-            for (const View& view : {camera({0.0, 0.0, 3.0}, 0.0, -0.15, 50.0, 64, 48), camera({12.0, 0.1, 0.8}, 0.4, -0.1, 80.0, 32, 24)})
-                all.add(trial.tally(lit_from(at), view, doubt_of_volumes()));
-        judge_tally(worst, all, name);
-    }
-    return worst;
-}
-
 /// Lamp and camera to the bit in planes of triangles and of hulls.
 Found in_planes(StabilityBench& bench) {
     const Scene scene = street_with({8.0, 0.0, 1.0}, box({0.5, 0.5, 0.5}));
@@ -217,36 +167,6 @@ Found long_walls(StabilityBench& bench) {
     return worst;
 }
 
-/// Sheets one behind the other before a wall, each one layer.
-ShadowTally behind_layers(StabilityBench& bench, int layers) {
-    Triangles sheets;
-    for (int i = 0; i < layers; ++i) {
-        const double x = 5.0 + 0.01 * i;
-        const glm::dvec3 a(x, -0.5, 0.2), b(x, 0.5, 0.2), c(x, 0.0, 1.2);
-        sheets.push_back({a, b, c});
-    }
-    Scene scene = empty_scene();
-    add_sheet(scene, "wall", 1, {12.0, 4.0, 0.0}, {0.0, -8.0, 0.0}, {0.0, 0.0, 4.0});
-    add_triangles(scene, "sheets", 1, {}, sheets);
-    ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::volumes));
-    return trial.tally(lit_from({0.0, 0.0, 0.65}), camera({9.0, 0.0, 1.0}, 0.0, 0.0, 60.0, 24, 18), doubt_of_volumes());
-}
-
-Found counted_layers(StabilityBench& bench) {
-    Found worst;
-    for (const int count : {1, 127, 128, 255, 257})
-        judge_tally(worst, behind_layers(bench, count), fmt::format("{} layers", count));
-    return worst;
-}
-
-Found layers_of_256(StabilityBench& bench) {
-    Found worst;
-    const ShadowTally tally = behind_layers(bench, 256);
-    worst.add(tally.lit == 0 || tally.dark == 0 || tally.acne > 0 ? std::nan("") : static_cast<double>(tally.leaks) / tally.dark,
-              "256 sheets one behind the other: " + tally.text());
-    return worst;
-}
-
 /// From above hulls have no infinity to end at.
 Found volumes_from_above(StabilityBench& bench) {
     Found worst;
@@ -268,20 +188,12 @@ std::vector<StabilityCase> shadow_volume_cases() {
     return {
         {"volumes", "crowds", "bodies closed, open, inside out, torn and tangled; lamp and camera in any of them and in their shadows", 0.0,
          pixels, "hulls are exact: in doubt are only pixels at edges and those within twice the gap behind a caster", shadow_crowds},
-        {"volumes", "degenerate", "cracks, triangles without area, doubled, turned round, fins, bodies inside out", 0.0, pixels,
-         "walls are counted by what triangles leave uneven, whatever they are; of closed bodies fronts alone cast where those enclose a "
-         "volume",
-         degenerate_bodies},
         {"volumes", "in-planes", "the lamp to the bit in planes of triangles, the eye on edges of hulls", 0.0, pixels,
          "any choice of what casts gives a closed hull, and a hull seen edge-on covers nothing", in_planes},
         {"volumes", "near-planes", "casters 1 mm to 0.3 m before the eye and before the lamp, across the near plane at 0.1 m", 0.0, pixels,
          "hulls are counted behind surfaces, so that what the near plane cuts off does not count", near_planes},
         {"volumes", "long-walls", "fronts along the light that shade themselves, seen from up to 280 m", 0.0, pixels,
          "a hull begins 1 mm and 1e-4 of the distance behind its front, above the rounding of a float's depth", long_walls},
-        {"volumes", "layers", "more layers of shadow than a stencil buffer counts", 0.0, pixels, "counts have eight bits and wrap",
-         counted_layers},
-        {"volumes", "256-layers", "a multiple of 256 layers, which counts as none", 1.0, "of the shadow's pixels are lit",
-         "a limit of eight bits: a closed convex body is one layer, each triangle of an open one is one", layers_of_256},
         {"volumes", "from-above", "hulls in maps, where they end at 100 000 times the caster's distance", 0.0, pixels,
          "a caster 2 cm away has its shadow to 2 km", volumes_from_above},
     };

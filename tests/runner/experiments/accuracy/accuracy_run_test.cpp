@@ -5,6 +5,7 @@
 #include "scenarios/values/errors.h"
 #include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
+#include "tests/trial.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -25,6 +26,19 @@ json checked(const std::filesystem::path& file) {
     return found;
 }
 
+/// What `accuracy` finds, its files in `folder`/out; `said`: what it prints.
+json results_of(const TemporaryFolder& folder, const std::string& flags, const std::string& drives, std::string* said = nullptr) {
+    const Outcome run = run_program("accuracy --quiet " + flags + " --out " + (folder / "out ") + drives);
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+    if (said)
+        *said = run.output;
+    return checked(folder / "out/accuracy.json");
+}
+
+double error_of(const json& diagrams, std::size_t diagram, std::size_t row) {
+    return diagrams.at(diagram).at("rows").at(row).at("error").at("value").get<double>();
+}
+
 const json& row_of(const json& rows, const std::string& label) {
     for (const json& row : rows)
         if (row.at("label") == label)
@@ -34,12 +48,11 @@ const json& row_of(const json& rows, const std::string& label) {
 
 TEST(AccuracyRun, HoldsTechniquesAgainstTheReference) {
     const TemporaryFolder folder;
-    const Outcome run = run_program(
-        "accuracy --quiet --moments 1 --rounds 6 --samples 32 --resolutions 128x96,64x48 --shadow-maps 256x128 --beams float,64x32x8 "
-        "--techniques plain,full,light-map-2d,photometric --out " +
-        (folder / "out ") + library_file("drives/straight.yaml"));
-    ASSERT_EQ(run.exit_code, 0) << run.output;
-    const json accuracy = checked(folder / "out/accuracy.json");
+    const json accuracy =
+        results_of(folder,
+                   "--moments 1 --rounds 6 --samples 32 --resolutions 128x96,64x48 --shadow-maps 256x128 --beams float,64x32x8 "
+                   "--techniques plain,full,light-map-2d,photometric",
+                   library_file("drives/straight.yaml"));
     const json& all = accuracy.at("drives").at(0).at("configurations");
     ASSERT_EQ(all.size(), 8U); // four techniques, two of them at another resolution and with other beams
     const json &ours = row_of(all, "photometric"), &full = row_of(all, "full");
@@ -91,14 +104,13 @@ TEST(AccuracyRun, NamesTheShadowMethodThatAutoChose) {
     std::ofstream(folder / "auto.yaml") << "fernlicht: 1\nname: auto-1\nroad: \"" << library_file("roads/straight.xodr")
                                         << "\"\nspeed_kmh: 72\nrate_hz: 10\nduration_s: 0.2\nshadows: auto\nvariants:\n  one: {file: \""
                                         << library_file("lamps/halogen-low.ies") << "\"}\n";
-    const Outcome run =
-        run_program("accuracy --quiet --diagrams shadows --moments 1 --rounds 1 --samples 16 --resolutions 64x48 --beams float "
-                    "--techniques photometric --shadow-maps 64x64 --out " +
-                    (folder / "out ") + (folder / "auto.yaml"));
-    ASSERT_EQ(run.exit_code, 0) << run.output;
+    std::string said;
+    const json accuracy = results_of(folder,
+                                     "--diagrams shadows --moments 1 --rounds 1 --samples 16 --resolutions 64x48 --beams float "
+                                     "--techniques photometric --shadow-maps 64x64",
+                                     folder / "auto.yaml", &said);
     const std::string choice = "auto chose none: nothing stands in a beam in any of 2 moments";
-    EXPECT_THAT(run.output, HasSubstr("Shadows where no method is named: " + choice));
-    const json accuracy = checked(folder / "out/accuracy.json");
+    EXPECT_THAT(said, HasSubstr("Shadows where no method is named: " + choice));
     const json& drive = accuracy.at("drives").at(0);
     EXPECT_EQ(drive.at("shadow_choice"), choice);
     EXPECT_EQ(row_of(drive.at("configurations"), "photometric").at("shadows"), "none");
@@ -113,12 +125,10 @@ TEST(AccuracyRun, NamesTheShadowMethodThatAutoChose) {
 
 TEST(AccuracyRun, ShadowMethodsStandBesideTheTechniques) {
     const TemporaryFolder folder;
-    const Outcome run =
-        run_program("accuracy --quiet --diagrams shadows --moments 1 --rounds 1 --samples 16 --resolutions 64x48 --beams float "
-                    "--techniques photometric,light-map-2d --shadow-maps 256x128 --out " +
-                    (folder / "out ") + library_file("drives/shelter.yaml"));
-    ASSERT_EQ(run.exit_code, 0) << run.output;
-    const json accuracy = checked(folder / "out/accuracy.json");
+    const json accuracy = results_of(folder,
+                                     "--diagrams shadows --moments 1 --rounds 1 --samples 16 --resolutions 64x48 --beams float "
+                                     "--techniques photometric,light-map-2d --shadow-maps 256x128",
+                                     library_file("drives/shelter.yaml"));
     const json& rows = accuracy.at("diagrams").at(0).at("rows");
     EXPECT_EQ(rows.size(), 1 + shadow_method_names().size()); // light-map-2d; photometric by the drive's own and each other method
     EXPECT_EQ(row_of(rows, "photometric, shadows none").at("parameters").at("shadows"), "none");
@@ -135,17 +145,17 @@ TEST(AccuracyRun, ShadowMethodsStandBesideTheTechniques) {
 
 TEST(AccuracyRun, OneRoundMakesNobodySurelyFaster) {
     const TemporaryFolder folder;
-    const Outcome run = run_program("accuracy --quiet --moments 1 --rounds 1 --samples 16 --resolutions 64x48 --shadow-maps 256x128 "
-                                    "--beams float --techniques full,full-no-sun,merged-beams,photometric --out " +
-                                    (folder / "out ") + library_file("drives/straight.yaml"));
-    ASSERT_EQ(run.exit_code, 0) << run.output;
-    EXPECT_THAT(run.output, HasSubstr(", perhaps"));
-    EXPECT_THAT(run.output, HasSubstr("straight-1, halogen: 1 moment. The reference"));
+    std::string said;
+    const json accuracy = results_of(folder,
+                                     "--moments 1 --rounds 1 --samples 16 --resolutions 64x48 --shadow-maps 256x128 "
+                                     "--beams float --techniques full,full-no-sun,merged-beams,photometric",
+                                     library_file("drives/straight.yaml"), &said);
+    EXPECT_THAT(said, HasSubstr(", perhaps"));
+    EXPECT_THAT(said, HasSubstr("straight-1, halogen: 1 moment. The reference"));
     const std::string page = content_of(folder / "out/accuracy.html");
     EXPECT_THAT(page, HasSubstr("Times are of one round, whose spread is unknown: nobody is surely faster"));
     EXPECT_THAT(page, Not(HasSubstr(">beaten by "))); // of a row, which would be sure
     int beaten = 0;
-    const json accuracy = json::parse(content_of(folder / "out/accuracy.json"));
     for (const json& row : accuracy.at("diagrams").at(0).at("rows")) {
         beaten += row.at("beaten_by").is_null() ? 0 : 1;
         EXPECT_FALSE(row.at("beaten_surely"));
@@ -197,16 +207,11 @@ TEST(AccuracyRun, InterruptedKeepsTheRoundsTaken) {
 
 TEST(AccuracyRun, StudiesWhatIsNoTechnique) {
     const TemporaryFolder folder;
-    const Outcome run = run_program("accuracy --quiet --diagrams extent,metrics,reference --out " + (folder / "out ") +
-                                    library_file("drives/straight.yaml"));
-    ASSERT_EQ(run.exit_code, 0) << run.output;
-    const json accuracy = checked(folder / "out/accuracy.json");
+    const json accuracy = results_of(folder, "--diagrams extent,metrics,reference", library_file("drives/straight.yaml"));
     EXPECT_THAT(accuracy.at("drives"), IsEmpty());
     const json& diagrams = accuracy.at("diagrams");
     ASSERT_EQ(diagrams.size(), 4U); // the reference's two ways, grid, comparisons
-    const auto error = [&](std::size_t diagram, std::size_t row) {
-        return diagrams.at(diagram).at("rows").at(row).at("error").at("value").get<double>();
-    };
+    const auto error = [&](std::size_t diagram, std::size_t row) { return error_of(diagrams, diagram, row); };
     EXPECT_LT(error(0, 3), 0.25 * error(0, 0)); // 64 times the samples: an eighth or less, if all goes as the root
     EXPECT_LT(error(1, 2), 0.5 * error(1, 0));  // 16 times
     EXPECT_GT(error(2, 0), error(2, 3));        // cells of 4 m and 0.5 m
@@ -224,14 +229,9 @@ TEST(AccuracyRun, WeighsWhatIsInTheAirAndOnTheRoad) {
     std::ofstream(foggy) << head << "name: foggy\nweather: {fog: {visibility_m: 200}, wetness: 1}\n";
     std::ofstream(lit) << head << "name: lit\nstreet_lamps: {row: {file: " << library_file("lamps/street-6000lm.ies")
                        << ", first_m: 40, last_m: 60}}\n";
-    const Outcome run = run_program("accuracy --quiet --diagrams weather --out " + (folder / "out ") + foggy + " " + lit);
-    ASSERT_EQ(run.exit_code, 0) << run.output;
-    const json accuracy = checked(folder / "out/accuracy.json");
-    const json& diagrams = accuracy.at("diagrams");
+    const json diagrams = results_of(folder, "--diagrams weather", foggy + " " + lit).at("diagrams");
     ASSERT_EQ(diagrams.size(), 3U);
-    const auto error = [&](std::size_t diagram, std::size_t row) {
-        return diagrams.at(diagram).at("rows").at(row).at("error").at("value").get<double>();
-    };
+    const auto error = [&](std::size_t diagram, std::size_t row) { return error_of(diagrams, diagram, row); };
     EXPECT_EQ(diagrams.at(0).at("name"), "fog-foggy");
     EXPECT_LT(error(0, 6), 0.5 * error(0, 0)); // 256 midpoints and 4
     EXPECT_GT(error(0, 7), 20.0);              // left out
@@ -248,28 +248,13 @@ TEST(AccuracyRun, WeighsWhatIsInTheAirAndOnTheRoad) {
 
 TEST(AccuracyRun, RefusesWhatItCannotUse) {
     const std::string drive = library_file("drives/straight.yaml");
-    for (const char* flags : {"--techniques no-such",
-                              "--techniques full,full",
-                              "--resolutions 8x8",
-                              "--resolutions 64",
-                              "--variant neon",
-                              "--moments 100000",
-                              "--moments 0",
-                              "--target-error 0",
-                              "--beams 64x32",
-                              "--beams 64x32x12",
-                              "--beams 1x1x8",
-                              "--diagrams all,nonsense",
-                              "--techniques photometric,",
-                              "--techniques ,full",
-                              "--resolutions 64x48,,32x24",
-                              "--beams float,",
-                              "--shadow-maps 64x64,",
-                              "--diagrams ,extent",
-                              "--no-such-flag",
-                              "--moments x"}) {
+    for (const std::string& flags :
+         tests::each_of({{"", "--techniques no-such|--techniques full,full|--techniques photometric,|--techniques ,full|"
+                              "--resolutions 8x8|--resolutions 64|--resolutions 64x48,,32x24|--variant neon|--moments 100000|"
+                              "--moments 0|--moments x|--target-error 0|--beams 64x32|--beams 64x32x12|--beams 1x1x8|--beams float,|"
+                              "--shadow-maps 64x64,|--diagrams all,nonsense|--diagrams ,extent|--no-such-flag"}})) {
         const TemporaryFolder folder;
-        const Outcome run = run_program("accuracy --quiet " + std::string(flags) + " --out " + (folder / "out ") + drive);
+        const Outcome run = run_program("accuracy --quiet " + flags + " --out " + (folder / "out ") + drive);
         EXPECT_EQ(run.exit_code, 2) << flags << "\n" << run.output;
         EXPECT_TRUE(run.output.starts_with("fernlicht: ")) << run.output;
         EXPECT_FALSE(std::filesystem::exists(folder.path() / "out")) << flags;
@@ -286,7 +271,7 @@ class PictureErrors : public testing::Test {
         measured.extent->limits_lx = {1.0, 5.0};
         const std::vector<Moment> moments = moments_at({5}, stage, stage.drive.variants.front());
         References references(stage, measured, device, moments, settings);
-        const View view = resized(*driver_view(stage.drive), 128, 96);
+        const View view = at_size(*driver_view(stage.drive), 128, 96);
         references.add_driver(0, view);
         references.add_map(0);
         Renderer renderer(device, stage.scene, {});

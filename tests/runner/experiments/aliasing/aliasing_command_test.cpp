@@ -73,6 +73,15 @@ TEST(AliasingCommand, RanksWhatIsKnown) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out/INCOMPLETE"));
 }
 
+/// What `aliasing` refuses, flag by flag, each with a part of its sentence.
+void expect_refused(const std::string& start, const std::vector<std::pair<std::string, std::string>>& refusals) {
+    for (const auto& [flags, sentence] : refusals) {
+        const Outcome run = run_program("aliasing --quiet " + start + flags);
+        EXPECT_EQ(run.exit_code, 2) << flags << run.output;
+        EXPECT_THAT(run.output, HasSubstr(sentence)) << flags;
+    }
+}
+
 /// Eight frames of a car that drives, or stands.
 json over_time(const TemporaryFolder& folder, const std::string& speed_kmh) {
     std::string drive = content_of(library_file("drives/straight.yaml"));
@@ -119,21 +128,18 @@ TEST(AliasingCommand, AStandingCarSeesNothingFlicker) {
 }
 
 TEST(AliasingCommand, RefusesWhatItCannotDoInOneSentence) {
-    const std::string drive = " " + library_file("drives/straight.yaml");
-    for (const auto& [flags, sentence] :
-         {std::pair("--supersample 5", "--supersample: found '5', expected an even number, 4 to 16"),
-          std::pair("--samples 1,3", "--samples: found '3', expected 1, 4, 9 or 16"),
-          std::pair("--samples 4,4", "--samples: found '4 twice', expected each value once"),
-          std::pair("--filter linear", "--filter: found 'linear', expected none, mipmapped or trilinear"),
-          std::pair("--moment 1 --frames 1:9", "--moment: found --frames too, expected one of the two"),
-          std::pair("--frames 1:3", "found 1:3, expected 8 to 64 frames in a row"), std::pair("--moment 1e9", "expected 0 to "),
-          std::pair("--flow", "--flow: found no --frames"), std::pair("--level 0", "--level: found '0', expected lux above 0"),
-          std::pair("--resolution 4096x3072 --supersample 8", "expected at most 16384 pixels each way"),
-          std::pair("--techniques photometric,photometric", "found photometric twice")}) {
-        const Outcome run = run_program("aliasing --quiet " + std::string(flags) + drive);
-        EXPECT_EQ(run.exit_code, 2) << flags << run.output;
-        EXPECT_THAT(run.output, HasSubstr(sentence)) << flags;
-    }
+    expect_refused(library_file("drives/straight.yaml") + " ",
+                   {{"--supersample 5", "--supersample: found '5', expected an even number, 4 to 16"},
+                    {"--samples 1,3", "--samples: found '3', expected 1, 4, 9 or 16"},
+                    {"--samples 4,4", "--samples: found '4 twice', expected each value once"},
+                    {"--filter linear", "--filter: found 'linear', expected none, mipmapped or trilinear"},
+                    {"--moment 1 --frames 1:9", "--moment: found --frames too, expected one of the two"},
+                    {"--frames 1:3", "found 1:3, expected 8 to 64 frames in a row"},
+                    {"--moment 1e9", "expected 0 to "},
+                    {"--flow", "--flow: found no --frames"},
+                    {"--level 0", "--level: found '0', expected lux above 0"},
+                    {"--resolution 4096x3072 --supersample 8", "expected at most 16384 pixels each way"},
+                    {"--techniques photometric,photometric", "found photometric twice"}});
 }
 
 /// Frames as another simulator would leave them: a ring that moves, drawn by its value at the pixels' centres.
@@ -232,30 +238,23 @@ TEST(AliasingCommand, RefusesFramesThatAreNoSequence) {
     std::filesystem::create_directories(folder / "broken");
     for (int t = 0; t < 8; ++t)
         std::ofstream(folder / ("broken/" + std::to_string(t) + ".png")) << "no picture";
-    const std::string rate = " --rate 30 --ppd 20";
-    for (const auto& [flags, sentence] :
-         {std::pair("--sequence " + (folder / "nowhere") + rate, std::string("is no folder, expected a folder of PNG or EXR files")),
-          std::pair("--sequence " + (folder / "gap") + rate, std::string("frame 1004 is missing")),
-          std::pair("--sequence " + (folder / "few") + rate, std::string("found 7 numbered frames, expected 8 to 64")),
-          std::pair("--sequence " + (folder / "twice") + rate, std::string("frame 1003 is there twice: frame_1003.png and other1003.png")),
-          std::pair("--sequence " + (folder / "mixed") + rate, std::string("is exr among others")),
-          std::pair("--sequence '" + (folder / "twice/other*.png") + "'" + rate, std::string("found 1 numbered frames")),
-          std::pair("--sequence " + (folder / "broken") + rate, std::string("cannot be read")),
-          std::pair("--sequence " + (folder / "png") + " --ppd 20", std::string("--rate: is missing")),
-          std::pair("--sequence " + (folder / "png") + " --rate 7 --ppd 20", std::string("--rate: found '7', expected 8 to 10000")),
-          std::pair("--sequence " + (folder / "png") + " --rate 30", std::string("--ppd: is missing")),
-          std::pair("--sequence " + (folder / "png") + rate + " --view-fov 30", std::string("--ppd: found --view-fov too")),
-          std::pair("--sequence " + (folder / "png") + rate + " --frames 1000:1020", std::string("has no frame 1009")),
-          std::pair("--sequence " + (folder / "png") + rate + " --against " + (folder / "png"),
-                    std::string("expected 4, 6, 8 ... or 16 times")),
-          std::pair("--sequence " + (folder / "png") + rate + " " + library_file("drives/straight.yaml"),
-                    std::string("DRIVE: found --sequence too")),
-          std::pair("--sequence " + (folder / "png") + rate + " --samples 4", std::string("--sequence excludes --samples")),
-          std::pair(std::string("--quiet"), std::string("DRIVE: is missing"))}) {
-        const Outcome run = run_program("aliasing --quiet " + flags);
-        EXPECT_EQ(run.exit_code, 2) << flags << run.output;
-        EXPECT_THAT(run.output, HasSubstr(sentence)) << flags;
-    }
+    const std::string rate = " --rate 30 --ppd 20", ours = "--sequence " + (folder / "png");
+    expect_refused("", {{"--sequence " + (folder / "nowhere") + rate, "is no folder, expected a folder of PNG or EXR files"},
+                        {"--sequence " + (folder / "gap") + rate, "frame 1004 is missing"},
+                        {"--sequence " + (folder / "few") + rate, "found 7 numbered frames, expected 8 to 64"},
+                        {"--sequence " + (folder / "twice") + rate, "frame 1003 is there twice: frame_1003.png and other1003.png"},
+                        {"--sequence " + (folder / "mixed") + rate, "is exr among others"},
+                        {"--sequence '" + (folder / "twice/other*.png") + "'" + rate, "found 1 numbered frames"},
+                        {"--sequence " + (folder / "broken") + rate, "cannot be read"},
+                        {ours + " --ppd 20", "--rate: is missing"},
+                        {ours + " --rate 7 --ppd 20", "--rate: found '7', expected 8 to 10000"},
+                        {ours + " --rate 30", "--ppd: is missing"},
+                        {ours + rate + " --view-fov 30", "--ppd: found --view-fov too"},
+                        {ours + rate + " --frames 1000:1020", "has no frame 1009"},
+                        {ours + rate + " --against " + (folder / "png"), "expected 4, 6, 8 ... or 16 times"},
+                        {ours + rate + " " + library_file("drives/straight.yaml"), "DRIVE: found --sequence too"},
+                        {ours + rate + " --samples 4", "--sequence excludes --samples"},
+                        {"--quiet", "DRIVE: is missing"}});
 }
 
 /// The ring again, saying how it was shown; frames from `other_from` on say something else.
@@ -278,21 +277,14 @@ TEST(AliasingCommand, RefusesFramesThatWereShownInDifferentWays) {
     FilesRead opened;
     write_shown_ring(folder / "profile", 1,
                      {usual.shown_by, icc_profile(read_display_profile(library_file("displays/projector.yaml"), opened))});
-    const std::string start = "aliasing --quiet --rate 30 --ppd 20 --sequence ";
-    for (const auto& [flags, sentence] :
-         {std::pair(
-              (folder / "usual") + " --against " + (folder / "fine-linear"),
-              std::string("frame_1000.png: was shown by 'linear white=50 cd/m2; display srgb', expected 'rational s=20 white=100 cd/m2; "
-                          "display srgb' as the sequence, or the EXRs of the same moments")),
-          std::pair(folder / "mixed",
-                    std::string("frame_1005.png: was shown by 'linear white=50 cd/m2; display srgb', expected 'rational s=20 "
-                                "white=100 cd/m2; display srgb' as the first frame")),
-          std::pair(folder / "profile", std::string("frame_1000.png: has the colour space of a display, by an ICC profile"))}) {
-        const Outcome run = run_program(start + flags + " --out " + (folder / "refused"));
-        EXPECT_EQ(run.exit_code, 2) << flags << run.output;
-        EXPECT_THAT(run.output, HasSubstr(sentence)) << flags;
-        EXPECT_FALSE(std::filesystem::exists(folder / "refused")) << flags;
-    }
+    expect_refused("--rate 30 --ppd 20 --out " + (folder / "refused") + " --sequence ",
+                   {{(folder / "usual") + " --against " + (folder / "fine-linear"),
+                     "frame_1000.png: was shown by 'linear white=50 cd/m2; display srgb', expected 'rational s=20 white=100 cd/m2; "
+                     "display srgb' as the sequence, or the EXRs of the same moments"},
+                    {folder / "mixed", "frame_1005.png: was shown by 'linear white=50 cd/m2; display srgb', expected 'rational s=20 "
+                                       "white=100 cd/m2; display srgb' as the first frame"},
+                    {folder / "profile", "frame_1000.png: has the colour space of a display, by an ICC profile"}});
+    EXPECT_FALSE(std::filesystem::exists(folder / "refused"));
     // The same words as those of `compare`.
     const Outcome compared = run_program("compare " + (folder / "usual/frame_1000.png") + " " + (folder / "mixed/frame_1008.png"));
     EXPECT_EQ(compared.exit_code, 2);

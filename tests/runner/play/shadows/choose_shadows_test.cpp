@@ -1,6 +1,9 @@
 // `shadows: auto` through the program: what it takes, what it says, and that the resolved drive needs no choice any more.
+#include "runner/experiments/shadows/stress_scenes.h"
 #include "runner/play/shadows/choose_shadows.h"
+#include "runner/play/shadows/shadow_truth.h"
 #include "tests/runner/experiments/shadows/short_drive.h"
+#include "tests/runner/program.h"
 
 #include <algorithm>
 #include <gmock/gmock.h>
@@ -162,5 +165,96 @@ TEST_F(AutomaticShadows, WhatIsWrongIsOneSentence) {
     EXPECT_FALSE(std::filesystem::exists(folder / "o"));
 }
 
+using testing::ContainsRegex, testing::HasSubstr, testing::Not;
+
+constexpr const char* small_and_quiet = " --quiet --resolution 96x72 --no-accuracy --out ";
+
+class CheckPlanar : public testing::Test {
+  protected:
+    TemporaryFolder folder_;
+};
+
+TEST_F(CheckPlanar, AllDrivesAreAskedBeforeTheFirstIsPlayed) {
+    const std::string level = short_drive(folder_, "straight", "none"), hilly = short_drive(folder_, "first-light", "{method: planar}");
+    const Outcome run = run_program("run " + level + " " + hilly + small_and_quiet + (folder_ / "out"));
+    EXPECT_EQ(run.exit_code, 2) << run.output;
+    const std::string text = content_of(hilly);
+    const auto line = std::count(text.begin(), text.end(), '\n'); // the file's last
+    EXPECT_THAT(run.output,
+                HasSubstr(hilly + ":" + std::to_string(line) + ":19: shadows: found 'planar' and ground that is not one plane"));
+    EXPECT_THAT(run.output, ContainsRegex("lies [0-9.]+ cm (above|below) it; choose another method \\(after 0[.][0-9]+ s, lamp set '"));
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out"));
+}
+
+TEST_F(CheckPlanar, TheFlagIsNamedWhereItAsked) {
+    const std::string hilly = short_drive(folder_, "first-light", "none");
+    const Outcome run = run_program("run " + hilly + " --shadows planar" + small_and_quiet + (folder_ / "out"));
+    EXPECT_EQ(run.exit_code, 2) << run.output;
+    EXPECT_THAT(run.output, HasSubstr(hilly + ": --shadows: found 'planar' and ground that is not one plane"));
+    EXPECT_THAT(run.output, Not(HasSubstr("shadows: shadows:")));
+}
+
+TEST_F(CheckPlanar, OtherProgramsNameDriveAndLineToo) {
+    const std::string hilly = short_drive(folder_, "first-light", "planar");
+    for (const std::string command : {"accuracy --moments 1 --techniques photometric", "bench --frames 1 --techniques photometric --drive",
+                                      "aliasing --moment 0.2 --techniques photometric"}) {
+        const Outcome run = run_program(command + " " + hilly + " --quiet --out " + (folder_ / "out"));
+        EXPECT_EQ(run.exit_code, 2) << run.output;
+        EXPECT_THAT(run.output, ContainsRegex("first-light[.]yaml:[0-9]+:10: shadows: found 'planar'")) << command;
+        EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out")) << command;
+    }
+}
+
+// Wide of tolerance, the level road passes, and is drawn.
+TEST_F(CheckPlanar, GroundWithinTheToleranceIsPlayed) {
+    const std::string level = short_drive(folder_, "worked-example", "{method: planar, tolerance_m: 1}");
+    const Outcome run = run_program("run " + level + small_and_quiet + (folder_ / "out"));
+    EXPECT_LE(run.exit_code, 1) << run.output;
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out/report.json"));
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/INCOMPLETE"));
+}
+
+const std::vector<ShadowScene>& scenes() {
+    static const std::vector<ShadowScene> all =
+        stress_scenes(std::make_shared<const LampFile>(read_lamp(library_file("lamps/xenon-low.ies"))));
+    return all;
+}
+
+TEST(ShadowTruth, DiscsHaveHalfShadowsThatPointsLack) {
+    Device device = open_device("auto");
+    const ShadowScene& scene = scenes().front();
+    const Reference rays(*scene.scene);
+    Renderer unshadowed(device, *scene.scene, without_shadows(scene.light));
+    const View view = at_size(scene.view, 160, 120);
+    ShadowTruth points(rays, unshadowed, scene.moments, view), discs(rays, unshadowed, scene.moments, view, 0.05);
+    const auto halves = [&](ShadowTruth& truth) {
+        const ShadowImages images = truth.images(unshadowed, 0);
+        int count = 0;
+        for (int y = 0; y < 120; ++y)
+            for (int x = 0; x < 160; ++x)
+                if (const auto degrees = shadow_degrees(images, x, y))
+                    count += degrees->truth > 0.05 && degrees->truth < 0.2 ? 1 : 0; // no lamp alone gives so little
+        return count;
+    };
+    EXPECT_GT(halves(discs), halves(points) + 5);
+}
+
+TEST(StressScenes, MovingAheadTakesTheLampsAlong) {
+    Moment moment = scenes().front().moments.front();
+    moment.ego.axes = axes_from_angles(radians(90.0), 0.0, 0.0);
+    const Moment moved = moved_ahead(moment, 2.0);
+    EXPECT_NEAR(moved.ego.position_m.y, 2.0, 1e-12);
+    EXPECT_NEAR(moved.lamps[0].pose.position_m.y, moment.lamps[0].pose.position_m.y + 2.0, 1e-12);
+    moment.lamps[0].intensity_factor = 0.0;
+    const Moment alone = first_lamp_alone(moment);
+    EXPECT_EQ(alone.lamps[0].intensity_factor, 0.0);
+    EXPECT_EQ(alone.lamps[1].intensity_factor, 1.0);
+    moment.lamps[0].intensity_factor = 0.5;
+    EXPECT_EQ(first_lamp_alone(moment).lamps[0].intensity_factor, 0.5);
+    EXPECT_LT(first_lamp_alone(moment).lamps[1].intensity_factor, 1e-5);
+    EXPECT_GT(first_lamp_alone(moment).lamps[1].intensity_factor, 0.0); // it still shines
+}
+
 } // namespace
+
 } // namespace fernlicht

@@ -37,6 +37,17 @@ TEST(LampDescription, WholeSphereHasFourPiTimesItsIntensityAndNothingOutside) {
     EXPECT_THAT(text_of(d), HasSubstr("625 cd = 1 lx at 25 m"));
 }
 
+TEST(LampDescription, ADarkLampIsDescribedInNumbers) {
+    LampFile lamp = even_lamp(10.0, 10.0);
+    lamp.table.cd.assign(21 * 21, 0.0);
+    lamp.declared_flux_lm = 1000.0; // so that no number may be missing
+    const LampDescription d = describe(lamp);
+    EXPECT_EQ(d.flux_lm, 0.0);
+    const std::string text = text_of(d) + json_of(d);
+    for (const char* none : {"nan", "null", " inf"})
+        EXPECT_THAT(text, Not(HasSubstr(none)));
+}
+
 TEST(LampDescription, LightThatEndsAtTheTablesEdgeIsTold) {
     const LampDescription d = describe(even_lamp(30.0, 10.0));
     EXPECT_EQ(d.edge_cd, 625.0);
