@@ -105,7 +105,7 @@ bool is_usual(const Group& group, const Field& field, const void* whole) {
 }
 
 bool is_written(const Group& group, const Field& field, const void* whole) {
-    return !(field.heard && !field.heard(whole)) && !(field.is_written_off_default && is_usual(group, field, whole));
+    return !field.is_form && !(field.heard && !field.heard(whole)) && !(field.is_written_off_default && is_usual(group, field, whole));
 }
 
 } // namespace

@@ -3,13 +3,13 @@
 #include "scenarios/drives/edits/mirrored_drive.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/drives/keys/lamp_keys.h"
-#include "scenarios/drives/keys/seeing_keys.h"
+#include "scenarios/fields/read_fields.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <set>
+#include <fmt/ranges.h>
 
 namespace fernlicht {
 namespace {
@@ -158,9 +158,8 @@ StudyLamp read_lamp(const std::string& name, const YamlEntry& entry, LampShelf& 
     const YamlMap keys =
         entry.map({"low", "left", "right", "high", "source", "temperature_k", "spectrum", "colour", "file_aim_percent", "mirrors"});
     read_beams(keys, lamp);
-    const Layers layers{keys};
-    lamp.source = read_source(layers).value_or(SourceKind::filament);
-    lamp.colour = read_colour(layers, lamp.source, shelf, entry);
+    lamp.source = read_source(keys).value_or(SourceKind::filament);
+    lamp.colour = read_colour(keys, lamp.source, shelf, entry);
     lamp.file_aim_percent = keys.number_or("file_aim_percent", lamp.file_aim_percent, -10.0, 10.0);
     lamp.mirrors = keys.flag_or("mirrors", lamp.mirrors);
     return lamp;
@@ -177,54 +176,33 @@ std::vector<StudyLamp> read_lamps(const YamlEntry& entry, FilesRead& opened) {
     return lamps;
 }
 
-/// Each value once: a value twice would be two cells of one name.
-template <class Value> void refuse_repeats(const std::vector<Value>& values, const YamlEntry& entry) {
-    for (std::size_t i = 0; i < values.size(); ++i)
-        if (std::find(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i), values[i]) !=
-            values.begin() + static_cast<std::ptrdiff_t>(i))
+/// Each value once: a value twice would be two cells of one name. Of a key that `may_be_one` a value may stand without its list.
+template <class Value>
+void read_each(const YamlEntry& entry, std::vector<Value>& values, bool may_be_one, const auto& read, std::size_t most = most_entries) {
+    values.clear();
+    for (const YamlEntry& one : may_be_one && !entry.is_list() ? std::vector{entry} : entry.list(1, most))
+        values.push_back(read(one));
+    for (auto value = values.begin(); value != values.end(); ++value)
+        if (std::find(values.begin(), value, *value) != value)
             entry.refuse("a value given twice", "each value once");
-}
-
-std::vector<double> read_values(const YamlMap& keys, std::string_view key, std::vector<double> otherwise, double least, double greatest) {
-    const auto given = keys.find(key);
-    if (!given)
-        return otherwise;
-    std::vector<double> values;
-    for (const YamlEntry& entry : given->is_list() ? given->list(1, most_entries) : std::vector{*given})
-        values.push_back(entry.number(least, greatest));
-    refuse_repeats(values, *given);
-    return values;
-}
-
-void read_times_of_day(const YamlMap& keys, StudyConditions& conditions) {
-    static const Daylight known[] = {{"night", 0.0}, {"twilight", 3.4}, {"day", 27000.0}}; // as a drive's `daylight`
-    const auto given = keys.find("time_of_day");
-    if (!given) {
-        conditions.times_of_day = {known[0]};
-        return;
-    }
-    for (const YamlEntry& entry : given->is_list() ? given->list(1, most_entries) : std::vector{*given})
-        conditions.times_of_day.push_back(known[entry.choice({"night", "twilight", "day"})]);
-    refuse_repeats(conditions.times_of_day, *given);
 }
 
 StudyConditions read_conditions(const YamlMap& study) {
     StudyConditions conditions;
+    conditions.times_of_day = {Daylight{}};
     const auto given = study.find("conditions");
-    if (!given) {
-        conditions.times_of_day = {Daylight{}};
+    if (!given)
         return conditions;
-    }
     const YamlMap keys = given->map({"time_of_day", "aim_percent", "voltage_v", "mirror"});
-    read_times_of_day(keys, conditions);
-    conditions.aim_percent = read_values(keys, "aim_percent", conditions.aim_percent, -10.0, 10.0);
-    conditions.voltage_v = read_values(keys, "voltage_v", conditions.voltage_v, 12.0, 13.8);
-    if (const auto mirror = keys.find("mirror")) {
-        conditions.mirror.clear();
-        for (const YamlEntry& entry : mirror->is_list() ? mirror->list(1, 2) : std::vector{*mirror})
-            conditions.mirror.push_back(entry.flag());
-        refuse_repeats(conditions.mirror, *mirror);
-    }
+    if (const auto times = keys.find("time_of_day"))
+        read_each(*times, conditions.times_of_day, true, known_daylight);
+    if (const auto aims = keys.find("aim_percent"))
+        read_each(*aims, conditions.aim_percent, true, [](const YamlEntry& aim) { return aim.number(-10.0, 10.0); });
+    if (const auto voltages = keys.find("voltage_v"))
+        read_each(*voltages, conditions.voltage_v, true, [](const YamlEntry& voltage) { return voltage.number(12.0, 13.8); });
+    if (const auto mirror = keys.find("mirror"))
+        read_each(
+            *mirror, conditions.mirror, true, [](const YamlEntry& entry) { return entry.flag(); }, 2);
     return conditions;
 }
 
@@ -236,9 +214,7 @@ std::string lamp_name(const YamlEntry& entry, const std::vector<StudyLamp>& lamp
             return name;
         known.push_back(lamp.name);
     }
-    const std::string near = nearest_name(name, known);
-    entry.refuse(fmt::format("no lamp '{}' in this study", name),
-                 fmt::format("one of {}{}", fmt::join(known, ", "), near.empty() ? "" : fmt::format(" (nearest: '{}')", near)));
+    entry.refuse(fmt::format("no lamp '{}' in this study", name), one_of_names(name, known));
 }
 
 std::vector<StudyComparison> read_comparisons(const YamlMap& keys, const std::vector<StudyLamp>& lamps) {
@@ -262,14 +238,11 @@ StudyLimit read_limit(const YamlEntry& entry, const std::vector<StudyLamp>& lamp
     const YamlMap keys = entry.map({"reading", "lamp", "at_least", "at_most", "change_at_least", "change_at_most"});
     StudyLimit limit;
     limit.reading = keys.require("reading").text();
-    const auto number = [&](std::string_view key, std::optional<double>& value) {
+    for (const auto& [key, value] :
+         {std::pair("at_least", &limit.at_least), std::pair("at_most", &limit.at_most),
+          std::pair("change_at_least", &limit.change_at_least), std::pair("change_at_most", &limit.change_at_most)})
         if (const auto given = keys.find(key))
-            value = given->number(-1.0e12, 1.0e12);
-    };
-    number("at_least", limit.at_least);
-    number("at_most", limit.at_most);
-    number("change_at_least", limit.change_at_least);
-    number("change_at_most", limit.change_at_most);
+            *value = given->number(-1.0e12, 1.0e12);
     const bool is_change = limit.change_at_least || limit.change_at_most;
     if (!is_change && !limit.at_least && !limit.at_most)
         entry.refuse("a limit without a number", "at_least, at_most, change_at_least or change_at_most");
@@ -285,14 +258,10 @@ StudyLimit read_limit(const YamlEntry& entry, const std::vector<StudyLamp>& lamp
 
 void read_measuring(const YamlMap& keys, Study& study) {
     if (const auto measure = keys.find("measure"))
-        study.measure = read_seeing(*measure);
+        study.measure = read_fields(seeing_fields(), *measure);
     study.readings = usual_readings();
-    if (const auto readings = keys.find("readings")) {
-        study.readings.clear();
-        for (const YamlEntry& entry : readings->list(1, most_entries))
-            study.readings.push_back(entry.text());
-        refuse_repeats(study.readings, *readings);
-    }
+    if (const auto readings = keys.find("readings"))
+        read_each(*readings, study.readings, false, [](const YamlEntry& reading) { return reading.text(); });
     if (const auto limits = keys.find("limits"))
         for (const YamlEntry& entry : limits->list(0, most_entries))
             study.limits.push_back(read_limit(entry, study.lamps));
@@ -334,16 +303,9 @@ Study read_study(const std::filesystem::path& path) {
     study.name = name ? name->name() : name_from(path);
     study.title = title ? title->text() : study.name;
     study.lamps = read_lamps(keys.require("lamps"), study.opened);
-    const YamlEntry drives = keys.require("drives");
-    for (const YamlEntry& entry : drives.list(1, most_entries))
-        study.drives.push_back(existing(entry));
-    refuse_repeats(study.drives, drives);
-    if (const auto techniques = keys.find("techniques")) {
-        study.techniques.clear();
-        for (const YamlEntry& entry : techniques->list(1, most_entries))
-            study.techniques.push_back(entry.name());
-        refuse_repeats(study.techniques, *techniques);
-    }
+    read_each(keys.require("drives"), study.drives, false, existing);
+    if (const auto techniques = keys.find("techniques"))
+        read_each(*techniques, study.techniques, false, [](const YamlEntry& technique) { return technique.name(); });
     study.conditions = read_conditions(keys);
     study.comparisons = read_comparisons(keys, study.lamps);
     read_measuring(keys, study);

@@ -1,8 +1,9 @@
-#include "scenarios/drives/keys/display_keys.h"
+#include "scenarios/drives/keys/drive_keys.h"
 
 #include "scenarios/display/tone_mapper.h"
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/read_fields.h"
+#include "scenarios/fields/schema.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -123,20 +124,39 @@ const Fields<ExposureAdaptation>& adaptation_fields() {
     return fields;
 }
 
+/// What keys of several kinds, and kinds of several keys, must agree on.
+constexpr std::string_view mapper_schema = R"({"allOf": [
+    {"not": {"required": ["kind", "s"], "properties": {"kind": {"enum": ["logarithmic"]}, "s": {"const": "fitted"}}}},
+    {"not": {"required": ["curve", "l_max_cdm2"], "properties": {"l_max_cdm2": {"enum": ["all", "surfaces"]}}}},
+    {"anyOf": [{"required": ["kind"]}, {"not": {"required": ["curve"]}}]}]})";
+constexpr std::string_view s_schema = R"({"anyOf": [{"type": "number", "minimum": 1, "maximum": 1000000}, {"const": "fitted"}]})";
+constexpr std::string_view white_schema =
+    R"({"anyOf": [{"type": "number", "minimum": 1e-06, "maximum": 1000000000}, {"enum": ["all", "surfaces"]}]})";
+constexpr std::string_view curve_schema = R"({"type": "array", "minItems": 2, "maxItems": 10000,
+    "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "number"}}})";
+
 } // namespace
 
 const Fields<ToneMapper>& tone_mapper_fields() {
     using Mapper = ToneMapper;
-    static const Fields<Mapper> fields{
-        field("kind", 1, &Mapper::kind, words({"linear", "rational", "logarithmic", "histogram"}), "from luminance to what is shown"),
-        own("s", 2, read_s, s_text, schema_by_hand, "how steep; 1 is linear; fitted: by the drive's own pictures").heard_if(has_s),
-        own("l_max_cdm2", 3, read_white, white_text, schema_by_hand,
-            "luminance that becomes white; all: the brightest of the drive; surfaces: of what does not shine")
-            .heard_if(has_white),
-        own("curve", 4, read_curve, curve_text, schema_by_hand, "knots of ln luminance and ln share; the last is white")
-            .heard_if(has_curve),
-    };
+    static const Fields<Mapper> fields =
+        Fields<Mapper>{
+            field("kind", 1, &Mapper::kind, words({"linear", "rational", "logarithmic", "histogram"}), "from luminance to what is shown"),
+            own("s", 2, read_s, s_text, s_schema, "how steep; 1 is linear; fitted: by the drive's own pictures").heard_if(has_s),
+            own("l_max_cdm2", 3, read_white, white_text, white_schema,
+                "luminance that becomes white; all: the brightest of the drive; surfaces: of what does not shine")
+                .heard_if(has_white),
+            own("curve", 4, read_curve, curve_text, curve_schema, "knots of ln luminance and ln share; the last is white")
+                .heard_if(has_curve),
+        }
+            .in_schema(mapper_schema);
     return fields;
+}
+
+std::string tone_mapper_schema() {
+    ToneMapper scratch;
+    return fmt::format(R"({{"anyOf": [{}, {}]}})", schema_of(tone_mapper_fields().fields.front()),
+                       schemas_by_word(tone_mapper_fields(), &scratch));
 }
 
 void read_tone_mapper(const YamlEntry& given, ToneMapper& mapper) {

@@ -1,4 +1,4 @@
-#include "scenarios/drives/keys/seeing_keys.h"
+#include "scenarios/drives/keys/drive_keys.h"
 
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/field_bits.h"
@@ -274,7 +274,5 @@ const Fields<SeeingParameters>& seeing_fields() {
             .block();
     return fields;
 }
-
-SeeingParameters read_seeing(const YamlEntry& measure) { return read_fields(seeing_fields(), measure); }
 
 } // namespace fernlicht

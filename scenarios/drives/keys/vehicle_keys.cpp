@@ -1,10 +1,7 @@
-#include "scenarios/drives/keys/vehicle_keys.h"
+#include "scenarios/drives/keys/drive_keys.h"
 
 #include "scenarios/fields/field.h"
-#include "scenarios/fields/field_bits.h"
 #include "scenarios/fields/read_fields.h"
-#include "scenarios/fields/schema.h"
-#include "scenarios/fields/write_fields.h"
 #include "scenarios/vehicle/car_run.h"
 
 #include <fmt/format.h>
@@ -132,26 +129,16 @@ std::optional<LevellingParameters> read_levelling(const YamlEntry& given, bool o
     return word ? asked(*word) : levelling;
 }
 
-std::string levelling_schema() {
-    return fmt::format(R"({{"anyOf": [{{"enum": ["none", "static", "dynamic"]}}, {}]}})", schema_of(levelling_fields()));
-}
-
-const Group& actuators_fields() {
-    static const std::string schema = levelling_schema();
+const Fields<Variant>& actuators_fields() {
     static const Fields<Variant> fields =
         Fields<Variant>{
-            own<Variant>(
-                "levelling", 1, [](const YamlEntry& entry, Variant& variant) { variant.levelling = read_levelling(entry); },
-                [](const Variant& variant) {
-                    return variant.levelling ? "{" + flow_text(levelling_fields(), &*variant.levelling) + "}" : "";
-                },
-                schema, "against the body's pitch")
-                .bits_by([](const Variant& variant) {
-                    return variant.levelling ? "there\n" + field_bits(levelling_fields(), &*variant.levelling) : "";
-                }),
+            field("levelling", 1, &Variant::levelling, levelling_fields(), "against the body's pitch")
+                .read_by([](const YamlEntry& entry, Variant& variant) { variant.levelling = read_levelling(entry); })
+                .short_for("control"),
             field("swivel", 2, &Variant::swivel, swivel_fields(), "bend lighting: all lamps turn").or_flag(),
         }
-            .block();
+            .block()
+            .defined_as("actuators");
     return fields;
 }
 
