@@ -132,12 +132,14 @@ void add_properties(const Group& group, ordered_json& object) {
         if (!units.empty())
             object["allOf"].push_back({{"not", {{"required", {units[0].key, units[1].key}}}}});
     }
-    if (!group.schema_beside.empty())
-        for (const auto& [keyword, rule] : ordered_json::parse(group.schema_beside).items())
-            if (keyword == "allOf" || keyword == "required")
-                std::ranges::copy(rule, std::back_inserter(object[keyword]));
-            else
-                object[keyword] = rule;
+    if (group.schema_beside.empty())
+        return;
+    const ordered_json beside = ordered_json::parse(group.schema_beside);
+    for (const auto& [keyword, rule] : beside.items())
+        if (keyword == "allOf" || keyword == "required")
+            std::ranges::copy(rule, std::back_inserter(object[keyword]));
+        else
+            object[keyword] = rule;
 }
 
 ordered_json of_group(const Group& group) {
