@@ -132,11 +132,6 @@ std::string flow_text(const Group& group, const void* whole) {
     return fmt::format("{}", fmt::join(entries, ", "));
 }
 
-std::string lines_of(const Group& group, std::string_view key, const void* whole, std::size_t depth) {
-    const Field& field = field_named(group, key);
-    return is_written(group, field, whole) ? lines_of(field, whole, depth) : "";
-}
-
 std::string block_text(const Group& group, const void* whole, std::size_t depth) {
     std::string lines;
     for (const Field& field : group.fields)

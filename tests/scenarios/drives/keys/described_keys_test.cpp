@@ -4,6 +4,7 @@
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/key_table.h"
 #include "scenarios/fields/schema.h"
+#include "scenarios/studies/study.h"
 
 #include <cstdlib>
 #include <fmt/format.h>
@@ -49,24 +50,37 @@ std::map<std::string_view, const Group*> definitions() {
     return found;
 }
 
-TEST(DescribedKeys, AreTheSchema) {
-    const std::filesystem::path file = source / "scenarios/drive.schema.json";
+/// `measure` is a drive's.
+Group keys_of_study() {
+    Group keys = study_fields();
+    std::erase_if(keys.fields, [](const Field& field) { return field.key == "measure"; });
+    return keys;
+}
+
+void expect_schema(const std::filesystem::path& file, const Group& group, const std::map<std::string_view, const Group*>& definitions) {
     auto schema = nlohmann::ordered_json::parse(content(file));
-    schema.update(nlohmann::ordered_json::parse(schema_of(drive_fields())));
-    schema["definitions"] = nlohmann::ordered_json::object();
-    for (const auto& [name, group] : definitions())
-        schema["definitions"][name] = nlohmann::ordered_json::parse(schema_of(*group));
+    schema.update(nlohmann::ordered_json::parse(schema_of(group)));
+    schema.erase("definitions");
+    for (const auto& [name, definition] : definitions)
+        schema["definitions"][name] = nlohmann::ordered_json::parse(schema_of(*definition));
     expect_file(file, schema.dump(2) + "\n");
+}
+
+TEST(DescribedKeys, AreTheSchemas) {
+    expect_schema(source / "scenarios/drive.schema.json", drive_fields(), definitions());
+    expect_schema(source / "scenarios/study.schema.json", study_fields(), {});
 }
 
 TEST(DescribedKeys, AreTheReference) {
     Drive usual;
     usual.extent.emplace();
-    std::string text = "# Keys of a drive file\n\nWritten by `ci/write-keys` from the descriptions of the keys. "
-                       "[drives.md](drives.md) explains drives, `scenarios/drive.example.yaml` shows one.\n\n";
+    std::string text = "# Keys of drive and study files\n\nWritten by `ci/write-keys` from the descriptions of the keys. "
+                       "[drives.md](drives.md) explains drives, `scenarios/drive.example.yaml` shows one; "
+                       "[studies.md](studies.md) explains studies.\n\n";
     text += key_tables("", drive_fields(), &usual);
     for (const auto& [name, group] : definitions())
         text += key_tables(std::string(name), *group, group->usual.get());
+    text += key_tables("study", keys_of_study(), study_fields().usual.get());
     text.pop_back();
     expect_file(source / "docs/keys.md", text);
 }
@@ -82,7 +96,10 @@ void expect_in(const std::string& example, const Group& group) {
     }
 }
 
-TEST(DescribedKeys, AreInTheExample) { expect_in(content(source / "scenarios/drive.example.yaml"), drive_fields()); }
+TEST(DescribedKeys, AreInTheExamples) {
+    expect_in(content(source / "scenarios/drive.example.yaml"), drive_fields());
+    expect_in(content(source / "scenarios/study.example.yaml"), keys_of_study());
+}
 
 void expect_ids_once(const std::string& path, const Group& group) {
     std::vector<int> ids;
@@ -95,7 +112,10 @@ void expect_ids_once(const std::string& path, const Group& group) {
     }
 }
 
-TEST(DescribedKeys, HaveIdsOfTheirOwn) { expect_ids_once("drive", drive_fields()); }
+TEST(DescribedKeys, HaveIdsOfTheirOwn) {
+    expect_ids_once("drive", drive_fields());
+    expect_ids_once("study", study_fields());
+}
 
 } // namespace
 } // namespace fernlicht
