@@ -26,6 +26,16 @@ namespace fernlicht {
 
 template <class Struct> struct Fields;
 
+/// A description is pointed to where it has a name, and else kept.
+template <class F> std::shared_ptr<const Group> shared_group(F&& fields) {
+    if constexpr (std::is_lvalue_reference_v<F>)
+        return {std::shared_ptr<void>(), &fields};
+    else
+        return std::make_shared<const Group>(std::move(fields));
+}
+template <class F>
+concept Description = std::derived_from<std::remove_cvref_t<F>, Group>;
+
 template <class Struct> struct FieldOf : Field {
     FieldOf required() && { return is_required = true, std::move(*this); }
     FieldOf written_off_default() && { return is_written_off_default = true, std::move(*this); }
@@ -34,7 +44,7 @@ template <class Struct> struct FieldOf : Field {
     FieldOf or_absent(std::string_view word) && { return absent_word = word, std::move(*this); }
     FieldOf short_for(std::string_view key_of_group) && { return short_key = key_of_group, std::move(*this); }
     FieldOf short_list_for(std::string_view key_of_group) && { return short_key = key_of_group, short_is_list = true, std::move(*this); }
-    FieldOf of(const Group& inner) && { return group = &inner, std::move(*this); }
+    template <class Inner> FieldOf of(Inner&& fields) && { return group = shared_group(std::forward<Inner>(fields)), std::move(*this); }
     FieldOf heard_if(bool (*asks)(const void*)) && { return heard = asks, std::move(*this); }
     FieldOf read_by(void (*reads)(const YamlEntry&, Struct&)) && {
         read = [reads](const YamlEntry& entry, void* whole) { reads(entry, *static_cast<Struct*>(whole)); };
@@ -53,6 +63,7 @@ template <class Struct> struct FieldOf : Field {
 
 /// The description of a struct.
 template <class Struct> struct Fields : Group {
+    using Described = Struct;
     Fields(std::initializer_list<FieldOf<Struct>> list) {
         fields.assign(list.begin(), list.end());
         usual = std::make_shared<const Struct>();
@@ -178,12 +189,14 @@ template <class Struct> FieldOf<Struct> made(std::string_view key, int id, Field
 }
 
 template <class Struct, class M, class At>
-FieldOf<Struct> made(std::string_view key, int id, At at, FieldKind kind, const Group* group, std::string_view meaning) {
+FieldOf<Struct> made(std::string_view key, int id, At at, FieldKind kind, std::string_view meaning) {
     FieldOf<Struct> field = made<Struct>(key, id, kind, meaning);
     field.member = std::make_shared<MemberOf<Struct, M, At>>(at);
-    field.group = group;
     return field;
 }
+
+template <class M, class F> inline constexpr bool is_of =
+    std::is_same_v<typename Plain<M>::type, typename std::remove_cvref_t<F>::Described>;
 
 } // namespace field_parts
 
@@ -232,36 +245,35 @@ FieldRule units(FieldUnit first, FieldUnit own);
 template <class Struct, class M>
 FieldOf<Struct> field(std::string_view key, int id, M Struct::*member, FieldRule rule, std::string_view meaning) {
     constexpr FieldKind kind = field_parts::kind_of<typename field_parts::Plain<M>::type>();
-    FieldOf<Struct> made = field_parts::made<Struct, M>(key, id, member, rule.kind.value_or(kind), nullptr, meaning);
+    FieldOf<Struct> made = field_parts::made<Struct, M>(key, id, member, rule.kind.value_or(kind), meaning);
     made.rule = std::move(rule);
     return made;
 }
 
 /// A struct within the struct.
-template <class Struct, class M, class Inner>
-FieldOf<Struct> field(std::string_view key, int id, M Struct::*member, const Fields<Inner>& fields, std::string_view meaning) {
-    static_assert(std::is_same_v<typename field_parts::Plain<M>::type, Inner>);
-    return field_parts::made<Struct, M>(key, id, member, FieldKind::group, &fields, meaning);
+template <class Struct, class M, Description F>
+FieldOf<Struct> field(std::string_view key, int id, M Struct::*member, F&& fields, std::string_view meaning) {
+    static_assert(field_parts::is_of<M, F>);
+    return field_parts::made<Struct, M>(key, id, member, FieldKind::group, meaning).of(std::forward<F>(fields));
 }
 
 /// The same where no pointer to a member leads: in an array.
 template <class Struct, class Inner>
 FieldOf<Struct> field(std::string_view key, int id, Inner& (*at)(Struct&), const Fields<Inner>& fields, std::string_view meaning) {
-    return field_parts::made<Struct, Inner>(key, id, at, FieldKind::group, &fields, meaning);
+    return field_parts::made<Struct, Inner>(key, id, at, FieldKind::group, meaning).of(fields);
 }
 
 /// Some members of the struct, below a key of their own.
-template <class Struct> FieldOf<Struct> section(std::string_view key, int id, const Fields<Struct>& fields, std::string_view meaning) {
-    FieldOf<Struct> made = field_parts::made<Struct>(key, id, FieldKind::group, meaning);
+template <Description F> auto section(std::string_view key, int id, F&& fields, std::string_view meaning) {
+    auto made = field_parts::made<typename std::remove_cvref_t<F>::Described>(key, id, FieldKind::group, meaning);
     made.member = std::make_shared<field_parts::Itself>();
-    made.group = &fields;
-    return made;
+    return std::move(made).of(std::forward<F>(fields));
 }
 
 /// A struct within, whose keys stand among those of the struct that has it.
-template <class Struct, class M, class Inner> FieldOf<Struct> inlined(int id, M Struct::*member, const Fields<Inner>& fields) {
-    static_assert(std::is_same_v<typename field_parts::Plain<M>::type, Inner>);
-    return field_parts::made<Struct, M>("", id, member, FieldKind::inlined, &fields, "");
+template <class Struct, class M, Description F> FieldOf<Struct> inlined(int id, M Struct::*member, F&& fields) {
+    static_assert(field_parts::is_of<M, F>);
+    return field_parts::made<Struct, M>("", id, member, FieldKind::inlined, "").of(std::forward<F>(fields));
 }
 
 /// Some members of the struct that are described for several structs.
@@ -272,19 +284,21 @@ template <class Struct> FieldOf<Struct> inlined(int id, const Fields<Struct>& fi
 }
 
 /// Structs by names that the user chooses; `name` is their member for it.
-template <class Struct, class Inner> FieldOf<Struct> named(std::string_view key, int id, std::vector<Inner> Struct::*member,
-                                                           std::size_t most, const Fields<Inner>& fields, std::string_view meaning) {
-    FieldOf<Struct> made = field_parts::made<Struct, std::vector<Inner>>(key, id, member, FieldKind::named, &fields, meaning);
+template <class Struct, class Inner, Description F> FieldOf<Struct> named(std::string_view key, int id, std::vector<Inner> Struct::*member,
+                                                                          std::size_t most, F&& fields, std::string_view meaning) {
+    static_assert(field_parts::is_of<Inner, F>);
+    FieldOf<Struct> made = field_parts::made<Struct, std::vector<Inner>>(key, id, member, FieldKind::named, meaning);
     made.rule = names(1, most);
-    return made;
+    return std::move(made).of(std::forward<F>(fields));
 }
 
-template <class Struct, class Inner> FieldOf<Struct> list(std::string_view key, int id, std::vector<Inner> Struct::*member,
-                                                          std::size_t fewest, std::size_t most, const Fields<Inner>& fields,
-                                                          std::string_view meaning) {
-    FieldOf<Struct> made = field_parts::made<Struct, std::vector<Inner>>(key, id, member, FieldKind::list, &fields, meaning);
+template <class Struct, class Inner, Description F> FieldOf<Struct> list(std::string_view key, int id, std::vector<Inner> Struct::*member,
+                                                                         std::size_t fewest, std::size_t most, F&& fields,
+                                                                         std::string_view meaning) {
+    static_assert(field_parts::is_of<Inner, F>);
+    FieldOf<Struct> made = field_parts::made<Struct, std::vector<Inner>>(key, id, member, FieldKind::list, meaning);
     made.rule = names(fewest, most);
-    return made;
+    return std::move(made).of(std::forward<F>(fields));
 }
 
 /// What no kind above fits: read (unless whoever calls does) and written by functions, described to editors by JSON.

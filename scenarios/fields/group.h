@@ -74,7 +74,7 @@ struct Field {
     std::shared_ptr<const Member> member;
     FieldRule rule;
     std::string_view meaning;
-    const Group* group = nullptr;
+    std::shared_ptr<const Group> group; ///< of its own, or one that stands for several
 
     bool is_form = false; ///< never written: another way to give what other fields hold; without an id
     bool is_required = false;

@@ -24,19 +24,6 @@ void check_stuck_swivel(const YamlMap& keys, const StuckSwivelParameters& stuck)
         keys.entry().refuse("an angle off that is not above 0", "off_deg above 0");
 }
 
-const Fields<StuckSwivelParameters>& stuck_swivel_fields() {
-    using Stuck = StuckSwivelParameters;
-    static const Fields<Stuck> fields =
-        Fields<Stuck>{
-            field("off", 1, &Stuck::off_rad, in_radians("off", 45.0), "from what it is asked for"),
-            field("after_s", 2, &Stuck::after_s, range(0.0, 100.0), "for so long"),
-            field("pitch", 3, &Stuck::pitch_rad, in_radians("pitch", 10.0), "how low its lamp goes"),
-            field("level", 4, &Stuck::level, range(0.0, 1.0), "how dim, where nothing levels it"),
-        }
-            .checked(check_stuck_swivel);
-    return fields;
-}
-
 double from_kg(double kg) { return 9.81 * kg; }
 double from_n(double n) { return n; }
 FieldRule load_of(const std::string& axle) { return units({axle + "_kg", from_kg, -2000.0, 5000.0}, {axle + "_n", from_n, -2.0e4, 5.0e4}); }
@@ -69,21 +56,10 @@ std::string windows_text(const SegmentedLamp& lamp) {
     return fmt::format("[{}]", fmt::join(windows, ", "));
 }
 
-const Fields<SegmentedLamp>& window_fields() {
-    static const Fields<SegmentedLamp> fields =
-        Fields<SegmentedLamp>{own<SegmentedLamp>("windows", 1, read_windows, windows_text, R"({"anyOf": [
-            {"type": "array", "minItems": 2, "maxItems": 257, "items": {"type": "number", "minimum": -180, "maximum": 180}},
-            {"type": "array", "minItems": 1, "maxItems": 257, "items": {"type": "array", "minItems": 2, "maxItems": 2,
-                "items": {"type": "number", "minimum": -180, "maximum": 180}}}]})",
-                                                 "")}
-            .bare();
-    return fields;
-}
-
 const Fields<LevellingParameters>& law_levelling_fields() {
     static const Fields<LevellingParameters> fields = [] {
         Fields<LevellingParameters> of = levelling_fields();
-        of.fields[1].group = &law_actuator_fields();
+        of.fields[1].group = shared_group(law_actuator_fields());
         return of;
     }();
     return fields;
@@ -110,14 +86,6 @@ const Fields<ScriptedSignal>& input_fields() {
             list("values", 1, &ScriptedSignal::values, 1, most_input_values, point_fields(), "").schema_by(schema),
         }
             .bare();
-    return fields;
-}
-
-const Fields<AxleLoad>& load_fields() {
-    static const Fields<AxleLoad> fields{
-        field("front", 1, &AxleLoad::front_n, load_of("front"), "on that axle since the lamps were aimed"),
-        field("rear", 2, &AxleLoad::rear_n, load_of("rear"), "on that axle since the lamps were aimed"),
-    };
     return fields;
 }
 
@@ -221,7 +189,14 @@ const Fields<GlareFreeParameters>& glare_free_fields() {
     using GlareFree = GlareFreeParameters;
     static const Fields<GlareFree> fields =
         Fields<GlareFree>{
-            named("windows_deg", 4, &GlareFree::lamps, most_control_lamps, window_fields(), "of each lamp: edges from left to right")
+            named("windows_deg", 4, &GlareFree::lamps, most_control_lamps,
+                  Fields<SegmentedLamp>{own<SegmentedLamp>("windows", 1, read_windows, windows_text, R"({"anyOf": [
+            {"type": "array", "minItems": 2, "maxItems": 257, "items": {"type": "number", "minimum": -180, "maximum": 180}},
+            {"type": "array", "minItems": 1, "maxItems": 257, "items": {"type": "array", "minItems": 2, "maxItems": 2,
+                "items": {"type": "number", "minimum": -180, "maximum": 180}}}]})",
+                                                           "")}
+                      .bare(),
+                  "of each lamp: edges from left to right")
                 .required(),
             field("margin", 1, &GlareFree::margin_rad, in_radians("margin", 20.0), "to each side of others"),
             field("mask_delay_s", 2, &GlareFree::mask_delay_s, range(0.0, 100.0), "until a window goes dark"),
@@ -268,14 +243,28 @@ const Fields<ControlParameters>& law_fields() {
             field("bend", 5, &Control::bend, bend_fields(), "lamps follow the bend").short_for("law"),
             field("levelling", 6, &Control::levelling, law_levelling_fields(), "lamps follow the body's pitch").short_for("control"),
             field("cornering", 7, &Control::cornering, cornering_fields(), "light into tight bends"),
-            field("load", 2, &Control::load, load_fields(), "weight added").written_off_default(),
+            field("load", 2, &Control::load,
+                  Fields<AxleLoad>{
+                      field("front", 1, &AxleLoad::front_n, load_of("front"), "on that axle since the lamps were aimed"),
+                      field("rear", 2, &AxleLoad::rear_n, load_of("rear"), "on that axle since the lamps were aimed"),
+                  },
+                  "weight added")
+                .written_off_default(),
             field("modes", 13, &Control::modes, modes_fields(), "classes of the passing beam, by speed, light and weather"),
             field("high_beam", 8, &Control::high_beam, high_beam_fields(), "automatic").or_word("automatic"),
             field("glare_free", 9, &Control::glare_free, glare_free_fields(), "dark windows where others are"),
             list("plugins", 10, &Control::plugins, 0, most_plugins, plugin_fields(), "laws in shared libraries").written_off_default(),
             field("safe_pitch", 3, &Control::safe_pitch_rad, in_radians("safe_pitch", 10.0),
                   "of lamps whose levelling has lost its signal"),
-            field("stuck_swivel", 4, &Control::stuck_swivel, stuck_swivel_fields(), "when a swivel is found stuck, and what then")
+            field("stuck_swivel", 4, &Control::stuck_swivel,
+                  Fields<StuckSwivelParameters>{
+                      field("off", 1, &StuckSwivelParameters::off_rad, in_radians("off", 45.0), "from what it is asked for"),
+                      field("after_s", 2, &StuckSwivelParameters::after_s, range(0.0, 100.0), "for so long"),
+                      field("pitch", 3, &StuckSwivelParameters::pitch_rad, in_radians("pitch", 10.0), "how low its lamp goes"),
+                      field("level", 4, &StuckSwivelParameters::level, range(0.0, 1.0), "how dim, where nothing levels it"),
+                  }
+                      .checked(check_stuck_swivel),
+                  "when a swivel is found stuck, and what then")
                 .or_absent("none"),
             list("failures", 11, &Control::failures, 0, most_failures, failure_fields(), "what is wrong from when to when")
                 .written_off_default(),

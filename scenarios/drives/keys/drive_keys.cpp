@@ -40,23 +40,6 @@ void check_speed_point(const YamlMap& keys, const SpeedPoint&) {
         keys.refuse_missing("speed_kmh", "speed_kmh or speed_mps");
 }
 
-const Fields<Drive>& route_fields() {
-    static const Fields<Drive> fields =
-        Fields<Drive>{
-            inlined(1, &Drive::start, start_fields()),
-            field("via", 2, &Drive::via, texts(0, 10'000), "road ids in order"),
-        }
-            .block();
-    return fields;
-}
-
-const Fields<Drive>& traffic_light_fields() {
-    static const Fields<Drive> fields{
-        field("least_lx", 1, &Drive::least_traffic_lx, range(1.0e-6, 1.0e3), "from one lamp; less is left out"),
-    };
-    return fields;
-}
-
 const Fields<BeamTexels>& beam_fields() {
     const FieldRule sides = range(least_beam_texels, most_beam_texels);
     static const Fields<BeamTexels> fields{
@@ -91,68 +74,10 @@ void check_limit(const YamlMap& keys, const Limit& limit) {
         keys.entry().refuse(fmt::format("at_least {} above at_most {}", *limit.at_least, *limit.at_most), "a range that holds a value");
 }
 
-const Fields<Limit>& limit_fields() {
-    static const Fields<Limit> fields =
-        Fields<Limit>{
-            field("reading", 1, &Limit::reading, any(), "its name, as in readings.csv").required(),
-            field("at_least", 2, &Limit::at_least, range(-1.0e12, 1.0e12), "in the reading's unit"),
-            field("at_most", 3, &Limit::at_most, range(-1.0e12, 1.0e12), "in the reading's unit"),
-        }
-            .checked(check_limit)
-            .in_schema(R"({"anyOf": [{"required": ["at_least"]}, {"required": ["at_most"]}]})");
-    return fields;
-}
-
 void check_extent(const YamlMap& keys, const ExtentParameters& extent) {
     const double cells = extent.ahead_m / extent.cell_m * (8.0 * extent.beside_m / extent.cell_m);
     if (cells > 4.0e6)
         keys.entry().refuse(fmt::format("a grid of {:.0f} points", cells), "at most 4000000 (larger cell_m, less ahead_m or beside_m)");
-}
-
-const Fields<ExtentParameters>& extent_fields() {
-    static const Fields<ExtentParameters> fields =
-        Fields<ExtentParameters>{
-            field("limits_lx", 1, &ExtentParameters::limits_lx, numbers(1, 16, 1.0e-6, 1.0e6), "what counts as illuminated"),
-            field("target_height_m", 2, &ExtentParameters::target_height_m, range(0.0, 10.0), "of the target that faces the car"),
-            field("ahead_m", 3, &ExtentParameters::ahead_m, range(1.0, 2000.0), "how far is looked"),
-            field("beside_m", 4, &ExtentParameters::beside_m, range(0.5, 200.0), "how far to each side"),
-            field("cell_m", 5, &ExtentParameters::cell_m, range(0.02, 10.0), "grid along the road; across it is a quarter of this"),
-            field("width_at_m", 6, &ExtentParameters::width_at_m, numbers(0, 16, 0.0, 2000.0),
-                  "from the front bumper, where the width is told"),
-        }
-            .block()
-            .checked(check_extent);
-    return fields;
-}
-
-const Fields<Probe>& probe_fields() {
-    static const Fields<Probe> fields{
-        field("ahead_m", 1, &Probe::ahead_m, range(-2000.0, 2000.0), "from the car's origin along the route").required(),
-        field("left_m", 2, &Probe::left_m, range(-200.0, 200.0), "of the route"),
-        field("above_m", 3, &Probe::above_m, range(0.0, 50.0), "above the surface"),
-    };
-    return fields;
-}
-
-const Fields<Drive>& measure_fields() {
-    static const Fields<Drive> fields =
-        Fields<Drive>{
-            field("extent", 1, &Drive::extent, extent_fields(), "illuminated road extent").or_flag().or_absent("false"),
-            named("probes", 2, &Drive::probes, 1000, probe_fields(), "lux at single points, from the car's origin along the route"),
-            inlined(3, &Drive::seeing, seeing_fields()),
-        }
-            .block();
-    return fields;
-}
-
-const Fields<Capture>& capture_fields() {
-    static const Fields<Capture> fields{
-        field("per_second", 1, &Capture::per_second, range(0.0, 1.0e6), "how many moments are stored"),
-        field("all", 2, &Capture::all, any(), "every moment is stored"),
-        field("exr", 3, &Capture::exr, any(), "with linear values"),
-        field("png", 4, &Capture::png, any(), "for eyes"),
-    };
-    return fields;
 }
 
 } // namespace
@@ -228,7 +153,11 @@ const Fields<Drive>& drive_fields() {
             field("storyboard", 5, &Drive::storyboard, storyboard_fields(), "an OpenSCENARIO file in place of route and speed")
                 .short_for("file")
                 .bits_by(storyboard_bits),
-            section("route", 6, route_fields(), "where the drive begins, and by which roads it goes").heard_if(has_no_storyboard),
+            section("route", 6, Fields<Drive>{
+            inlined(1, &Drive::start, start_fields()),
+            field("via", 2, &Drive::via, texts(0, 10'000), "road ids in order"),
+        }
+            .block(), "where the drive begins, and by which roads it goes").heard_if(has_no_storyboard),
             list("speed", 7, &Drive::speed, 1, most_speed_points, speed_point_fields(), "or speed_kmh or speed_mps for all of the drive")
                 .heard_if(has_no_storyboard),
             form<Drive>("speed_kmh", FieldKind::number, range(0.0, 540.0), "for all of the drive"),
@@ -254,14 +183,21 @@ const Fields<Drive>& drive_fields() {
             named("variants", 18, &Drive::variants, most_variants, variant_fields(), "lamp sets; the drive is played with each"),
             form<Drive>("changes", FieldKind::list, names(0, most_lamp_changes), "of the lamps of all lamp sets").of(change_fields()),
             field("can", 19, &Drive::can, can_fields(), "signals from and to a bus; docs/can.md"),
-            section("traffic_light", 20, traffic_light_fields(), "of other road users").heard_if(has_traffic),
+            section("traffic_light", 20, Fields<Drive>{
+        field("least_lx", 1, &Drive::least_traffic_lx, range(1.0e-6, 1.0e3), "from one lamp; less is left out"),
+    }, "of other road users").heard_if(has_traffic),
             named("traffic", 21, &Drive::traffic_rows, most_traffic_rows, traffic_fields(), "other road users; docs/traffic.md"),
             form<Drive>("view_set", FieldKind::path, any(), "a file of views that come before these"),
             named("views", 22, &Drive::views, most_views, view_fields(), "what is drawn; the driver's view and a map by default"),
             list("scenery", 23, &Drive::scenery, 0, most_models, scenery_fields(), "models with their places")
                 .read_by(read_scenery)
                 .written_off_default(),
-            field("capture", 28, &Drive::capture, capture_fields(), "which moments are stored; every moment is measured"),
+            field("capture", 28, &Drive::capture, Fields<Capture>{
+        field("per_second", 1, &Capture::per_second, range(0.0, 1.0e6), "how many moments are stored"),
+        field("all", 2, &Capture::all, any(), "every moment is stored"),
+        field("exr", 3, &Capture::exr, any(), "with linear values"),
+        field("png", 4, &Capture::png, any(), "for eyes"),
+    }, "which moments are stored; every moment is measured"),
             field("tone_mapper", 29, &Drive::tone_mapper, tone_mapper_fields(), "from luminances to what a display can show")
                 .read_by([](const YamlEntry& entry, Drive& drive) { read_tone_mapper(entry, drive.tone_mapper); })
                 .schema_by(tone_mapper),
@@ -270,8 +206,33 @@ const Fields<Drive>& drive_fields() {
                 .short_for("profile")
                 .written_off_default(),
             field("technique", 31, &Drive::technique, a_name(), "how it is drawn"),
-            section("measure", 36, measure_fields(), "what is measured"),
-            list("limits", 37, &Drive::limits, 0, 1000, limit_fields(), "beyond these the run fails"),
+            section("measure", 36, Fields<Drive>{
+            field("extent", 1, &Drive::extent, Fields<ExtentParameters>{
+            field("limits_lx", 1, &ExtentParameters::limits_lx, numbers(1, 16, 1.0e-6, 1.0e6), "what counts as illuminated"),
+            field("target_height_m", 2, &ExtentParameters::target_height_m, range(0.0, 10.0), "of the target that faces the car"),
+            field("ahead_m", 3, &ExtentParameters::ahead_m, range(1.0, 2000.0), "how far is looked"),
+            field("beside_m", 4, &ExtentParameters::beside_m, range(0.5, 200.0), "how far to each side"),
+            field("cell_m", 5, &ExtentParameters::cell_m, range(0.02, 10.0), "grid along the road; across it is a quarter of this"),
+            field("width_at_m", 6, &ExtentParameters::width_at_m, numbers(0, 16, 0.0, 2000.0),
+                  "from the front bumper, where the width is told"),
+        }
+            .block()
+            .checked(check_extent), "illuminated road extent").or_flag().or_absent("false"),
+            named("probes", 2, &Drive::probes, 1000, Fields<Probe>{
+        field("ahead_m", 1, &Probe::ahead_m, range(-2000.0, 2000.0), "from the car's origin along the route").required(),
+        field("left_m", 2, &Probe::left_m, range(-200.0, 200.0), "of the route"),
+        field("above_m", 3, &Probe::above_m, range(0.0, 50.0), "above the surface"),
+    }, "lux at single points, from the car's origin along the route"),
+            inlined(3, &Drive::seeing, seeing_fields()),
+        }
+            .block(), "what is measured"),
+            list("limits", 37, &Drive::limits, 0, 1000, Fields<Limit>{
+            field("reading", 1, &Limit::reading, any(), "its name, as in readings.csv").required(),
+            field("at_least", 2, &Limit::at_least, range(-1.0e12, 1.0e12), "in the reading's unit"),
+            field("at_most", 3, &Limit::at_most, range(-1.0e12, 1.0e12), "in the reading's unit"),
+        }
+            .checked(check_limit)
+            .in_schema(R"({"anyOf": [{"required": ["at_least"]}, {"required": ["at_most"]}]})"), "beyond these the run fails"),
             field("shadows", 38, &Drive::shadows, shadow_fields(),
                   "how they are drawn (docs/shadows.md): on or off, the method alone, or it and what it uses")
                 .read_by([](const YamlEntry& entry, Drive& drive) { read_shadows(entry, drive.shadows); })

@@ -51,24 +51,22 @@ FieldOf<LampReadOptions> extent(std::string_view key, int id, std::string_view m
     return own(key, id, read_extent<edges, limit_deg>, extent_text<edges>, schema, meaning);
 }
 
-const Fields<LampReadOptions>& texture_fields() {
-    using Options = LampReadOptions;
-    static const Fields<Options> fields{
-        field("scale_lx", 1, &Options::texture_scale_lx, range(0.0, 1.0e6), "of a pixel of value 1.0; 0: as the image says"),
-        field("distance_m", 2, &Options::texture_distance_m, range(0.1, 1000.0), "at which that is so"),
-        extent<&Options::texture_h_extent_deg, 180>("h_extent_deg", 3, "left and right edge; as the image says by default"),
-        extent<&Options::texture_v_extent_deg, 90>("v_extent_deg", 4, "lower and upper edge"),
-    };
-    return fields;
-}
-
 const Fields<LampReadOptions>& option_fields() {
     using Options = LampReadOptions;
     static const Fields<Options> fields{
         field("between_samples", 1, &Options::rule, words({"linear_cd", "log_cd"}), "how intensity runs between the table's samples"),
         field("type_c_axis", 2, &Options::type_c_axis, words({"automatic", "horizontal", "nadir"}),
               "where a Type C or EULUMDAT file points its beam"),
-        section("texture", 3, texture_fields(), "only for beam textures without metadata"),
+        section(
+            "texture", 3,
+            Fields<LampReadOptions>{
+                field("scale_lx", 1, &LampReadOptions::texture_scale_lx, range(0.0, 1.0e6),
+                      "of a pixel of value 1.0; 0: as the image says"),
+                field("distance_m", 2, &LampReadOptions::texture_distance_m, range(0.1, 1000.0), "at which that is so"),
+                extent<&LampReadOptions::texture_h_extent_deg, 180>("h_extent_deg", 3, "left and right edge; as the image says by default"),
+                extent<&LampReadOptions::texture_v_extent_deg, 90>("v_extent_deg", 4, "lower and upper edge"),
+            },
+            "only for beam textures without metadata"),
         field("mirrored", 4, &Options::mirrored, any(), "left and right exchanged: a lamp for the other side of the road")
             .written_off_default(),
     };
@@ -111,7 +109,7 @@ const Fields<LampFile>& lamp_file_fields() {
         options.id = 2;
         options.kind = FieldKind::inlined;
         options.member = std::make_shared<OptionsOfFile>();
-        options.group = &option_fields();
+        options.group = shared_group(option_fields());
         return Fields<LampFile>{
             own<LampFile>(
                 "file", 1, nullptr, [](const LampFile& file) { return file_text(&file); }, file_schema,

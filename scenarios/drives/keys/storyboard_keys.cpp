@@ -15,16 +15,6 @@ namespace {
 constexpr std::size_t most_folders = 32, most_parameters = 1000;
 constexpr double fastest_day = 86'400.0;
 
-const Fields<SkySite>& site_fields() {
-    static const Fields<SkySite> fields{
-        field("latitude_deg", 1, &SkySite::latitude_deg, range(-90.0, 90.0), "north positive").required(),
-        field("longitude_deg", 2, &SkySite::longitude_deg, range(-180.0, 180.0), "east positive").required(),
-        field("utc_offset_h", 3, &SkySite::utc_offset_h, range(-14.0, 14.0),
-              "of times of day without one; by default the longitude's, in whole hours"),
-    };
-    return fields;
-}
-
 void read_folders(const YamlEntry& entry, osc::StoryboardOptions& options) {
     for (const YamlEntry& folder : entry.list(0, most_folders))
         options.road_folders.push_back(folder.path());
@@ -35,16 +25,6 @@ std::string folders_text(const osc::StoryboardOptions& options) {
     for (const auto& folder : options.road_folders)
         folders.push_back(quoted(folder.string()));
     return fmt::format("[{}]", fmt::join(folders, ", "));
-}
-
-const Fields<osc::StoryboardOptions>& story_option_fields() {
-    using Options = osc::StoryboardOptions;
-    static const Fields<Options> fields{
-        field("lenient", 1, &Options::lenient, any(), "what is not supported is left out with a note"),
-        own("road_folders", 2, read_folders, folders_text,
-            R"({"type": "array", "maxItems": 32, "items": {"type": "string", "minLength": 1}})", "where its road is looked for, too"),
-    };
-    return fields;
 }
 
 void read_parameters(const YamlEntry& entry, StoryboardSource& source) {
@@ -76,8 +56,20 @@ const Fields<StoryboardSource>& storyboard_fields() {
         Fields<Source>{
             field("file", 1, &Source::file, any(), "OpenSCENARIO XML; relative to the drive file").required(),
             field("ego", 2, &Source::ego, any(), "the entity that is the own car"),
-            inlined(3, &Source::options, story_option_fields()),
-            field("place", 4, &Source::site, site_fields(),
+            inlined(3, &Source::options,
+                    Fields<osc::StoryboardOptions>{
+                        field("lenient", 1, &osc::StoryboardOptions::lenient, any(), "what is not supported is left out with a note"),
+                        own("road_folders", 2, read_folders, folders_text,
+                            R"({"type": "array", "maxItems": 32, "items": {"type": "string", "minLength": 1}})",
+                            "where its road is looked for, too"),
+                    }),
+            field("place", 4, &Source::site,
+                  Fields<SkySite>{
+                      field("latitude_deg", 1, &SkySite::latitude_deg, range(-90.0, 90.0), "north positive").required(),
+                      field("longitude_deg", 2, &SkySite::longitude_deg, range(-180.0, 180.0), "east positive").required(),
+                      field("utc_offset_h", 3, &SkySite::utc_offset_h, range(-14.0, 14.0),
+                            "of times of day without one; by default the longitude's, in whole hours"),
+                  },
                   "where an environment's sky is looked at; by default what the road's geoReference names, else 48.14 N, 11.58 E"),
             field("day_rate", 5, &Source::day_rate, range(0.0, fastest_day), "seconds of an animated time of day for one of the drive"),
             own("parameters", 6, read_parameters, parameters_text,

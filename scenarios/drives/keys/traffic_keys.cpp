@@ -34,14 +34,6 @@ const Fields<Route::Start>& lane_fields() {
     return fields;
 }
 
-const Fields<TrafficRow>& repeat_fields() {
-    static const Fields<TrafficRow> fields{
-        field("count", 1, &TrafficRow::count, range(1.0, most_users), "of them").required(),
-        field("every_m", 2, &TrafficRow::every_m, range(1.0, 1.0e4), "from one to the next"),
-    };
-    return fields;
-}
-
 std::string entities_text(const TrafficRow& row) {
     std::vector<std::string> names;
     for (const std::string& entity : row.entities)
@@ -165,7 +157,13 @@ const Fields<TrafficRow>& traffic_fields() {
                      "width and height of each headlamp's luminous face"),
             field("tail_cd", 14, &Row::tail_cd, range(0.0, 1.0e4), "of each tail lamp on its axis; 0: none"),
             field("brake_cd", 15, &Row::brake_cd, range(0.0, 1.0e4), "of each brake lamp on its axis; 0: none"),
-            section("repeat", 16, repeat_fields(), "a row of them, one behind the other").heard_if(is_on_road),
+            section("repeat", 16,
+                    Fields<TrafficRow>{
+                        field("count", 1, &TrafficRow::count, range(1.0, most_users), "of them").required(),
+                        field("every_m", 2, &TrafficRow::every_m, range(1.0, 1.0e4), "from one to the next"),
+                    },
+                    "a row of them, one behind the other")
+                .heard_if(is_on_road),
         }
             .block()
             .at_defaults(usual_row())

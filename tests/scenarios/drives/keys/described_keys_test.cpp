@@ -39,7 +39,7 @@ void find_definitions(const Group& group, std::map<std::string_view, const Group
     for (const Field& field : group.fields)
         if (field.group) {
             if (!field.group->definition.empty())
-                found.emplace(field.group->definition, field.group);
+                found.emplace(field.group->definition, field.group.get());
             find_definitions(*field.group, found);
         }
 }
