@@ -1,7 +1,6 @@
 #include "scenarios/fields/field.h"
 #include "scenarios/values/pose.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace fernlicht {

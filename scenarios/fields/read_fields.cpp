@@ -1,10 +1,8 @@
 #include "scenarios/fields/read_fields.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <glm/vec3.hpp>
 
 namespace fernlicht {

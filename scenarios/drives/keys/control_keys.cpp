@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace fernlicht {
 namespace {
@@ -33,6 +32,14 @@ void check_lamps(const YamlEntry& given, std::string_view key, const Variant& va
 
 bool is_cornering_lamp(const std::string& name) { return name.find("corner") != std::string::npos; }
 
+/// Where none are named: those that the law is for.
+void default_lamps(std::vector<std::string>& lamps, const Variant& variant, bool (*is_for)(const std::string&)) {
+    if (lamps.empty())
+        for (const std::string& name : lamp_names(variant))
+            if (is_for(name))
+                lamps.push_back(name);
+}
+
 BendParameters read_bend(const YamlEntry& given, const Variant& variant) {
     BendParameters bend;
     if (given.is_scalar()) {
@@ -43,10 +50,7 @@ BendParameters read_bend(const YamlEntry& given, const Variant& variant) {
             given.refuse("a dead band below 0", "an angle of 0 or more");
         check_lamps(given, "lamps", variant);
     }
-    if (bend.lamps.empty())
-        for (const std::string& name : lamp_names(variant))
-            if (!is_cornering_lamp(name))
-                bend.lamps.push_back(name);
+    default_lamps(bend.lamps, variant, [](const std::string& name) { return !is_cornering_lamp(name); });
     return bend;
 }
 
@@ -77,10 +81,7 @@ ModeParameters read_modes(const YamlEntry& given, const Variant& variant, LampSh
     ModeParameters modes;
     check_lamps(given, "lamps", variant);
     read_group(modes_fields(), of, &modes);
-    if (modes.lamps.empty())
-        for (const std::string& name : lamp_names(variant))
-            if (!is_cornering_lamp(name) && !is_high_beam(name))
-                modes.lamps.push_back(name);
+    default_lamps(modes.lamps, variant, [](const std::string& name) { return !is_cornering_lamp(name) && !is_high_beam(name); });
     for (std::size_t i = 0; i < modes.settings.size(); ++i)
         if (const auto mode = of.find(modes_fields().fields[1 + i].key))
             if (const auto file = mode->map(keys_of(mode_fields())).find("file"))
@@ -103,10 +104,7 @@ HighBeamParameters read_high_beam(const YamlEntry& given, const Variant& variant
         if (high.off_below_mps > high.on_above_mps || high.lit_above_lx < high.dark_below_lx)
             given.refuse("a hysteresis upside down", "off_below at most on_above, and dark_below_lx at most lit_above_lx");
     }
-    if (high.lamps.empty())
-        for (const std::string& name : lamp_names(variant))
-            if (is_high_beam(name))
-                high.lamps.push_back(name);
+    default_lamps(high.lamps, variant, is_high_beam);
     if (high.lamps.empty())
         given.refuse(fmt::format("no lamp of variant '{}' has a name with 'high'", variant.name), "high_beam.lamps");
     return high;
@@ -129,8 +127,7 @@ PluginParameters read_plugin(const YamlEntry& given, const Variant& variant) {
     PluginParameters plugin;
     read_group(plugin_fields(), given, &plugin);
     check_lamps(given, "lamps", variant);
-    if (plugin.lamps.empty())
-        plugin.lamps = lamp_names(variant);
+    default_lamps(plugin.lamps, variant, [](const std::string&) { return true; });
     return plugin;
 }
 

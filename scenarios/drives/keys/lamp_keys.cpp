@@ -15,7 +15,6 @@ constexpr std::string_view colour_keys[] = {"temperature_k", "spectrum", "colour
 
 thread_local const Drive* written = nullptr;
 
-/// nullptr for a lamp without a file.
 const LampSource* source_of(const LampFile& file) {
     if (written)
         for (const LampSource& source : written->lamp_sources)
@@ -96,10 +95,12 @@ bool is_turned(const void* lamp) { return static_cast<const MountedLamp*>(lamp)-
 } // namespace
 
 std::string file_text(const LampFile* file) {
-    if (!written || !file || file->opened.empty()) // a file at its defaults was never read
+    if (!written || !file)
         return "";
     if (const LampSource* const source = source_of(*file))
         return quoted(source->path.string());
+    if (file->opened.empty()) // at its defaults, never read
+        return "";
     throw std::invalid_argument("write_drive: a lamp's file is not among the drive's lamp_sources");
 }
 
