@@ -89,7 +89,7 @@ struct Field {
     // kind own has no more than these; of other kinds each takes the place of what follows from the rest
     std::function<void(const YamlEntry&, void* whole)> read = {};
     std::function<std::string(const void* whole)> text = {}; ///< on one line, or lines that each begin with their end; "": not written
-    std::string_view schema = {};                            ///< JSON
+    std::string schema = {};                                 ///< JSON
     std::function<std::string(const void* whole)> bits = {}; ///< what hashes are taken over in place of `text` (field_bits.h)
 };
 
@@ -100,8 +100,8 @@ struct Group {
     bool is_block = false;             ///< written one key a line
     bool is_bare = false;              ///< of one field, whose value stands for the whole
     std::function<void(const YamlMap&, const void* whole)> check = {};
-    std::string_view schema_beside = {}; ///< JSON: what is required of the keys together
-    std::string_view definition = {};    ///< of groups that stand in several places: schema and reference have them once, by this name
+    std::string schema_beside = {};   ///< JSON: what is required of the keys together
+    std::string_view definition = {}; ///< of groups that stand in several places: schema and reference have them once, by this name
 };
 
 const Field& field_named(const Group& group, std::string_view key); ///< which may be of an inlined group

@@ -182,57 +182,43 @@ void read_study_lamps(const YamlEntry& entry, Study& study) {
     study.opened.insert(study.opened.end(), shelf.opened().begin(), shelf.opened().end());
 }
 
-/// Each value once: a value twice would be two cells of one name. Of a key that `may_be_one` a value may stand without its list.
-template <class Value>
-void read_each(const YamlEntry& entry, std::vector<Value>& values, bool may_be_one, const auto& read, std::size_t most = most_entries) {
-    values.clear();
-    for (const YamlEntry& one : may_be_one && !entry.is_list() ? std::vector{entry} : entry.list(1, most))
-        values.push_back(read(one));
-    for (auto value = values.begin(); value != values.end(); ++value)
-        if (std::find(values.begin(), value, *value) != value)
-            entry.refuse("a value given twice", "each value once");
+/// Each value once: a value twice would be two cells of one name. Where it `may_be_one`, a value may stand without its list.
+template <class Struct, class Value>
+FieldOf<Struct> values_form(std::string_view key, std::vector<Value> Struct::*values, Value (*read)(const YamlEntry&), bool may_be_one,
+                            std::string_view schema_of_one, std::string_view meaning, std::size_t most = most_entries) {
+    FieldOf<Struct> made = form<Struct>(key, FieldKind::own, {}, meaning);
+    made.read = [=](const YamlEntry& entry, void* whole) {
+        std::vector<Value>& all = static_cast<Struct*>(whole)->*values;
+        all.clear();
+        for (const YamlEntry& one : may_be_one && !entry.is_list() ? std::vector{entry} : entry.list(1, most))
+            all.push_back(read(one));
+        for (auto value = all.begin(); value != all.end(); ++value)
+            if (std::find(all.begin(), value, *value) != value)
+                entry.refuse("a value given twice", "each value once");
+    };
+    made.schema = fmt::format(R"({{"type": "array", "items": {}, "minItems": 1, "maxItems": {}}})", schema_of_one, most);
+    if (may_be_one)
+        made.schema = fmt::format(R"({{"anyOf": [{}, {}]}})", schema_of_one, made.schema);
+    return made;
 }
 
-/// Of a list of values, or of a value alone.
-std::string each_schema(std::string_view value, bool may_be_one, std::size_t most = most_entries) {
-    const std::string list = fmt::format(R"({{"type": "array", "items": {}, "minItems": 1, "maxItems": {}}})", value, most);
-    return may_be_one ? fmt::format(R"({{"anyOf": [{}, {}]}})", value, list) : list;
-}
-
-template <class Struct> FieldOf<Struct> values_form(std::string_view key, void (*read)(const YamlEntry&, Struct&), std::string_view schema,
-                                                    std::string_view meaning) {
-    return form<Struct>(key, FieldKind::own, {}, meaning, read).schema_by(schema);
-}
+double aim_percent(const YamlEntry& entry) { return entry.number(-10.0, 10.0); }
+double voltage_v(const YamlEntry& entry) { return entry.number(12.0, 13.8); }
+bool is_mirrored(const YamlEntry& entry) { return entry.flag(); }
+std::string technique_name(const YamlEntry& entry) { return entry.name(); }
+std::string reading_name(const YamlEntry& entry) { return entry.text(); }
 
 const Fields<StudyConditions>& condition_fields() {
     using Conditions = StudyConditions;
-    static const std::string times = each_schema(R"({"enum": ["night", "twilight", "day"]})", true),
-                             aims = each_schema(R"({"type": "number", "minimum": -10, "maximum": 10})", true),
-                             voltages = each_schema(R"({"type": "number", "minimum": 12, "maximum": 13.8})", true),
-                             mirrors = each_schema(R"({"type": "boolean"})", true, 2);
     static const Fields<Conditions> fields{
-        values_form<Conditions>(
-            "time_of_day", [](const YamlEntry& entry, Conditions& of) { read_each(entry, of.times_of_day, true, known_daylight); }, times,
-            "as a drive's daylight; night by default"),
-        values_form<Conditions>(
-            "aim_percent",
-            [](const YamlEntry& entry, Conditions& of) {
-                read_each(entry, of.aim_percent, true, [](const YamlEntry& aim) { return aim.number(-10.0, 10.0); });
-            },
-            aims, "of the cut-off: -1, the default, is 1 cm down in 1 m"),
-        values_form<Conditions>(
-            "voltage_v",
-            [](const YamlEntry& entry, Conditions& of) {
-                read_each(entry, of.voltage_v, true, [](const YamlEntry& voltage) { return voltage.number(12.0, 13.8); });
-            },
-            voltages, "supply; 13.2 by default"),
-        values_form<Conditions>(
-            "mirror",
-            [](const YamlEntry& entry, Conditions& of) {
-                read_each(
-                    entry, of.mirror, true, [](const YamlEntry& one) { return one.flag(); }, 2);
-            },
-            mirrors, "true: roads, drives and lamps in a mirror; left-hand traffic on our roads"),
+        values_form("time_of_day", &Conditions::times_of_day, known_daylight, true, R"({"enum": ["night", "twilight", "day"]})",
+                    "as a drive's daylight; night by default"),
+        values_form("aim_percent", &Conditions::aim_percent, aim_percent, true, R"({"type": "number", "minimum": -10, "maximum": 10})",
+                    "of the cut-off: -1, the default, is 1 cm down in 1 m"),
+        values_form("voltage_v", &Conditions::voltage_v, voltage_v, true, R"({"type": "number", "minimum": 12, "maximum": 13.8})",
+                    "supply; 13.2 by default"),
+        values_form("mirror", &Conditions::mirror, is_mirrored, true, R"({"type": "boolean"})",
+                    "true: roads, drives and lamps in a mirror; left-hand traffic on our roads", 2),
     };
     return fields;
 }
@@ -324,7 +310,7 @@ const std::vector<std::string>& usual_readings() {
 }
 
 const Fields<Study>& study_fields() {
-    static const std::string texts = each_schema(R"({"type": "string"})", false);
+    constexpr std::string_view text = R"({"type": "string"})";
     static const Fields<Study> fields{
         form<Study>("fernlicht_study", FieldKind::own, {}, "version of this schema").schema_by(R"({"const": 1})").required(),
         field("name", 1, &Study::name, a_name(), "of the study; the file's by default"),
@@ -332,31 +318,19 @@ const Fields<Study>& study_fields() {
         named("lamps", 3, &Study::lamps, most_entries, study_lamp_fields(), "lamp sets under comparison")
             .read_by(read_study_lamps)
             .required(),
-        values_form<Study>(
-            "drives", [](const YamlEntry& entry, Study& study) { read_each(entry, study.drives, false, existing); }, texts,
-            "drive files; relative to the study file")
-            .required(),
-        values_form<Study>(
-            "techniques",
-            [](const YamlEntry& entry, Study& study) {
-                read_each(entry, study.techniques, false, [](const YamlEntry& technique) { return technique.name(); });
-            },
-            texts, "how the drives are drawn; photometric by default"),
+        values_form("drives", &Study::drives, existing, false, text, "drive files; relative to the study file").required(),
+        values_form("techniques", &Study::techniques, technique_name, false, text, "how the drives are drawn; photometric by default"),
         field("conditions", 4, &Study::conditions, condition_fields(), "every combination is played"),
         form<Study>("compare", FieldKind::list, names(0, most_entries), "all with the first by default", read_comparisons)
             .of(comparison_fields()),
         field("measure", 5, &Study::measure, seeing_fields(), "in every drive that does not ask itself"),
-        values_form<Study>(
-            "readings",
-            [](const YamlEntry& entry, Study& study) {
-                read_each(entry, study.readings, false, [](const YamlEntry& reading) { return reading.text(); });
-            },
-            texts, "that decide, by name"),
+        values_form("readings", &Study::readings, reading_name, false, text, "that decide, by name"),
         list("limits", 6, &Study::limits, 0, most_entries, study_limit_fields(), "beyond these the study fails").read_by(read_study_limits),
         field("pictured_moments", 7, &Study::pictured_moments, range(1.0, 12.0), "stored moments of each cell"),
-        values_form<Study>("resolution_px", read_study_resolution, R"({"type": "array", "minItems": 2, "maxItems": 2,
-            "items": {"type": "integer", "minimum": 1, "maximum": 16384}})",
-                           "width, height of the cameras' views; the drives' own by default"),
+        form<Study>("resolution_px", FieldKind::own, {}, "width, height of the cameras' views; the drives' own by default",
+                    read_study_resolution)
+            .schema_by(R"({"type": "array", "minItems": 2, "maxItems": 2,
+                "items": {"type": "integer", "minimum": 1, "maximum": 16384}})"),
         form<Study>("lamp_noise_percent", FieldKind::number, range(0.0, 100.0), "standard deviation of the lamps' intensities",
                     [](const YamlEntry& entry, Study& study) { study.noise_relative = entry.number(0.0, 100.0) / 100.0; }),
     };

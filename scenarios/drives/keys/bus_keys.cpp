@@ -3,7 +3,7 @@
 #include "scenarios/can/bus_mapping.h"
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/control/signals.h"
-#include "scenarios/drives/keys/lamp_sets.h"
+#include "scenarios/drives/keys/lamp_keys.h"
 #include "scenarios/drives/play/bus_play.h"
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/field_bits.h"
@@ -266,8 +266,6 @@ std::string mapped_schema(std::string_view names, std::string_view scalar, const
 } // namespace
 
 const Fields<BusMapping>& can_fields() {
-    static const std::string inputs = mapped_schema(R"({"type": "string"})", source_schema, bus_input_fields()),
-                             outputs = mapped_schema(source_schema, R"({"type": "string", "minLength": 1})", bus_output_fields());
     static const Fields<BusMapping> fields =
         Fields<BusMapping>{
             own<BusMapping>("databases", 1, nullptr, databases_text, R"({"anyOf": [{"type": "string", "minLength": 1},
@@ -283,8 +281,8 @@ const Fields<BusMapping>& can_fields() {
                 "stamp in the log that is the drive's 0 s; that of its first frame by default"),
             named("inputs", 5, &BusMapping::inputs, most_mapped, bus_input_fields(),
                   "signals of lamp control (fernlicht signals) and where they come from")
-                .schema_by(inputs),
-            own<BusMapping>("outputs", 6, nullptr, outputs_told<flow_text>, outputs,
+                .schema_by(mapped_schema(R"({"type": "string"})", source_schema, bus_input_fields())),
+            own<BusMapping>("outputs", 6, nullptr, outputs_told<flow_text>, mapped_schema(source_schema, file_schema, bus_output_fields()),
                             "what is sent: Message.Signal and the signal of lamp control")
                 .bits_by(outputs_told<field_bits>)
                 .of(bus_output_fields()),

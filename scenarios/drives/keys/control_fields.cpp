@@ -79,11 +79,11 @@ const Fields<std::pair<double, double>>& point_fields() {
 }
 
 const Fields<ScriptedSignal>& input_fields() {
-    static const std::string schema =
-        fmt::format(R"({{"anyOf": [{{"type": "number"}}, {{"type": "array", "minItems": 1, "items": {}}}]}})", schema_of(point_fields()));
     static const Fields<ScriptedSignal> fields =
         Fields<ScriptedSignal>{
-            list("values", 1, &ScriptedSignal::values, 1, most_input_values, point_fields(), "").schema_by(schema),
+            list("values", 1, &ScriptedSignal::values, 1, most_input_values, point_fields(), "")
+                .schema_by(fmt::format(R"({{"anyOf": [{{"type": "number"}}, {{"type": "array", "minItems": 1, "items": {}}}]}})",
+                                       schema_of(point_fields()))),
         }
             .bare();
     return fields;

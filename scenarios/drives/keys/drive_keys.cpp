@@ -141,7 +141,6 @@ double read_step_s(const YamlMap& drive) {
 }
 
 const Fields<Drive>& drive_fields() {
-    static const std::string shadows = shadows_schema(), daylight = daylight_schema(), tone_mapper = tone_mapper_schema();
     static const Fields<Drive> fields =
         Fields<Drive>{
             form<Drive>("fernlicht", FieldKind::own, {}, "version of this schema").schema_by(R"({"const": 1})"),
@@ -167,7 +166,7 @@ const Fields<Drive>& drive_fields() {
             field("duration_s", 9, &Drive::duration_s, above(0.0, longest_s), "of the drive; must be given without a storyboard"),
             field("daylight", 10, &Drive::daylight, daylight_fields(), "night, twilight, day; figures; or date, time and place")
                 .read_by(read_daylight)
-                .schema_by(daylight)
+                .schema_by(daylight_schema())
                 .heard_if(says_daylight),
             field("weather", 11, &Drive::weather, weather_fields(), "clear and dry by default; fog, rain and snow by name, too")
                 .text_by(weather_text)
@@ -200,7 +199,7 @@ const Fields<Drive>& drive_fields() {
     }, "which moments are stored; every moment is measured"),
             field("tone_mapper", 29, &Drive::tone_mapper, tone_mapper_fields(), "from luminances to what a display can show")
                 .read_by([](const YamlEntry& entry, Drive& drive) { read_tone_mapper(entry, drive.tone_mapper); })
-                .schema_by(tone_mapper),
+                .schema_by(tone_mapper_schema()),
             field("display", 30, &Drive::display, display_fields(), "windscreen, eye and display between the light and its pictures")
                 .read_by(read_display)
                 .short_for("profile")
@@ -237,7 +236,7 @@ const Fields<Drive>& drive_fields() {
                   "how they are drawn (docs/shadows.md): on or off, the method alone, or it and what it uses")
                 .read_by([](const YamlEntry& entry, Drive& drive) { read_shadows(entry, drive.shadows); })
                 .text_by([](const Drive& drive) { return shadows_text(drive.shadows); })
-                .schema_by(shadows)
+                .schema_by(shadows_schema())
                 .bits_by([](const Drive& drive) {
                     return (drive.shadows.things_cast ? "" : "nothing casts\n") + field_bits(shadow_fields(), &drive.shadows);
                 }),

@@ -45,7 +45,7 @@ template <double (LampReadOptions::*edges)[2]> std::string extent_text(const Lam
 
 template <double (LampReadOptions::*edges)[2], int limit_deg>
 FieldOf<LampReadOptions> extent(std::string_view key, int id, std::string_view meaning) {
-    static const std::string schema = fmt::format(
+    const std::string schema = fmt::format(
         R"({{"type": "array", "minItems": 2, "maxItems": 2, "items": {{"type": "number", "minimum": -{0}, "maximum": {0}}}}})", limit_deg);
     return own(key, id, read_extent<edges, limit_deg>, extent_text<edges>, schema, meaning);
 }

@@ -130,7 +130,6 @@ TrafficRow read_row(const std::string& name, const YamlEntry& entry, LampShelf& 
 
 const Fields<TrafficRow>& traffic_fields() {
     using Row = TrafficRow;
-    static const std::string place_and_speed = place_and_speed_schema();
     static const Fields<Row> fields =
         Fields<Row>{
             field("kind", 1, &Row::kind, words({std::begin(road_user_kinds), std::end(road_user_kinds)}), "of road user"),
@@ -167,7 +166,7 @@ const Fields<TrafficRow>& traffic_fields() {
         }
             .block()
             .at_defaults(usual_row())
-            .in_schema(place_and_speed);
+            .in_schema(place_and_speed_schema());
     return fields;
 }
 
