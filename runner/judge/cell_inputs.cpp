@@ -1,6 +1,6 @@
 #include "runner/judge/cell_inputs.h"
 
-#include "scenarios/drives/keys/drive_texts.h"
+#include "scenarios/drives/keys/drive_keys.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -15,6 +15,7 @@
 #include "scenarios/fields/group.h"
 
 #include <filesystem>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <initializer_list>
 #include <optional>
@@ -25,6 +26,16 @@ namespace fernlicht {
 
 template <class Struct> struct Fields;
 
+/// A description is pointed to where it has a name, and else kept.
+template <class F> std::shared_ptr<const Group> shared_group(F&& fields) {
+    if constexpr (std::is_lvalue_reference_v<F>)
+        return {std::shared_ptr<void>(), &fields};
+    else
+        return std::make_shared<const Group>(std::move(fields));
+}
+template <class F>
+concept Description = std::derived_from<std::remove_cvref_t<F>, Group>;
+
 template <class Struct> struct FieldOf : Field {
     FieldOf required() && { return is_required = true, std::move(*this); }
     FieldOf written_off_default() && { return is_written_off_default = true, std::move(*this); }
@@ -33,6 +44,7 @@ template <class Struct> struct FieldOf : Field {
     FieldOf or_absent(std::string_view word) && { return absent_word = word, std::move(*this); }
     FieldOf short_for(std::string_view key_of_group) && { return short_key = key_of_group, std::move(*this); }
     FieldOf short_list_for(std::string_view key_of_group) && { return short_key = key_of_group, short_is_list = true, std::move(*this); }
+    template <class Inner> FieldOf of(Inner&& fields) && { return group = shared_group(std::forward<Inner>(fields)), std::move(*this); }
     FieldOf heard_if(bool (*asks)(const void*)) && { return heard = asks, std::move(*this); }
     FieldOf read_by(void (*reads)(const YamlEntry&, Struct&)) && {
         read = [reads](const YamlEntry& entry, void* whole) { reads(entry, *static_cast<Struct*>(whole)); };
@@ -51,6 +63,7 @@ template <class Struct> struct FieldOf : Field {
 
 /// The description of a struct.
 template <class Struct> struct Fields : Group {
+    using Described = Struct;
     Fields(std::initializer_list<FieldOf<Struct>> list) {
         fields.assign(list.begin(), list.end());
         usual = std::make_shared<const Struct>();
@@ -65,27 +78,35 @@ template <class Struct> struct Fields : Group {
         return std::move(*this);
     }
     Fields in_schema(std::string_view json) && { return schema_beside = json, std::move(*this); }
+    Fields defined_as(std::string_view name) && { return definition = name, std::move(*this); }
 };
 
 namespace field_parts {
 
 template <class T> inline constexpr bool is_optional = false;
 template <class T> inline constexpr bool is_optional<std::optional<T>> = true;
+template <class T> inline constexpr bool is_shared = false;
+template <class T> inline constexpr bool is_shared<std::shared_ptr<T>> = true;
 template <class T> inline constexpr bool is_vector = false;
 template <class T> inline constexpr bool is_vector<std::vector<T>> = true;
 
-template <class Struct, class M> class MemberOf : public Member {
+/// `At`: a pointer to the member, or a function that finds it.
+template <class Struct, class M, class At> class MemberOf : public Member {
   public:
-    explicit MemberOf(M Struct::*at) : at_(at) {}
+    explicit MemberOf(At at) : at_(at) {}
     void* look(void* whole) const override {
         if constexpr (is_optional<M>)
             return of(whole) ? &*of(whole) : nullptr;
+        else if constexpr (is_shared<M>)
+            return const_cast<std::remove_const_t<typename M::element_type>*>(of(whole).get());
         else
             return &of(whole);
     }
     void* make(void* whole) const override {
         if constexpr (is_optional<M>)
             return &of(whole).emplace();
+        else if constexpr (is_shared<M>)
+            return of(whole) = std::make_shared<typename M::element_type>(), look(whole);
         else
             return &of(whole);
     }
@@ -120,24 +141,19 @@ template <class Struct, class M> class MemberOf : public Member {
     }
 
   private:
-    M& of(void* whole) const { return static_cast<Struct*>(whole)->*at_; }
-    M Struct::*at_;
+    M& of(void* whole) const { return std::invoke(at_, *static_cast<Struct*>(whole)); }
+    At at_;
 };
 
 /// The struct itself: keys that stand one level deeper than their members.
 class Itself : public Member {
   public:
     void* look(void* whole) const override { return whole; }
-    void* make(void* whole) const override { return whole; }
-    void clear(void*) const override {}
-    std::size_t size(void*) const override { return 0; }
-    void* element(void*, std::size_t) const override { return nullptr; }
-    void* append(void*) const override { return nullptr; }
-    std::string* name_of(void*) const override { return nullptr; }
 };
 
 template <class T> struct Plain { using type = T; };
 template <class T> struct Plain<std::optional<T>> { using type = T; };
+template <class T> struct Plain<std::shared_ptr<T>> { using type = std::remove_const_t<T>; };
 
 template <class T> constexpr FieldKind kind_of() {
     if constexpr (std::is_same_v<T, double>)
@@ -163,16 +179,24 @@ template <class T> constexpr FieldKind kind_of() {
     }
 }
 
-template <class Struct, class M>
-FieldOf<Struct> made(std::string_view key, int id, M Struct::*member, FieldKind kind, std::string_view meaning) {
+template <class Struct> FieldOf<Struct> made(std::string_view key, int id, FieldKind kind, std::string_view meaning) {
     FieldOf<Struct> field;
     field.key = key;
     field.id = id;
     field.kind = kind;
-    field.member = std::make_shared<MemberOf<Struct, M>>(member);
     field.meaning = meaning;
     return field;
 }
+
+template <class Struct, class M, class At>
+FieldOf<Struct> made(std::string_view key, int id, At at, FieldKind kind, std::string_view meaning) {
+    FieldOf<Struct> field = made<Struct>(key, id, kind, meaning);
+    field.member = std::make_shared<MemberOf<Struct, M, At>>(at);
+    return field;
+}
+
+template <class M, class F> inline constexpr bool is_of =
+    std::is_same_v<typename Plain<M>::type, typename std::remove_cvref_t<F>::Described>;
 
 } // namespace field_parts
 
@@ -221,71 +245,83 @@ FieldRule units(FieldUnit first, FieldUnit own);
 template <class Struct, class M>
 FieldOf<Struct> field(std::string_view key, int id, M Struct::*member, FieldRule rule, std::string_view meaning) {
     constexpr FieldKind kind = field_parts::kind_of<typename field_parts::Plain<M>::type>();
-    FieldOf<Struct> made = field_parts::made(key, id, member, rule.kind.value_or(kind), meaning);
+    FieldOf<Struct> made = field_parts::made<Struct, M>(key, id, member, rule.kind.value_or(kind), meaning);
     made.rule = std::move(rule);
     return made;
 }
 
 /// A struct within the struct.
-template <class Struct, class M, class Inner>
-FieldOf<Struct> field(std::string_view key, int id, M Struct::*member, const Fields<Inner>& fields, std::string_view meaning) {
-    static_assert(std::is_same_v<typename field_parts::Plain<M>::type, Inner>);
-    FieldOf<Struct> made = field_parts::made(key, id, member, FieldKind::group, meaning);
-    made.group = &fields;
-    return made;
+template <class Struct, class M, Description F>
+FieldOf<Struct> field(std::string_view key, int id, M Struct::*member, F&& fields, std::string_view meaning) {
+    static_assert(field_parts::is_of<M, F>);
+    return field_parts::made<Struct, M>(key, id, member, FieldKind::group, meaning).of(std::forward<F>(fields));
+}
+
+/// The same where no pointer to a member leads: in an array.
+template <class Struct, class Inner>
+FieldOf<Struct> field(std::string_view key, int id, Inner& (*at)(Struct&), const Fields<Inner>& fields, std::string_view meaning) {
+    return field_parts::made<Struct, Inner>(key, id, at, FieldKind::group, meaning).of(fields);
 }
 
 /// Some members of the struct, below a key of their own.
-template <class Struct> FieldOf<Struct> section(std::string_view key, int id, const Fields<Struct>& fields, std::string_view meaning) {
-    FieldOf<Struct> made;
-    made.key = key;
-    made.id = id;
-    made.kind = FieldKind::group;
+template <Description F> auto section(std::string_view key, int id, F&& fields, std::string_view meaning) {
+    auto made = field_parts::made<typename std::remove_cvref_t<F>::Described>(key, id, FieldKind::group, meaning);
     made.member = std::make_shared<field_parts::Itself>();
-    made.group = &fields;
-    made.meaning = meaning;
-    return made;
+    return std::move(made).of(std::forward<F>(fields));
 }
 
 /// A struct within, whose keys stand among those of the struct that has it.
-template <class Struct, class M, class Inner> FieldOf<Struct> inlined(int id, M Struct::*member, const Fields<Inner>& fields) {
-    static_assert(std::is_same_v<typename field_parts::Plain<M>::type, Inner>);
-    FieldOf<Struct> made = field_parts::made("", id, member, FieldKind::inlined, "");
-    made.group = &fields;
+template <class Struct, class M, Description F> FieldOf<Struct> inlined(int id, M Struct::*member, F&& fields) {
+    static_assert(field_parts::is_of<M, F>);
+    return field_parts::made<Struct, M>("", id, member, FieldKind::inlined, "").of(std::forward<F>(fields));
+}
+
+/// Some members of the struct that are described for several structs.
+template <class Struct> FieldOf<Struct> inlined(int id, const Fields<Struct>& fields) {
+    FieldOf<Struct> made = section("", id, fields, "");
+    made.kind = FieldKind::inlined;
     return made;
 }
 
 /// Structs by names that the user chooses; `name` is their member for it.
-template <class Struct, class Inner> FieldOf<Struct> named(std::string_view key, int id, std::vector<Inner> Struct::*member,
-                                                           std::size_t most, const Fields<Inner>& fields, std::string_view meaning) {
-    FieldOf<Struct> made = field_parts::made(key, id, member, FieldKind::named, meaning);
-    made.group = &fields;
-    made.rule.fewest = 1;
-    made.rule.most = most;
-    return made;
+template <class Struct, class Inner, Description F> FieldOf<Struct> named(std::string_view key, int id, std::vector<Inner> Struct::*member,
+                                                                          std::size_t most, F&& fields, std::string_view meaning) {
+    static_assert(field_parts::is_of<Inner, F>);
+    FieldOf<Struct> made = field_parts::made<Struct, std::vector<Inner>>(key, id, member, FieldKind::named, meaning);
+    made.rule = names(1, most);
+    return std::move(made).of(std::forward<F>(fields));
 }
 
-template <class Struct, class Inner> FieldOf<Struct> list(std::string_view key, int id, std::vector<Inner> Struct::*member,
-                                                          std::size_t fewest, std::size_t most, const Fields<Inner>& fields,
-                                                          std::string_view meaning) {
-    FieldOf<Struct> made = field_parts::made(key, id, member, FieldKind::list, meaning);
-    made.group = &fields;
-    made.rule.fewest = fewest;
-    made.rule.most = most;
-    return made;
+template <class Struct, class Inner, Description F> FieldOf<Struct> list(std::string_view key, int id, std::vector<Inner> Struct::*member,
+                                                                         std::size_t fewest, std::size_t most, F&& fields,
+                                                                         std::string_view meaning) {
+    static_assert(field_parts::is_of<Inner, F>);
+    FieldOf<Struct> made = field_parts::made<Struct, std::vector<Inner>>(key, id, member, FieldKind::list, meaning);
+    made.rule = names(fewest, most);
+    return std::move(made).of(std::forward<F>(fields));
 }
 
 /// What no kind above fits: read (unless whoever calls does) and written by functions, described to editors by JSON.
 template <class Struct> FieldOf<Struct> own(std::string_view key, int id, void (*read)(const YamlEntry&, Struct&),
                                             std::string (*text)(const Struct&), std::string_view schema, std::string_view meaning) {
-    FieldOf<Struct> made;
-    made.key = key;
-    made.id = id;
-    made.kind = FieldKind::own;
-    made.meaning = meaning;
+    FieldOf<Struct> made = field_parts::made<Struct>(key, id, FieldKind::own, meaning);
     if (read)
         made = std::move(made).read_by(read);
     return std::move(made).text_by(text).schema_by(schema);
+}
+
+/// Another way to give what other keys say: never written. It is read by `read`, or by whoever calls.
+template <class Struct> FieldOf<Struct> form(std::string_view key, FieldKind kind, FieldRule rule, std::string_view meaning,
+                                             void (*read)(const YamlEntry&, Struct&) = nullptr) {
+    FieldOf<Struct> made = field_parts::made<Struct>(key, 0, kind, meaning);
+    made.rule = std::move(rule);
+    made.is_form = true;
+    return read ? std::move(made).read_by(read) : made;
+}
+
+/// Keys of another struct that stand in its place.
+template <class Struct> FieldOf<Struct> forms_of(const Group& group, std::string_view meaning) {
+    return form<Struct>("", FieldKind::inlined, {}, meaning).of(group);
 }
 
 } // namespace fernlicht

@@ -87,7 +87,7 @@ std::string field_bits_at(const Field& field, void* whole, void* usual, const st
 std::string group_bits(const Group& group, const void* whole, const void* usual, const std::string& above) {
     std::vector<const Field*> by_id;
     for (const Field& field : group.fields)
-        if (!field.heard || field.heard(whole))
+        if (!field.is_form && (!field.heard || field.heard(whole)))
             by_id.push_back(&field);
     std::ranges::sort(by_id, {}, &Field::id);
     std::string bits; // what is looked at here is not changed: members have one way to look for all visitors

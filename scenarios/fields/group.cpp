@@ -1,11 +1,19 @@
 #include "scenarios/fields/field.h"
 #include "scenarios/values/pose.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace fernlicht {
 namespace {
+
+const Field* find_field(const Group& group, std::string_view key) {
+    for (const Field& field : group.fields)
+        if (field.kind != FieldKind::inlined && field.key == key)
+            return &field;
+        else if (const Field* const inner = field.kind == FieldKind::inlined ? find_field(*field.group, key) : nullptr)
+            return inner;
+    return nullptr;
+}
 
 double as_given(double value) { return value; }
 double from_degrees(double value) { return radians(value); }
@@ -13,9 +21,7 @@ double from_kmh(double value) { return value / 3.6; }
 
 } // namespace
 
-const Field& field_named(const Group& group, std::string_view key) {
-    return *std::ranges::find(group.fields, key, [](const Field& field) { return std::string_view(field.key); });
-}
+const Field& field_named(const Group& group, std::string_view key) { return *find_field(group, key); }
 
 std::vector<std::string_view> keys_of(const Field& field) {
     if (field.kind == FieldKind::inlined)

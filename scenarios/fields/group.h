@@ -20,12 +20,13 @@ class Member {
   public:
     virtual ~Member() = default;
     virtual void* look(void* whole) const = 0; ///< nullptr: absent
-    virtual void* make(void* whole) const = 0; ///< the value; a new one, at its defaults, where it is optional
-    virtual void clear(void* whole) const = 0; ///< absent, or a list without elements
-    virtual std::size_t size(void* whole) const = 0;
-    virtual void* element(void* whole, std::size_t i) const = 0;
-    virtual void* append(void* whole) const = 0;
-    virtual std::string* name_of(void* element) const = 0; ///< of lists that are written as a map of names
+    /// The value; a new one, at its defaults, where it is optional.
+    virtual void* make(void* whole) const { return look(whole); }
+    virtual void clear(void*) const {} ///< absent, or a list without elements
+    virtual std::size_t size(void*) const { return 0; }
+    virtual void* element(void*, std::size_t) const { return nullptr; }
+    virtual void* append(void*) const { return nullptr; }
+    virtual std::string* name_of(void*) const { return nullptr; } ///< of an element, in lists that are written as a map of names
 };
 
 enum class FieldKind {
@@ -66,9 +67,6 @@ struct FieldRule {
     std::optional<FieldKind> kind = {}; ///< where the member's type leaves it open
 };
 
-/// In place of JSON: that part of the schema is not written from descriptions.
-inline constexpr std::string_view schema_by_hand = "by hand";
-
 struct Field {
     std::string key; ///< of numbers with units: without one
     int id = 0;      ///< names the field for good, among those of its struct: keys may be renamed, ids are never used twice
@@ -76,8 +74,9 @@ struct Field {
     std::shared_ptr<const Member> member;
     FieldRule rule;
     std::string_view meaning;
-    const Group* group = nullptr;
+    std::shared_ptr<const Group> group; ///< of its own, or one that stands for several
 
+    bool is_form = false; ///< never written: another way to give what other fields hold; without an id
     bool is_required = false;
     bool is_written_off_default = false;        ///< only where the value is not the default
     bool may_be_flag = false;                   ///< true: there, with defaults; false: absent
@@ -90,7 +89,7 @@ struct Field {
     // kind own has no more than these; of other kinds each takes the place of what follows from the rest
     std::function<void(const YamlEntry&, void* whole)> read = {};
     std::function<std::string(const void* whole)> text = {}; ///< on one line, or lines that each begin with their end; "": not written
-    std::string_view schema = {};                            ///< JSON
+    std::string schema = {};                                 ///< JSON
     std::function<std::string(const void* whole)> bits = {}; ///< what hashes are taken over in place of `text` (field_bits.h)
 };
 
@@ -101,10 +100,11 @@ struct Group {
     bool is_block = false;             ///< written one key a line
     bool is_bare = false;              ///< of one field, whose value stands for the whole
     std::function<void(const YamlMap&, const void* whole)> check = {};
-    std::string_view schema_beside = {}; ///< JSON: what is required of the keys together
+    std::string schema_beside = {};   ///< JSON: what is required of the keys together
+    std::string_view definition = {}; ///< of groups that stand in several places: schema and reference have them once, by this name
 };
 
-const Field& field_named(const Group& group, std::string_view key);
+const Field& field_named(const Group& group, std::string_view key); ///< which may be of an inlined group
 /// Keys by which a field may be given, with those of inlined groups.
 std::vector<std::string_view> keys_of(const Field& field);
 std::vector<std::string_view> keys_of(const Group& group);

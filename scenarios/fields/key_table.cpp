@@ -54,7 +54,7 @@ std::string allowed(const Field& field) {
 std::string by_default(const Field& field, const void* usual) {
     if (field.is_required)
         return "must be given";
-    if (!usual || field.kind == FieldKind::group)
+    if (!usual || field.is_form || field.kind == FieldKind::group)
         return "";
     const std::string text = value_text(field, usual);
     return text.size() > 40 ? "" : text;
@@ -62,8 +62,13 @@ std::string by_default(const Field& field, const void* usual) {
 
 void add_rows(std::string& text, const Group& group, const void* usual) {
     for (const Field& field : group.fields) {
+        if (field.kind == FieldKind::inlined && field.is_form) {
+            text += fmt::format("| {} | | | | |\n", field.meaning);
+            continue;
+        }
         if (field.kind == FieldKind::inlined) {
-            add_rows(text, *field.group, field.member->look(const_cast<void*>(usual)));
+            const void* const inner = usual ? field.member->look(const_cast<void*>(usual)) : nullptr;
+            add_rows(text, *field.group, inner ? inner : field.group->usual.get());
             continue;
         }
         if (field.rule.units.empty()) {
@@ -86,7 +91,7 @@ std::string key_tables(const std::string& path, const Group& group, const void* 
     add_rows(text, group, usual);
     text += "\n";
     for (const Field& field : group.fields) {
-        if (!field.group || field.kind == FieldKind::inlined || field.group->is_bare)
+        if (!field.group || field.kind == FieldKind::inlined || field.group->is_bare || !field.group->definition.empty())
             continue;
         const bool is_list = field.kind != FieldKind::group;
         const void* inner = is_list || !usual ? nullptr : field.member->look(const_cast<void*>(usual));

@@ -1,10 +1,8 @@
 #include "scenarios/fields/read_fields.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <glm/vec3.hpp>
 
 namespace fernlicht {
@@ -20,8 +18,6 @@ double number(const FieldRule& rule, const YamlEntry& entry) {
         entry.refuse(std::string(rule.refused_as));
     return value;
 }
-
-void read_value(const Field& field, const YamlEntry& entry, void* whole);
 
 void read_named(const Field& field, const YamlEntry& entry, void* whole) {
     field.member->clear(whole);
@@ -49,6 +45,40 @@ void read_inner(const Field& field, const YamlEntry& entry, void* whole) {
     else
         read_group(*field.group, entry, field.member->make(whole));
 }
+
+/// The first field says what the others do: the method of shadows, the kind of a tone mapper.
+void refuse_unheard(const Group& group, const YamlMap& keys, const void* whole) {
+    const Field& says = group.fields.front();
+    std::string heard(says.key);
+    for (const Field& field : group.fields)
+        if (field.heard && field.heard(whole))
+            heard += fmt::format(", {}", field.key);
+    for (const Field& field : group.fields)
+        if (const auto given = keys.find(field.key); given && field.heard && !field.heard(whole)) {
+            int word = 0;
+            std::memcpy(&word, says.member->look(const_cast<void*>(whole)), sizeof word);
+            given->refuse(fmt::format("a key that {} '{}' does not use", says.key, says.rule.words[static_cast<std::size_t>(word)]),
+                          fmt::format("none but {}", heard));
+        }
+}
+
+void read_field(const Field& field, const YamlMap& keys, void* whole) {
+    if (field.is_form && !field.read)
+        return;
+    if (field.kind == FieldKind::inlined)
+        return read_group(*field.group, keys, field.member->make(whole));
+    if (const std::vector<FieldUnit>& units = field.rule.units; !units.empty()) {
+        if (const auto given = keys.one_of({units[0].key, units[1].key})) {
+            const FieldUnit& unit = given->first == units[0].key ? units[0] : units[1];
+            as<double>(field.member->make(whole)) = unit.stored(given->second.number(unit.least, unit.greatest));
+        }
+        return;
+    }
+    if (const auto given = field.is_required ? keys.require(field.key) : keys.find(field.key))
+        read_value(field, *given, whole);
+}
+
+} // namespace
 
 void read_value(const Field& field, const YamlEntry& entry, void* whole) {
     const FieldRule& rule = field.rule;
@@ -112,38 +142,6 @@ void read_value(const Field& field, const YamlEntry& entry, void* whole) {
         break; // has no value of its own
     }
 }
-
-/// The first field says what the others do: the method of shadows, the kind of a tone mapper.
-void refuse_unheard(const Group& group, const YamlMap& keys, const void* whole) {
-    const Field& says = group.fields.front();
-    std::string heard(says.key);
-    for (const Field& field : group.fields)
-        if (field.heard && field.heard(whole))
-            heard += fmt::format(", {}", field.key);
-    for (const Field& field : group.fields)
-        if (const auto given = keys.find(field.key); given && field.heard && !field.heard(whole)) {
-            int word = 0;
-            std::memcpy(&word, says.member->look(const_cast<void*>(whole)), sizeof word);
-            given->refuse(fmt::format("a key that {} '{}' does not use", says.key, says.rule.words[static_cast<std::size_t>(word)]),
-                          fmt::format("none but {}", heard));
-        }
-}
-
-void read_field(const Field& field, const YamlMap& keys, void* whole) {
-    if (field.kind == FieldKind::inlined)
-        return read_group(*field.group, keys, field.member->make(whole));
-    if (const std::vector<FieldUnit>& units = field.rule.units; !units.empty()) {
-        if (const auto given = keys.one_of({units[0].key, units[1].key})) {
-            const FieldUnit& unit = given->first == units[0].key ? units[0] : units[1];
-            as<double>(field.member->make(whole)) = unit.stored(given->second.number(unit.least, unit.greatest));
-        }
-        return;
-    }
-    if (const auto given = field.is_required ? keys.require(field.key) : keys.find(field.key))
-        read_value(field, *given, whole);
-}
-
-} // namespace
 
 void read_field(const Group& group, std::string_view key, const YamlMap& keys, void* whole) {
     read_field(field_named(group, key), keys, whole);

@@ -12,6 +12,8 @@ template <class Struct> struct Fields;
 void read_group(const Group& group, const YamlMap& keys, void* whole);
 /// A map with the group's keys and no others.
 void read_group(const Group& group, const YamlEntry& entry, void* whole);
+/// A field's value, whatever its key.
+void read_value(const Field& field, const YamlEntry& entry, void* whole);
 /// One field of it, where `keys`, which may know others, gives it.
 void read_field(const Group& group, std::string_view key, const YamlMap& keys, void* whole);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace fernlicht {
@@ -43,11 +45,11 @@ ordered_json of_array(const FieldRule& rule, const ordered_json& items) {
 
 ordered_json of_value(const Field& field);
 
-ordered_json of_element(const Group& group) { return group.is_bare ? of_value(group.fields.front()) : of_group(group); }
-
 /// A struct, and the scalars that may stand in its place.
 ordered_json of_inner(const Field& field) {
-    const ordered_json map = of_group(*field.group);
+    const ordered_json map = field.group->definition.empty()
+                                 ? of_group(*field.group)
+                                 : ordered_json{{"$ref", fmt::format("#/definitions/{}", field.group->definition)}};
     ordered_json scalar;
     if (field.may_be_flag)
         scalar["type"] = "boolean";
@@ -61,6 +63,8 @@ ordered_json of_inner(const Field& field) {
         return map;
     return {{"anyOf", {scalar, map}}};
 }
+
+ordered_json of_element(const Field& field) { return field.group->is_bare ? of_value(field.group->fields.front()) : of_inner(field); }
 
 ordered_json of_value(const Field& field) {
     const FieldRule& rule = field.rule;
@@ -96,9 +100,9 @@ ordered_json of_value(const Field& field) {
                 {"minProperties", rule.fewest},
                 {"maxProperties", rule.most},
                 {"propertyNames", {{"type", "string"}, {"pattern", name_pattern}}},
-                {"additionalProperties", of_element(*field.group)}};
+                {"additionalProperties", of_element(field)}};
     case FieldKind::list:
-        return of_array(rule, of_element(*field.group));
+        return of_array(rule, of_element(field));
     case FieldKind::own:
         break;
     case FieldKind::group:
@@ -114,8 +118,6 @@ void add_properties(const Group& group, ordered_json& object) {
             add_properties(*field.group, object);
             continue;
         }
-        if (field.schema == schema_by_hand)
-            continue;
         const std::vector<FieldUnit>& units = field.rule.units;
         ordered_json value = units.empty() ? of_value(field) : ordered_json{};
         for (std::size_t i = 0; i < std::max<std::size_t>(1, units.size()); ++i) {
@@ -130,8 +132,14 @@ void add_properties(const Group& group, ordered_json& object) {
         if (!units.empty())
             object["allOf"].push_back({{"not", {{"required", {units[0].key, units[1].key}}}}});
     }
-    if (!group.schema_beside.empty())
-        object.update(ordered_json::parse(group.schema_beside));
+    if (group.schema_beside.empty())
+        return;
+    const ordered_json beside = ordered_json::parse(group.schema_beside);
+    for (const auto& [keyword, rule] : beside.items())
+        if (keyword == "allOf" || keyword == "required")
+            std::ranges::copy(rule, std::back_inserter(object[keyword]));
+        else
+            object[keyword] = rule;
 }
 
 ordered_json of_group(const Group& group) {
@@ -143,6 +151,31 @@ ordered_json of_group(const Group& group) {
 } // namespace
 
 std::string schema_of(const Group& group) { return of_group(group).dump(2); }
+
+std::string schema_as_heard(Group group, const void* whole) {
+    const void* const of = whole ? whole : group.usual.get();
+    std::erase_if(group.fields, [&](const Field& field) { return field.heard && !field.heard(of); });
+    return schema_of(group);
+}
+
+std::string schemas_by_word(const Group& group, void* scratch) {
+    const Field& says = group.fields.front();
+    std::string forms;
+    Group form;
+    for (int word = 0; word < static_cast<int>(says.rule.words.size()); ++word) {
+        std::memcpy(says.member->make(scratch), &word, sizeof word);
+        Group heard = group;
+        std::erase_if(heard.fields, [&](const Field& field) { return field.heard && !field.heard(scratch); });
+        if (keys_of(heard) != keys_of(form)) {
+            forms += form.fields.empty() ? "" : schema_of(form) + ", ";
+            form = heard;
+            form.fields.front().rule.words.clear();
+        }
+        form.fields.front().rule.words.push_back(says.rule.words[static_cast<std::size_t>(word)]);
+    }
+    return forms + schema_of(form);
+}
+
 std::string schema_of(const Field& field) {
     ordered_json json = of_value(field);
     if (!field.meaning.empty())

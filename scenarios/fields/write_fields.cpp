@@ -105,7 +105,7 @@ bool is_usual(const Group& group, const Field& field, const void* whole) {
 }
 
 bool is_written(const Group& group, const Field& field, const void* whole) {
-    return !(field.heard && !field.heard(whole)) && !(field.is_written_off_default && is_usual(group, field, whole));
+    return !field.is_form && !(field.heard && !field.heard(whole)) && !(field.is_written_off_default && is_usual(group, field, whole));
 }
 
 } // namespace
@@ -130,11 +130,6 @@ std::string flow_text(const Group& group, const void* whole) {
             if (std::string entry = entry_text(field, whole); !entry.empty())
                 entries.push_back(std::move(entry));
     return fmt::format("{}", fmt::join(entries, ", "));
-}
-
-std::string lines_of(const Group& group, std::string_view key, const void* whole, std::size_t depth) {
-    const Field& field = field_named(group, key);
-    return is_written(group, field, whole) ? lines_of(field, whole, depth) : "";
 }
 
 std::string block_text(const Group& group, const void* whole, std::size_t depth) {

@@ -11,8 +11,6 @@ template <class Struct> struct Fields;
 std::string flow_text(const Group& group, const void* whole);
 /// One key a line, at a depth of two spaces each.
 std::string block_text(const Group& group, const void* whole, std::size_t depth);
-/// The lines of one field.
-std::string lines_of(const Group& group, std::string_view key, const void* whole, std::size_t depth);
 /// The value of one field as it stands behind its key on one line; "" for what is not written.
 std::string value_text(const Field& field, const void* whole);
 

@@ -21,6 +21,8 @@ struct LampColour {
                                  ///< gamut clipping is noted
     double sp_ratio = 1.0;       ///< scotopic over photopic
     double cct_k = 0.0;
+
+    bool operator==(const LampColour&) const = default;
 };
 
 /// Planck's law between 1000 and 25 000 K.
@@ -58,6 +60,7 @@ struct MountedLamp {
     /// level times the supply's factor: (U / U_ref)^3.4 for filament lamps between 12.0 and 13.8 V (law of filament lamps' flux), 1 for arc
     /// and LED.
     double intensity_factor() const;
+    bool operator==(const MountedLamp&) const = default; ///< with the very same file
 };
 
 /// At `time_s` the named lamps change; what is not given stays.
@@ -69,6 +72,8 @@ struct LampChange {
     std::shared_ptr<const LampFile> file;
     std::optional<LampColour> colour;
     std::optional<SourceKind> source;
+
+    bool operator==(const LampChange&) const = default;
 };
 
 void apply(const LampChange& change, MountedLamp& lamp);

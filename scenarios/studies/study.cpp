@@ -3,13 +3,12 @@
 #include "scenarios/drives/edits/mirrored_drive.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/drives/keys/lamp_keys.h"
-#include "scenarios/drives/keys/seeing_keys.h"
+#include "scenarios/fields/read_fields.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <set>
 
 namespace fernlicht {
 namespace {
@@ -131,10 +130,6 @@ namespace {
 constexpr int schema_version = 1;
 constexpr std::size_t most_bytes = std::size_t{1} << 20, most_entries = 100;
 
-/// What decides unless the study says otherwise: how far a target and the road are lit, how wide, how much.
-const std::vector<std::string> readings_that_decide{"reach_1lx_target_own_m",      "reach_5lx_target_own_m",      "reach_1lx_road_own_m",
-                                                    "width_1lx_road_all_at_20m_m", "width_1lx_road_all_at_50m_m", "area_1lx_road_all_m2"};
-
 std::filesystem::path existing(const YamlEntry& entry) {
     check_file(entry.path(), entry);
     return entry.path();
@@ -152,80 +147,80 @@ void read_beams(const YamlMap& keys, StudyLamp& lamp) {
         lamp.high = existing(*high);
 }
 
-StudyLamp read_lamp(const std::string& name, const YamlEntry& entry, LampShelf& shelf) {
-    StudyLamp lamp;
-    lamp.name = name;
-    const YamlMap keys =
-        entry.map({"low", "left", "right", "high", "source", "temperature_k", "spectrum", "colour", "file_aim_percent", "mirrors"});
-    read_beams(keys, lamp);
-    const Layers layers{keys};
-    lamp.source = read_source(layers).value_or(SourceKind::filament);
-    lamp.colour = read_colour(layers, lamp.source, shelf, entry);
-    lamp.file_aim_percent = keys.number_or("file_aim_percent", lamp.file_aim_percent, -10.0, 10.0);
-    lamp.mirrors = keys.flag_or("mirrors", lamp.mirrors);
-    return lamp;
+const Fields<StudyLamp>& study_lamp_fields() {
+    using Lamp = StudyLamp;
+    static const Fields<Lamp> fields =
+        Fields<Lamp>{
+            form<Lamp>("low", FieldKind::path, any(), "lamp file of both low beams"),
+            form<Lamp>("left", FieldKind::path, any(), "of the left one"),
+            form<Lamp>("right", FieldKind::path, any(), "of the right one"),
+            form<Lamp>("high", FieldKind::path, any(), "of both high beams, for drives that have some"),
+            source_field(1, &Lamp::source),
+            temperature_form<Lamp>(),
+            spectrum_form<Lamp>(),
+            field("colour", 2, &Lamp::colour, colour_fields(), "what a spectrum comes to"),
+            field("file_aim_percent", 3, &Lamp::file_aim_percent, range(-10.0, 10.0), "the dip that the lamp's file already holds"),
+            field("mirrors", 4, &Lamp::mirrors, any(), "false: its tables stay as they are where the condition mirrors"),
+        }
+            .in_schema(R"({"oneOf": [{"required": ["left", "right"], "not": {"required": ["low"]}},
+                {"required": ["low"], "not": {"anyOf": [{"required": ["left"]}, {"required": ["right"]}]}}]})");
+    return fields;
 }
 
-std::vector<StudyLamp> read_lamps(const YamlEntry& entry, FilesRead& opened) {
+void read_study_lamps(const YamlEntry& entry, Study& study) {
     LampShelf shelf;
-    std::vector<StudyLamp> lamps;
-    for (const auto& [name, lamp] : entry.named(most_entries))
-        lamps.push_back(read_lamp(name, lamp, shelf));
-    if (lamps.empty())
-        entry.refuse("no lamps", "at least one");
-    opened.insert(opened.end(), shelf.opened().begin(), shelf.opened().end());
-    return lamps;
-}
-
-/// Each value once: a value twice would be two cells of one name.
-template <class Value> void refuse_repeats(const std::vector<Value>& values, const YamlEntry& entry) {
-    for (std::size_t i = 0; i < values.size(); ++i)
-        if (std::find(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i), values[i]) !=
-            values.begin() + static_cast<std::ptrdiff_t>(i))
-            entry.refuse("a value given twice", "each value once");
-}
-
-std::vector<double> read_values(const YamlMap& keys, std::string_view key, std::vector<double> otherwise, double least, double greatest) {
-    const auto given = keys.find(key);
-    if (!given)
-        return otherwise;
-    std::vector<double> values;
-    for (const YamlEntry& entry : given->is_list() ? given->list(1, most_entries) : std::vector{*given})
-        values.push_back(entry.number(least, greatest));
-    refuse_repeats(values, *given);
-    return values;
-}
-
-void read_times_of_day(const YamlMap& keys, StudyConditions& conditions) {
-    static const Daylight known[] = {{"night", 0.0}, {"twilight", 3.4}, {"day", 27000.0}}; // as a drive's `daylight`
-    const auto given = keys.find("time_of_day");
-    if (!given) {
-        conditions.times_of_day = {known[0]};
-        return;
+    for (const auto& [name, given] : entry.named(most_entries)) {
+        const YamlMap keys = given.map(keys_of(study_lamp_fields()));
+        StudyLamp& lamp = study.lamps.emplace_back();
+        lamp.name = name;
+        read_beams(keys, lamp);
+        lamp.source = read_source(keys).value_or(SourceKind::filament);
+        lamp.colour = read_colour(keys, lamp.source, shelf, given);
+        read_field(study_lamp_fields(), "file_aim_percent", keys, &lamp);
+        read_field(study_lamp_fields(), "mirrors", keys, &lamp);
     }
-    for (const YamlEntry& entry : given->is_list() ? given->list(1, most_entries) : std::vector{*given})
-        conditions.times_of_day.push_back(known[entry.choice({"night", "twilight", "day"})]);
-    refuse_repeats(conditions.times_of_day, *given);
+    study.opened.insert(study.opened.end(), shelf.opened().begin(), shelf.opened().end());
 }
 
-StudyConditions read_conditions(const YamlMap& study) {
-    StudyConditions conditions;
-    const auto given = study.find("conditions");
-    if (!given) {
-        conditions.times_of_day = {Daylight{}};
-        return conditions;
-    }
-    const YamlMap keys = given->map({"time_of_day", "aim_percent", "voltage_v", "mirror"});
-    read_times_of_day(keys, conditions);
-    conditions.aim_percent = read_values(keys, "aim_percent", conditions.aim_percent, -10.0, 10.0);
-    conditions.voltage_v = read_values(keys, "voltage_v", conditions.voltage_v, 12.0, 13.8);
-    if (const auto mirror = keys.find("mirror")) {
-        conditions.mirror.clear();
-        for (const YamlEntry& entry : mirror->is_list() ? mirror->list(1, 2) : std::vector{*mirror})
-            conditions.mirror.push_back(entry.flag());
-        refuse_repeats(conditions.mirror, *mirror);
-    }
-    return conditions;
+/// Each value once: a value twice would be two cells of one name. Where it `may_be_one`, a value may stand without its list.
+template <class Struct, class Value>
+FieldOf<Struct> values_form(std::string_view key, std::vector<Value> Struct::*values, Value (*read)(const YamlEntry&), bool may_be_one,
+                            std::string_view schema_of_one, std::string_view meaning, std::size_t most = most_entries) {
+    FieldOf<Struct> made = form<Struct>(key, FieldKind::own, {}, meaning);
+    made.read = [=](const YamlEntry& entry, void* whole) {
+        std::vector<Value>& all = static_cast<Struct*>(whole)->*values;
+        all.clear();
+        for (const YamlEntry& one : may_be_one && !entry.is_list() ? std::vector{entry} : entry.list(1, most))
+            all.push_back(read(one));
+        for (auto value = all.begin(); value != all.end(); ++value)
+            if (std::find(all.begin(), value, *value) != value)
+                entry.refuse("a value given twice", "each value once");
+    };
+    made.schema = fmt::format(R"({{"type": "array", "items": {}, "minItems": 1, "maxItems": {}}})", schema_of_one, most);
+    if (may_be_one)
+        made.schema = fmt::format(R"({{"anyOf": [{}, {}]}})", schema_of_one, made.schema);
+    return made;
+}
+
+double aim_percent(const YamlEntry& entry) { return entry.number(-10.0, 10.0); }
+double voltage_v(const YamlEntry& entry) { return entry.number(12.0, 13.8); }
+bool is_mirrored(const YamlEntry& entry) { return entry.flag(); }
+std::string technique_name(const YamlEntry& entry) { return entry.name(); }
+std::string reading_name(const YamlEntry& entry) { return entry.text(); }
+
+const Fields<StudyConditions>& condition_fields() {
+    using Conditions = StudyConditions;
+    static const Fields<Conditions> fields{
+        values_form("time_of_day", &Conditions::times_of_day, known_daylight, true, R"({"enum": ["night", "twilight", "day"]})",
+                    "as a drive's daylight; night by default"),
+        values_form("aim_percent", &Conditions::aim_percent, aim_percent, true, R"({"type": "number", "minimum": -10, "maximum": 10})",
+                    "of the cut-off: -1, the default, is 1 cm down in 1 m"),
+        values_form("voltage_v", &Conditions::voltage_v, voltage_v, true, R"({"type": "number", "minimum": 12, "maximum": 13.8})",
+                    "supply; 13.2 by default"),
+        values_form("mirror", &Conditions::mirror, is_mirrored, true, R"({"type": "boolean"})",
+                    "true: roads, drives and lamps in a mirror; left-hand traffic on our roads", 2),
+    };
+    return fields;
 }
 
 std::string lamp_name(const YamlEntry& entry, const std::vector<StudyLamp>& lamps) {
@@ -236,73 +231,62 @@ std::string lamp_name(const YamlEntry& entry, const std::vector<StudyLamp>& lamp
             return name;
         known.push_back(lamp.name);
     }
-    const std::string near = nearest_name(name, known);
-    entry.refuse(fmt::format("no lamp '{}' in this study", name),
-                 fmt::format("one of {}{}", fmt::join(known, ", "), near.empty() ? "" : fmt::format(" (nearest: '{}')", near)));
+    entry.refuse(fmt::format("no lamp '{}' in this study", name), one_of_names(name, known));
 }
 
-std::vector<StudyComparison> read_comparisons(const YamlMap& keys, const std::vector<StudyLamp>& lamps) {
-    std::vector<StudyComparison> comparisons;
-    const auto given = keys.find("compare");
-    if (!given) { // all with the first
-        for (std::size_t i = 1; i < lamps.size(); ++i)
-            comparisons.push_back({lamps[i].name, lamps.front().name});
-        return comparisons;
-    }
-    for (const YamlEntry& entry : given->list(0, most_entries)) {
-        const YamlMap pair = entry.map({"new", "against"});
-        comparisons.push_back({lamp_name(pair.require("new"), lamps), lamp_name(pair.require("against"), lamps)});
-        if (comparisons.back().tested == comparisons.back().against)
+const Fields<StudyComparison>& comparison_fields() {
+    static const Fields<StudyComparison> fields{
+        field("new", 1, &StudyComparison::tested, any(), "a lamp of the study").required(),
+        field("against", 2, &StudyComparison::against, any(), "another").required(),
+    };
+    return fields;
+}
+
+void read_comparisons(const YamlEntry& given, Study& study) {
+    for (const YamlEntry& entry : given.list(0, most_entries)) {
+        const YamlMap pair = entry.map(keys_of(comparison_fields()));
+        study.comparisons.push_back({lamp_name(pair.require("new"), study.lamps), lamp_name(pair.require("against"), study.lamps)});
+        if (study.comparisons.back().tested == study.comparisons.back().against)
             entry.refuse("a lamp compared with itself", "two lamps");
     }
-    return comparisons;
 }
 
-StudyLimit read_limit(const YamlEntry& entry, const std::vector<StudyLamp>& lamps) {
-    const YamlMap keys = entry.map({"reading", "lamp", "at_least", "at_most", "change_at_least", "change_at_most"});
-    StudyLimit limit;
-    limit.reading = keys.require("reading").text();
-    const auto number = [&](std::string_view key, std::optional<double>& value) {
-        if (const auto given = keys.find(key))
-            value = given->number(-1.0e12, 1.0e12);
+const Fields<StudyLimit>& study_limit_fields() {
+    using Limits = StudyLimit;
+    const FieldRule numbers = range(-1.0e12, 1.0e12);
+    static const Fields<Limits> fields{
+        field("reading", 1, &Limits::reading, any(), "its name").required(),
+        field("lamp", 2, &Limits::lamp, any(), "of which lamp; of every lamp by default"),
+        field("at_least", 3, &Limits::at_least, numbers, "in the reading's unit"),
+        field("at_most", 4, &Limits::at_most, numbers, "in the reading's unit"),
+        field("change_at_least", 5, &Limits::change_at_least, numbers, "of every comparison"),
+        field("change_at_most", 6, &Limits::change_at_most, numbers, "of every comparison"),
     };
-    number("at_least", limit.at_least);
-    number("at_most", limit.at_most);
-    number("change_at_least", limit.change_at_least);
-    number("change_at_most", limit.change_at_most);
-    const bool is_change = limit.change_at_least || limit.change_at_most;
-    if (!is_change && !limit.at_least && !limit.at_most)
-        entry.refuse("a limit without a number", "at_least, at_most, change_at_least or change_at_most");
-    if (is_change && (limit.at_least || limit.at_most))
-        entry.refuse("a limit on a reading and on its change in one", "two limits");
-    if (const auto lamp = keys.find("lamp")) {
-        limit.lamp = lamp_name(*lamp, lamps);
-        if (is_change)
-            lamp->refuse("a lamp beside a limit on a change", "none: it holds for every comparison");
-    }
-    return limit;
+    return fields;
 }
 
-void read_measuring(const YamlMap& keys, Study& study) {
-    if (const auto measure = keys.find("measure"))
-        study.measure = read_seeing(*measure);
-    study.readings = usual_readings();
-    if (const auto readings = keys.find("readings")) {
-        study.readings.clear();
-        for (const YamlEntry& entry : readings->list(1, most_entries))
-            study.readings.push_back(entry.text());
-        refuse_repeats(study.readings, *readings);
+void read_study_limits(const YamlEntry& given, Study& study) {
+    for (const YamlEntry& entry : given.list(0, most_entries)) {
+        const YamlMap keys = entry.map(keys_of(study_limit_fields()));
+        StudyLimit& limit = study.limits.emplace_back();
+        for (const char* const key : {"reading", "at_least", "at_most", "change_at_least", "change_at_most"})
+            read_field(study_limit_fields(), key, keys, &limit);
+        const bool is_change = limit.change_at_least || limit.change_at_most;
+        if (!is_change && !limit.at_least && !limit.at_most)
+            entry.refuse("a limit without a number", "at_least, at_most, change_at_least or change_at_most");
+        if (is_change && (limit.at_least || limit.at_most))
+            entry.refuse("a limit on a reading and on its change in one", "two limits");
+        if (const auto lamp = keys.find("lamp")) {
+            limit.lamp = lamp_name(*lamp, study.lamps);
+            if (is_change)
+                lamp->refuse("a lamp beside a limit on a change", "none: it holds for every comparison");
+        }
     }
-    if (const auto limits = keys.find("limits"))
-        for (const YamlEntry& entry : limits->list(0, most_entries))
-            study.limits.push_back(read_limit(entry, study.lamps));
-    if (const auto moments = keys.find("pictured_moments"))
-        study.pictured_moments = moments->whole(1, 12);
-    if (const auto resolution = keys.find("resolution_px")) {
-        const std::vector<YamlEntry> sides = resolution->list(2, 2);
-        study.resolution_px = {sides[0].whole(1, largest_view_px), sides[1].whole(1, largest_view_px)};
-    }
-    study.noise_relative = keys.number_or("lamp_noise_percent", 0.0, 0.0, 100.0) / 100.0;
+}
+
+void read_study_resolution(const YamlEntry& entry, Study& study) {
+    const std::vector<YamlEntry> sides = entry.list(2, 2);
+    study.resolution_px = {sides[0].whole(1, largest_view_px), sides[1].whole(1, largest_view_px)};
 }
 
 void refuse_too_many(const Study& study, const YamlEntry& entry) {
@@ -318,7 +302,40 @@ void refuse_too_many(const Study& study, const YamlEntry& entry) {
 
 } // namespace
 
-const std::vector<std::string>& usual_readings() { return readings_that_decide; }
+const std::vector<std::string>& usual_readings() {
+    // How far a target and the road are lit, how wide, how much.
+    static const std::vector<std::string> readings{"reach_1lx_target_own_m",      "reach_5lx_target_own_m",      "reach_1lx_road_own_m",
+                                                   "width_1lx_road_all_at_20m_m", "width_1lx_road_all_at_50m_m", "area_1lx_road_all_m2"};
+    return readings;
+}
+
+const Fields<Study>& study_fields() {
+    constexpr std::string_view text = R"({"type": "string"})";
+    static const Fields<Study> fields{
+        form<Study>("fernlicht_study", FieldKind::own, {}, "version of this schema").schema_by(R"({"const": 1})").required(),
+        field("name", 1, &Study::name, a_name(), "of the study; the file's by default"),
+        field("title", 2, &Study::title, any(), "for people; the name by default"),
+        named("lamps", 3, &Study::lamps, most_entries, study_lamp_fields(), "lamp sets under comparison")
+            .read_by(read_study_lamps)
+            .required(),
+        values_form("drives", &Study::drives, existing, false, text, "drive files; relative to the study file").required(),
+        values_form("techniques", &Study::techniques, technique_name, false, text, "how the drives are drawn; photometric by default"),
+        field("conditions", 4, &Study::conditions, condition_fields(), "every combination is played"),
+        form<Study>("compare", FieldKind::list, names(0, most_entries), "all with the first by default", read_comparisons)
+            .of(comparison_fields()),
+        field("measure", 5, &Study::measure, seeing_fields(), "in every drive that does not ask itself"),
+        values_form("readings", &Study::readings, reading_name, false, text, "that decide, by name"),
+        list("limits", 6, &Study::limits, 0, most_entries, study_limit_fields(), "beyond these the study fails").read_by(read_study_limits),
+        field("pictured_moments", 7, &Study::pictured_moments, range(1.0, 12.0), "stored moments of each cell"),
+        form<Study>("resolution_px", FieldKind::own, {}, "width, height of the cameras' views; the drives' own by default",
+                    read_study_resolution)
+            .schema_by(R"({"type": "array", "minItems": 2, "maxItems": 2,
+                "items": {"type": "integer", "minimum": 1, "maximum": 16384}})"),
+        form<Study>("lamp_noise_percent", FieldKind::number, range(0.0, 100.0), "standard deviation of the lamps' intensities",
+                    [](const YamlEntry& entry, Study& study) { study.noise_relative = entry.number(0.0, 100.0) / 100.0; }),
+    };
+    return fields;
+}
 
 Study read_study(const std::filesystem::path& path) {
     Study study;
@@ -326,27 +343,17 @@ Study read_study(const std::filesystem::path& path) {
     study.text = to_utf8(read_file(path, study.opened, most_bytes));
     const YamlValue document = parse_yaml(study.text, path);
     const YamlEntry whole(document, path, "");
-    const YamlMap keys(whole, {"fernlicht_study", "name", "title", "lamps", "drives", "techniques", "conditions", "measure", "compare",
-                               "readings", "limits", "pictured_moments", "resolution_px", "lamp_noise_percent"});
+    const YamlMap keys(whole, keys_of(study_fields()));
     if (keys.require("fernlicht_study").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht_study").refuse(fmt::format("{}, the version of the study file's schema", schema_version));
-    const auto name = keys.find("name"), title = keys.find("title");
-    study.name = name ? name->name() : name_from(path);
-    study.title = title ? title->text() : study.name;
-    study.lamps = read_lamps(keys.require("lamps"), study.opened);
-    const YamlEntry drives = keys.require("drives");
-    for (const YamlEntry& entry : drives.list(1, most_entries))
-        study.drives.push_back(existing(entry));
-    refuse_repeats(study.drives, drives);
-    if (const auto techniques = keys.find("techniques")) {
-        study.techniques.clear();
-        for (const YamlEntry& entry : techniques->list(1, most_entries))
-            study.techniques.push_back(entry.name());
-        refuse_repeats(study.techniques, *techniques);
-    }
-    study.conditions = read_conditions(keys);
-    study.comparisons = read_comparisons(keys, study.lamps);
-    read_measuring(keys, study);
+    study.name = name_from(path);
+    study.conditions.times_of_day = {Daylight{}};
+    study.readings = usual_readings();
+    read_group(study_fields(), keys, &study);
+    if (study.title.empty())
+        study.title = study.name;
+    for (std::size_t i = 1; i < study.lamps.size() && !keys.find("compare"); ++i) // all with the first
+        study.comparisons.push_back({study.lamps[i].name, study.lamps.front().name});
     refuse_too_many(study, whole);
     return study;
 }

@@ -54,6 +54,9 @@ struct Study {
     FilesRead opened;
 };
 
+template <class Struct> struct Fields;
+const Fields<Study>& study_fields(); ///< the keys of its file
+
 inline constexpr std::size_t most_study_cells = 500;
 
 /// One thing that is played: a drive with one lamp set in one technique under one condition.

@@ -1,7 +1,6 @@
 #include "scenarios/yaml/yaml_entry.h"
 
 #include "scenarios/values/errors.h"
-#include "scenarios/values/pose.h"
 
 #include <algorithm>
 #include <charconv>
@@ -129,13 +128,12 @@ std::string YamlEntry::name() const {
 }
 
 std::size_t YamlEntry::choice(std::span<const std::string_view> choices) const {
-    if (is_scalar()) {
-        if (const auto found = std::find(choices.begin(), choices.end(), value_->text); found != choices.end())
-            return static_cast<std::size_t>(found - choices.begin());
-        if (const std::string near = nearest_name(value_->text, choices); !near.empty())
-            refuse(fmt::format("one of {} (nearest: '{}')", fmt::join(choices, ", "), near));
-    }
-    refuse(fmt::format("one of {}", fmt::join(choices, ", ")));
+    if (!is_scalar())
+        refuse(fmt::format("one of {}", fmt::join(choices, ", ")));
+    const auto found = std::find(choices.begin(), choices.end(), value_->text);
+    if (found == choices.end())
+        refuse(one_of_names(value_->text, {choices.begin(), choices.end()}));
+    return static_cast<std::size_t>(found - choices.begin());
 }
 
 std::filesystem::path YamlEntry::path() const {
@@ -181,6 +179,11 @@ std::vector<std::pair<std::string, YamlEntry>> YamlEntry::named(std::size_t most
     return entries;
 }
 
+std::string one_of_names(const std::string& given, const std::vector<std::string>& known) {
+    const std::string near = nearest_name(given, known);
+    return fmt::format("one of {}{}", fmt::join(known, ", "), near.empty() ? "" : fmt::format(" (nearest: '{}')", near));
+}
+
 YamlMap::YamlMap(YamlEntry entry, std::span<const std::string_view> known_keys) : entry_(std::move(entry)) {
     if (entry_.value().kind != YamlValue::Kind::map)
         entry_.refuse(fmt::format("a map with keys such as {}", fmt::join(known_keys, ", ")));
@@ -193,11 +196,16 @@ YamlMap::YamlMap(YamlEntry entry, std::span<const std::string_view> known_keys) 
     }
 }
 
+std::optional<YamlEntry> YamlMap::own(std::string_view key) const {
+    const auto found = std::ranges::find(entry_.value().members, key, &YamlMember::key);
+    if (found == entry_.value().members.end())
+        return std::nullopt;
+    return YamlEntry(found->value, entry_.file(), child_path(entry_.key_path(), key));
+}
+
 std::optional<YamlEntry> YamlMap::find(std::string_view key) const {
-    for (const YamlMember& member : entry_.value().members)
-        if (member.key == key)
-            return YamlEntry(member.value, entry_.file(), child_path(entry_.key_path(), key));
-    return std::nullopt;
+    std::optional<YamlEntry> found = own(key);
+    return found || !behind_ ? found : behind_->find(key);
 }
 
 YamlEntry YamlMap::require(std::string_view key) const {
@@ -213,13 +221,13 @@ void YamlMap::refuse_missing(std::string_view key, const std::string& expected) 
 std::optional<std::pair<std::string_view, YamlEntry>> YamlMap::one_of(std::initializer_list<std::string_view> keys) const {
     std::optional<std::pair<std::string_view, YamlEntry>> result;
     for (const std::string_view key : keys) {
-        const std::optional<YamlEntry> found = find(key);
+        const std::optional<YamlEntry> found = own(key);
         if (found && result)
             found->refuse(fmt::format("'{}' beside '{}'", key, result->first), "one of them");
         if (found)
             result.emplace(key, *found);
     }
-    return result;
+    return result || !behind_ ? result : behind_->one_of(keys);
 }
 
 double YamlMap::number_or(std::string_view key, double otherwise, double least, double greatest) const {
@@ -230,16 +238,6 @@ double YamlMap::number_or(std::string_view key, double otherwise, double least, 
 bool YamlMap::flag_or(std::string_view key, bool otherwise) const {
     const std::optional<YamlEntry> found = find(key);
     return found ? found->flag() : otherwise;
-}
-
-std::optional<double> YamlMap::angle_rad(std::string_view key, double limit_deg) const {
-    const std::string in_degrees = fmt::format("{}_deg", key), in_radians = fmt::format("{}_rad", key);
-    const auto found = one_of({in_degrees, in_radians});
-    if (!found)
-        return std::nullopt;
-    if (found->first == in_radians)
-        return found->second.number(-radians(limit_deg), radians(limit_deg));
-    return radians(found->second.number(-limit_deg, limit_deg));
 }
 
 } // namespace fernlicht

@@ -61,6 +61,9 @@ class YamlEntry {
     std::string key_path_;
 };
 
+/// What is expected of a name that none of `known` is: "one of a, b (nearest: 'b')".
+std::string one_of_names(const std::string& given, const std::vector<std::string>& known);
+
 /// A map whose keys are all known.
 class YamlMap {
   public:
@@ -68,19 +71,24 @@ class YamlMap {
     YamlMap(YamlEntry entry, std::initializer_list<std::string_view> known_keys)
         : YamlMap(std::move(entry), std::span(known_keys.begin(), known_keys.size())) {}
 
+    /// This map in front of another, which gives what this one does not; it must outlive it.
+    YamlMap before(const YamlMap* behind) && { return behind_ = behind, std::move(*this); }
+
     const YamlEntry& entry() const { return entry_; }
+    const YamlMap* behind() const { return behind_; }
     std::optional<YamlEntry> find(std::string_view key) const; ///< nullopt: not given
     YamlEntry require(std::string_view key) const;
     [[noreturn]] void refuse_missing(std::string_view key, const std::string& expected) const;
-    /// The one of `keys` that is given, if any; two of them refuse.
+    /// The one of `keys` that is given, if any, here or else behind; two of them refuse.
     std::optional<std::pair<std::string_view, YamlEntry>> one_of(std::initializer_list<std::string_view> keys) const;
     double number_or(std::string_view key, double otherwise, double least, double greatest) const;
     bool flag_or(std::string_view key, bool otherwise) const;
-    /// `key`_rad or `key`_deg, as radians; `limit_deg` to both sides.
-    std::optional<double> angle_rad(std::string_view key, double limit_deg) const;
 
   private:
+    std::optional<YamlEntry> own(std::string_view key) const;
+
     YamlEntry entry_;
+    const YamlMap* behind_ = nullptr;
 };
 
 } // namespace fernlicht

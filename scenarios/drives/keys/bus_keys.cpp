@@ -3,9 +3,13 @@
 #include "scenarios/can/bus_mapping.h"
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/control/signals.h"
-#include "scenarios/drives/keys/drive_texts.h"
 #include "scenarios/drives/keys/lamp_keys.h"
 #include "scenarios/drives/play/bus_play.h"
+#include "scenarios/fields/field.h"
+#include "scenarios/fields/field_bits.h"
+#include "scenarios/fields/read_fields.h"
+#include "scenarios/fields/schema.h"
+#include "scenarios/fields/write_fields.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/yaml/yaml_tree.h"
 
@@ -18,7 +22,6 @@ namespace {
 
 constexpr std::size_t most_databases = 64, most_mapped = 1000, most_listed_values = 1000;
 constexpr double largest_factor = 1.0e12, longest_stale_s = 1.0e6, longest_cycle_s = 1000.0, shortest_cycle_s = 1.0e-4;
-constexpr BusState policy_states[] = {BusState::stale, BusState::missing, BusState::out_of_range, BusState::contradictory};
 
 InputError::Where place_of(const YamlEntry& entry) { return {entry.file(), entry.value().line, entry.value().column, entry.key_path()}; }
 
@@ -33,19 +36,17 @@ std::vector<std::pair<std::string, YamlEntry>> texts_of(const YamlEntry& entry, 
     return entries;
 }
 
-BusSource read_source(const YamlEntry& entry) {
-    const std::string text = entry.text();
+std::optional<BusSource> split(const std::string& text) {
     const std::size_t dot = text.find('.');
     if (dot == std::string::npos || dot == 0 || dot + 1 == text.size() || text.find('.', dot + 1) != std::string::npos)
-        entry.refuse("Message.Signal, as the database names them");
-    return {text.substr(0, dot), text.substr(dot + 1)};
+        return std::nullopt;
+    return BusSource{text.substr(0, dot), text.substr(dot + 1)};
 }
 
-BusSource source_from_key(const std::string& key, const YamlEntry& entry) {
-    const std::size_t dot = key.find('.');
-    if (dot == std::string::npos || dot == 0 || dot + 1 == key.size() || key.find('.', dot + 1) != std::string::npos)
-        entry.refuse(fmt::format("'{}'", printable(key)), "Message.Signal, as the database names them");
-    return {key.substr(0, dot), key.substr(dot + 1)};
+BusSource read_bus_source(const YamlEntry& entry) {
+    if (const auto source = split(entry.text()))
+        return *source;
+    entry.refuse("Message.Signal, as the database names them");
 }
 
 const SignalKind& kind_named(const std::string& name, const YamlEntry& entry) {
@@ -59,102 +60,167 @@ const SignalKind& kind_named(const std::string& name, const YamlEntry& entry) {
                  near.empty() ? "a signal that 'fernlicht signals' lists" : fmt::format("'{}', the nearest signal", near));
 }
 
-std::vector<std::pair<std::string, double>> read_values(const YamlMap& keys, const SignalKind& kind) {
-    std::vector<std::pair<std::string, double>> values;
-    if (const auto given = keys.find("values"))
-        for (const auto& [text, entry] : texts_of(*given, most_listed_values))
-            values.emplace_back(text, entry.number(std::max(kind.least, -1.0e12), std::min(kind.greatest, 1.0e12)));
-    return values;
+/// In the unit of the signal that was named before.
+template <class Mapped> double read_signal_value(const YamlEntry& entry, const Mapped& mapped) {
+    const SignalKind& kind = *known_signal(mapped.name);
+    return entry.number(std::max(kind.least, -largest_factor), std::min(kind.greatest, largest_factor));
 }
 
-/// factor and offset, neither of them beside `values`.
-template <class Mapped> void read_scale(const YamlMap& keys, Mapped& mapped) {
-    if (const auto factor = keys.find("factor")) {
-        mapped.factor = factor->number(-largest_factor, largest_factor);
-        if (*mapped.factor == 0.0)
-            factor->refuse("a number that is not 0");
-    }
-    mapped.opposite = keys.flag_or("opposite", false);
-    if (const auto offset = keys.find("offset"))
-        mapped.offset = offset->number(-largest_factor, largest_factor);
+template <class Mapped> void read_values(const YamlEntry& entry, Mapped& mapped) {
+    for (const auto& [text, value] : texts_of(entry, most_listed_values))
+        mapped.values.emplace_back(text, read_signal_value(value, mapped));
+}
+
+template <class Mapped> std::string values_text(const Mapped& mapped) {
+    std::string text;
+    for (const auto& [said, value] : mapped.values)
+        text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", quoted(said), value);
+    return text.empty() ? "" : "{" + text + "}";
+}
+
+template <class Mapped> void read_factor(const YamlEntry& entry, Mapped& mapped) {
+    mapped.factor = entry.number(-largest_factor, largest_factor);
+    if (*mapped.factor == 0.0)
+        entry.refuse("a number that is not 0");
+}
+
+/// From what the bus says to the signal's value, or back.
+template <class Mapped> const Fields<Mapped>& scale_fields() {
+    const FieldRule factors = range(-largest_factor, largest_factor);
+    static const Fields<Mapped> fields{
+        field("factor", 1, &Mapped::factor, factors, "on the value; by the units of both signals by default")
+            .read_by(read_factor<Mapped>)
+            .schema_by(R"({"type": "number", "minimum": -1000000000000, "maximum": 1000000000000, "not": {"const": 0}})"),
+        field("offset", 2, &Mapped::offset, factors, "added to it"),
+        own<Mapped>("values", 3, read_values<Mapped>, values_text<Mapped>, R"({"type": "object", "minProperties": 1,
+            "maxProperties": 1000, "additionalProperties": {"type": "number"}})",
+                    "instead: what the bus says (a label, or a physical value) and our value"),
+        field("opposite", 4, &Mapped::opposite, any(), "the sign is turned round").written_off_default(),
+    };
+    return fields;
+}
+
+template <class Mapped> void read_scale(const Fields<Mapped>& fields, const YamlMap& keys, Mapped& mapped) {
+    for (const char* const key : {"signal", "values", "factor", "opposite", "offset"})
+        read_field(fields, key, keys, &mapped);
     if (!mapped.values.empty() && (mapped.factor || mapped.offset))
         keys.entry().refuse("values beside factor or offset", "one of them");
 }
 
-BusInput read_bus_input(const std::string& name, const YamlEntry& entry) {
+bool has_second(const void* input) { return static_cast<const BusInput*>(input)->also.has_value(); }
+
+void read_tolerance(const YamlEntry& entry, BusInput& input) {
+    if (!input.also)
+        entry.refuse("a tolerance without a second signal", "also: Message.Signal beside it");
+    input.tolerance = entry.number(0.0, largest_factor);
+}
+
+template <BusState state> void read_policy(const YamlEntry& entry, BusInput& input) {
+    if (state == BusState::contradictory && !input.also)
+        entry.refuse("a policy for contradictory signals without a second one", "also: Message.Signal beside it");
+    const auto policy = static_cast<BusPolicy>(entry.choice({"hold", "default", "lost", "fail"}));
+    if (policy == BusPolicy::fallback && !input.fallback)
+        entry.refuse("'default' without a value", "default: NUMBER beside it");
+    input.policies[static_cast<std::size_t>(state)] = policy;
+}
+
+template <BusState state> FieldOf<BusInput> policy_field(int id, std::string_view when) {
+    return own<BusInput>(
+        name_of(state), id, read_policy<state>, [](const BusInput& input) { return std::string(name_of(input.policy(state))); },
+        R"({"enum": ["hold", "default", "lost", "fail"]})", when);
+}
+
+constexpr std::string_view source_schema = R"({"type": "string", "pattern": "^[^.]+\\.[^.]+$"})";
+
+BusInput usual_input() {
     BusInput input;
-    input.name = name;
-    input.where = place_of(entry);
     input.policies.fill(BusPolicy::lost);
-    const SignalKind& kind = kind_named(name, entry);
-    if (!may_come_from_bus(kind))
-        entry.refuse(fmt::format("{}, which the {} write", name, kind.writer),
-                     "a signal that car, road, driver or another controller gives");
-    if (entry.is_scalar()) {
-        input.source = read_source(entry);
-        return input;
-    }
-    const YamlMap keys = entry.map({"signal", "also", "tolerance", "factor", "offset", "values", "opposite", "stale_after_s", "stale",
-                                    "missing", "out_of_range", "contradictory", "default"});
-    input.source = read_source(keys.require("signal"));
-    input.values = read_values(keys, kind);
-    read_scale(keys, input);
-    if (const auto also = keys.find("also"))
-        input.also = read_source(*also);
-    if (const auto tolerance = keys.find("tolerance")) {
-        if (!input.also)
-            tolerance->refuse("a tolerance without a second signal", "also: Message.Signal beside it");
-        input.tolerance = tolerance->number(0.0, largest_factor);
-    }
-    if (const auto stale = keys.find("stale_after_s"))
-        input.stale_after_s = stale->number_above(0.0, longest_stale_s);
-    if (const auto fallback = keys.find("default"))
-        input.fallback = fallback->number(std::max(kind.least, -1.0e12), std::min(kind.greatest, 1.0e12));
-    for (const BusState state : policy_states) {
-        const auto given = keys.find(name_of(state));
-        if (!given)
-            continue;
-        if (state == BusState::contradictory && !input.also)
-            given->refuse("a policy for contradictory signals without a second one", "also: Message.Signal beside it");
-        const auto policy = static_cast<BusPolicy>(given->choice({"hold", "default", "lost", "fail"}));
-        if (policy == BusPolicy::fallback && !input.fallback)
-            given->refuse("'default' without a value", "default: NUMBER beside it");
-        input.policies[static_cast<std::size_t>(state)] = policy;
-    }
     return input;
 }
 
+const Fields<BusInput>& bus_input_fields() {
+    using Input = BusInput;
+    static const Fields<Input> fields =
+        Fields<Input>{
+            own<Input>(
+                "signal", 1, [](const YamlEntry& entry, Input& input) { input.source = read_bus_source(entry); },
+                [](const Input& input) { return quoted(input.source.text()); }, source_schema, "Message.Signal, as the database names them")
+                .required(),
+            inlined(2, scale_fields<Input>()),
+            own<Input>(
+                "also", 3, [](const YamlEntry& entry, Input& input) { input.also = read_bus_source(entry); },
+                [](const Input& input) { return input.also ? quoted(input.also->text()) : ""; }, source_schema,
+                "a second one that must say the same"),
+            field("tolerance", 4, &Input::tolerance, range(0.0, largest_factor), "between both, in our unit")
+                .read_by(read_tolerance)
+                .heard_if(has_second),
+            policy_field<BusState::contradictory>(5, "what is taken where they differ by more").heard_if(has_second),
+            field("stale_after_s", 6, &Input::stale_after_s, above(0.0, longest_stale_s),
+                  "since the last frame; three cycles of its message by default"),
+            policy_field<BusState::stale>(7, "what is taken then"),
+            policy_field<BusState::missing>(8, "what is taken before there was one"),
+            policy_field<BusState::out_of_range>(9, "what is taken for a value that cannot be"),
+            field("default", 10, &Input::fallback, range(-largest_factor, largest_factor), "in our unit")
+                .read_by([](const YamlEntry& entry, Input& input) { input.fallback = read_signal_value(entry, input); }),
+        }
+            .at_defaults(usual_input());
+    return fields;
+}
+
+BusInput read_bus_input(const std::string& name, const YamlEntry& entry) {
+    BusInput input = usual_input();
+    input.name = name;
+    input.where = place_of(entry);
+    if (const SignalKind& kind = kind_named(name, entry); !may_come_from_bus(kind))
+        entry.refuse(fmt::format("{}, which the {} write", name, kind.writer),
+                     "a signal that car, road, driver or another controller gives");
+    if (entry.is_scalar()) {
+        input.source = read_bus_source(entry);
+        return input;
+    }
+    const YamlMap keys = entry.map(keys_of(bus_input_fields()));
+    read_scale(bus_input_fields(), keys, input);
+    for (const char* const key : {"also", "tolerance", "stale_after_s", "default", "stale", "missing", "out_of_range", "contradictory"})
+        read_field(bus_input_fields(), key, keys, &input);
+    return input;
+}
+
+const Fields<BusOutput>& bus_output_fields() {
+    using Output = BusOutput;
+    static const Fields<Output> fields{
+        own<Output>(
+            "signal", 1, [](const YamlEntry& entry, Output& output) { output.name = entry.text(), kind_named(output.name, entry); },
+            [](const Output& output) { return quoted(output.name); }, R"({"type": "string", "minLength": 1})", "of lamp control")
+            .required(),
+        inlined(2, scale_fields<Output>()),
+        field("cycle_s", 3, &Output::cycle_s, range(shortest_cycle_s, longest_cycle_s), "of its message; as the database says by default"),
+    };
+    return fields;
+}
+
 BusOutput read_bus_output(const std::string& target, const YamlEntry& entry) {
+    const auto source = split(target);
+    if (!source)
+        entry.refuse(fmt::format("'{}'", printable(target)), "Message.Signal, as the database names them");
     BusOutput output;
-    output.target = source_from_key(target, entry);
+    output.target = *source;
     output.where = place_of(entry);
     if (entry.is_scalar()) {
         output.name = entry.text();
         kind_named(output.name, entry);
     } else {
-        const YamlMap keys = entry.map({"signal", "factor", "offset", "values", "opposite", "cycle_s"});
-        const YamlEntry signal = keys.require("signal");
-        output.name = signal.text();
-        output.values = read_values(keys, kind_named(output.name, signal));
-        read_scale(keys, output);
-        if (const auto cycle = keys.find("cycle_s"))
-            output.cycle_s = cycle->number(shortest_cycle_s, longest_cycle_s);
+        const YamlMap keys = entry.map(keys_of(bus_output_fields()));
+        read_scale(bus_output_fields(), keys, output);
+        read_field(bus_output_fields(), "cycle_s", keys, &output);
     }
     if (output.name.find('*') != std::string::npos)
         entry.refuse("a star: one signal of the bus for many of ours", "the name of a lamp in its place");
     return output;
 }
 
-std::vector<std::string> lamps_of(const Variant& variant) {
-    std::vector<std::string> names;
-    for (const MountedLamp& lamp : variant.lamps)
-        names.push_back(lamp.name);
-    return names;
-}
-
 void check_variant(const BusMapping& mapping, const Variant& variant) {
-    const BusWriter writer(mapping, lamps_of(variant));
-    const SignalTable table(lamps_of(variant));
+    const BusWriter writer(mapping, lamp_names(variant));
+    const SignalTable table(lamp_names(variant));
     for (const BusOutput& output : mapping.outputs)
         try {
             table.find(output.name);
@@ -168,25 +234,63 @@ void check_variant(const BusMapping& mapping, const Variant& variant) {
                              "one of them");
 }
 
-std::string values_text(const std::vector<std::pair<std::string, double>>& values) {
+std::string databases_text(const BusMapping& mapping) {
     std::string text;
-    for (const auto& [said, value] : values)
-        text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", quoted(said), value);
-    return ", values: {" + text + "}";
+    for (const std::filesystem::path& path : mapping.databases)
+        text += fmt::format("\n    - {}", quoted(path.string()));
+    return text;
 }
 
-template <class Mapped> std::string scale_text(const Mapped& mapped) {
-    return (mapped.factor ? fmt::format(", factor: {}", *mapped.factor) : "") +
-           (mapped.offset ? fmt::format(", offset: {}", *mapped.offset) : "") + (mapped.values.empty() ? "" : values_text(mapped.values)) +
-           (mapped.opposite ? ", opposite: true" : "");
+std::string log_text(const BusMapping& mapping) { return mapping.scripted ? "none" : mapping.log ? quoted(mapping.log->string()) : ""; }
+
+std::string start_text(const BusMapping& mapping) {
+    if (!mapping.start_ns || !mapping.log)
+        return "";
+    return fmt::format("{}.{:09}", *mapping.start_ns / 1'000'000'000, *mapping.start_ns % 1'000'000'000);
 }
 
-std::string stamp_text(std::int64_t ns) {
-    const std::int64_t rest = ns % 1'000'000'000;
-    return fmt::format("{}.{:09}", ns / 1'000'000'000, rest);
+template <std::string (*tell)(const Group&, const void*)> std::string outputs_told(const BusMapping& mapping) {
+    std::string text;
+    for (const BusOutput& output : mapping.outputs)
+        text += fmt::format("\n    {}: {{{}}}", quoted(output.target.text()), tell(bus_output_fields(), &output));
+    return text;
+}
+
+/// By names that may hold more than those of lamps: a scalar, or the keys of a group.
+std::string mapped_schema(std::string_view names, std::string_view scalar, const Group& group) {
+    return fmt::format(R"({{"type": "object", "minProperties": 1, "maxProperties": {}, "propertyNames": {},
+        "additionalProperties": {{"anyOf": [{}, {}]}}}})",
+                       most_mapped, names, scalar, schema_of(group));
 }
 
 } // namespace
+
+const Fields<BusMapping>& can_fields() {
+    static const Fields<BusMapping> fields =
+        Fields<BusMapping>{
+            own<BusMapping>("databases", 1, nullptr, databases_text, R"({"anyOf": [{"type": "string", "minLength": 1},
+                {"type": "array", "minItems": 1, "maxItems": 64, "items": {"type": "string", "minLength": 1}}]})",
+                            "DBC files, or one of them")
+                .required(),
+            field("channel", 2, &BusMapping::channel, a_name(), "frames of others are left out").written_off_default(),
+            own<BusMapping>("log", 3, nullptr, log_text, R"({"type": "string", "minLength": 1})",
+                            "recording (candump) that the drive is played by; none: its own speed and signals"),
+            own<BusMapping>(
+                "start", 4, nullptr, start_text,
+                R"({"anyOf": [{"type": "number", "minimum": 0}, {"type": "string", "pattern": "^[0-9]{1,10}(\\.[0-9]{1,9})?$"}]})",
+                "stamp in the log that is the drive's 0 s; that of its first frame by default"),
+            named("inputs", 5, &BusMapping::inputs, most_mapped, bus_input_fields(),
+                  "signals of lamp control (fernlicht signals) and where they come from")
+                .schema_by(mapped_schema(R"({"type": "string"})", source_schema, bus_input_fields())),
+            own<BusMapping>("outputs", 6, nullptr, outputs_told<flow_text>, mapped_schema(source_schema, file_schema, bus_output_fields()),
+                            "what is sent: Message.Signal and the signal of lamp control")
+                .bits_by(outputs_told<field_bits>)
+                .of(bus_output_fields()),
+        }
+            .block()
+            .in_schema(R"({"anyOf": [{"required": ["inputs"]}, {"required": ["outputs"]}]})");
+    return fields;
+}
 
 bool may_come_from_bus(const SignalKind& kind) {
     if (kind.name == "time_s" || kind.name == "lamp.*.segments_lit" || kind.name == "lamp.*.swivel_stuck")
@@ -214,7 +318,7 @@ void read_can(const YamlMap& keys, const DriveEdits& edits, Drive& drive) {
             throw InputError({drive.file, 0, 0, "can"}, "found a drive without `can`", "a mapping of its signals to those of a bus");
         return;
     }
-    const YamlMap of = given->map({"databases", "channel", "log", "start", "inputs", "outputs"});
+    const YamlMap of = given->map(keys_of(can_fields()));
     BusMapping mapping;
     mapping.where = place_of(*given);
     const YamlEntry databases = of.require("databases");
@@ -222,8 +326,7 @@ void read_can(const YamlMap& keys, const DriveEdits& edits, Drive& drive) {
         mapping.databases.push_back(database.path());
         check_file(mapping.databases.back(), database);
     }
-    if (const auto channel = of.find("channel"))
-        mapping.channel = channel->name();
+    read_field(can_fields(), "channel", of, &mapping);
     if (const auto log = of.find("log")) {
         mapping.scripted = log->text() == "none";
         if (!mapping.scripted) {
@@ -269,40 +372,6 @@ void read_can(const YamlMap& keys, const DriveEdits& edits, Drive& drive) {
     }
     drive.can = std::make_shared<const BusMapping>(std::move(mapping));
     bus_period_s(drive);
-}
-
-std::string can_text(const Drive& drive) {
-    if (!drive.can)
-        return "";
-    const BusMapping& mapping = *drive.can;
-    std::string text = "\n  databases:";
-    for (const std::filesystem::path& path : mapping.databases)
-        text += fmt::format("\n    - {}", quoted(path.string()));
-    if (!mapping.channel.empty())
-        text += fmt::format("\n  channel: {}", quoted(mapping.channel));
-    if (mapping.scripted || mapping.log)
-        text += fmt::format("\n  log: {}", mapping.scripted ? "none" : quoted(mapping.log->string()));
-    if (mapping.start_ns && mapping.log)
-        text += fmt::format("\n  start: {}", stamp_text(*mapping.start_ns));
-    text += mapping.inputs.empty() ? "" : "\n  inputs:";
-    for (const BusInput& input : mapping.inputs) {
-        text += fmt::format("\n    {}: {{signal: {}{}", quoted(input.name), quoted(input.source.text()), scale_text(input));
-        if (input.also)
-            text += fmt::format(", also: {}, tolerance: {}, contradictory: {}", quoted(input.also->text()), input.tolerance,
-                                name_of(input.policy(BusState::contradictory)));
-        if (input.stale_after_s)
-            text += fmt::format(", stale_after_s: {}", *input.stale_after_s);
-        for (const BusState state : {BusState::stale, BusState::missing, BusState::out_of_range})
-            text += fmt::format(", {}: {}", name_of(state), name_of(input.policy(state)));
-        if (input.fallback)
-            text += fmt::format(", default: {}", *input.fallback);
-        text += "}";
-    }
-    text += mapping.outputs.empty() ? "" : "\n  outputs:";
-    for (const BusOutput& output : mapping.outputs)
-        text += fmt::format("\n    {}: {{signal: {}{}{}}}", quoted(output.target.text()), quoted(output.name), scale_text(output),
-                            output.cycle_s ? fmt::format(", cycle_s: {}", *output.cycle_s) : "");
-    return text;
 }
 
 } // namespace fernlicht

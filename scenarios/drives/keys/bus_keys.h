@@ -6,7 +6,11 @@
 
 namespace fernlicht {
 
+struct BusMapping;
 struct SignalKind;
+template <class Struct> struct Fields;
+
+const Fields<BusMapping>& can_fields();
 
 /// `can`, with what `edits` say of its recording, after read_variants(): lamps and signals that are named must be there in all of them.
 /// Variants without control get one that has no laws, so that switches and commands from the bus reach their lamps.

@@ -1,9 +1,8 @@
 #include "scenarios/drives/keys/control_fields.h"
 
-#include "scenarios/drives/keys/lamp_sets.h"
-#include "scenarios/drives/keys/vehicle_keys.h"
-#include "scenarios/fields/field_bits.h"
-#include "scenarios/fields/write_fields.h"
+#include "scenarios/drives/keys/drive_keys.h"
+#include "scenarios/drives/keys/lamp_keys.h"
+#include "scenarios/fields/schema.h"
 #include "scenarios/yaml/yaml_tree.h"
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@ namespace fernlicht {
 namespace {
 
 constexpr double shortest_period_s = 1.0e-4;
+constexpr std::size_t most_windows = 256;
 
 void read_library(const YamlEntry& entry, PluginParameters& plugin) {
     plugin.library = entry.path();
@@ -24,71 +24,68 @@ void check_stuck_swivel(const YamlMap& keys, const StuckSwivelParameters& stuck)
         keys.entry().refuse("an angle off that is not above 0", "off_deg above 0");
 }
 
-const Fields<StuckSwivelParameters>& stuck_swivel_fields() {
-    using Stuck = StuckSwivelParameters;
-    static const Fields<Stuck> fields =
-        Fields<Stuck>{
-            field("off", 1, &Stuck::off_rad, in_radians("off", 45.0), "from what it is asked for"),
-            field("after_s", 2, &Stuck::after_s, range(0.0, 100.0), "for so long"),
-            field("pitch", 3, &Stuck::pitch_rad, in_radians("pitch", 10.0), "how low its lamp goes"),
-            field("level", 4, &Stuck::level, range(0.0, 1.0), "how dim, where nothing levels it"),
-        }
-            .checked(check_stuck_swivel);
-    return fields;
-}
-
 double from_kg(double kg) { return 9.81 * kg; }
 double from_n(double n) { return n; }
 FieldRule load_of(const std::string& axle) { return units({axle + "_kg", from_kg, -2000.0, 5000.0}, {axle + "_n", from_n, -2.0e4, 5.0e4}); }
 
-std::string windows_text(const GlareFreeParameters& of) {
-    std::string text;
-    for (const SegmentedLamp& lamp : of.lamps) {
-        std::vector<std::string> windows;
-        for (const auto& [from, to] : lamp.windows_deg)
-            windows.push_back(fmt::format("[{}, {}]", from, to));
-        text += fmt::format("\n          \"{}\": [{}]", lamp.name, fmt::join(windows, ", "));
+/// [a, b, c]: edges of two windows; {windows_deg: [[a, b], ...]}: windows that may leave gaps.
+void read_windows(const YamlEntry& given, SegmentedLamp& lamp) {
+    std::vector<std::pair<double, double>>& windows = lamp.windows_deg;
+    const std::vector<YamlEntry> items = given.list(1, most_windows + 1);
+    if (items.front().is_list()) {
+        for (const YamlEntry& item : items) {
+            const std::vector<double> edges = item.numbers(2, 2, -180.0, 180.0);
+            if (edges[0] >= edges[1] || (!windows.empty() && edges[0] < windows.back().second))
+                item.refuse("windows that overlap or do not ascend", "[from, to], one after the other");
+            windows.emplace_back(edges[0], edges[1]);
+        }
+        return;
     }
-    return text;
-}
-
-std::string levelling_text(const ControlParameters& control) {
-    if (!control.levelling)
-        return "";
-    return fmt::format("{{control: {}, {}}}", control.levelling->control == LevellingControl::slow ? "static" : "dynamic",
-                       flow_text(law_actuator_fields(), &control.levelling->actuator));
-}
-
-std::string levelling_bits(const ControlParameters& control) {
-    return control.levelling ? "there\n" + field_bits(levelling_fields(), &*control.levelling) : "";
-}
-
-std::string failures_text(const ControlParameters& control) {
-    static constexpr const char* kinds[] = {"stuck_swivel", "stuck_levelling", "lost_signal"};
-    std::string text;
-    for (const ControlFailure& failure : control.failures)
-        text += fmt::format("\n        - {{at_s: {}{}, {}: \"{}\"}}", failure.at_s,
-                            failure.until_s < 1.0e7 ? fmt::format(", until_s: {}", failure.until_s) : "",
-                            kinds[static_cast<std::size_t>(failure.kind)], failure.what);
-    return text;
-}
-
-std::string inputs_text(const ControlParameters& control) {
-    std::string text;
-    for (const ScriptedSignal& input : control.inputs) {
-        std::vector<std::string> values;
-        for (const auto& [at_s, value] : input.values)
-            values.push_back(fmt::format("{{at_s: {}, value: {}}}", at_s, value));
-        text += fmt::format("\n        \"{}\": [{}]", input.name, fmt::join(values, ", "));
+    const std::vector<double> edges = given.numbers(2, most_windows + 1, -180.0, 180.0);
+    for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+        if (edges[i] >= edges[i + 1])
+            given.refuse("edges that do not ascend", "degrees from left to right");
+        windows.emplace_back(edges[i], edges[i + 1]);
     }
-    return text;
 }
 
-const Fields<AxleLoad>& load_fields() {
-    static const Fields<AxleLoad> fields{
-        field("front", 1, &AxleLoad::front_n, load_of("front"), "on that axle since the lamps were aimed"),
-        field("rear", 2, &AxleLoad::rear_n, load_of("rear"), "on that axle since the lamps were aimed"),
+std::string windows_text(const SegmentedLamp& lamp) {
+    std::vector<std::string> windows;
+    for (const auto& [from, to] : lamp.windows_deg)
+        windows.push_back(fmt::format("[{}, {}]", from, to));
+    return fmt::format("[{}]", fmt::join(windows, ", "));
+}
+
+const Fields<LevellingParameters>& law_levelling_fields() {
+    static const Fields<LevellingParameters> fields = [] {
+        Fields<LevellingParameters> of = levelling_fields();
+        of.fields[1].group = shared_group(law_actuator_fields());
+        return of;
+    }();
+    return fields;
+}
+
+template <ControlFailure::Kind kind> bool is_failure(const void* failure) {
+    return static_cast<const ControlFailure*>(failure)->kind == kind;
+}
+
+const Fields<std::pair<double, double>>& point_fields() {
+    using Point = std::pair<double, double>;
+    static const Fields<Point> fields{
+        field("at_s", 1, &Point::first, range(0.0, 1.0e6), "from when; times ascend").required(),
+        field("value", 2, &Point::second, range(-1.0e12, 1.0e12), "in the signal's unit").required(),
     };
+    return fields;
+}
+
+const Fields<ScriptedSignal>& input_fields() {
+    static const Fields<ScriptedSignal> fields =
+        Fields<ScriptedSignal>{
+            list("values", 1, &ScriptedSignal::values, 1, most_input_values, point_fields(), "")
+                .schema_by(fmt::format(R"({{"anyOf": [{{"type": "number"}}, {{"type": "array", "minItems": 1, "items": {}}}]}})",
+                                       schema_of(point_fields()))),
+        }
+            .bare();
     return fields;
 }
 
@@ -139,14 +136,24 @@ const Fields<BeamModeSettings>& mode_fields() {
     static const Fields<BeamModeSettings> fields{
         field("level", 1, &BeamModeSettings::level, range(0.0, 1.0), "of the class's lamps"),
         field("pitch", 2, &BeamModeSettings::pitch_rad, in_radians("pitch", 10.0), "added to the aim"),
+        own<BeamModeSettings>(
+            "file", 3, nullptr, [](const BeamModeSettings& mode) { return file_text(mode.file.get()); }, file_schema,
+            "in place of the lamp's own"),
     };
     return fields;
 }
 
-const Fields<ModeParameters>& threshold_fields() {
+template <std::size_t i> BeamModeSettings& settings_of(ModeParameters& modes) { return modes.settings[i]; }
+
+const Fields<ModeParameters>& modes_fields() {
     using Modes = ModeParameters;
     static const Fields<Modes> fields =
         Fields<Modes>{
+            field("lamps", 10, &Modes::lamps, names(1, most_control_lamps), "all but those whose names have 'corner' or 'high' by default"),
+            field("c", 11, settings_of<0>, mode_fields(), "country"),
+            field("v", 12, settings_of<1>, mode_fields(), "town"),
+            field("e", 13, settings_of<2>, mode_fields(), "motorway"),
+            field("w", 14, settings_of<3>, mode_fields(), "wet road"),
             field("v_below", 1, &Modes::v_below_mps, speed("v_below"), "town"),
             field("v_lit_below", 2, &Modes::v_lit_below_mps, speed("v_lit_below"), "town, where the road is lit"),
             field("v_lit_lx", 3, &Modes::v_lit_lx, range(0.0, 2.0e5), "what counts as lit"),
@@ -182,7 +189,15 @@ const Fields<GlareFreeParameters>& glare_free_fields() {
     using GlareFree = GlareFreeParameters;
     static const Fields<GlareFree> fields =
         Fields<GlareFree>{
-            own<GlareFree>("windows_deg", 4, nullptr, windows_text, schema_by_hand, "of each lamp: edges from left to right"),
+            named("windows_deg", 4, &GlareFree::lamps, most_control_lamps,
+                  Fields<SegmentedLamp>{own<SegmentedLamp>("windows", 1, read_windows, windows_text, R"({"anyOf": [
+            {"type": "array", "minItems": 2, "maxItems": 257, "items": {"type": "number", "minimum": -180, "maximum": 180}},
+            {"type": "array", "minItems": 1, "maxItems": 257, "items": {"type": "array", "minItems": 2, "maxItems": 2,
+                "items": {"type": "number", "minimum": -180, "maximum": 180}}}]})",
+                                                           "")}
+                      .bare(),
+                  "of each lamp: edges from left to right")
+                .required(),
             field("margin", 1, &GlareFree::margin_rad, in_radians("margin", 20.0), "to each side of others"),
             field("mask_delay_s", 2, &GlareFree::mask_delay_s, range(0.0, 100.0), "until a window goes dark"),
             field("relight_delay_s", 3, &GlareFree::relight_delay_s, range(0.0, 100.0), "until it is lit again"),
@@ -208,36 +223,56 @@ const Fields<PluginParameters>& plugin_fields() {
     return fields;
 }
 
-const Fields<ControlParameters>& law_fields() {
-    using Control = ControlParameters;
-    static const Fields<Control> fields{
-        field("period_s", 1, &Control::period_s, range(shortest_period_s, 10.0), "of the laws"),
-        field("bend", 5, &Control::bend, bend_fields(), "lamps follow the bend").schema_by(schema_by_hand),
-        own<Control>("levelling", 6, nullptr, levelling_text, schema_by_hand, "lamps follow the body's pitch").bits_by(levelling_bits),
-        field("cornering", 7, &Control::cornering, cornering_fields(), "light into tight bends").schema_by(schema_by_hand),
-        field("load", 2, &Control::load, load_fields(), "weight added").written_off_default(),
-        field("high_beam", 8, &Control::high_beam, high_beam_fields(), "automatic").schema_by(schema_by_hand),
-        field("glare_free", 9, &Control::glare_free, glare_free_fields(), "dark windows where others are").schema_by(schema_by_hand),
-        list("plugins", 10, &Control::plugins, 0, most_plugins, plugin_fields(), "laws in shared libraries")
-            .written_off_default()
-            .schema_by(schema_by_hand),
-        field("safe_pitch", 3, &Control::safe_pitch_rad, in_radians("safe_pitch", 10.0), "of lamps whose levelling has lost its signal"),
-        field("stuck_swivel", 4, &Control::stuck_swivel, stuck_swivel_fields(), "when a swivel is found stuck, and what then")
-            .or_absent("none"),
-        own<Control>("failures", 11, nullptr, failures_text, schema_by_hand, "what is wrong from when to when"),
-        own<Control>("inputs", 12, nullptr, inputs_text, schema_by_hand, "signals that the drive writes"),
+const Fields<ControlFailure>& failure_fields() {
+    using Failure = ControlFailure;
+    static const Fields<Failure> fields{
+        field("at_s", 1, &Failure::at_s, range(0.0, 1.0e6), "from when").required(),
+        field("until_s", 2, &Failure::until_s, range(0.0, 1.0e6), "for good by default").written_off_default(),
+        field("stuck_swivel", 3, &Failure::what, any(), "a lamp").heard_if(is_failure<Failure::Kind::stuck_swivel>),
+        field("stuck_levelling", 4, &Failure::what, any(), "a lamp").heard_if(is_failure<Failure::Kind::stuck_levelling>),
+        field("lost_signal", 5, &Failure::what, any(), "a signal").heard_if(is_failure<Failure::Kind::lost_signal>),
     };
     return fields;
 }
 
-void for_each_law(const std::function<void(const std::string&, const Group&)>& visit) {
-    visit("", law_fields());
-    visit("bend", bend_fields());
-    visit("cornering", cornering_fields());
-    visit("modes", threshold_fields());
-    visit("high_beam", high_beam_fields());
-    visit("glare_free", glare_free_fields());
-    visit("plugins[]", plugin_fields());
+const Fields<ControlParameters>& law_fields() {
+    using Control = ControlParameters;
+    static const Fields<Control> fields =
+        Fields<Control>{
+            field("period_s", 1, &Control::period_s, range(shortest_period_s, 10.0), "of the laws"),
+            field("bend", 5, &Control::bend, bend_fields(), "lamps follow the bend").short_for("law"),
+            field("levelling", 6, &Control::levelling, law_levelling_fields(), "lamps follow the body's pitch").short_for("control"),
+            field("cornering", 7, &Control::cornering, cornering_fields(), "light into tight bends"),
+            field("load", 2, &Control::load,
+                  Fields<AxleLoad>{
+                      field("front", 1, &AxleLoad::front_n, load_of("front"), "on that axle since the lamps were aimed"),
+                      field("rear", 2, &AxleLoad::rear_n, load_of("rear"), "on that axle since the lamps were aimed"),
+                  },
+                  "weight added")
+                .written_off_default(),
+            field("modes", 13, &Control::modes, modes_fields(), "classes of the passing beam, by speed, light and weather"),
+            field("high_beam", 8, &Control::high_beam, high_beam_fields(), "automatic").or_word("automatic"),
+            field("glare_free", 9, &Control::glare_free, glare_free_fields(), "dark windows where others are"),
+            list("plugins", 10, &Control::plugins, 0, most_plugins, plugin_fields(), "laws in shared libraries").written_off_default(),
+            field("safe_pitch", 3, &Control::safe_pitch_rad, in_radians("safe_pitch", 10.0),
+                  "of lamps whose levelling has lost its signal"),
+            field("stuck_swivel", 4, &Control::stuck_swivel,
+                  Fields<StuckSwivelParameters>{
+                      field("off", 1, &StuckSwivelParameters::off_rad, in_radians("off", 45.0), "from what it is asked for"),
+                      field("after_s", 2, &StuckSwivelParameters::after_s, range(0.0, 100.0), "for so long"),
+                      field("pitch", 3, &StuckSwivelParameters::pitch_rad, in_radians("pitch", 10.0), "how low its lamp goes"),
+                      field("level", 4, &StuckSwivelParameters::level, range(0.0, 1.0), "how dim, where nothing levels it"),
+                  }
+                      .checked(check_stuck_swivel),
+                  "when a swivel is found stuck, and what then")
+                .or_absent("none"),
+            list("failures", 11, &Control::failures, 0, most_failures, failure_fields(), "what is wrong from when to when")
+                .written_off_default(),
+            named("inputs", 12, &Control::inputs, most_inputs, input_fields(), "signals that the drive writes"),
+        }
+            .block()
+            .defined_as("control");
+    return fields;
 }
 
 } // namespace fernlicht

@@ -1,26 +1,30 @@
-// The keys of lamp control, each struct described once.
+// The keys of lamp control, each struct described once, and the reader of that part of a drive file.
 #pragma once
 
 #include "scenarios/control/control_parameters.h"
+#include "scenarios/drives/keys/lamp_sets.h"
 #include "scenarios/fields/field.h"
 
 namespace fernlicht {
 
-inline constexpr std::size_t most_control_lamps = 64, most_plugins = 16;
+inline constexpr std::size_t most_control_lamps = 64, most_plugins = 16, most_failures = 1000, most_inputs = 100,
+                             most_input_values = 100'000;
 inline constexpr std::string_view bend_laws[] = {"steering", "yaw-rate", "route"};
-inline constexpr std::string_view mode_classes[] = {"c", "v", "e", "w"};
 
-const Fields<ControlParameters>& law_fields();           ///< all but `modes`, which has files
+const Fields<ControlParameters>& law_fields();
+inline constexpr std::string_view control_schema = R"({"anyOf": [{"enum": ["none"]}, {"$ref": "#/definitions/control"}]})";
 const Fields<ActuatorParameters>& law_actuator_fields(); ///< the laws' period holds for their actuators
 const Fields<BendParameters>& bend_fields();
 const Fields<CorneringParameters>& cornering_fields();
-const Fields<BeamModeSettings>& mode_fields();    ///< of one class, without its file
-const Fields<ModeParameters>& threshold_fields(); ///< when which class
+const Fields<BeamModeSettings>& mode_fields(); ///< of one class
+const Fields<ModeParameters>& modes_fields();
 const Fields<HighBeamParameters>& high_beam_fields();
 const Fields<GlareFreeParameters>& glare_free_fields();
 const Fields<PluginParameters>& plugin_fields();
+const Fields<ControlFailure>& failure_fields();
 
-/// Each of them with its keys' path below `control`.
-void for_each_law(const std::function<void(const std::string&, const Group&)>& visit);
+/// `control` of the variant's keys, else of the drive: the laws that move and dim the variant's lamps. `none`: nothing is controlled. Lamps
+/// and signals that are named must be there. Throws InputError (yaml_entry.h).
+void read_control(const YamlMap& drive, const YamlMap* keys, Variant& variant, LampShelf& shelf);
 
 } // namespace fernlicht

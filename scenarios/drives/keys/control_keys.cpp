@@ -1,46 +1,16 @@
-#include "scenarios/drives/keys/control_keys.h"
+#include "scenarios/drives/keys/control_fields.h"
 
 #include "scenarios/control/signals.h"
-#include "scenarios/drives/keys/control_fields.h"
+#include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/drives/keys/lamp_keys.h"
-#include "scenarios/drives/keys/vehicle_keys.h"
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace fernlicht {
 namespace {
-
-constexpr std::size_t most_failures = 1000, most_inputs = 100, most_input_values = 100'000, most_windows = 256;
-
-std::vector<std::string> names_of(const Variant& variant) {
-    std::vector<std::string> names;
-    for (const MountedLamp& lamp : variant.lamps)
-        names.push_back(lamp.name);
-    return names;
-}
-
-std::string lamp_name(const YamlEntry& entry, const Variant& variant) {
-    const std::vector<std::string> known = names_of(variant);
-    const std::string name = entry.name();
-    if (std::ranges::find(known, name) == known.end()) {
-        const std::string near = nearest_name(name, known);
-        entry.refuse(fmt::format("no lamp '{}' in variant '{}'", name, variant.name),
-                     fmt::format("one of {}{}", fmt::join(known, ", "), near.empty() ? "" : fmt::format(" (nearest: '{}')", near)));
-    }
-    return name;
-}
-
-std::vector<std::string> lamp_names(const YamlMap& keys, std::string_view key, const Variant& variant) {
-    std::vector<std::string> names;
-    if (const auto given = keys.find(key))
-        for (const YamlEntry& entry : given->list(1, most_control_lamps))
-            names.push_back(lamp_name(entry, variant));
-    return names;
-}
 
 std::string signal_name(const YamlEntry& entry, const std::string& name, const SignalTable& signals) {
     try {
@@ -60,14 +30,15 @@ void check_lamps(const YamlEntry& given, std::string_view key, const Variant& va
                 lamp_name(name, variant);
 }
 
-std::vector<std::string_view> with(std::vector<std::string_view> keys, const std::vector<std::string_view>& more,
-                                   std::initializer_list<std::string_view> last) {
-    keys.insert(keys.end(), more.begin(), more.end());
-    keys.insert(keys.end(), last.begin(), last.end());
-    return keys;
-}
-
 bool is_cornering_lamp(const std::string& name) { return name.find("corner") != std::string::npos; }
+
+/// Where none are named: those that the law is for.
+void default_lamps(std::vector<std::string>& lamps, const Variant& variant, bool (*is_for)(const std::string&)) {
+    if (lamps.empty())
+        for (const std::string& name : lamp_names(variant))
+            if (is_for(name))
+                lamps.push_back(name);
+}
 
 BendParameters read_bend(const YamlEntry& given, const Variant& variant) {
     BendParameters bend;
@@ -79,10 +50,7 @@ BendParameters read_bend(const YamlEntry& given, const Variant& variant) {
             given.refuse("a dead band below 0", "an angle of 0 or more");
         check_lamps(given, "lamps", variant);
     }
-    if (bend.lamps.empty())
-        for (const std::string& name : names_of(variant))
-            if (!is_cornering_lamp(name))
-                bend.lamps.push_back(name);
+    default_lamps(bend.lamps, variant, [](const std::string& name) { return !is_cornering_lamp(name); });
     return bend;
 }
 
@@ -108,27 +76,16 @@ CorneringParameters read_cornering(const YamlEntry& given, const Variant& varian
     return cornering;
 }
 
-BeamModeSettings read_mode(const YamlEntry& given, LampShelf& shelf) {
-    const YamlMap of = given.map(with({}, keys_of(mode_fields()), {"file"}));
-    BeamModeSettings mode;
-    read_group(mode_fields(), of, &mode);
-    if (const auto file = of.find("file"))
-        mode.file = shelf.lamp(file->path(), {}, &*file);
-    return mode;
-}
-
 ModeParameters read_modes(const YamlEntry& given, const Variant& variant, LampShelf& shelf) {
-    const YamlMap of = given.map(with({"lamps", "c", "v", "e", "w"}, keys_of(threshold_fields()), {}));
+    const YamlMap of = given.map(keys_of(modes_fields()));
     ModeParameters modes;
-    modes.lamps = lamp_names(of, "lamps", variant);
-    if (modes.lamps.empty())
-        for (const std::string& name : names_of(variant))
-            if (!is_cornering_lamp(name) && !is_high_beam(name))
-                modes.lamps.push_back(name);
+    check_lamps(given, "lamps", variant);
+    read_group(modes_fields(), of, &modes);
+    default_lamps(modes.lamps, variant, [](const std::string& name) { return !is_cornering_lamp(name) && !is_high_beam(name); });
     for (std::size_t i = 0; i < modes.settings.size(); ++i)
-        if (const auto mode = of.find(mode_classes[i]))
-            modes.settings[i] = read_mode(*mode, shelf);
-    read_group(threshold_fields(), of, &modes);
+        if (const auto mode = of.find(modes_fields().fields[1 + i].key))
+            if (const auto file = mode->map(keys_of(mode_fields())).find("file"))
+                modes.settings[i].file = shelf.lamp(file->path(), {}, &*file);
     return modes;
 }
 
@@ -147,47 +104,20 @@ HighBeamParameters read_high_beam(const YamlEntry& given, const Variant& variant
         if (high.off_below_mps > high.on_above_mps || high.lit_above_lx < high.dark_below_lx)
             given.refuse("a hysteresis upside down", "off_below at most on_above, and dark_below_lx at most lit_above_lx");
     }
-    if (high.lamps.empty())
-        for (const std::string& name : names_of(variant))
-            if (is_high_beam(name))
-                high.lamps.push_back(name);
+    default_lamps(high.lamps, variant, is_high_beam);
     if (high.lamps.empty())
         given.refuse(fmt::format("no lamp of variant '{}' has a name with 'high'", variant.name), "high_beam.lamps");
     return high;
-}
-
-/// [a, b, c]: edges of two windows; {windows_deg: [[a, b], ...]}: windows that may leave gaps.
-std::vector<std::pair<double, double>> read_windows(const YamlEntry& given) {
-    std::vector<std::pair<double, double>> windows;
-    const std::vector<YamlEntry> items = given.list(1, most_windows + 1);
-    if (items.front().is_list()) {
-        for (const YamlEntry& item : items) {
-            const std::vector<double> edges = item.numbers(2, 2, -180.0, 180.0);
-            if (edges[0] >= edges[1] || (!windows.empty() && edges[0] < windows.back().second))
-                item.refuse("windows that overlap or do not ascend", "[from, to], one after the other");
-            windows.emplace_back(edges[0], edges[1]);
-        }
-        return windows;
-    }
-    const std::vector<double> edges = given.numbers(2, most_windows + 1, -180.0, 180.0);
-    for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-        if (edges[i] >= edges[i + 1])
-            given.refuse("edges that do not ascend", "degrees from left to right");
-        windows.emplace_back(edges[i], edges[i + 1]);
-    }
-    return windows;
 }
 
 GlareFreeParameters read_glare_free(const YamlEntry& given, const Variant& variant) {
     const YamlMap of = given.map(keys_of(glare_free_fields()));
     GlareFreeParameters glare_free;
     for (const auto& [name, entry] : of.require("windows_deg").named(most_control_lamps)) {
-        YamlValue key;
+        YamlValue key = entry.value();
         key.kind = YamlValue::Kind::scalar;
         key.text = name;
-        key.line = entry.value().line;
-        key.column = entry.value().column;
-        glare_free.lamps.push_back({lamp_name(YamlEntry(key, entry.file(), entry.key_path()), variant), read_windows(entry)});
+        lamp_name(YamlEntry(key, entry.file(), entry.key_path()), variant);
     }
     read_group(glare_free_fields(), of, &glare_free);
     return glare_free;
@@ -197,16 +127,15 @@ PluginParameters read_plugin(const YamlEntry& given, const Variant& variant) {
     PluginParameters plugin;
     read_group(plugin_fields(), given, &plugin);
     check_lamps(given, "lamps", variant);
-    if (plugin.lamps.empty())
-        plugin.lamps = names_of(variant);
+    default_lamps(plugin.lamps, variant, [](const std::string&) { return true; });
     return plugin;
 }
 
 ControlFailure read_failure(const YamlEntry& entry, const Variant& variant, const SignalTable& signals) {
     using Kind = ControlFailure::Kind;
-    const YamlMap keys = entry.map({"at_s", "until_s", "stuck_swivel", "stuck_levelling", "lost_signal"});
+    const YamlMap keys = entry.map(keys_of(failure_fields()));
     ControlFailure failure;
-    failure.at_s = keys.require("at_s").number(0.0, 1.0e6);
+    read_field(failure_fields(), "at_s", keys, &failure);
     failure.until_s = keys.number_or("until_s", failure.until_s, failure.at_s, 1.0e6);
     const auto what = keys.one_of({"stuck_swivel", "stuck_levelling", "lost_signal"});
     if (!what)
@@ -241,9 +170,8 @@ ScriptedSignal read_input(const std::string& name, const YamlEntry& entry, const
 }
 
 ControlParameters read_laws(const YamlEntry& given, const Variant& variant, LampShelf& shelf) {
-    const YamlMap keys = given.map({"period_s", "bend", "cornering", "levelling", "load", "modes", "high_beam", "glare_free", "plugins",
-                                    "failures", "stuck_swivel", "safe_pitch_deg", "safe_pitch_rad", "inputs"});
-    const SignalTable signals(names_of(variant));
+    const YamlMap keys = given.map(keys_of(law_fields()));
+    const SignalTable signals(lamp_names(variant));
     ControlParameters control;
     read_field(law_fields(), "period_s", keys, &control);
     if (const auto bend = keys.find("bend"))

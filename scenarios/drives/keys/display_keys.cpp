@@ -1,8 +1,9 @@
-#include "scenarios/drives/keys/display_keys.h"
+#include "scenarios/drives/keys/drive_keys.h"
 
 #include "scenarios/display/tone_mapper.h"
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/read_fields.h"
+#include "scenarios/fields/schema.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -88,55 +89,39 @@ std::string curve_text(const ToneMapper& mapper) {
     return knots.empty() ? "" : "[" + knots + "]";
 }
 
-const Fields<Windscreen>& windscreen_fields() {
-    static const Fields<Windscreen> fields{
-        field("transmittance", 1, &Windscreen::transmittance, range(0.01, 1.0), "of light; UN R43 asks for 0.7 at least"),
-        field("haze", 2, &Windscreen::haze, range(0.0, 0.3), "share turned by more than 2.5 degrees; new 0.003, worn 0.01 to 0.03"),
-    };
-    return fields;
-}
-
-const Fields<EyeVeil>& veil_fields() {
-    static const Fields<EyeVeil> fields{
-        field("age_years", 1, &EyeVeil::age_years, range(1.0, 120.0), "of the eye"),
-        field("pigmentation", 2, &EyeVeil::pigmentation, range(0.0, 1.2), "0 black, 0.5 brown, 1 blue-green, 1.2 very light"),
-    };
-    return fields;
-}
-
-const Fields<DisplaySettings>& eye_fields() {
-    using Display = DisplaySettings;
-    static const Fields<Display> fields{
-        field("veil", 1, &Display::veil, veil_fields(), "light scattered in the eye").or_flag(),
-        field("colours", 2, &Display::night_colours, any(), "lost in the dark"),
-        field("sharpness", 3, &Display::night_sharpness, any(), "lost in the dark"),
-    };
-    return fields;
-}
-
-const Fields<ExposureAdaptation>& adaptation_fields() {
-    using Adaptation = ExposureAdaptation;
-    static const Fields<Adaptation> fields{
-        field("brighter_s", 1, &Adaptation::brighter_s, range(1.0e-3, 3600.0), "time constant where it gets brighter"),
-        field("darker_s", 2, &Adaptation::darker_s, range(1.0e-3, 3600.0), "and darker"),
-    };
-    return fields;
-}
+/// What keys of several kinds, and kinds of several keys, must agree on.
+constexpr std::string_view mapper_schema = R"({"allOf": [
+    {"not": {"required": ["kind", "s"], "properties": {"kind": {"enum": ["logarithmic"]}, "s": {"const": "fitted"}}}},
+    {"not": {"required": ["curve", "l_max_cdm2"], "properties": {"l_max_cdm2": {"enum": ["all", "surfaces"]}}}},
+    {"anyOf": [{"required": ["kind"]}, {"not": {"required": ["curve"]}}]}]})";
+constexpr std::string_view s_schema = R"({"anyOf": [{"type": "number", "minimum": 1, "maximum": 1000000}, {"const": "fitted"}]})";
+constexpr std::string_view white_schema =
+    R"({"anyOf": [{"type": "number", "minimum": 1e-06, "maximum": 1000000000}, {"enum": ["all", "surfaces"]}]})";
+constexpr std::string_view curve_schema = R"({"type": "array", "minItems": 2, "maxItems": 10000,
+    "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "number"}}})";
 
 } // namespace
 
 const Fields<ToneMapper>& tone_mapper_fields() {
     using Mapper = ToneMapper;
-    static const Fields<Mapper> fields{
-        field("kind", 1, &Mapper::kind, words({"linear", "rational", "logarithmic", "histogram"}), "from luminance to what is shown"),
-        own("s", 2, read_s, s_text, schema_by_hand, "how steep; 1 is linear; fitted: by the drive's own pictures").heard_if(has_s),
-        own("l_max_cdm2", 3, read_white, white_text, schema_by_hand,
-            "luminance that becomes white; all: the brightest of the drive; surfaces: of what does not shine")
-            .heard_if(has_white),
-        own("curve", 4, read_curve, curve_text, schema_by_hand, "knots of ln luminance and ln share; the last is white")
-            .heard_if(has_curve),
-    };
+    static const Fields<Mapper> fields =
+        Fields<Mapper>{
+            field("kind", 1, &Mapper::kind, words({"linear", "rational", "logarithmic", "histogram"}), "from luminance to what is shown"),
+            own("s", 2, read_s, s_text, s_schema, "how steep; 1 is linear; fitted: by the drive's own pictures").heard_if(has_s),
+            own("l_max_cdm2", 3, read_white, white_text, white_schema,
+                "luminance that becomes white; all: the brightest of the drive; surfaces: of what does not shine")
+                .heard_if(has_white),
+            own("curve", 4, read_curve, curve_text, curve_schema, "knots of ln luminance and ln share; the last is white")
+                .heard_if(has_curve),
+        }
+            .in_schema(mapper_schema);
     return fields;
+}
+
+std::string tone_mapper_schema() {
+    ToneMapper scratch;
+    return fmt::format(R"({{"anyOf": [{}, {}]}})", schema_of(tone_mapper_fields().fields.front()),
+                       schemas_by_word(tone_mapper_fields(), &scratch));
 }
 
 void read_tone_mapper(const YamlEntry& given, ToneMapper& mapper) {
@@ -158,9 +143,36 @@ const Fields<DisplaySettings>& display_fields() {
     static const Fields<Display> fields =
         Fields<Display>{
             field("profile", 1, &Display::profile_file, any(), "of a display, measured; docs/display.md").written_off_default(),
-            field("windscreen", 2, &Display::windscreen, windscreen_fields(), "between road and eye"),
-            section("eye", 3, eye_fields(), "what it does to the picture").written_off_default(),
-            field("adaptation", 4, &Display::adaptation, adaptation_fields(), "white follows what the eye is adapted to").or_flag(),
+            field("windscreen", 2, &Display::windscreen,
+                  Fields<Windscreen>{
+                      field("transmittance", 1, &Windscreen::transmittance, range(0.01, 1.0), "of light; UN R43 asks for 0.7 at least"),
+                      field("haze", 2, &Windscreen::haze, range(0.0, 0.3),
+                            "share turned by more than 2.5 degrees; new 0.003, worn 0.01 to 0.03"),
+                  },
+                  "between road and eye"),
+            section("eye", 3,
+                    Fields<DisplaySettings>{
+                        field("veil", 1, &DisplaySettings::veil,
+                              Fields<EyeVeil>{
+                                  field("age_years", 1, &EyeVeil::age_years, range(1.0, 120.0), "of the eye"),
+                                  field("pigmentation", 2, &EyeVeil::pigmentation, range(0.0, 1.2),
+                                        "0 black, 0.5 brown, 1 blue-green, 1.2 very light"),
+                              },
+                              "light scattered in the eye")
+                            .or_flag(),
+                        field("colours", 2, &DisplaySettings::night_colours, any(), "lost in the dark"),
+                        field("sharpness", 3, &DisplaySettings::night_sharpness, any(), "lost in the dark"),
+                    },
+                    "what it does to the picture")
+                .written_off_default(),
+            field(
+                "adaptation", 4, &Display::adaptation,
+                Fields<ExposureAdaptation>{
+                    field("brighter_s", 1, &ExposureAdaptation::brighter_s, range(1.0e-3, 3600.0), "time constant where it gets brighter"),
+                    field("darker_s", 2, &ExposureAdaptation::darker_s, range(1.0e-3, 3600.0), "and darker"),
+                },
+                "white follows what the eye is adapted to")
+                .or_flag(),
         }
             .block();
     return fields;

@@ -1,6 +1,5 @@
-#include "scenarios/drives/keys/drive_edits.h"
-
 #include "scenarios/drives/keys/drive_keys.h"
+
 #include "scenarios/drives/keys/lamp_keys.h"
 #include "scenarios/values/errors.h"
 

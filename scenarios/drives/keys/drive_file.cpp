@@ -2,14 +2,13 @@
 
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/keys/bus_keys.h"
-#include "scenarios/drives/keys/daylight_keys.h"
-#include "scenarios/drives/keys/drive_edits.h"
 #include "scenarios/drives/keys/drive_keys.h"
+#include "scenarios/drives/keys/lamp_keys.h"
 #include "scenarios/drives/keys/story_drive.h"
-#include "scenarios/drives/keys/storyboard_keys.h"
-#include "scenarios/drives/keys/traffic_keys.h"
 #include "scenarios/drives/play/drive_log.h"
+#include "scenarios/fields/field_bits.h"
 #include "scenarios/fields/read_fields.h"
+#include "scenarios/fields/write_fields.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -56,7 +55,7 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const Dri
     read({"name"});
     drive.title = drive.name;
     read({"title"});
-    drive.storyboard = read_storyboard_keys(keys, edits, drive);
+    read_storyboard_keys(keys, edits, drive);
     if (const auto road = keys.find("road"); road || !drive.storyboard) {
         const YamlEntry given = keys.require("road");
         drive.road_file = given.path();
@@ -91,12 +90,7 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     FilesRead opened;
     const std::string text = is_storyboard_file(path) ? storyboard_drive_text(path, edits) : to_utf8(read_file(path, opened, most_bytes));
     const YamlValue document = parse_yaml(text, path);
-    const YamlMap keys(YamlEntry(document, path, ""),
-                       {"fernlicht", "name",     "title",        "road",       "route",         "speed_kmh", "speed_mps", "speed",
-                        "step_s",    "rate_hz",  "duration_s",   "daylight",   "car",           "vehicle",   "actuators", "control",
-                        "variants",  "changes",  "views",        "capture",    "tone_mapper",   "technique", "measure",   "limits",
-                        "shadows",   "textures", "beams",        "seed",       "mirrored_road", "weather",   "traffic",   "traffic_light",
-                        "scenery",   "view_set", "street_lamps", "storyboard", "can",           "display"});
+    const YamlMap keys(YamlEntry(document, path, ""), keys_of(drive_fields()));
     if (keys.require("fernlicht").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht").refuse(fmt::format("{}, the version of the drive file's schema", schema_version));
     LampShelf shelf;
@@ -109,6 +103,17 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     drive.opened = std::move(opened);
     drive.opened.insert(drive.opened.end(), shelf.opened().begin(), shelf.opened().end());
     return drive;
+}
+
+std::string write_drive(const Drive& drive) {
+    const LampsAreOf lamps(drive);
+    return fmt::format("# The resolved drive, written by fernlicht {}: running it again gives the same results.\nfernlicht: 1\n{}",
+                       FERNLICHT_VERSION, write_fields(drive_fields(), drive, 0));
+}
+
+std::string drive_bits(const Drive& drive) {
+    const LampsAreOf lamps(drive);
+    return field_bits(drive_fields(), &drive);
 }
 
 } // namespace fernlicht

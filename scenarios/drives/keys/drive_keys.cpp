@@ -1,13 +1,9 @@
 #include "scenarios/drives/keys/drive_keys.h"
 
-#include "scenarios/drives/keys/daylight_keys.h"
-#include "scenarios/drives/keys/display_keys.h"
-#include "scenarios/drives/keys/drive_texts.h"
-#include "scenarios/drives/keys/lamp_sets.h"
-#include "scenarios/drives/keys/scenery_keys.h"
-#include "scenarios/drives/keys/seeing_keys.h"
+#include "scenarios/can/bus_mapping.h"
+#include "scenarios/drives/keys/bus_keys.h"
+#include "scenarios/drives/keys/control_fields.h"
 #include "scenarios/drives/keys/shadow_keys.h"
-#include "scenarios/drives/keys/vehicle_keys.h"
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/field_bits.h"
 #include "scenarios/fields/read_fields.h"
@@ -19,7 +15,6 @@ namespace fernlicht {
 namespace {
 
 constexpr double longest_s = 1.0e6;
-constexpr std::size_t most_speed_points = 10'000;
 
 bool has_no_storyboard(const void* drive) { return !static_cast<const Drive*>(drive)->storyboard; }
 bool says_daylight(const void* drive) { return has_no_storyboard(drive) || static_cast<const Drive*>(drive)->storyboard->own_daylight; }
@@ -33,47 +28,16 @@ std::string weather_text(const Drive& drive) {
     return "{" + flow_text(weather_fields(), &drive.weather) + "}";
 }
 
+std::string storyboard_bits(const Drive& drive) {
+    if (!drive.storyboard)
+        return "";
+    return fmt::format("there {} {}\n", drive.storyboard->own_daylight, drive.storyboard->own_weather) +
+           field_bits(storyboard_fields(), &*drive.storyboard);
+}
+
 void check_speed_point(const YamlMap& keys, const SpeedPoint&) {
     if (!keys.find("speed_kmh") && !keys.find("speed_mps"))
         keys.refuse_missing("speed_kmh", "speed_kmh or speed_mps");
-}
-
-const Fields<SpeedPoint>& speed_point_fields() {
-    static const Fields<SpeedPoint> fields =
-        Fields<SpeedPoint>{
-            field("at_s", 1, &SpeedPoint::time_s, range(0.0, longest_s), "times ascend").required(),
-            field("speed", 2, &SpeedPoint::speed_mps, speed("speed"), "linear between points, constant before and after"),
-        }
-            .checked(check_speed_point)
-            .in_schema(R"({"oneOf": [{"required": ["speed_kmh"]}, {"required": ["speed_mps"]}]})");
-    return fields;
-}
-
-const Fields<Route::Start>& start_fields() {
-    using Start = Route::Start;
-    static const Fields<Start> fields{
-        field("road", 1, &Start::road, any(), "its id; the first with driving lanes by default").written_off_default(),
-        field("lane", 2, &Start::lane, range(-1000.0, 1000.0), "0: outermost driving lane in the direction of traffic"),
-        field("s_m", 3, &Start::s_m, range(0.0, 1.0e6), "along the road"),
-    };
-    return fields;
-}
-
-const Fields<Drive>& route_fields() {
-    static const Fields<Drive> fields =
-        Fields<Drive>{
-            inlined(1, &Drive::start, start_fields()),
-            field("via", 2, &Drive::via, texts(0, 10'000), "road ids in order"),
-        }
-            .block();
-    return fields;
-}
-
-const Fields<Drive>& traffic_light_fields() {
-    static const Fields<Drive> fields{
-        field("least_lx", 1, &Drive::least_traffic_lx, range(1.0e-6, 1.0e3), "from one lamp; less is left out"),
-    };
-    return fields;
 }
 
 const Fields<BeamTexels>& beam_fields() {
@@ -110,71 +74,34 @@ void check_limit(const YamlMap& keys, const Limit& limit) {
         keys.entry().refuse(fmt::format("at_least {} above at_most {}", *limit.at_least, *limit.at_most), "a range that holds a value");
 }
 
-const Fields<Limit>& limit_fields() {
-    static const Fields<Limit> fields =
-        Fields<Limit>{
-            field("reading", 1, &Limit::reading, any(), "its name, as in readings.csv").required(),
-            field("at_least", 2, &Limit::at_least, range(-1.0e12, 1.0e12), "in the reading's unit"),
-            field("at_most", 3, &Limit::at_most, range(-1.0e12, 1.0e12), "in the reading's unit"),
-        }
-            .checked(check_limit)
-            .in_schema(R"({"anyOf": [{"required": ["at_least"]}, {"required": ["at_most"]}]})");
-    return fields;
-}
-
 void check_extent(const YamlMap& keys, const ExtentParameters& extent) {
     const double cells = extent.ahead_m / extent.cell_m * (8.0 * extent.beside_m / extent.cell_m);
     if (cells > 4.0e6)
         keys.entry().refuse(fmt::format("a grid of {:.0f} points", cells), "at most 4000000 (larger cell_m, less ahead_m or beside_m)");
 }
 
-const Fields<ExtentParameters>& extent_fields() {
-    static const Fields<ExtentParameters> fields =
-        Fields<ExtentParameters>{
-            field("limits_lx", 1, &ExtentParameters::limits_lx, numbers(1, 16, 1.0e-6, 1.0e6), "what counts as illuminated"),
-            field("target_height_m", 2, &ExtentParameters::target_height_m, range(0.0, 10.0), "of the target that faces the car"),
-            field("ahead_m", 3, &ExtentParameters::ahead_m, range(1.0, 2000.0), "how far is looked"),
-            field("beside_m", 4, &ExtentParameters::beside_m, range(0.5, 200.0), "how far to each side"),
-            field("cell_m", 5, &ExtentParameters::cell_m, range(0.02, 10.0), "grid along the road; across it is a quarter of this"),
-            field("width_at_m", 6, &ExtentParameters::width_at_m, numbers(0, 16, 0.0, 2000.0),
-                  "from the front bumper, where the width is told"),
-        }
-            .block()
-            .checked(check_extent);
-    return fields;
-}
-
-const Fields<Probe>& probe_fields() {
-    static const Fields<Probe> fields{
-        field("ahead_m", 1, &Probe::ahead_m, range(-2000.0, 2000.0), "from the car's origin along the route").required(),
-        field("left_m", 2, &Probe::left_m, range(-200.0, 200.0), "of the route"),
-        field("above_m", 3, &Probe::above_m, range(0.0, 50.0), "above the surface"),
-    };
-    return fields;
-}
-
-const Fields<Drive>& measure_fields() {
-    static const Fields<Drive> fields =
-        Fields<Drive>{
-            field("extent", 1, &Drive::extent, extent_fields(), "illuminated road extent").or_flag().or_absent("false"),
-            named("probes", 2, &Drive::probes, 1000, probe_fields(), "lux at single points, from the car's origin along the route"),
-            inlined(3, &Drive::seeing, seeing_fields()),
-        }
-            .block();
-    return fields;
-}
-
-const Fields<Capture>& capture_fields() {
-    static const Fields<Capture> fields{
-        field("per_second", 1, &Capture::per_second, range(0.0, 1.0e6), "how many moments are stored"),
-        field("all", 2, &Capture::all, any(), "every moment is stored"),
-        field("exr", 3, &Capture::exr, any(), "with linear values"),
-        field("png", 4, &Capture::png, any(), "for eyes"),
-    };
-    return fields;
-}
-
 } // namespace
+
+const Fields<SpeedPoint>& speed_point_fields() {
+    static const Fields<SpeedPoint> fields =
+        Fields<SpeedPoint>{
+            field("at_s", 1, &SpeedPoint::time_s, range(0.0, longest_s), "times ascend").required(),
+            field("speed", 2, &SpeedPoint::speed_mps, speed("speed"), "linear between points, constant before and after"),
+        }
+            .checked(check_speed_point)
+            .in_schema(R"({"oneOf": [{"required": ["speed_kmh"]}, {"required": ["speed_mps"]}]})");
+    return fields;
+}
+
+const Fields<Route::Start>& start_fields() {
+    using Start = Route::Start;
+    static const Fields<Start> fields{
+        field("road", 1, &Start::road, any(), "its id; the first with driving lanes by default").written_off_default(),
+        field("lane", 2, &Start::lane, range(-1000.0, 1000.0), "0: outermost driving lane in the direction of traffic"),
+        field("s_m", 3, &Start::s_m, range(0.0, 1.0e6), "along the road"),
+    };
+    return fields;
+}
 
 std::string name_from(const std::filesystem::path& path) {
     std::string name = path.stem().string().substr(0, 64);
@@ -213,78 +140,129 @@ double read_step_s(const YamlMap& drive) {
     return given->first == "step_s" ? given->second.number_above(0.0, 3600.0) : 1.0 / given->second.number_above(0.0, 1.0e6);
 }
 
-/// What asks for lamp files, for a bus or for a storyboard is read and written by functions of its own (drive_texts.h).
-const Group& drive_fields() {
-    static const std::string shadows = shadows_schema();
-    static const Fields<Drive> fields{
-        field("name", 1, &Drive::name, a_name(), "of the drive, in reports and names of files; the file's by default"),
-        field("title", 2, &Drive::title, any(), "for people; the name by default"),
-        field("road", 3, &Drive::road_file, any(), "OpenDRIVE file; relative to the drive file"),
-        field("mirrored_road", 4, &Drive::mirrored_road, any(), "the road in a mirror: left-hand traffic from a right-hand road")
-            .written_off_default(),
-        own<Drive>("storyboard", 5, nullptr, storyboard_text, schema_by_hand, "an OpenSCENARIO file in place of route and speed")
-            .bits_by(storyboard_bits),
-        section("route", 6, route_fields(), "where the drive begins, and by which roads it goes").heard_if(has_no_storyboard),
-        list("speed", 7, &Drive::speed, 1, most_speed_points, speed_point_fields(), "or speed_kmh or speed_mps for all of the drive")
-            .heard_if(has_no_storyboard),
-        field("step_s", 8, &Drive::step_s, above(0.0, 3600.0), "from one moment to the next, or rate_hz; 1/30 by default"),
-        field("duration_s", 9, &Drive::duration_s, above(0.0, longest_s), "of the drive; must be given without a storyboard"),
-        field("daylight", 10, &Drive::daylight, daylight_fields(), "night, twilight, day; figures; or date, time and place")
-            .read_by(read_daylight)
-            .schema_by(schema_by_hand)
-            .heard_if(says_daylight),
-        field("weather", 11, &Drive::weather, weather_fields(), "clear and dry by default; fog, rain and snow by name, too")
-            .read_by(read_weather)
-            .text_by(weather_text)
-            .schema_by(schema_by_hand)
-            .heard_if(says_weather),
-        own<Drive>("street_lamps", 12, nullptr, street_lamps_text, schema_by_hand, "rows of lamps on poles beside the route"),
-        section("car", 13, car_fields(), "the own car: its size, body, lamps and their places").schema_by(schema_by_hand),
-        field("vehicle", 17, &Drive::vehicle, vehicle_fields(),
-              "a car on springs and tyres instead of one that follows its lane as on rails; docs/vehicle.md")
-            .or_word("single-track"),
-        own<Drive>("variants", 18, nullptr, variants_text, schema_by_hand, "lamp sets; the drive is played with each")
-            .bits_by(variants_bits),
-        own<Drive>("can", 19, nullptr, can_text, schema_by_hand, "signals from and to a bus; docs/can.md"),
-        section("traffic_light", 20, traffic_light_fields(), "of other road users").heard_if(has_traffic),
-        own<Drive>("traffic", 21, nullptr, traffic_text, schema_by_hand, "other road users; docs/traffic.md"),
-        named("views", 22, &Drive::views, most_views, view_fields(), "what is drawn; the driver's view and a map by default"),
-        list("scenery", 23, &Drive::scenery, 0, most_models, scenery_fields(), "models with their places")
-            .read_by(read_scenery)
-            .written_off_default(),
-        field("capture", 28, &Drive::capture, capture_fields(), "which moments are stored; every moment is measured"),
-        field("tone_mapper", 29, &Drive::tone_mapper, tone_mapper_fields(), "from luminances to what a display can show")
-            .read_by([](const YamlEntry& entry, Drive& drive) { read_tone_mapper(entry, drive.tone_mapper); })
-            .schema_by(schema_by_hand),
-        field("display", 30, &Drive::display, display_fields(), "windscreen, eye and display between the light and its pictures")
-            .read_by(read_display)
-            .short_for("profile")
-            .written_off_default(),
-        field("technique", 31, &Drive::technique, a_name(), "how it is drawn"),
-        section("measure", 36, measure_fields(), "what is measured"),
-        list("limits", 37, &Drive::limits, 0, 1000, limit_fields(), "beyond these the run fails"),
-        field("shadows", 38, &Drive::shadows, shadow_fields(),
-              "how they are drawn (docs/shadows.md): on or off, the method alone, or it and what it uses")
-            .read_by([](const YamlEntry& entry, Drive& drive) { read_shadows(entry, drive.shadows); })
-            .text_by([](const Drive& drive) { return shadows_text(drive.shadows); })
-            .schema_by(shadows)
-            .bits_by([](const Drive& drive) {
-                return (drive.shadows.things_cast ? "" : "nothing casts\n") + field_bits(shadow_fields(), &drive.shadows);
-            }),
-        own<Drive>("beams", 39, read_beams, beams_text, schema_by_hand, "how fine beam textures are: float, eight-bit, or size and depth")
-            .bits_by([](const Drive& drive) { return drive.beams ? "there\n" + field_bits(beam_fields(), &*drive.beams) : ""; }),
-        own<Drive>(
-            "textures", 40,
-            [](const YamlEntry& entry, Drive& drive) {
-                drive.textured = entry.choice({"none", "shipped"}) == 1;
-            },
-            [](const Drive& drive) { return std::string(drive.textured ? "shipped" : "none"); }, R"({"enum": ["none", "shipped"]})",
-            "pictures on surfaces"),
-        own<Drive>(
-            "seed", 41, [](const YamlEntry& entry, Drive& drive) { drive.seed = entry.count(); },
-            [](const Drive& drive) { return fmt::format("{}", drive.seed); }, R"({"type": "integer", "minimum": 0})",
-            "of all that is random"),
-    };
+const Fields<Drive>& drive_fields() {
+    static const Fields<Drive> fields =
+        Fields<Drive>{
+            form<Drive>("fernlicht", FieldKind::own, {}, "version of this schema").schema_by(R"({"const": 1})"),
+            field("name", 1, &Drive::name, a_name(), "of the drive, in reports and names of files; the file's by default"),
+            field("title", 2, &Drive::title, any(), "for people; the name by default"),
+            field("road", 3, &Drive::road_file, any(), "OpenDRIVE file; relative to the drive file"),
+            field("mirrored_road", 4, &Drive::mirrored_road, any(), "the road in a mirror: left-hand traffic from a right-hand road")
+                .written_off_default(),
+            field("storyboard", 5, &Drive::storyboard, storyboard_fields(), "an OpenSCENARIO file in place of route and speed")
+                .short_for("file")
+                .bits_by(storyboard_bits),
+            section("route", 6, Fields<Drive>{
+            inlined(1, &Drive::start, start_fields()),
+            field("via", 2, &Drive::via, texts(0, 10'000), "road ids in order"),
+        }
+            .block(), "where the drive begins, and by which roads it goes").heard_if(has_no_storyboard),
+            list("speed", 7, &Drive::speed, 1, most_speed_points, speed_point_fields(), "or speed_kmh or speed_mps for all of the drive")
+                .heard_if(has_no_storyboard),
+            form<Drive>("speed_kmh", FieldKind::number, range(0.0, 540.0), "for all of the drive"),
+            form<Drive>("speed_mps", FieldKind::number, range(0.0, 150.0), "for all of the drive"),
+            field("step_s", 8, &Drive::step_s, above(0.0, 3600.0), "from one moment to the next, or rate_hz; 1/30 by default"),
+            form<Drive>("rate_hz", FieldKind::number, above(0.0, 1.0e6), "moments a second"),
+            field("duration_s", 9, &Drive::duration_s, above(0.0, longest_s), "of the drive; must be given without a storyboard"),
+            field("daylight", 10, &Drive::daylight, daylight_fields(), "night, twilight, day; figures; or date, time and place")
+                .read_by(read_daylight)
+                .schema_by(daylight_schema())
+                .heard_if(says_daylight),
+            field("weather", 11, &Drive::weather, weather_fields(), "clear and dry by default; fog, rain and snow by name, too")
+                .text_by(weather_text)
+                .heard_if(says_weather),
+            named("street_lamps", 12, &Drive::street_lamps, most_street_lamp_rows, street_lamp_fields(),
+                  "rows of lamps on poles beside the route"),
+            section("car", 13, car_fields(), "the own car: its size, body, lamps and their places"),
+            field("vehicle", 17, &Drive::vehicle, vehicle_fields(),
+                  "a car on springs and tyres instead of one that follows its lane as on rails; docs/vehicle.md")
+                .or_word("single-track"),
+            form<Drive>("actuators", FieldKind::group, {}, "of all lamp sets without their own").of(actuators_fields()),
+            form<Drive>("control", FieldKind::group, {}, "of all lamp sets without their own").of(law_fields()).schema_by(control_schema),
+            named("variants", 18, &Drive::variants, most_variants, variant_fields(), "lamp sets; the drive is played with each"),
+            form<Drive>("changes", FieldKind::list, names(0, most_lamp_changes), "of the lamps of all lamp sets").of(change_fields()),
+            field("can", 19, &Drive::can, can_fields(), "signals from and to a bus; docs/can.md"),
+            section("traffic_light", 20, Fields<Drive>{
+        field("least_lx", 1, &Drive::least_traffic_lx, range(1.0e-6, 1.0e3), "from one lamp; less is left out"),
+    }, "of other road users").heard_if(has_traffic),
+            named("traffic", 21, &Drive::traffic_rows, most_traffic_rows, traffic_fields(), "other road users; docs/traffic.md"),
+            form<Drive>("view_set", FieldKind::path, any(), "a file of views that come before these"),
+            named("views", 22, &Drive::views, most_views, view_fields(), "what is drawn; the driver's view and a map by default"),
+            list("scenery", 23, &Drive::scenery, 0, most_models, scenery_fields(), "models with their places")
+                .read_by(read_scenery)
+                .written_off_default(),
+            field("capture", 28, &Drive::capture, Fields<Capture>{
+        field("per_second", 1, &Capture::per_second, range(0.0, 1.0e6), "how many moments are stored"),
+        field("all", 2, &Capture::all, any(), "every moment is stored"),
+        field("exr", 3, &Capture::exr, any(), "with linear values"),
+        field("png", 4, &Capture::png, any(), "for eyes"),
+    }, "which moments are stored; every moment is measured"),
+            field("tone_mapper", 29, &Drive::tone_mapper, tone_mapper_fields(), "from luminances to what a display can show")
+                .read_by([](const YamlEntry& entry, Drive& drive) { read_tone_mapper(entry, drive.tone_mapper); })
+                .schema_by(tone_mapper_schema()),
+            field("display", 30, &Drive::display, display_fields(), "windscreen, eye and display between the light and its pictures")
+                .read_by(read_display)
+                .short_for("profile")
+                .written_off_default(),
+            field("technique", 31, &Drive::technique, a_name(), "how it is drawn"),
+            section("measure", 36, Fields<Drive>{
+            field("extent", 1, &Drive::extent, Fields<ExtentParameters>{
+            field("limits_lx", 1, &ExtentParameters::limits_lx, numbers(1, 16, 1.0e-6, 1.0e6), "what counts as illuminated"),
+            field("target_height_m", 2, &ExtentParameters::target_height_m, range(0.0, 10.0), "of the target that faces the car"),
+            field("ahead_m", 3, &ExtentParameters::ahead_m, range(1.0, 2000.0), "how far is looked"),
+            field("beside_m", 4, &ExtentParameters::beside_m, range(0.5, 200.0), "how far to each side"),
+            field("cell_m", 5, &ExtentParameters::cell_m, range(0.02, 10.0), "grid along the road; across it is a quarter of this"),
+            field("width_at_m", 6, &ExtentParameters::width_at_m, numbers(0, 16, 0.0, 2000.0),
+                  "from the front bumper, where the width is told"),
+        }
+            .block()
+            .checked(check_extent), "illuminated road extent").or_flag().or_absent("false"),
+            named("probes", 2, &Drive::probes, 1000, Fields<Probe>{
+        field("ahead_m", 1, &Probe::ahead_m, range(-2000.0, 2000.0), "from the car's origin along the route").required(),
+        field("left_m", 2, &Probe::left_m, range(-200.0, 200.0), "of the route"),
+        field("above_m", 3, &Probe::above_m, range(0.0, 50.0), "above the surface"),
+    }, "lux at single points, from the car's origin along the route"),
+            inlined(3, &Drive::seeing, seeing_fields()),
+        }
+            .block(), "what is measured"),
+            list("limits", 37, &Drive::limits, 0, 1000, Fields<Limit>{
+            field("reading", 1, &Limit::reading, any(), "its name, as in readings.csv").required(),
+            field("at_least", 2, &Limit::at_least, range(-1.0e12, 1.0e12), "in the reading's unit"),
+            field("at_most", 3, &Limit::at_most, range(-1.0e12, 1.0e12), "in the reading's unit"),
+        }
+            .checked(check_limit)
+            .in_schema(R"({"anyOf": [{"required": ["at_least"]}, {"required": ["at_most"]}]})"), "beyond these the run fails"),
+            field("shadows", 38, &Drive::shadows, shadow_fields(),
+                  "how they are drawn (docs/shadows.md): on or off, the method alone, or it and what it uses")
+                .read_by([](const YamlEntry& entry, Drive& drive) { read_shadows(entry, drive.shadows); })
+                .text_by([](const Drive& drive) { return shadows_text(drive.shadows); })
+                .schema_by(shadows_schema())
+                .bits_by([](const Drive& drive) {
+                    return (drive.shadows.things_cast ? "" : "nothing casts\n") + field_bits(shadow_fields(), &drive.shadows);
+                }),
+            own<Drive>("beams", 39, read_beams, beams_text, R"({"oneOf": [{"enum": ["float", "eight-bit"]}, {"type": "object",
+                "additionalProperties": false, "required": ["width", "height", "bits"], "properties": {
+                "width": {"type": "integer", "minimum": 2, "maximum": 8192}, "height": {"type": "integer", "minimum": 2, "maximum": 8192},
+                "bits": {"enum": [8, 16, 32]}}}]})",
+                       "how fine beam textures are: float, eight-bit, or size and depth")
+                .bits_by([](const Drive& drive) { return drive.beams ? "there\n" + field_bits(beam_fields(), &*drive.beams) : ""; }),
+            own<Drive>(
+                "textures", 40,
+                [](const YamlEntry& entry, Drive& drive) {
+                    drive.textured = entry.choice({"none", "shipped"}) == 1;
+                },
+                [](const Drive& drive) { return std::string(drive.textured ? "shipped" : "none"); }, R"({"enum": ["none", "shipped"]})",
+                "pictures on surfaces"),
+            own<Drive>(
+                "seed", 41, [](const YamlEntry& entry, Drive& drive) { drive.seed = entry.count(); },
+                [](const Drive& drive) { return fmt::format("{}", drive.seed); }, R"({"type": "integer", "minimum": 0})",
+                "of all that is random"),
+        }
+            .in_schema(R"({"required": ["fernlicht"], "allOf": [{"not": {"required": ["step_s", "rate_hz"]}}, {"oneOf": [
+                {"required": ["road", "duration_s", "speed_kmh"]}, {"required": ["road", "duration_s", "speed_mps"]},
+                {"required": ["road", "duration_s", "speed"]}, {"required": ["storyboard"], "not": {"anyOf": [
+                    {"required": ["route"]}, {"required": ["speed"]}, {"required": ["speed_kmh"]}, {"required": ["speed_mps"]},
+                    {"required": ["vehicle"]}]}}]}]})");
     return fields;
 }
 

@@ -1,109 +1,229 @@
 #include "scenarios/drives/keys/lamp_keys.h"
 
+#include "scenarios/fields/read_fields.h"
+#include "scenarios/yaml/yaml_tree.h"
+
+#include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
 
 namespace fernlicht {
 namespace {
 
 constexpr std::string_view colour_keys[] = {"temperature_k", "spectrum", "colour"};
 
-void read_texture(LampReadOptions& options, const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"scale_lx", "distance_m", "h_extent_deg", "v_extent_deg"});
-    options.texture_scale_lx = keys.number_or("scale_lx", options.texture_scale_lx, 0.0, 1.0e6);
-    options.texture_distance_m = keys.number_or("distance_m", options.texture_distance_m, 0.1, 1000.0);
-    const auto extent = [&](std::string_view key, double limit, double(&edges)[2]) {
-        const auto given = keys.find(key);
-        if (!given)
-            return;
-        const std::vector<double> values = given->numbers(2, 2, -limit, limit);
-        if (values[0] >= values[1])
-            given->refuse("edges that do not ascend", "[lower, upper]");
-        edges[0] = values[0];
-        edges[1] = values[1];
+thread_local const Drive* written = nullptr;
+
+const LampSource* source_of(const LampFile& file) {
+    if (written)
+        for (const LampSource& source : written->lamp_sources)
+            if (source.file.get() == &file)
+                return &source;
+    return nullptr;
+}
+
+class OptionsOfFile : public Member {
+  public:
+    void* look(void* file) const override {
+        const LampSource* const source = source_of(*static_cast<const LampFile*>(file));
+        return source ? const_cast<LampReadOptions*>(&source->options) : nullptr;
+    }
+};
+
+template <double (LampReadOptions::*edges)[2], int limit_deg> void read_extent(const YamlEntry& entry, LampReadOptions& options) {
+    const std::vector<double> values = entry.numbers(2, 2, -limit_deg, limit_deg);
+    if (values[0] >= values[1])
+        entry.refuse("edges that do not ascend", "[lower, upper]");
+    std::ranges::copy(values, options.*edges);
+}
+
+template <double (LampReadOptions::*edges)[2]> std::string extent_text(const LampReadOptions& options) {
+    const double(&e)[2] = options.*edges;
+    return e[0] == e[1] ? "" : fmt::format("[{}, {}]", e[0], e[1]);
+}
+
+template <double (LampReadOptions::*edges)[2], int limit_deg>
+FieldOf<LampReadOptions> extent(std::string_view key, int id, std::string_view meaning) {
+    const std::string schema = fmt::format(
+        R"({{"type": "array", "minItems": 2, "maxItems": 2, "items": {{"type": "number", "minimum": -{0}, "maximum": {0}}}}})", limit_deg);
+    return own(key, id, read_extent<edges, limit_deg>, extent_text<edges>, schema, meaning);
+}
+
+const Fields<LampReadOptions>& option_fields() {
+    using Options = LampReadOptions;
+    static const Fields<Options> fields{
+        field("between_samples", 1, &Options::rule, words({"linear_cd", "log_cd"}), "how intensity runs between the table's samples"),
+        field("type_c_axis", 2, &Options::type_c_axis, words({"automatic", "horizontal", "nadir"}),
+              "where a Type C or EULUMDAT file points its beam"),
+        section(
+            "texture", 3,
+            Fields<LampReadOptions>{
+                field("scale_lx", 1, &LampReadOptions::texture_scale_lx, range(0.0, 1.0e6),
+                      "of a pixel of value 1.0; 0: as the image says"),
+                field("distance_m", 2, &LampReadOptions::texture_distance_m, range(0.1, 1000.0), "at which that is so"),
+                extent<&LampReadOptions::texture_h_extent_deg, 180>("h_extent_deg", 3, "left and right edge; as the image says by default"),
+                extent<&LampReadOptions::texture_v_extent_deg, 90>("v_extent_deg", 4, "lower and upper edge"),
+            },
+            "only for beam textures without metadata"),
+        field("mirrored", 4, &Options::mirrored, any(), "left and right exchanged: a lamp for the other side of the road")
+            .written_off_default(),
     };
-    extent("h_extent_deg", 180.0, options.texture_h_extent_deg);
-    extent("v_extent_deg", 90.0, options.texture_v_extent_deg);
+    return fields;
 }
 
-LampReadOptions read_options(const Layers& layers, TypeCAxis axis_otherwise) {
-    static constexpr BetweenSamples rules[] = {BetweenSamples::linear_cd, BetweenSamples::log_cd};
-    static constexpr TypeCAxis axes[] = {TypeCAxis::automatic, TypeCAxis::horizontal, TypeCAxis::nadir};
-    LampReadOptions options;
-    options.type_c_axis = axis_otherwise;
-    if (const auto rule = find_in(layers, "between_samples"))
-        options.rule = rules[rule->choice({"linear_cd", "log_cd"})];
-    if (const auto axis = find_in(layers, "type_c_axis"))
-        options.type_c_axis = axes[axis->choice({"automatic", "horizontal", "nadir"})];
-    if (const auto texture = find_in(layers, "texture"))
-        read_texture(options, *texture);
-    if (const auto mirrored = find_in(layers, "mirrored"))
-        options.mirrored = mirrored->flag();
-    return options;
+template <class Lamp> void check_aim(const YamlMap& keys, const Lamp&) {
+    if (const auto percent = keys.find("percent_down"); percent && (keys.find("pitch_deg") || keys.find("pitch_rad")))
+        percent->refuse("percent_down beside a pitch", "one of them");
 }
 
-LampColour read_explicit_colour(const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"linear_srgb", "sp_ratio", "cct_k"});
-    const std::vector<double> rgb = keys.require("linear_srgb").numbers(3, 3, -100.0, 100.0);
-    LampColour colour;
-    colour.linear_srgb = {rgb[0], rgb[1], rgb[2]};
-    colour.sp_ratio = keys.require("sp_ratio").number(0.0, 100.0);
-    colour.cct_k = keys.number_or("cct_k", 0.0, 0.0, 1.0e6);
-    return colour;
+template <class Lamp> const Fields<Lamp>& aim_fields() {
+    static const Fields<Lamp> fields =
+        Fields<Lamp>{
+            field("pitch", 1, &Lamp::pitch_rad, degrees_within("pitch", 90.0), "upwards"),
+            field("yaw", 2, &Lamp::yaw_rad, degrees_within("yaw", 180.0), "to the left"),
+            field("roll", 3, &Lamp::roll_rad, degrees_within("roll", 180.0), "lifts the left side"),
+            form<Lamp>("percent_down", FieldKind::number, range(-100.0, 100.0), "lowers the beam: 1 = 1 cm in 1 m",
+                       [](const YamlEntry& entry, Lamp& lamp) { lamp.pitch_rad = -std::atan(entry.number(-100.0, 100.0) / 100.0); }),
+        }
+            .checked(check_aim<Lamp>);
+    return fields;
 }
+
+bool is_turned(const void* lamp) { return static_cast<const MountedLamp*>(lamp)->mount != Turn{}; }
 
 } // namespace
 
-std::optional<YamlEntry> find_in(const Layers& layers, std::string_view key) {
-    for (const YamlMap& layer : layers)
-        if (std::optional<YamlEntry> found = layer.find(key))
-            return found;
-    return std::nullopt;
+std::string file_text(const LampFile* file) {
+    if (!written || !file)
+        return "";
+    if (const LampSource* const source = source_of(*file))
+        return quoted(source->path.string());
+    if (file->opened.empty()) // at its defaults, never read
+        return "";
+    throw std::invalid_argument("write_drive: a lamp's file is not among the drive's lamp_sources");
 }
 
-std::shared_ptr<const LampFile> read_lamp_keys(const Layers& layers, LampShelf& shelf, TypeCAxis axis) {
-    const auto file = find_in(layers, "file");
+const Fields<LampFile>& lamp_file_fields() {
+    static const Fields<LampFile> fields = [] {
+        FieldOf<LampFile> options;
+        options.id = 2;
+        options.kind = FieldKind::inlined;
+        options.member = std::make_shared<OptionsOfFile>();
+        options.group = shared_group(option_fields());
+        return Fields<LampFile>{
+            own<LampFile>(
+                "file", 1, nullptr, [](const LampFile& file) { return file_text(&file); }, file_schema,
+                "IES LM-63, EULUMDAT, beam matrix (CSV) or beam texture; relative to the drive file"),
+            options,
+        };
+    }();
+    return fields;
+}
+
+const Fields<LampColour>& colour_fields() {
+    static const Fields<LampColour> fields{
+        field("linear_srgb", 1, &LampColour::linear_srgb, range(-100.0, 100.0), "of luminance 1").required(),
+        field("sp_ratio", 2, &LampColour::sp_ratio, range(0.0, 100.0), "scotopic over photopic").required(),
+        field("cct_k", 3, &LampColour::cct_k, range(0.0, 1.0e6), "its temperature, for people"),
+    };
+    return fields;
+}
+
+const Fields<Turn>& turn_fields() {
+    static const Fields<Turn> fields{
+        field("yaw", 1, &Turn::yaw_rad, degrees_within("yaw", 360.0), "to the left"),
+        field("pitch", 2, &Turn::pitch_rad, degrees_within("pitch", 90.0), "upwards"),
+        field("roll", 3, &Turn::roll_rad, degrees_within("roll", 360.0), "lifts the left side"),
+    };
+    return fields;
+}
+
+const Fields<MountedLamp>& lamp_fields() {
+    using Lamp = MountedLamp;
+    static const Fields<Lamp> fields =
+        Fields<Lamp>{
+            inlined(1, &Lamp::file, lamp_file_fields()),
+            form<Lamp>("mount", FieldKind::name, a_name(), "a place of car.mounts; the lamp's own name by default"),
+            field("position_m", 2, &Lamp::position_m, range(-100.0, 100.0),
+                  "x forward, y left, z up from the road under the rear axle, instead of a mount"),
+            field("mount_turn", 3, &Lamp::mount, turn_fields(), "how the place is turned, beside position_m").heard_if(is_turned),
+            section("aim", 4, aim_fields<Lamp>(), "how the lamp's own axis is turned"),
+            field("level", 5, &Lamp::level, range(0.0, 1.0), "dimming, 1 = full"),
+            source_field(6, &Lamp::source),
+            field("voltage_v", 7, &Lamp::voltage_v, range(12.0, 13.8), "supply"),
+            field("reference_voltage_v", 8, &Lamp::reference_voltage_v, range(12.0, 13.8), "at which the file was measured"),
+            temperature_form<Lamp>(),
+            spectrum_form<Lamp>(),
+            field("colour", 9, &Lamp::colour, colour_fields(), "what a spectrum comes to"),
+            field("photometric_distance_m", 10, &Lamp::photometric_distance_m, range(0.0, 1000.0),
+                  "results nearer than this are marked near-field"),
+        }
+            .block()
+            .defined_as("lamp");
+    return fields;
+}
+
+const Group& light_fields() {
+    static const Group fields = [] {
+        Group of = lamp_fields();
+        of.definition = {};
+        std::erase_if(of.fields, [](const Field& field) { return field.key.starts_with("mount") || field.key == "position_m"; });
+        return of;
+    }();
+    return fields;
+}
+
+const Fields<LampChange>& change_fields() {
+    using Change = LampChange;
+    static const Fields<Change> fields =
+        Fields<Change>{
+            field("at_s", 1, &Change::time_s, range(0.0, 1.0e6), "what is not given stays as it was").required(),
+            field("lamp", 2, &Change::lamp, a_name(), "whose; without it and `lamps` all of them"),
+            form<Change>("lamps", FieldKind::names, names(1, most_lamps), "several of them"),
+            field("level", 3, &Change::level, range(0.0, 1.0), "dimming, 1 = full"),
+            section("aim", 4, aim_fields<Change>(), "how the lamp's own axis is turned").written_off_default(),
+            inlined(5, &Change::file, lamp_file_fields()),
+            source_field(6, &Change::source),
+            temperature_form<Change>(),
+            spectrum_form<Change>(),
+            field("colour", 7, &Change::colour, colour_fields(), "what a spectrum comes to"),
+        }
+            .block()
+            .defined_as("change")
+            .in_schema(R"({"not": {"required": ["lamp", "lamps"]}})");
+    return fields;
+}
+
+LampsAreOf::LampsAreOf(const Drive& drive) { written = &drive; }
+LampsAreOf::~LampsAreOf() { written = nullptr; }
+
+std::shared_ptr<const LampFile> read_lamp_keys(const YamlMap& keys, LampShelf& shelf, TypeCAxis axis) {
+    const auto file = keys.find("file");
     if (!file)
         return nullptr;
-    return shelf.lamp(file->path(), read_options(layers, axis), &*file);
+    LampReadOptions options;
+    options.type_c_axis = axis;
+    read_group(option_fields(), keys, &options);
+    return shelf.lamp(file->path(), options, &*file);
 }
 
-AimKeys read_aim(const Layers& layers) {
-    const auto given = find_in(layers, "aim");
-    if (!given)
-        return {};
-    const YamlMap keys = given->map({"pitch_deg", "pitch_rad", "percent_down", "yaw_deg", "yaw_rad", "roll_deg", "roll_rad"});
-    AimKeys aim{keys.angle_rad("pitch", 90.0), keys.angle_rad("yaw", 180.0), keys.angle_rad("roll", 180.0)};
-    if (const auto percent = keys.find("percent_down")) {
-        if (aim.pitch_rad)
-            percent->refuse("percent_down beside a pitch", "one of them");
-        aim.pitch_rad = -std::atan(percent->number(-100.0, 100.0) / 100.0);
-    }
-    return aim;
+std::optional<SourceKind> read_source(const YamlMap& keys) {
+    LampChange change;
+    read_field(change_fields(), "source", keys, &change);
+    return change.source;
 }
 
-std::optional<SourceKind> read_source(const Layers& layers) {
-    static constexpr SourceKind kinds[] = {SourceKind::filament, SourceKind::arc, SourceKind::led};
-    const auto source = find_in(layers, "source");
-    if (!source)
-        return std::nullopt;
-    return kinds[source->choice({"filament", "arc", "led"})];
+bool gives_colour(const YamlMap& keys) {
+    return std::ranges::any_of(colour_keys, [&](std::string_view key) { return keys.find(key).has_value(); });
 }
 
-bool gives_colour(const Layers& layers) {
-    for (const std::string_view key : colour_keys)
-        if (find_in(layers, key))
-            return true;
-    return false;
-}
-
-LampColour read_colour(const Layers& layers, SourceKind source, LampShelf& shelf, const YamlEntry& asked_by) {
-    for (const YamlMap& layer : layers) {
-        const auto given = layer.one_of({colour_keys[0], colour_keys[1], colour_keys[2]});
-        if (!given)
-            continue;
+LampColour read_colour(const YamlMap& keys, SourceKind source, LampShelf& shelf, const YamlEntry& asked_by) {
+    if (const auto given = keys.one_of({colour_keys[0], colour_keys[1], colour_keys[2]})) {
         if (given->first == "temperature_k")
             return colour_of_temperature(given->second.number(1000.0, 25'000.0));
-        return given->first == "spectrum" ? shelf.spectrum(given->second.path(), given->second) : read_explicit_colour(given->second);
+        return given->first == "spectrum" ? shelf.spectrum(given->second.path(), given->second)
+                                          : read_fields(colour_fields(), given->second);
     }
     if (source == SourceKind::led)
         asked_by.refuse("an LED without a colour", "temperature_k or spectrum");

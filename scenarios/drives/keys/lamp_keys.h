@@ -1,29 +1,59 @@
-// The keys that describe one lamp, wherever they stand: in a lamp, in its variant, in a change.
+// The keys that describe one lamp, wherever they stand: in a lamp, in its lamp set, in a change, in a row of street lamps.
 #pragma once
 
 #include "scenarios/drives/keys/lamp_sets.h"
+#include "scenarios/fields/field.h"
 
 namespace fernlicht {
 
-/// Maps from the nearest to the farthest: the first that gives a key decides.
-using Layers = std::vector<YamlMap>;
-std::optional<YamlEntry> find_in(const Layers& layers, std::string_view key);
+/// `file`, and how it is read.
+const Fields<LampFile>& lamp_file_fields();
+std::string file_text(const LampFile* file); ///< its path; "" without one
+inline constexpr std::string_view file_schema = R"({"type": "string", "minLength": 1})";
+const Fields<LampColour>& colour_fields();
+const Fields<MountedLamp>& lamp_fields();
+const Fields<LampChange>& change_fields();
+const Fields<Turn>& turn_fields();
+/// Those of a lamp that may stand beside lamps, too, for all that do not give them: all but its place.
+const Group& light_fields();
+/// `temperature_k` or `spectrum` in place of a colour.
+template <class Lamp> FieldOf<Lamp> temperature_form() {
+    return form<Lamp>("temperature_k", FieldKind::number, range(1000.0, 25'000.0), "of its colour, instead of it");
+}
+template <class Lamp> FieldOf<Lamp> spectrum_form() {
+    return form<Lamp>("spectrum", FieldKind::path, any(), "CSV: wavelength in nm, relative power; instead of a colour");
+}
+template <class Lamp, class M> FieldOf<Lamp> source_field(int id, M Lamp::*source) {
+    return field("source", id, source, words({"filament", "arc", "led"}),
+                 "filament by default; decides the default colour (3200 K, 4300 K) and whether the voltage counts");
+}
 
-/// `file` with the keys that say how it is read; nullptr when no layer names one. `axis`: of a Type C file where no layer gives it.
-std::shared_ptr<const LampFile> read_lamp_keys(const Layers& layers, LampShelf& shelf, TypeCAxis axis = TypeCAxis::automatic);
+/// Named lamps, and changes of them, as they stand in lamp sets and in rows of traffic.
+template <class Set> FieldOf<Set> lamps_field(int id) {
+    return named("lamps", id, &Set::lamps, most_lamps, lamp_fields(), "by name; a plain text is the lamp's file").short_for("file");
+}
+
+template <class Set> FieldOf<Set> changes_field(int id) {
+    return list("changes", id, &Set::changes, 0, most_lamp_changes, change_fields(), "of lamps, over time");
+}
+
+/// While it lives, files of lamps are written as `drive` had them read: a lamp does not know where its file came from.
+class LampsAreOf {
+  public:
+    explicit LampsAreOf(const Drive& drive);
+    ~LampsAreOf();
+    LampsAreOf(const LampsAreOf&) = delete;
+};
+
+/// `file` with the keys that say how it is read; nullptr where none is named. `axis`: of a Type C file that does not give it.
+std::shared_ptr<const LampFile> read_lamp_keys(const YamlMap& keys, LampShelf& shelf, TypeCAxis axis = TypeCAxis::automatic);
 
 /// Lamps of the high beam are told by their names.
 inline bool is_high_beam(const std::string& lamp) { return lamp.find("high") != std::string::npos; }
 
-struct AimKeys {
-    std::optional<double> pitch_rad, yaw_rad, roll_rad;
-};
-/// `aim`: pitch_deg or percent_down, yaw_deg, roll_deg; each also in radians.
-AimKeys read_aim(const Layers& layers);
-
-std::optional<SourceKind> read_source(const Layers& layers);
+std::optional<SourceKind> read_source(const YamlMap& keys);
 /// `temperature_k`, `spectrum` or `colour`; else by the source: halogen 3200 K, xenon 4300 K. An LED's must be given.
-LampColour read_colour(const Layers& layers, SourceKind source, LampShelf& shelf, const YamlEntry& asked_by);
-bool gives_colour(const Layers& layers);
+LampColour read_colour(const YamlMap& keys, SourceKind source, LampShelf& shelf, const YamlEntry& asked_by);
+bool gives_colour(const YamlMap& keys);
 
 } // namespace fernlicht

@@ -1,7 +1,8 @@
 #include "scenarios/drives/keys/lamp_mounts.h"
 
 #include "scenarios/drives/keys/drive_keys.h"
-#include "scenarios/drives/keys/lamp_sets.h"
+#include "scenarios/drives/keys/lamp_keys.h"
+#include "scenarios/fields/read_fields.h"
 
 #include <algorithm>
 #include <glm/common.hpp>
@@ -11,18 +12,15 @@ namespace {
 
 Pose in_car(double yaw_rad) { return {{}, axes_from_angles(yaw_rad, 0.0, 0.0)}; }
 
-Turn read_turn_keys(const YamlMap& keys) {
-    return {keys.angle_rad("yaw", 360.0).value_or(0.0), keys.angle_rad("pitch", 90.0).value_or(0.0),
-            keys.angle_rad("roll", 360.0).value_or(0.0)};
-}
-
 } // namespace
 
-LampMount read_lamp_mount(const std::string& name, const YamlEntry& entry) {
-    if (entry.is_list())
-        return {name, read_position(entry), {}};
-    const YamlMap keys = entry.map({"position_m", "yaw_deg", "yaw_rad", "pitch_deg", "pitch_rad", "roll_deg", "roll_rad"});
-    return {name, read_position(keys.require("position_m")), read_turn_keys(keys)};
+const Fields<LampMount>& mount_fields() {
+    static const Fields<LampMount> fields{
+        field("position_m", 1, &LampMount::position_m, range(-100.0, 100.0), "x forward, y left, z up from the road under the rear axle")
+            .required(),
+        inlined(2, &LampMount::turn, turn_fields()),
+    };
+    return fields;
 }
 
 std::vector<Mount> turned_mounts(const Model& model, double yaw_rad, double scale) {
@@ -62,8 +60,8 @@ std::optional<PlacedModel> read_car_model(const YamlMap& keys) {
     placed.file = file->path();
     check_file(placed.file, *file);
     placed.model = std::make_shared<const Model>(read_model(placed.file));
-    placed.yaw_rad = keys.angle_rad("yaw", 360.0).value_or(0.0);
-    placed.scale = keys.number_or("scale", 1.0, 1.0e-4, 1.0e4);
+    read_field(body_fields(), "yaw", keys, &placed);
+    read_field(body_fields(), "scale", keys, &placed);
     return placed;
 }
 

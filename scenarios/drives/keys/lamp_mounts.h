@@ -16,8 +16,8 @@ struct LampMount {
     bool usual = true;          ///< gets a lamp where the drive names none
 };
 
-/// [x, y, z], or position_m with yaw_deg, pitch_deg and roll_deg.
-LampMount read_lamp_mount(const std::string& name, const YamlEntry& entry);
+template <class Struct> struct Fields;
+const Fields<LampMount>& mount_fields();
 
 /// The mounts of a model in the frame that it is turned (yaw) and scaled in.
 std::vector<Mount> turned_mounts(const Model& model, double yaw_rad, double scale);

@@ -9,6 +9,8 @@
 
 namespace fernlicht {
 
+inline constexpr std::size_t most_variants = 32, most_lamps = 64, most_lamp_changes = 10'000;
+
 /// Reads lamp and spectrum files for a drive, each once, and keeps what was opened.
 class LampShelf {
   public:
@@ -34,11 +36,16 @@ struct Car {
     std::optional<YamlEntry> lamps; ///< `car.lamps`: the one lamp set of a drive without variants
 };
 
+std::vector<std::string> lamp_names(const Variant& variant);
+/// A name, which a lamp of the variant must have.
+std::string lamp_name(const YamlEntry& entry, const Variant& variant);
+
 /// `lamps`, or one lamp on each mount with the `file` of `keys`; then their `changes`, sorted by time.
 Variant read_lamp_set(const std::string& name, const YamlMap& keys, const Car& car, LampShelf& shelf);
 
 template <class Struct> struct Fields;
-const Fields<Drive>& car_fields(); ///< without its lamps and their places
+const Fields<Drive>& car_fields();
+const Fields<Variant>& variant_fields();
 /// Bumper, wheelbase and body become the drive's own.
 Car read_car(const YamlMap& drive_keys, Drive& drive);
 /// `variants`, or `car.lamps` as the one variant; then `changes`, of the drive first and of each variant after it, sorted by time.

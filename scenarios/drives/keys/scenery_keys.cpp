@@ -1,4 +1,4 @@
-#include "scenarios/drives/keys/scenery_keys.h"
+#include "scenarios/drives/keys/drive_keys.h"
 
 #include "scenarios/drives/keys/lamp_sets.h"
 #include "scenarios/fields/field.h"

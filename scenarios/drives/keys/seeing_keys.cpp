@@ -1,4 +1,4 @@
-#include "scenarios/drives/keys/seeing_keys.h"
+#include "scenarios/drives/keys/drive_keys.h"
 
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/field_bits.h"
@@ -20,39 +20,21 @@ FieldRule across() { return words(across_words); }
 FieldRule illuminances() { return numbers(0, 16, 1.0e-6, 1.0e6); }
 FieldRule distances() { return numbers(0, 16, 0.0, farthest_seen_m); }
 
-const Fields<Sensor>& sensor_fields() {
-    static const Fields<Sensor> fields{
-        field("at_m", 1, &Sensor::at_m, range(0.0, longest_route_m), "along the route from its start").required(),
-        field("across", 2, &Sensor::across, across(), "where across the road: centres of lanes, edges of the driving lanes"),
-        field("above_m", 3, &Sensor::above_m, range(0.0, 50.0), "above the road; 0.25 by default"),
-    };
-    return fields;
-}
-
 const Fields<SensorParameters>& sensors_fields() {
     static const Fields<SensorParameters> fields =
         Fields<SensorParameters>{
             field("limits_lx", 1, &SensorParameters::limits_lx, illuminances(), "from how far away the sensor has so much"),
             field("distances_m", 2, &SensorParameters::distances_m, distances(), "from the front bumper, where the illuminance is told"),
-            named("points", 3, &SensorParameters::points, 100, sensor_fields(), "").required(),
+            named("points", 3, &SensorParameters::points, 100,
+                  Fields<Sensor>{
+                      field("at_m", 1, &Sensor::at_m, range(0.0, longest_route_m), "along the route from its start").required(),
+                      field("across", 2, &Sensor::across, across(), "where across the road: centres of lanes, edges of the driving lanes"),
+                      field("above_m", 3, &Sensor::above_m, range(0.0, 50.0), "above the road; 0.25 by default"),
+                  },
+                  "")
+                .required(),
         }
             .block();
-    return fields;
-}
-
-const Fields<GlareObserver>& observer_fields() {
-    static const Fields<GlareObserver> fields{
-        field("at_m", 1, &GlareObserver::at_m, range(0.0, longest_route_m), "along the route from its start").required(),
-        field("eye_height_m", 2, &GlareObserver::eye_height_m, range(0.1, 10.0), "above the road"),
-        field("look_ahead_m", 3, &GlareObserver::look_ahead_m, range(0.0, farthest_seen_m),
-              "where on the lane the eye looks; 0: along its tangent"),
-    };
-    return fields;
-}
-
-const Fields<Mirror>& mirror_fields() {
-    static const Fields<Mirror> fields =
-        Fields<Mirror>{field("position_m", 1, &Mirror::position_m, range(-100.0, 100.0), "in the frame of its car")}.bare();
     return fields;
 }
 
@@ -70,7 +52,9 @@ const Fields<MirrorParameters>& mirrors_fields() {
                   "from the front bumper to the rear axle of the car ahead"),
             field("eye_m", 2, &MirrorParameters::eye_m, range(-100.0, 100.0), "its driver's, in its frame"),
             field("reflectance", 3, &MirrorParameters::reflectance, range(0.0, 1.0), "of the mirrors"),
-            named("places", 4, &MirrorParameters::mirrors, 16, mirror_fields(), "of the mirrors in their car's frame"),
+            named("places", 4, &MirrorParameters::mirrors, 16,
+                  Fields<Mirror>{field("position_m", 1, &Mirror::position_m, range(-100.0, 100.0), "in the frame of its car")}.bare(),
+                  "of the mirrors in their car's frame"),
         }
             .block()
             .checked(check_mirrors);
@@ -85,7 +69,13 @@ void check_glare(const YamlMap& keys, const GlareParameters& glare) {
 const Fields<GlareParameters>& glare_fields() {
     static const Fields<GlareParameters> fields =
         Fields<GlareParameters>{
-            named("oncoming", 1, &GlareParameters::oncoming, 100, observer_fields(),
+            named("oncoming", 1, &GlareParameters::oncoming, 100,
+                  Fields<GlareObserver>{
+                      field("at_m", 1, &GlareObserver::at_m, range(0.0, longest_route_m), "along the route from its start").required(),
+                      field("eye_height_m", 2, &GlareObserver::eye_height_m, range(0.1, 10.0), "above the road"),
+                      field("look_ahead_m", 3, &GlareObserver::look_ahead_m, range(0.0, farthest_seen_m),
+                            "where on the lane the eye looks; 0: along its tangent"),
+                  },
                   "drivers who stand on the nearest oncoming lane and look along it"),
             field("mirrors", 2, &GlareParameters::mirrors, mirrors_fields(), "of a car ahead in the own lane").or_flag(),
             field("equation", 3, &GlareParameters::equation, words({"stiles-holladay", "age-adjusted", "cie-general"}),
@@ -214,15 +204,6 @@ const Fields<VisibilityParameters>& visibility_fields() {
     return fields;
 }
 
-const Fields<HomogeneityParameters>& homogeneity_fields() {
-    static const Fields<HomogeneityParameters> fields{
-        field("least_lx", 1, &HomogeneityParameters::least_lx, range(1.0e-6, 1.0e6), "darker ground does not count"),
-        field("ahead_m", 2, &HomogeneityParameters::ahead_m, range(10.0, 500.0), "how far is looked, from the front bumper"),
-        field("patch_factor", 3, &HomogeneityParameters::patch_factor, range(1.01, 1000.0), "what counts as a patch"),
-    };
-    return fields;
-}
-
 constexpr std::string_view place_words[] = {"kerb", "boards", "markings"};
 
 void read_what(const YamlEntry& entry, PlaceParameters& places) {
@@ -238,17 +219,6 @@ std::string what_text(const PlaceParameters& places) {
         if (asked)
             what.push_back(place_words[i]);
     return fmt::format("[{}]", fmt::join(what, ", "));
-}
-
-const Fields<PlaceParameters>& places_fields() {
-    static const Fields<PlaceParameters> fields{
-        own("what", 1, read_what, what_text,
-            R"({"type": "array", "items": {"enum": ["kerb", "boards", "markings"]}, "minItems": 1, "maxItems": 3})",
-            "kerb, boards, markings: some of them")
-            .required(),
-        field("distances_m", 2, &PlaceParameters::distances_m, numbers(1, 16, 1.0, farthest_seen_m), "from the front bumper"),
-    };
-    return fields;
 }
 
 } // namespace
@@ -268,13 +238,27 @@ const Fields<SeeingParameters>& seeing_fields() {
             field("glare", 2, &SeeingParameters::glare, glare_fields(), "what the lamps do to the eyes of others"),
             field("visibility", 3, &SeeingParameters::visibility, visibility_fields(), "how far ahead targets on the road are detected")
                 .or_flag(),
-            field("homogeneity", 4, &SeeingParameters::homogeneity, homogeneity_fields(), "how evenly the own lane is lit").or_flag(),
-            field("places", 5, &SeeingParameters::places, places_fields(), "light on kerb, boards and markings").short_list_for("what"),
+            field("homogeneity", 4, &SeeingParameters::homogeneity,
+                  Fields<HomogeneityParameters>{
+                      field("least_lx", 1, &HomogeneityParameters::least_lx, range(1.0e-6, 1.0e6), "darker ground does not count"),
+                      field("ahead_m", 2, &HomogeneityParameters::ahead_m, range(10.0, 500.0), "how far is looked, from the front bumper"),
+                      field("patch_factor", 3, &HomogeneityParameters::patch_factor, range(1.01, 1000.0), "what counts as a patch"),
+                  },
+                  "how evenly the own lane is lit")
+                .or_flag(),
+            field("places", 5, &SeeingParameters::places,
+                  Fields<PlaceParameters>{
+                      own("what", 1, read_what, what_text,
+                          R"({"type": "array", "items": {"enum": ["kerb", "boards", "markings"]}, "minItems": 1, "maxItems": 3})",
+                          "kerb, boards, markings: some of them")
+                          .required(),
+                      field("distances_m", 2, &PlaceParameters::distances_m, numbers(1, 16, 1.0, farthest_seen_m), "from the front bumper"),
+                  },
+                  "light on kerb, boards and markings")
+                .short_list_for("what"),
         }
             .block();
     return fields;
 }
-
-SeeingParameters read_seeing(const YamlEntry& measure) { return read_fields(seeing_fields(), measure); }
 
 } // namespace fernlicht

@@ -99,21 +99,9 @@ std::string shadows_text(const ShadowSettings& shadows) {
 }
 
 std::string shadows_schema() {
-    std::string forms = fmt::format(R"({{"anyOf": [{{"type": "boolean"}}, {{"enum": ["{}"]}})", fmt::join(words_for_methods(), "\", \""));
-    Group form;
-    for (std::size_t i = 0; i < words_for_methods().size(); ++i) {
-        ShadowSettings shadows;
-        shadows.method = static_cast<ShadowMethod>(i);
-        Group heard = shadow_fields();
-        std::erase_if(heard.fields, [&](const Field& field) { return field.heard && !field.heard(&shadows); });
-        if (heard.fields.size() != form.fields.size()) {
-            forms += form.fields.empty() ? "" : ", " + schema_of(form);
-            form = heard;
-            form.fields.front().rule.words.clear();
-        }
-        form.fields.front().rule.words.push_back(words_for_methods()[i]);
-    }
-    return forms + ", " + schema_of(form) + "]}";
+    ShadowSettings scratch;
+    return fmt::format(R"({{"anyOf": [{{"type": "boolean"}}, {{"enum": ["{}"]}}, {}]}})", fmt::join(words_for_methods(), "\", \""),
+                       schemas_by_word(shadow_fields(), &scratch));
 }
 
 } // namespace fernlicht

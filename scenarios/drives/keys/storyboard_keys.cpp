@@ -1,39 +1,42 @@
-#include "scenarios/drives/keys/storyboard_keys.h"
+#include "scenarios/drives/keys/drive_keys.h"
 
-#include "scenarios/drives/keys/drive_texts.h"
+#include "scenarios/fields/field.h"
+#include "scenarios/fields/read_fields.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/yaml/yaml_tree.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_folders = 32, most_parameters = 1000, most_traffic_rows = 1000;
+constexpr std::size_t most_folders = 32, most_parameters = 1000;
 constexpr double fastest_day = 86'400.0;
 
-SkySite read_site(const YamlEntry& entry) {
-    const YamlMap keys = entry.map({"latitude_deg", "longitude_deg", "utc_offset_h"});
-    SkySite site{keys.require("latitude_deg").number(-90.0, 90.0), keys.require("longitude_deg").number(-180.0, 180.0), {}};
-    if (const auto offset = keys.find("utc_offset_h"))
-        site.utc_offset_h = offset->number(-14.0, 14.0);
-    return site;
+void read_folders(const YamlEntry& entry, osc::StoryboardOptions& options) {
+    for (const YamlEntry& folder : entry.list(0, most_folders))
+        options.road_folders.push_back(folder.path());
 }
 
-void read_options(const YamlMap& keys, StoryboardSource& source) {
-    if (const auto ego = keys.find("ego"))
-        source.ego = ego->text();
-    if (const auto folders = keys.find("road_folders"))
-        for (const YamlEntry& folder : folders->list(0, most_folders))
-            source.options.road_folders.push_back(folder.path());
-    source.options.lenient = keys.flag_or("lenient", false);
-    if (const auto site = keys.find("place"))
-        source.site = read_site(*site);
-    source.day_rate = keys.number_or("day_rate", source.day_rate, 0.0, fastest_day);
-    if (const auto parameters = keys.find("parameters"))
-        for (const auto& [name, value] : parameters->named(most_parameters))
-            source.options.parameters[name] = value.text();
+std::string folders_text(const osc::StoryboardOptions& options) {
+    std::vector<std::string> folders;
+    for (const auto& folder : options.road_folders)
+        folders.push_back(quoted(folder.string()));
+    return fmt::format("[{}]", fmt::join(folders, ", "));
+}
+
+void read_parameters(const YamlEntry& entry, StoryboardSource& source) {
+    for (const auto& [name, value] : entry.named(most_parameters))
+        source.options.parameters[name] = value.text();
+}
+
+std::string parameters_text(const StoryboardSource& source) {
+    std::string text;
+    for (const auto& [name, value] : source.options.parameters)
+        text += fmt::format("\n    {}: {}", quoted(name), quoted(value));
+    return text;
 }
 
 /// The first of them.
@@ -47,21 +50,45 @@ std::string names_of(const osc::Storyboard& story) {
 
 } // namespace
 
-std::optional<StoryboardSource> read_storyboard_keys(const YamlMap& keys, const DriveEdits& edits, Drive& drive) {
+const Fields<StoryboardSource>& storyboard_fields() {
+    using Source = StoryboardSource;
+    static const Fields<Source> fields =
+        Fields<Source>{
+            field("file", 1, &Source::file, any(), "OpenSCENARIO XML; relative to the drive file").required(),
+            field("ego", 2, &Source::ego, any(), "the entity that is the own car"),
+            inlined(3, &Source::options,
+                    Fields<osc::StoryboardOptions>{
+                        field("lenient", 1, &osc::StoryboardOptions::lenient, any(), "what is not supported is left out with a note"),
+                        own("road_folders", 2, read_folders, folders_text,
+                            R"({"type": "array", "maxItems": 32, "items": {"type": "string", "minLength": 1}})",
+                            "where its road is looked for, too"),
+                    }),
+            field("place", 4, &Source::site,
+                  Fields<SkySite>{
+                      field("latitude_deg", 1, &SkySite::latitude_deg, range(-90.0, 90.0), "north positive").required(),
+                      field("longitude_deg", 2, &SkySite::longitude_deg, range(-180.0, 180.0), "east positive").required(),
+                      field("utc_offset_h", 3, &SkySite::utc_offset_h, range(-14.0, 14.0),
+                            "of times of day without one; by default the longitude's, in whole hours"),
+                  },
+                  "where an environment's sky is looked at; by default what the road's geoReference names, else 48.14 N, 11.58 E"),
+            field("day_rate", 5, &Source::day_rate, range(0.0, fastest_day), "seconds of an animated time of day for one of the drive"),
+            own("parameters", 6, read_parameters, parameters_text,
+                R"({"type": "object", "minProperties": 1, "additionalProperties": {"type": ["string", "number", "boolean"]}})",
+                "values of its declared parameters"),
+        }
+            .block();
+    return fields;
+}
+
+void read_storyboard_keys(const YamlMap& keys, const DriveEdits& edits, Drive& drive) {
     const auto given = keys.find("storyboard");
     if (!given)
-        return {};
+        return;
     for (const std::string_view other : {"route", "speed", "speed_kmh", "speed_mps", "vehicle", "mirrored_road"})
         if (const auto found = keys.find(other))
             found->refuse(fmt::format("{} beside a storyboard", other), "one of them: the storyboard says where the car goes");
-    StoryboardSource source;
-    if (given->is_scalar()) {
-        source.file = given->path();
-    } else {
-        const YamlMap inner = given->map({"file", "ego", "road_folders", "lenient", "parameters", "place", "day_rate"});
-        source.file = inner.require("file").path();
-        read_options(inner, source);
-    }
+    read_field(drive_fields(), "storyboard", keys, &drive);
+    StoryboardSource& source = *drive.storyboard;
     if (!edits.ego.empty())
         source.ego = edits.ego;
     for (const auto& folder : edits.road_folders)
@@ -78,7 +105,6 @@ std::optional<StoryboardSource> read_storyboard_keys(const YamlMap& keys, const 
     drive.speed = {{0.0, 0.0}}; // until the story is told
     drive.notes.insert(drive.notes.end(), story.notes.begin(), story.notes.end());
     drive.opened.insert(drive.opened.end(), story.opened.begin(), story.opened.end());
-    return source;
 }
 
 void check_entities(const YamlMap& keys, const Drive& drive) {
@@ -107,31 +133,6 @@ void check_entities(const YamlMap& keys, const Drive& drive) {
                               fmt::format("one of {}", names_of(*story)));
         }
     }
-}
-
-std::string storyboard_text(const Drive& drive) {
-    if (!drive.storyboard)
-        return "";
-    const StoryboardSource& source = *drive.storyboard;
-    std::string folders;
-    for (const auto& folder : source.options.road_folders)
-        folders += fmt::format("{}{}", folders.empty() ? "" : ", ", quoted(folder.string()));
-    std::string out = fmt::format("\n  file: {}\n  ego: {}\n  lenient: {}\n  road_folders: [{}]", quoted(source.file.string()),
-                                  quoted(source.ego), source.options.lenient, folders);
-    if (const auto& site = source.site)
-        out += fmt::format("\n  place: {{latitude_deg: {}, longitude_deg: {}{}}}", site->latitude_deg, site->longitude_deg,
-                           site->utc_offset_h ? fmt::format(", utc_offset_h: {}", *site->utc_offset_h) : "");
-    out += fmt::format("\n  day_rate: {}", source.day_rate);
-    if (!source.options.parameters.empty())
-        out += "\n  parameters:";
-    for (const auto& [name, value] : source.options.parameters)
-        out += fmt::format("\n    {}: {}", quoted(name), quoted(value));
-    return out;
-}
-
-std::string storyboard_bits(const Drive& drive) {
-    return storyboard_text(drive) + (drive.storyboard && drive.storyboard->own_daylight ? "\nown daylight" : "") +
-           (drive.storyboard && drive.storyboard->own_weather ? "\nown weather" : "");
 }
 
 } // namespace fernlicht

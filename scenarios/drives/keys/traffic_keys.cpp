@@ -1,17 +1,66 @@
-#include "scenarios/drives/keys/traffic_keys.h"
-
 #include "scenarios/drives/keys/drive_keys.h"
+
+#include "scenarios/drives/keys/lamp_keys.h"
+#include "scenarios/fields/read_fields.h"
 #include "scenarios/models/model.h"
+#include "scenarios/yaml/yaml_tree.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/common.hpp>
 
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_rows = 1000;
 constexpr int most_users = 2000;
+
+template <TrafficPlace place> bool is_at(const void* row) { return static_cast<const TrafficRow*>(row)->place == place; }
+bool is_on_road(const void* row) { return !is_at<TrafficPlace::storyboard>(row); }
+
+const Fields<TrafficRow>& gap_fields() {
+    static const Fields<TrafficRow> fields{
+        field("gap_m", 1, &TrafficRow::gap_m, range(0.0, 1.0e5), "from the own car's start along the route").required(),
+    };
+    return fields;
+}
+
+const Fields<Route::Start>& lane_fields() {
+    static const Fields<Route::Start> fields = [] {
+        Fields<Route::Start> of = start_fields();
+        of.fields[1].is_required = true;
+        return of;
+    }();
+    return fields;
+}
+
+std::string entities_text(const TrafficRow& row) {
+    std::vector<std::string> names;
+    for (const std::string& entity : row.entities)
+        names.push_back(quoted(entity));
+    return names.empty() ? "all" : fmt::format("[{}]", fmt::join(names, ", "));
+}
+
+void read_face(const YamlEntry& entry, TrafficRow& row) {
+    const std::vector<double> m = entry.numbers(2, 2, 0.005, 2.0);
+    row.face_m = {m[0], m[1]};
+}
+
+std::string face_text(const TrafficRow& row) { return fmt::format("[{}, {}]", row.face_m.x, row.face_m.y); }
+
+TrafficRow usual_row() {
+    TrafficRow row;
+    row.tail_cd = 6.0, row.brake_cd = 80.0;
+    return row;
+}
+
+std::string place_and_speed_schema() {
+    return fmt::format(R"({{"allOf": [{{"oneOf": [{{"required": ["oncoming"]}}, {{"required": ["ahead"]}}, {{"required": ["lane"]}},
+        {{"required": ["entities"]}}]}}, {{"oneOf": [{{"required": ["speed_kmh"]}}, {{"required": ["speed_mps"]}},
+        {{"required": ["speed"]}}, {{"required": ["entities"], "not": {{"anyOf": [{{"required": ["speed_kmh"]}},
+        {{"required": ["speed_mps"]}}, {{"required": ["speed"]}}]}}}}]}}, {}]}})",
+                       needs_model);
+}
 
 void read_place(const YamlMap& keys, TrafficRow& row) {
     const auto given = keys.one_of({"oncoming", "ahead", "lane", "entities"});
@@ -20,23 +69,14 @@ void read_place(const YamlMap& keys, TrafficRow& row) {
     if (given->first == "entities") {
         row.place = TrafficPlace::storyboard;
         if (given->second.is_list())
-            for (const YamlEntry& entity : given->second.list(1, most_rows))
+            for (const YamlEntry& entity : given->second.list(1, most_traffic_rows))
                 row.entities.push_back(entity.text());
         else if (given->second.text() != "all")
             given->second.refuse("all, or a list of entities' names");
         return;
     }
-    if (given->first == "lane") {
-        row.place = TrafficPlace::lane;
-        const YamlMap place = given->second.map({"road", "lane", "s_m"});
-        if (const auto road = place.find("road"))
-            row.start.road = road->text();
-        row.start.lane = place.require("lane").whole(-1000, 1000);
-        row.start.s_m = place.number_or("s_m", 0.0, 0.0, 1.0e6);
-        return;
-    }
-    row.place = given->first == "ahead" ? TrafficPlace::ahead : TrafficPlace::oncoming;
-    row.gap_m = given->second.map({"gap_m"}).require("gap_m").number(0.0, 1.0e5);
+    row.place = given->first == "lane" ? TrafficPlace::lane : given->first == "ahead" ? TrafficPlace::ahead : TrafficPlace::oncoming;
+    read_field(traffic_fields(), given->first, keys, &row);
 }
 
 /// Lamps of cars stand on its front corners, those of what is narrow in the middle.
@@ -57,47 +97,12 @@ Car front_of(const TrafficRow& row) {
 }
 
 TrafficRow read_row(const std::string& name, const YamlEntry& entry, LampShelf& shelf) {
-    const YamlMap keys = entry.map({"kind",
-                                    "size_m",
-                                    "model",
-                                    "yaw_deg",
-                                    "yaw_rad",
-                                    "scale",
-                                    "oncoming",
-                                    "ahead",
-                                    "lane",
-                                    "entities",
-                                    "speed_kmh",
-                                    "speed_mps",
-                                    "speed",
-                                    "lamps",
-                                    "changes",
-                                    "file",
-                                    "aim",
-                                    "level",
-                                    "voltage_v",
-                                    "reference_voltage_v",
-                                    "source",
-                                    "temperature_k",
-                                    "spectrum",
-                                    "colour",
-                                    "photometric_distance_m",
-                                    "between_samples",
-                                    "type_c_axis",
-                                    "texture",
-                                    "mirrored",
-                                    "face_m",
-                                    "tail_cd",
-                                    "brake_cd",
-                                    "repeat"});
-    TrafficRow row;
+    const Fields<TrafficRow>& fields = traffic_fields();
+    const YamlMap keys = entry.map(keys_of(fields));
+    TrafficRow row = usual_row();
     row.name = name;
-    if (const auto kind = keys.find("kind"))
-        row.kind = static_cast<RoadUserKind>(kind->choice({"car", "van", "truck", "bus", "motorcycle", "bicycle", "pedestrian", "other"}));
-    if (const auto size = keys.find("size_m")) {
-        const std::vector<double> m = size->numbers(3, 3, 0.1, 50.0);
-        row.size_m = {m[0], m[1], m[2]};
-    }
+    read_field(fields, "kind", keys, &row);
+    read_field(fields, "size_m", keys, &row);
     if (const auto model = read_car_model(keys)) {
         row.model = model->file;
         row.model_yaw_rad = model->yaw_rad;
@@ -116,28 +121,60 @@ TrafficRow read_row(const std::string& name, const YamlEntry& entry, LampShelf& 
         row.lamps = std::move(lamps.lamps);
         row.changes = std::move(lamps.changes);
     }
-    if (const auto face = keys.find("face_m")) {
-        const std::vector<double> m = face->numbers(2, 2, 0.005, 2.0);
-        row.face_m = {m[0], m[1]};
-    }
-    row.tail_cd = keys.number_or("tail_cd", 6.0, 0.0, 1.0e4);
-    row.brake_cd = keys.number_or("brake_cd", 80.0, 0.0, 1.0e4);
-    if (const auto repeat = keys.find("repeat")) {
-        const YamlMap many = repeat->map({"count", "every_m"});
-        row.count = many.require("count").whole(1, most_users);
-        row.every_m = many.number_or("every_m", row.every_m, 1.0, 1.0e4);
-    }
+    for (const char* const key : {"face_m", "tail_cd", "brake_cd", "repeat"})
+        read_field(fields, key, keys, &row);
     return row;
 }
 
 } // namespace
 
+const Fields<TrafficRow>& traffic_fields() {
+    using Row = TrafficRow;
+    static const Fields<Row> fields =
+        Fields<Row>{
+            field("kind", 1, &Row::kind, words({std::begin(road_user_kinds), std::end(road_user_kinds)}), "of road user"),
+            field("size_m", 2, &Row::size_m, range(0.1, 50.0), "length, width, height; the model's or the kind's by default"),
+            field("model", 3, &Row::model, any(), "glTF with its origin under the rear axle").written_off_default(),
+            field("yaw", 4, &Row::model_yaw_rad, degrees_within("yaw", 360.0), "how the model is turned").written_off_default(),
+            field("scale", 5, &Row::model_scale, range(1.0e-4, 1.0e4), "how much larger the model is").written_off_default(),
+            section("oncoming", 6, gap_fields(), "on the nearest lane that leads the other way").heard_if(is_at<TrafficPlace::oncoming>),
+            section("ahead", 7, gap_fields(), "on the route").heard_if(is_at<TrafficPlace::ahead>),
+            field("lane", 8, &Row::start, lane_fields(), "a place on the road").heard_if(is_at<TrafficPlace::lane>),
+            own<Row>("entities", 9, nullptr, entities_text, R"({"oneOf": [{"const": "all"},
+                {"type": "array", "minItems": 1, "items": {"type": "string", "minLength": 1}}]})",
+                     "of the storyboard: all, or those named, are lit as this row says")
+                .heard_if(is_at<TrafficPlace::storyboard>),
+            list("speed", 10, &Row::speed, 1, most_speed_points, speed_point_fields(), "linear between points, constant before and after")
+                .heard_if(is_on_road),
+            form<Row>("speed_kmh", FieldKind::number, range(0.0, 540.0), "for all of the drive"),
+            form<Row>("speed_mps", FieldKind::number, range(0.0, 150.0), "for all of the drive"),
+            lamps_field<Row>(11),
+            forms_of<Row>(light_fields(), "keys of a lamp, for all lamps that do not give them"),
+            changes_field<Row>(12).written_off_default(),
+            own<Row>("face_m", 13, read_face, face_text,
+                     R"({"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "number", "minimum": 0.005, "maximum": 2}})",
+                     "width and height of each headlamp's luminous face"),
+            field("tail_cd", 14, &Row::tail_cd, range(0.0, 1.0e4), "of each tail lamp on its axis; 0: none"),
+            field("brake_cd", 15, &Row::brake_cd, range(0.0, 1.0e4), "of each brake lamp on its axis; 0: none"),
+            section("repeat", 16,
+                    Fields<TrafficRow>{
+                        field("count", 1, &TrafficRow::count, range(1.0, most_users), "of them").required(),
+                        field("every_m", 2, &TrafficRow::every_m, range(1.0, 1.0e4), "from one to the next"),
+                    },
+                    "a row of them, one behind the other")
+                .heard_if(is_on_road),
+        }
+            .block()
+            .at_defaults(usual_row())
+            .in_schema(place_and_speed_schema());
+    return fields;
+}
+
 void read_traffic(const YamlMap& keys, LampShelf& shelf, Drive& drive) {
-    if (const auto light = keys.find("traffic_light"))
-        drive.least_traffic_lx = light->map({"least_lx"}).number_or("least_lx", drive.least_traffic_lx, 1.0e-6, 1.0e3);
+    read_field(drive_fields(), "traffic_light", keys, &drive);
     int users = 0;
     if (const auto rows = keys.find("traffic"))
-        for (const auto& [name, entry] : rows->named(most_rows)) {
+        for (const auto& [name, entry] : rows->named(most_traffic_rows)) {
             drive.traffic_rows.push_back(read_row(name, entry, shelf));
             users += drive.traffic_rows.back().count;
             if (users > most_users)

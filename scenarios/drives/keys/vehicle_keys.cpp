@@ -1,10 +1,7 @@
-#include "scenarios/drives/keys/vehicle_keys.h"
+#include "scenarios/drives/keys/drive_keys.h"
 
 #include "scenarios/fields/field.h"
-#include "scenarios/fields/field_bits.h"
 #include "scenarios/fields/read_fields.h"
-#include "scenarios/fields/schema.h"
-#include "scenarios/fields/write_fields.h"
 #include "scenarios/vehicle/car_run.h"
 
 #include <fmt/format.h>
@@ -50,14 +47,6 @@ void read_levelling_control(const YamlEntry& entry, LevellingParameters& levelli
         levelling.control = static_cast<LevellingControl>(choice - 1);
 }
 
-const Fields<RoadStep>& road_step_fields() {
-    static const Fields<RoadStep> fields{
-        field("at_m", 1, &RoadStep::at_m, range(0.0, 1.0e6), "along the route").required(),
-        field("height_m", 2, &RoadStep::height_m, range(-0.2, 0.2), "the road goes on higher by this").required(),
-    };
-    return fields;
-}
-
 void check_vehicle(const YamlMap& keys, const VehicleParameters& car) {
     for (std::size_t i = 1; i < car.road_steps.size(); ++i)
         if (car.road_steps[i].at_m <= car.road_steps[i - 1].at_m)
@@ -75,14 +64,6 @@ void check_actuator(const YamlMap& keys, const ActuatorParameters& actuator) {
     if (!(actuator.least_rad <= 0.0 && actuator.greatest_rad >= 0.0 && actuator.least_rad < actuator.greatest_rad))
         keys.entry().refuse(fmt::format("limits of {:.4g} and {:.4g} degrees", degrees(actuator.least_rad), degrees(actuator.greatest_rad)),
                             "least below greatest, and 0 not outside them");
-}
-
-const Fields<SwivelParameters>& swivel_fields() {
-    static const Fields<SwivelParameters> fields{
-        field("preview_s", 1, &SwivelParameters::preview_s, range(0.0, 10.0), "to where the bend leads in this time"),
-        inlined(2, &SwivelParameters::actuator, actuator_fields()),
-    };
-    return fields;
 }
 
 } // namespace
@@ -132,26 +113,22 @@ std::optional<LevellingParameters> read_levelling(const YamlEntry& given, bool o
     return word ? asked(*word) : levelling;
 }
 
-std::string levelling_schema() {
-    return fmt::format(R"({{"anyOf": [{{"enum": ["none", "static", "dynamic"]}}, {}]}})", schema_of(levelling_fields()));
-}
-
-const Group& actuators_fields() {
-    static const std::string schema = levelling_schema();
+const Fields<Variant>& actuators_fields() {
     static const Fields<Variant> fields =
         Fields<Variant>{
-            own<Variant>(
-                "levelling", 1, [](const YamlEntry& entry, Variant& variant) { variant.levelling = read_levelling(entry); },
-                [](const Variant& variant) {
-                    return variant.levelling ? "{" + flow_text(levelling_fields(), &*variant.levelling) + "}" : "";
-                },
-                schema, "against the body's pitch")
-                .bits_by([](const Variant& variant) {
-                    return variant.levelling ? "there\n" + field_bits(levelling_fields(), &*variant.levelling) : "";
-                }),
-            field("swivel", 2, &Variant::swivel, swivel_fields(), "bend lighting: all lamps turn").or_flag(),
+            field("levelling", 1, &Variant::levelling, levelling_fields(), "against the body's pitch")
+                .read_by([](const YamlEntry& entry, Variant& variant) { variant.levelling = read_levelling(entry); })
+                .short_for("control"),
+            field("swivel", 2, &Variant::swivel,
+                  Fields<SwivelParameters>{
+                      field("preview_s", 1, &SwivelParameters::preview_s, range(0.0, 10.0), "to where the bend leads in this time"),
+                      inlined(2, &SwivelParameters::actuator, actuator_fields()),
+                  },
+                  "bend lighting: all lamps turn")
+                .or_flag(),
         }
-            .block();
+            .block()
+            .defined_as("actuators");
     return fields;
 }
 
@@ -176,7 +153,11 @@ const Fields<VehicleParameters>& vehicle_fields() {
             field("anti_pitch", 13, &Car::anti_pitch, range(0.0, 1.0), "part of the pitching moment that the suspension's links take"),
             field("drag_area_m2", 14, &Car::drag_area_m2, range(0.0, 50.0), "cw times A"),
             field("rolling_resistance", 15, &Car::rolling_resistance, range(0.0, 0.5), "part of the weight"),
-            list("road_steps", 16, &Car::road_steps, 0, most_road_steps, road_step_fields(),
+            list("road_steps", 16, &Car::road_steps, 0, most_road_steps,
+                 Fields<RoadStep>{
+                     field("at_m", 1, &RoadStep::at_m, range(0.0, 1.0e6), "along the route").required(),
+                     field("height_m", 2, &RoadStep::height_m, range(-0.2, 0.2), "the road goes on higher by this").required(),
+                 },
                  "edges across the road that the tyres feel; by distance"),
             field("solver", 17, &Car::solver, words({"auto", "dormand-prince", "rosenbrock"}), "auto: by stiffness"),
             field("tolerance", 18, &Car::tolerance, range(1.0e-12, 1.0e-2), "of the solver"),

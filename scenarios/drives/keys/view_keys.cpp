@@ -143,11 +143,6 @@ const Fields<View>& view_fields() {
     return fields;
 }
 
-glm::dvec3 read_position(const YamlEntry& entry) {
-    const std::vector<double> xyz = entry.numbers(3, 3, -100.0, 100.0);
-    return {xyz[0], xyz[1], xyz[2]};
-}
-
 std::vector<View> read_views(const YamlMap& drive, FilesRead& opened) {
     const auto given = drive.find("views"), set = drive.find("view_set");
     if (!given && !set)

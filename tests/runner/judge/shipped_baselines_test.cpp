@@ -1,8 +1,11 @@
 // The shipped baselines stand under the inputs of the standard study's cells. With FERNLICHT_REWRITE_BASELINES=FOLDER those whose inputs
-// were hashed over the text of drives are written there under the hashes of today, as they were accepted (ci/rewrite-baseline-hashes).
+// were hashed over the text of lamps are written there under the hashes of today, as they were accepted (ci/rewrite-baseline-hashes).
 #include "runner/judge/cell_inputs.h"
 #include "runner/judge/reference_store.h"
+#include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/drives/play/advance.h"
+#include "scenarios/fields/field.h"
+#include "scenarios/fields/field_bits.h"
 #include "scenarios/studies/study.h"
 #include "tests/runner/program.h"
 
@@ -14,20 +17,28 @@
 namespace fernlicht {
 namespace {
 
-/// As inputs were hashed before keys had ids.
+/// As inputs were hashed before the keys of lamps had ids: those of lamp sets over their text.
 std::string hash_over_text(Drive drive, int last_tick) {
     drive.title.clear();
     drive.limits.clear();
-    drive.road_file = "road";
+    drive.road_file.clear();
     int used = 0;
     for (LampSource& source : drive.lamp_sources)
         if (std::ranges::any_of(drive.variants.front().lamps, [&](const MountedLamp& lamp) { return lamp.file == source.file; }) ||
             std::ranges::any_of(drive.variants.front().changes, [&](const LampChange& change) { return change.file == source.file; }))
             source.path = fmt::format("lamp file {}", ++used);
-    std::string text = write_drive(drive);
-    text.erase(0, text.find('\n') + 1); // the comment names the program's version
-    text += fmt::format("moments: [0, {}]\n", last_tick);
-    return content_hash(text.data(), text.size());
+    const std::string written = write_drive(drive), start = "\nvariants:";
+    const std::size_t from = written.find(start) + start.size();
+    std::size_t to = from; // where the next key at the top begins
+    do
+        to = written.find('\n', to + 1);
+    while (written[to + 1] == ' ');
+    Group before = drive_fields(), after = before;
+    std::erase_if(before.fields, [](const Field& field) { return field.id >= 18; });
+    std::erase_if(after.fields, [](const Field& field) { return field.id <= 18; });
+    const std::string bits = fmt::format("{}18={}\n{}moments: [0, {}]\n", field_bits(before, &drive), written.substr(from, to - from),
+                                         field_bits(after, &drive), last_tick);
+    return content_hash(bits.data(), bits.size());
 }
 
 /// Of each cell of ci/nightly and of ci/test: the hash over text, and today's.

@@ -122,7 +122,7 @@ TEST_F(YamlEntryTest, WholesFlagsNamesAndChoices) {
     EXPECT_NE(refusal([&] { entry(std::string(65, 'a')).name(); }), "not refused");
 }
 
-TEST_F(YamlEntryTest, PathsAnglesAndUnknownKeys) {
+TEST_F(YamlEntryTest, PathsAndUnknownKeys) {
     EXPECT_EQ(entry("../lamps/a.ies").path(), "/lamps/a.ies");
     EXPECT_EQ(entry("b.ies").path(), "/tmp/b.ies");
     EXPECT_EQ(entry("/abs/c.ies").path(), "/abs/c.ies");
@@ -133,12 +133,12 @@ TEST_F(YamlEntryTest, PathsAnglesAndUnknownKeys) {
     EXPECT_THAT(refusal([&] { entry("{zzzzzzzzz: 3}").map({"ahead_m", "left_m"}); }), HasSubstr("one of ahead_m, left_m"));
     EXPECT_THAT(refusal([&] { entry("{left_m: 3}").map({"ahead_m", "left_m"}).require("ahead_m"); }), HasSubstr("k.ahead_m: missing"));
     EXPECT_THAT(refusal([&] { entry("3").map({"ahead_m"}); }), HasSubstr("found '3', expected a map"));
-    const auto angle = [&](const char* text) { return entry(text).map({"yaw_deg", "yaw_rad"}).angle_rad("yaw", 90.0); };
-    EXPECT_DOUBLE_EQ(*angle("{yaw_deg: 90}"), 1.5707963267948966);
-    EXPECT_EQ(*angle("{yaw_rad: 0.25}"), 0.25);
-    EXPECT_FALSE(angle("{}"));
-    EXPECT_THAT(refusal([&] { angle("{yaw_deg: 1, yaw_rad: 1}"); }), HasSubstr("'yaw_rad' beside 'yaw_deg'"));
-    EXPECT_THAT(refusal([&] { angle("{yaw_deg: 91}"); }), HasSubstr("from -90 to 90"));
+    const YamlValue values = parse_yaml("near: {a: 1}\nfar: {a: 2, b: 3, c: 4}", file);
+    const YamlMap far = YamlEntry(values.members[1].value, file, "far").map({"a", "b", "c"}),
+                  near = YamlEntry(values.members[0].value, file, "near").map({"a", "b"}).before(&far);
+    EXPECT_EQ(near.require("a").number(0.0, 9.0), 1.0);
+    EXPECT_EQ(near.find("b")->key_path(), "far.b");
+    EXPECT_EQ(near.one_of({"a", "c"})->first, "a") << "the nearest map that has one";
 }
 
 // Drive files that must not be read: one sentence each, with file, line, column and key path.

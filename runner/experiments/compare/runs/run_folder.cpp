@@ -3,7 +3,6 @@
 #include "runner/experiments/compare/runs/yaml_difference.h"
 #include "runner/files/output_folder.h"
 #include "runner/play/capture.h"
-#include "scenarios/drives/keys/display_keys.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/values/errors.h"
 
