@@ -14,6 +14,7 @@
 
 #include "scenarios/fields/group.h"
 
+#include <concepts>
 #include <filesystem>
 #include <functional>
 #include <glm/vec3.hpp>
