@@ -1,6 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "renderer/device.h"
+#include "runner/commands/flag_values.h"
 #include "runner/commands/judging_flags.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/experiments/study/study_run.h"
@@ -20,7 +21,8 @@ namespace {
 /// The flags as typed.
 struct StudyFlags {
     std::filesystem::path file;
-    std::string backend = "auto", frames, out, only;
+    std::string backend = "auto", frames, out;
+    std::vector<std::string> only;
     JudgingFlags judging;
     bool resume = false, quiet = false, no_accuracy = false, list = false;
 };
@@ -51,7 +53,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
         throw InputError({{}, 0, 0, "--resume"}, "found no --out beside it", "the folder to go on in");
     StudyOptions options;
     options.folder = flags.out.empty() ? default_output_folder(study.name, utc_now()) : std::filesystem::path(flags.out);
-    options.only = flags.only;
+    options.only = items_of("--only", flags.only);
     options.resume = flags.resume;
     options.run.backend = flags.backend;
     options.run.ticks = tick_range(flags.frames);
@@ -78,7 +80,7 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_option("--frames", flags->frames, "FIRST:LAST: play these moments of each drive only, counted from 0");
     add_judging_flags(*sub, flags->judging);
     sub->add_flag("--no-accuracy", flags->no_accuracy, "do not compare moments of each cell with the reference");
-    sub->add_option("--only", flags->only, "play only cells whose name contains this");
+    sub->add_option("--only", flags->only, "comma-separated names of cells, * and ? allowed: 'straight*,*xenon'")->allow_extra_args(false);
     sub->add_flag("--list", flags->list, "list the cells and play none");
     sub->add_flag("--quiet", flags->quiet, "show no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return study(*flags, command); }; });

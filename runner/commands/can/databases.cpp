@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <fmt/format.h>
+#include <fnmatch.h>
 
 namespace fernlicht {
 namespace {
@@ -19,6 +20,8 @@ std::uint32_t mask_of(const std::string& text) {
         refuse_flag("--frame-id-mask", text, "a number up to 0x1FFFFFFF");
     return mask;
 }
+
+bool fits(const std::string& pattern, const std::string& name) { return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0; }
 
 std::uint64_t lookup_key(std::uint32_t id, bool extended) { return id | (extended ? std::uint64_t{1} << 32 : 0); }
 
@@ -56,9 +59,9 @@ Selection::Selection(const std::vector<std::string>& names, const Databases& dat
         bool found = false;
         for (const CanDatabase& database : databases.all())
             for (const CanMessage& message : database.messages) {
-                const bool whole = cut == std::string::npos && message.name == text;
+                const bool whole = cut == std::string::npos && fits(text, message.name);
                 for (const CanSignal& signal : message.signals)
-                    if (whole || ((cut == std::string::npos || message.name == message_name) && signal.name == signal_name)) {
+                    if (whole || ((cut == std::string::npos || fits(message_name, message.name)) && fits(signal_name, signal.name))) {
                         signals_.insert(&signal);
                         messages_.insert(&message);
                         found = true;
@@ -70,7 +73,7 @@ Selection::Selection(const std::vector<std::string>& names, const Databases& dat
             }
         if (!found)
             throw InputError({{}, 0, 0, "--only"}, fmt::format("found '{}'", printable(text)),
-                             "a message, a signal or MESSAGE.SIGNAL of the databases");
+                             "a message, a signal or MESSAGE.SIGNAL of the databases, * and ? allowed");
     }
 }
 

@@ -3,6 +3,7 @@
 #include "runner/commands/can/databases.h"
 #include "runner/commands/can/decoded_text.h"
 #include "runner/commands/can/line_output.h"
+#include "runner/commands/flag_values.h"
 #include "runner/commands/log_flags.h"
 #include "runner/play/interruption.h"
 #include "scenarios/can/signal_codec.h"
@@ -29,7 +30,7 @@ struct DecodeFlags {
 class Decoder {
   public:
     explicit Decoder(const DecodeFlags& flags)
-        : flags_(flags), databases_(flags.databases), selection_(flags.only, databases_), out_(flags.out, flags.force) {
+        : flags_(flags), databases_(flags.databases), selection_(items_of("--only", flags.only), databases_), out_(flags.out, flags.force) {
         if (flags.notes)
             for (const CanDatabase& database : databases_.all())
                 for (const std::string& note : database.notes)
@@ -181,7 +182,8 @@ void add_can_decode(CLI::App& can, std::function<int()>& chosen) {
     add_database_flags(*sub, flags->databases);
     sub->add_flag("-s,--single-line", flags->single_line, "put signals on the frame's line");
     sub->add_flag("-c,--numbers", flags->numbers, "show numbers instead of labels");
-    sub->add_option("--only", flags->only, "messages and signals to show: MESSAGE, SIGNAL or MESSAGE.SIGNAL; may be given several times")
+    sub->add_option("--only", flags->only,
+                    "comma-separated messages and signals to show: MESSAGE, SIGNAL or MESSAGE.SIGNAL, * and ? allowed")
         ->allow_extra_args(false);
     sub->add_flag("--known", flags->known, "skip frames that no message describes, and count them");
     sub->add_flag("--notes", flags->notes, "report oddities of the DBC files and how they were read, on standard error");
