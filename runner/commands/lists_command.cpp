@@ -1,5 +1,7 @@
 #include "runner/commands/commands.h"
 
+#include "metrics/readings/reading_words.h"
+#include "runner/findings/technique_list.h"
 #include "scenarios/control/signals.h"
 #include "scenarios/drives/keys/bus_keys.h"
 
@@ -36,6 +38,35 @@ void print_json() {
 }
 
 } // namespace
+
+void add_techniques_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
+    struct Form {
+        bool json = false, markdown = false;
+    };
+    const auto form = std::make_shared<Form>();
+    CLI::App* command = app.add_subcommand("techniques", "list techniques and shadow methods: what each computes and ignores");
+    CLI::Option* json = command->add_flag("--json", form->json, "print JSON");
+    command->add_flag("--markdown", form->markdown, "print docs/techniques.md")->excludes(json);
+    command->callback([form, &chosen] {
+        chosen = [form] {
+            const auto list = form->json ? techniques_json : form->markdown ? techniques_markdown : techniques_text;
+            fmt::print("{}", list(techniques(), shadow_method_names()));
+            return 0;
+        };
+    });
+}
+
+void add_readings_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
+    const auto markdown = std::make_shared<bool>(false);
+    CLI::App* command = app.add_subcommand("readings", "list what is read of a drive: names, units, which way is better, definitions");
+    command->add_flag("--markdown", *markdown, "prints the table of docs/readings.md");
+    command->callback([markdown, &chosen] {
+        chosen = [markdown] {
+            fmt::print("{}", *markdown ? readings_markdown() : readings_text());
+            return 0;
+        };
+    });
+}
 
 void add_signals_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto json = std::make_shared<bool>(false);
