@@ -59,9 +59,10 @@ int main(int argc, char** argv) {
             app.exit(error);
             return within_limits;
         }
-        const std::string old =
-            error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError) ? fernlicht::old_word_in(command) : "";
-        complain(users_input, old.empty() ? static_cast<const std::exception&>(error) : fernlicht::InputError({}, old));
+        const bool is_flag = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+        if (const std::string old = is_flag ? fernlicht::old_word_in(command) : ""; !old.empty())
+            return complain(users_input, fernlicht::InputError({}, old));
+        complain(users_input, error);
         fmt::print(stderr, "Run with --help for more information.\n");
         return users_input;
     } catch (const fernlicht::InputError& error) {

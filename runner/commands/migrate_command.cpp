@@ -53,11 +53,11 @@ void check_readings(const YamlValue& tree, std::vector<std::string>& unmatched) 
             check_reading(reading, unmatched);
 }
 
-/// Whether a verdict may be called so: a reading, or words.
+/// A reading, a word of its own, or several words.
 bool names_a_verdict(const std::string& name) {
-    return name.find_first_of("*?") != std::string::npos || name == "repeats" || name == "played" || name == "complete" ||
-           name.find(' ') != std::string::npos || key_of(name).has_value() || verdict_id_of_today("/" + name) != "/" + name ||
-           verdict_id_of_today("/reference") == "/" + name;
+    static constexpr std::string_view words[] = {"repeats", "played", "complete", "baseline"};
+    return name.find_first_of("*? ") != std::string::npos || std::ranges::find(words, name) != std::end(words) || key_of(name) ||
+           verdict_id_of_today("/" + name) != "/" + name;
 }
 
 std::string converted_known_failures(const std::string& text, const YamlValue& tree, std::vector<std::string>& unmatched) {
@@ -121,7 +121,7 @@ int migrate(const MigrateFlags& flags) {
     if (flags.in_place && !flags.out.empty())
         throw InputError({{}, 0, 0, "--in-place"}, "found --out beside it", "one of them");
     const bool printed = !flags.in_place && flags.out.empty();
-    std::vector<fs::path> files, written;
+    std::vector<fs::path> files;
     std::vector<std::string> unmatched, texts;
     for (const fs::path& file : flags.files) // all are read before the first is written
         if (!is_baselines(file)) {
@@ -134,10 +134,8 @@ int migrate(const MigrateFlags& flags) {
     for (std::size_t i = 0; i < files.size(); ++i)
         if (printed)
             fmt::print("{}", texts[i]);
-        else {
-            written.push_back(target(flags, files[i]));
-            write_file(written.back(), texts[i]);
-        }
+        else if (FilesRead opened; !flags.in_place || read_file(files[i], opened) != texts[i])
+            write_file(target(flags, files[i]), texts[i]);
     for (const fs::path& file : flags.files)
         if (is_baselines(file)) {
             const fs::path store = target(flags, store_of(file));
