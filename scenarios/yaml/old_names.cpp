@@ -90,7 +90,8 @@ std::string edited(const std::string& text, std::vector<TextEdit> edits, std::ve
     for (const TextEdit& edit : edits) {
         const std::size_t line = starts.at(edit.line - 1);
         std::size_t at = std::min(line + edit.column - 1, text.size());
-        at += at < text.size() && (text[at] == '"' || text[at] == '\'') ? 1 : 0;
+        if (at < text.size() && (text[at] == '"' || text[at] == '\''))
+            ++at;
         if (text.compare(at, edit.old.size(), edit.old) != 0) // a line with characters of several bytes, in some encodings
             at = std::min(text.find(edit.old, line), text.size());
         if (at < done || at >= (edit.line < starts.size() ? starts[edit.line] : text.size())) {
