@@ -25,15 +25,15 @@ int complain(ExitCode code, const std::exception& error) {
     return code;
 }
 
-void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& command) {
-    const std::string& word = command[1];
+void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& line) {
+    const std::string& word = line[1];
     std::string commands;
     bool known = word.starts_with('-'); // a flag
     for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
         known = known || command->check_name(word);
         commands += (commands.empty() ? "" : ", ") + command->get_name();
     }
-    if (const std::string old = known ? "" : fernlicht::old_word_in({command[0], word}); !old.empty())
+    if (const std::string old = known ? "" : fernlicht::old_word_in({line[0], word}); !old.empty())
         throw fernlicht::InputError({}, old);
     if (!known)
         throw fernlicht::InputError({}, fmt::format("'{}' is no command", word), "one of " + commands);

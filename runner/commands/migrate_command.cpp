@@ -1,7 +1,6 @@
 #include "runner/commands/commands.h"
 
 #include "metrics/readings/reading_key.h"
-#include "runner/commands/flag_values.h"
 #include "runner/files/durable_files.h"
 #include "runner/judge/old_baselines.h"
 #include "scenarios/studies/study.h"
@@ -12,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 #include <memory>
 
 namespace fernlicht {

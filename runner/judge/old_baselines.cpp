@@ -4,7 +4,7 @@
 #include "runner/judge/cell_inputs.h"
 #include "runner/judge/reference_json.h"
 #include "scenarios/drives/play/advance.h"
-#include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
 #include "scenarios/yaml/old_names.h"
 
 #include <algorithm>

@@ -9,7 +9,12 @@
 namespace fernlicht {
 namespace {
 
-constexpr OldName keys[] = {
+struct OldKey {
+    std::string_view below; ///< key whose map it stands in; "": the document's own
+    std::string_view old, now;
+};
+
+constexpr OldKey keys[] = {
     {"", "variants", "lamp_sets"},
     {"extent", "limits_lx", "thresholds_lx"},
     {"sensors", "limits_lx", "thresholds_lx"},
@@ -45,7 +50,7 @@ constexpr std::string_view old_verdict = "reference", verdict_today = "baseline"
 void find_keys(const YamlValue& value, std::string_view below, Naming naming, std::vector<TextEdit>& edits,
                std::vector<std::string>& unmatched) {
     for (const YamlMember& member : value.members) {
-        for (const OldName& name : keys) {
+        for (const OldKey& name : keys) {
             const auto [from, to] = naming == Naming::today ? std::pair(name.old, name.now) : std::pair(name.now, name.old);
             if (name.below != below || member.key != from)
                 continue;
@@ -70,10 +75,8 @@ std::vector<std::size_t> line_starts(const std::string& text) {
 
 } // namespace
 
-std::span<const OldName> old_keys() { return keys; }
-
 std::string_view name_of_today(std::string_view key, std::span<const std::string_view> known_keys) {
-    for (const OldName& name : keys)
+    for (const OldKey& name : keys)
         if (name.old == key && std::ranges::find(known_keys, name.now) != known_keys.end())
             return name.now;
     return {};

@@ -11,15 +11,7 @@
 
 namespace fernlicht {
 
-struct OldName {
-    std::string_view below; ///< key whose map it stands in; "": the document's own
-    std::string_view old, now;
-};
-
-/// Of drives and studies.
-std::span<const OldName> old_keys();
-
-/// Today's name of a key, if the map knows it by that; else "".
+/// Today's name of a key of drives and studies, if the map knows it by that; else "".
 std::string_view name_of_today(std::string_view key, std::span<const std::string_view> known_keys);
 
 enum class Naming { today, before };
