@@ -6,8 +6,8 @@
 
 namespace fernlicht {
 
-/// Of a command line that cannot be parsed: "'--variant' is of version 0.1, ...: --lamp-set ..." for the first word that has another name
-/// today; "" where none has.
+/// Of a command line that cannot be parsed: "found '--variant' of version 0.1, expected --lamp-set ..." for the first word that has another
+/// name today; "" where none has.
 std::string old_word_in(const std::vector<std::string>& command_line);
 
 } // namespace fernlicht
