@@ -1,5 +1,6 @@
 // fernlicht: night drives played headless, headlamps measured. Options end here; below are plain values.
 #include "runner/commands/commands.h"
+#include "runner/commands/old_flags.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -17,20 +18,23 @@ fernlicht::AddCommand* const commands[] = {
     fernlicht::add_reference_command,  fernlicht::add_techniques_command, fernlicht::add_readings_command,  fernlicht::add_signals_command,
     fernlicht::add_can_command,        fernlicht::add_lamp_command,       fernlicht::add_model_command,     fernlicht::add_import_command,
     fernlicht::add_storyboard_command, fernlicht::add_doctor_command,     fernlicht::add_stability_command, fernlicht::add_accept_command,
-    fernlicht::add_references_command};
+    fernlicht::add_references_command, fernlicht::add_migrate_command};
 
 int complain(ExitCode code, const std::exception& error) {
     fmt::print(stderr, "fernlicht: {}\n", error.what());
     return code;
 }
 
-void refuse_unknown_command(const CLI::App& app, const std::string& word) {
+void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& line) {
+    const std::string& word = line[1];
     std::string commands;
     bool known = word.starts_with('-'); // a flag
     for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
         known = known || command->check_name(word);
         commands += (commands.empty() ? "" : ", ") + command->get_name();
     }
+    if (const std::string old = known ? "" : fernlicht::old_word_in({line[0], word}); !old.empty())
+        throw fernlicht::InputError({}, old);
     if (!known)
         throw fernlicht::InputError({}, fmt::format("'{}' is no command", word), "one of " + commands);
 }
@@ -42,11 +46,12 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", FERNLICHT_VERSION);
     app.require_subcommand(1);
     std::function<int()> chosen;
+    const std::vector<std::string> command(argv, argv + argc);
     for (fernlicht::AddCommand* add : commands)
-        add(app, {argv, argv + argc}, chosen);
+        add(app, command, chosen);
     try {
         if (argc > 1)
-            refuse_unknown_command(app, argv[1]);
+            refuse_unknown_command(app, command);
         app.parse(argc, argv);
         return chosen();
     } catch (const CLI::ParseError& error) {
@@ -54,6 +59,9 @@ int main(int argc, char** argv) {
             app.exit(error);
             return within_limits;
         }
+        const bool is_flag = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+        if (const std::string old = is_flag ? fernlicht::old_word_in(command) : ""; !old.empty())
+            return complain(users_input, fernlicht::InputError({}, old));
         complain(users_input, error);
         fmt::print(stderr, "Run with --help for more information.\n");
         return users_input;

@@ -21,7 +21,7 @@ struct BenchFlags {
     std::filesystem::path drive = default_drive;
     std::string variant, resolution, backend = "auto", out, tables;
     std::vector<std::string> techniques;
-    std::optional<int> frames;
+    std::optional<int> count;
     int rounds = 21;
     std::uint64_t seed = 1;
     bool quiet = false;
@@ -35,12 +35,12 @@ int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
         edits.resolution = resolution_of(flags.resolution);
     BenchRequest request;
     if (flags.drive == default_drive && !std::filesystem::exists(flags.drive))
-        throw InputError({{}, 0, 0, "--drive"}, "found no " + flags.drive.string() + " from here",
+        throw InputError({{}, 0, 0, "DRIVE"}, "found no " + flags.drive.string() + " from here",
                          "to be run from the repository's root, or a drive file");
     request.drive = read_drive(flags.drive, edits);
     request.variant = flags.variant;
     request.techniques = items_of("--techniques", flags.techniques);
-    request.moments = flags.frames;
+    request.moments = flags.count;
     request.rounds = flags.rounds;
     request.seed = flags.seed;
     request.backend = flags.backend;
@@ -62,11 +62,11 @@ int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
 void add_bench_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<BenchFlags>();
     CLI::App* sub = app.add_subcommand("bench", "time the techniques against one another");
-    sub->add_option("--drive", flags->drive, "drive file (YAML) whose moments are rendered")->capture_default_str();
+    sub->add_option("DRIVE", flags->drive, "drive file (YAML) whose moments are rendered")->capture_default_str();
     sub->add_option("--variant", flags->variant, "lamp set of the drive (default: its first)");
     sub->add_option("--techniques", flags->techniques, "comma-separated names (default: all)")->allow_extra_args(false);
     sub->add_option(
-        "--frames", flags->frames,
+        "--count", flags->count,
         fmt::format("number of moments, spread evenly over the drive (default: {}, or all of a shorter drive)", usual_bench_moments));
     sub->add_option("--rounds", flags->rounds, "number of rounds; in each, every technique renders the moments once")
         ->capture_default_str();

@@ -18,7 +18,8 @@ namespace {
 /// The flags as typed.
 struct StudyFlags {
     std::filesystem::path file;
-    std::string backend = "auto", frames, out, only;
+    std::string backend = "auto", frames, out;
+    std::vector<std::string> only;
     JudgingFlags judging;
     bool resume = false, quiet = false, no_accuracy = false, list = false;
 };
@@ -49,7 +50,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
         throw InputError({{}, 0, 0, "--resume"}, "found no --out beside it", "the folder to go on in");
     StudyOptions options;
     options.folder = result_folder(flags.out, study.name);
-    options.only = flags.only;
+    options.only = items_of("--only", flags.only);
     options.resume = flags.resume;
     options.run.backend = flags.backend;
     options.run.ticks = tick_range(flags.frames);
@@ -76,7 +77,7 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_option("--frames", flags->frames, "FIRST:LAST: play these moments of each drive only, counted from 0");
     add_judging_flags(*sub, flags->judging);
     sub->add_flag("--no-accuracy", flags->no_accuracy, "do not compare moments of each cell with the reference");
-    sub->add_option("--only", flags->only, "play only cells whose name contains this");
+    sub->add_option("--only", flags->only, "comma-separated names of cells, * and ? allowed: 'straight*,*xenon'")->allow_extra_args(false);
     sub->add_flag("--list", flags->list, "list the cells and play none");
     sub->add_flag("--quiet", flags->quiet, "show no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return study(*flags, command); }; });

@@ -10,7 +10,10 @@ namespace fernlicht {
 
 CheckedJson CheckedJson::read(const std::filesystem::path& file) {
     FilesRead opened;
-    const std::string content = read_file(file, opened, std::size_t{1} << 30);
+    return parse(read_file(file, opened, std::size_t{1} << 30), file);
+}
+
+CheckedJson CheckedJson::parse(const std::string& content, const std::filesystem::path& file) {
     auto root = std::make_shared<const nlohmann::json>(nlohmann::json::parse(content, nullptr, false));
     if (root->is_discarded())
         throw InputError({file, 0, 0, {}}, "is no JSON, or only part of it");

@@ -15,6 +15,8 @@ class CheckedJson {
   public:
     /// Reads a file of at most 1 GiB.
     static CheckedJson read(const std::filesystem::path& file);
+    /// As above; `file` only for messages.
+    static CheckedJson parse(const std::string& content, const std::filesystem::path& file);
 
     CheckedJson at(const std::string& key) const;
     std::vector<CheckedJson> items() const; ///< of a list

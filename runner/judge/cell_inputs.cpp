@@ -1,6 +1,7 @@
 #include "runner/judge/cell_inputs.h"
 
 #include "scenarios/drives/keys/drive_keys.h"
+#include "scenarios/yaml/old_names.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -39,6 +40,19 @@ std::vector<std::pair<std::string, std::string>> cell_inputs(const Drive& drive,
     std::vector<std::pair<std::string, std::string>> inputs{{"drive", content_hash(bits.data(), bits.size())}, {"road", hash_of(road)}};
     std::ranges::move(lamps, std::back_inserter(inputs));
     return inputs;
+}
+
+std::string text_hashed_before(Drive drive) {
+    drive.title.clear();
+    drive.limits.clear();
+    drive.road_file = "road";
+    int used = 0;
+    for (LampSource& source : drive.lamp_sources)
+        if (uses(drive.variants.front(), source.file.get()))
+            source.path = fmt::format("lamp file {}", ++used);
+    const std::string text = write_drive(drive);
+    std::vector<std::string> unmatched;
+    return renamed_keys(text.substr(text.find('\n') + 1), {}, Naming::before, unmatched); // the comment names the program's version
 }
 
 } // namespace fernlicht

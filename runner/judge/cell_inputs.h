@@ -15,4 +15,7 @@ namespace fernlicht {
 std::vector<std::pair<std::string, std::string>> cell_inputs(const Drive& drive, const Variant& variant, const FilesRead& road,
                                                              int first_tick, int last_tick);
 
+/// As version 0.1 hashed "drive", which has one lamp set, over its text: less the moments, which stood below it.
+std::string text_hashed_before(Drive drive);
+
 } // namespace fernlicht

@@ -4,6 +4,7 @@
 #include "runner/judge/reference_json.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
+#include "scenarios/yaml/old_names.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -20,8 +21,6 @@ using Json = nlohmann::ordered_json;
 constexpr const char* index_schema = "fernlicht references";
 constexpr int index_version = 2;
 constexpr std::size_t most_object_bytes = std::size_t{1} << 30;
-
-fs::path object_path(const fs::path& store, const std::string& hash) { return store / "objects" / hash.substr(0, 2) / hash.substr(2); }
 
 bool is_whole(const fs::path& object, const std::string& hash) {
     try {
@@ -59,6 +58,9 @@ void check_version(const CheckedJson& index, const fs::path& store) {
     if (index.at("schema").text() == index_schema && version.whole() == 1)
         throw InputError({store / "index.json", 0, 0, {}}, "is a store of the old form, which does not know the inputs of its results",
                          "a new folder, into which the runs are accepted again");
+    if (const std::string schema = index.at("schema").text(); schema != index_schema && is_old_index(schema))
+        throw InputError({store / "index.json", 0, 0, {}}, "is a store of version 0.1",
+                         fmt::format("one of today; `fernlicht migrate --in-place {}` writes it so", printable(store.string(), 200)));
     index.expect_schema(index_schema, index_version);
 }
 
@@ -178,6 +180,8 @@ Stored place(const fs::path& store, std::vector<StoredReference>& entries, Store
 JsonMembers stored_members(StoredReference& entry) {
     return {{"id", hash_part(entry.id)}, {"key", entry.key, key_members}, {"note", entry.note}, {"played_utc", entry.played_utc}};
 }
+
+fs::path object_path(const fs::path& store, const std::string& hash) { return store / "objects" / hash.substr(0, 2) / hash.substr(2); }
 
 std::string short_id(const std::string& id) { return id.substr(0, 12); }
 

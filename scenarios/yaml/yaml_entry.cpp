@@ -1,6 +1,7 @@
 #include "scenarios/yaml/yaml_entry.h"
 
 #include "scenarios/values/errors.h"
+#include "scenarios/yaml/old_names.h"
 
 #include <algorithm>
 #include <charconv>
@@ -190,6 +191,10 @@ YamlMap::YamlMap(YamlEntry entry, std::span<const std::string_view> known_keys) 
     for (const YamlMember& member : entry_.value().members) {
         if (std::find(known_keys.begin(), known_keys.end(), member.key) != known_keys.end())
             continue;
+        if (const std::string_view now = name_of_today(member.key, known_keys); !now.empty())
+            throw InputError({entry_.file(), member.line, member.column, child_path(entry_.key_path(), member.key)}, "a key of version 0.1",
+                             fmt::format("'{}', its name today; `fernlicht migrate --in-place {}` writes the file so", now,
+                                         printable(entry_.file().filename().string())));
         const std::string near = meant_key(member.key, known_keys);
         throw InputError({entry_.file(), member.line, member.column, child_path(entry_.key_path(), member.key)}, "unknown key",
                          near.empty() ? fmt::format("one of {}", fmt::join(known_keys, ", ")) : "'" + near + "', the nearest known key");

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
+#include <fnmatch.h>
 #include <iterator>
 #include <memory>
 #include <set>
@@ -67,6 +68,8 @@ std::uint32_t mask_of(const std::string& text) {
     return mask;
 }
 
+bool fits(const std::string& pattern, const std::string& name) { return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0; }
+
 std::uint64_t lookup_key(std::uint32_t id, bool extended) { return id | (extended ? std::uint64_t{1} << 32 : 0); }
 
 /// --dbc, --frame-id-mask
@@ -102,9 +105,9 @@ Selection::Selection(const std::vector<std::string>& names, const Databases& dat
         bool found = false;
         for (const CanDatabase& database : databases.all())
             for (const CanMessage& message : database.messages) {
-                const bool whole = cut == std::string::npos && message.name == text;
+                const bool whole = cut == std::string::npos && fits(text, message.name);
                 for (const CanSignal& signal : message.signals)
-                    if (whole || ((cut == std::string::npos || message.name == message_name) && signal.name == signal_name)) {
+                    if (whole || ((cut == std::string::npos || fits(message_name, message.name)) && fits(signal_name, signal.name))) {
                         signals_.insert(&signal);
                         messages_.insert(&message);
                         found = true;
@@ -116,7 +119,7 @@ Selection::Selection(const std::vector<std::string>& names, const Databases& dat
             }
         if (!found)
             throw InputError({{}, 0, 0, "--only"}, fmt::format("found '{}'", printable(text)),
-                             "a message, a signal or MESSAGE.SIGNAL of the databases");
+                             "a message, a signal or MESSAGE.SIGNAL of the databases, * and ? allowed");
     }
 }
 
@@ -132,7 +135,7 @@ struct DecodeFlags {
 class Decoder {
   public:
     explicit Decoder(const DecodeFlags& flags)
-        : flags_(flags), databases_(flags.databases), selection_(flags.only, databases_), out_(flags.out, flags.force) {
+        : flags_(flags), databases_(flags.databases), selection_(items_of("--only", flags.only), databases_), out_(flags.out, flags.force) {
         if (flags.notes)
             for (const CanDatabase& database : databases_.all())
                 for (const std::string& note : database.notes)
@@ -284,7 +287,8 @@ void add_can_decode(CLI::App& can, std::function<int()>& chosen) {
     add_database_flags(*sub, flags->databases);
     sub->add_flag("-s,--single-line", flags->single_line, "put signals on the frame's line");
     sub->add_flag("-c,--numbers", flags->numbers, "show numbers instead of labels");
-    sub->add_option("--only", flags->only, "messages and signals to show: MESSAGE, SIGNAL or MESSAGE.SIGNAL; may be given several times")
+    sub->add_option("--only", flags->only,
+                    "comma-separated messages and signals to show: MESSAGE, SIGNAL or MESSAGE.SIGNAL, * and ? allowed")
         ->allow_extra_args(false);
     sub->add_flag("--known", flags->known, "skip frames that no message describes, and count them");
     sub->add_flag("--notes", flags->notes, "report oddities of the DBC files and how they were read, on standard error");

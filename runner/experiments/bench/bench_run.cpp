@@ -131,7 +131,7 @@ std::vector<Technique> chosen_techniques(const std::vector<std::string>& names) 
 
 std::vector<int> ticks_over(int count, int n) {
     if (n < 1 || n > count)
-        throw InputError({{}, 0, 0, "--frames"}, fmt::format("found {}", n), fmt::format("1 to {}, the drive's moments", count));
+        throw InputError({{}, 0, 0, "--count"}, fmt::format("found {}", n), fmt::format("1 to {}, the drive's moments", count));
     std::vector<int> ticks;
     for (int i = 0; i < n; ++i)
         ticks.push_back(static_cast<int>((2LL * i + 1) * count / (2LL * n)));

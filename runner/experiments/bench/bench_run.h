@@ -27,7 +27,7 @@ BenchResult run_bench(const BenchRequest& request);
 /// The rows that take part, in the table's order. Throws InputError for a name that is unknown or comes twice.
 std::vector<Technique> chosen_techniques(const std::vector<std::string>& names);
 
-/// The middle of each of `n` equal parts of ticks 0 .. count - 1. Throws InputError naming --frames when there are not as many.
+/// The middle of each of `n` equal parts of ticks 0 .. count - 1. Throws InputError naming --count when there are not as many.
 std::vector<int> ticks_over(int count, int n);
 
 } // namespace fernlicht

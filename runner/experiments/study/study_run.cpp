@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 #include <map>
 
 namespace fernlicht {
@@ -26,18 +27,21 @@ struct Planned {
     Drive drive;
 };
 
-std::vector<StudyCell> wanted_cells(const Study& study, const std::string& only) {
-    std::vector<StudyCell> cells = cells_of(study);
-    std::erase_if(cells, [&](const StudyCell& cell) { return cell.name.find(only) == std::string::npos; });
-    if (cells.empty())
-        throw InputError({study.file, 0, 0, "--only"}, "found no cell whose name holds '" + printable(only) + "'",
-                         "part of a name that --list shows");
-    return cells;
+std::vector<StudyCell> chosen_cells(const Study& study, const std::vector<std::string>& only) {
+    std::vector<StudyCell> cells = cells_of(study), chosen;
+    for (const std::string& pattern : only)
+        if (std::ranges::none_of(cells, [&](const StudyCell& cell) { return matches(pattern, cell.name); }))
+            throw InputError({study.file, 0, 0, "--only"}, fmt::format("found '{}', which fits no cell", printable(pattern)),
+                             "a pattern like '*xenon*'; --list names the cells");
+    std::ranges::copy_if(cells, std::back_inserter(chosen), [&](const StudyCell& cell) {
+        return only.empty() || std::ranges::any_of(only, [&](const std::string& pattern) { return matches(pattern, cell.name); });
+    });
+    return chosen;
 }
 
-std::vector<Planned> plan(const Study& study, const std::string& only) {
+std::vector<Planned> plan(const Study& study, const std::vector<std::string>& only) {
     std::vector<Planned> planned;
-    for (const StudyCell& cell : wanted_cells(study, only)) {
+    for (const StudyCell& cell : chosen_cells(study, only)) {
         planned.push_back({cell, cell_drive(study, cell)});
         refuse_open_shadows(planned.back().drive); // each cell would choose for itself
     }

@@ -10,7 +10,7 @@ namespace fernlicht {
 
 struct StudyOptions {
     std::filesystem::path folder;
-    std::string only;                   ///< cells whose name holds this; "" for all
+    std::vector<std::string> only;      ///< cells whose name fits one of these, * and ? allowed; empty: all
     std::optional<KnownFailures> known; ///< over all cells
     bool resume = false;                ///< go on in the study's folder; finished cells are kept, the report is written anew
     RunOptions run; ///< backend, moments, references, repeats, day, quiet, accuracy, command; the folder is each cell's own

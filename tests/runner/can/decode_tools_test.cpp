@@ -80,7 +80,7 @@ TEST_F(CanCodecTools, DecodesForEyes) {
 }
 
 TEST_F(CanCodecTools, ShowsOnlyWhatIsAskedFor) {
-    EXPECT_EQ(told("can decode -s --only Lamp.Speed --only Ratio " + dbc() + " " + log()),
+    EXPECT_EQ(told("can decode -s --only 'Lamp.Sp*,Ratio' " + dbc() + " " + log()),
               "(1700000000.000001) can0 100#02138800F6FF0000 :: Lamp(Speed: 50 km/h)\n"
               "(1700000000.000002) can0 100#01FFFF01 :: Lamp(Speed: -0.01 km/h)\n"
               "(1700000000.000003) can1 18FEF1FE##1FFFFFFFFFFFFFFFF000000000000E03FDEADBEEF :: Big(Ratio: 0.5)\n");
@@ -90,7 +90,7 @@ TEST_F(CanCodecTools, ShowsOnlyWhatIsAskedFor) {
         told("can decode -s --only Big " + dbc() + " " + log()),
         "(1700000000.000003) can1 18FEF1FE##1FFFFFFFFFFFFFFFF000000000000E03FDEADBEEF :: Big(Counter: 18446744073709551615, Ratio: 0.5)\n");
     EXPECT_EQ(refusal("can decode --only Spede " + dbc()),
-              "--only: found 'Spede', expected a message, a signal or MESSAGE.SIGNAL of the databases\n");
+              "--only: found 'Spede', expected a message, a signal or MESSAGE.SIGNAL of the databases, * and ? allowed\n");
     const Outcome known = run_program("can decode -s --known " + dbc() + " " + log());
     EXPECT_THAT(known.output, HasSubstr("3 frames of 3 identifiers that no message describes left out"));
     EXPECT_THAT(known.output, testing::Not(HasSubstr("7FF")));

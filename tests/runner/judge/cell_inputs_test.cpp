@@ -1,8 +1,12 @@
 #include "runner/judge/cell_inputs.h"
 
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/studies/study.h"
 #include "tests/runner/program.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <set>
 
 namespace fernlicht {
 namespace {
@@ -51,6 +55,23 @@ TEST(CellInputs, WhatChangesResultsCountsAndNothingElse) {
         }
     EXPECT_NE(inputs_of(other_other)[2], before[2]);
     EXPECT_EQ(inputs_of(other_other)[0], before[0]) << "a lamp's bytes are told from the drive's";
+}
+
+// By this `fernlicht migrate` finds the drives of its baselines: a few of those that version 0.1 shipped, of whole drives and of five
+// moments.
+TEST(CellInputs, TextsAreHashedAsVersion01HashedThem) {
+    std::set<std::string> hashes;
+    const Study study = read_study(library_file("studies/standard.yaml"));
+    for (const StudyCell& cell : cells_of(study)) {
+        const Drive drive = cell_drive(study, cell);
+        for (const int last_tick : {4, tick_count(drive) - 1}) {
+            const std::string text = text_hashed_before(drive) + fmt::format("moments: [0, {}]\n", last_tick);
+            hashes.insert(content_hash(text.data(), text.size()));
+        }
+    }
+    for (const char* shipped : {"e0c951e68b5f8766076a44e35e2c0a45", "75854be0867f440f7b3612808d57f391", "8b6c595e62c09bb408d8f048e9075833",
+                                "529a4e3e1071bc2873b075b1f5b0a8ec"})
+        EXPECT_TRUE(hashes.contains(shipped)) << shipped;
 }
 
 } // namespace

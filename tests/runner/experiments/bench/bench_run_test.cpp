@@ -17,8 +17,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 std::string small_bench_of(int rounds) {
-    return fmt::format("bench --quiet --drive {} --frames 2 --rounds {} --resolution 64x48 ", library_file("drives/first-light.yaml"),
-                       rounds);
+    return fmt::format("bench --quiet {} --count 2 --rounds {} --resolution 64x48 ", library_file("drives/first-light.yaml"), rounds);
 }
 const std::string small_bench = small_bench_of(6);
 
@@ -81,28 +80,26 @@ TEST(BenchRun, RefusesWhatItCannotUseAndLeavesNoFolder) {
     const TemporaryFolder folder;
     for (const auto& [flags, complaint] :
          {std::pair("--techniques photometrik", "'photometric'"), std::pair("--variant neon", "one of halogen, xenon"),
-          std::pair("--rounds 0", "1 to 100000"), std::pair("--resolution 64", "WIDTHxHEIGHT"), std::pair("--frames 361", "1 to 360")}) {
-        const Outcome run =
-            run_program("bench --quiet --drive " + library_file("drives/first-light.yaml") + " --out " + (folder / "out ") + flags);
+          std::pair("--rounds 0", "1 to 100000"), std::pair("--resolution 64", "WIDTHxHEIGHT"), std::pair("--count 361", "1 to 360")}) {
+        const Outcome run = run_program("bench --quiet " + library_file("drives/first-light.yaml") + " --out " + (folder / "out ") + flags);
         EXPECT_EQ(run.exit_code, 2) << flags;
         EXPECT_THAT(run.output, HasSubstr(complaint));
         EXPECT_FALSE(std::filesystem::exists(folder.path() / "out")) << flags;
     }
 }
 
-/// Without --frames, a drive of fewer than eight moments is drawn at all that it has.
+/// Without --count, a drive of fewer than eight moments is drawn at all that it has.
 TEST(BenchRun, TakesAllMomentsOfAShortDrive) {
     const TemporaryFolder folder;
     std::ofstream(folder / "short.yaml") << "fernlicht: 1\nroad: \"" << library_file("roads/straight.xodr")
                                          << "\"\nspeed_kmh: 72\nrate_hz: 10\nduration_s: 0.3\nvariants:\n  one: {file: \""
                                          << library_file("lamps/halogen-low.ies") << "\"}\n";
-    const std::string bench_short =
-        "bench --quiet --rounds 1 --resolution 64x48 --techniques photometric --drive " + (folder / "short.yaml");
+    const std::string bench_short = "bench --quiet --rounds 1 --resolution 64x48 --techniques photometric " + (folder / "short.yaml");
     const Outcome run = run_program(bench_short + " --out " + (folder / "out"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
     EXPECT_EQ(json::parse(content_of(folder / "out/bench.json")).at("settings").at("moments").size(), 3U);
-    EXPECT_THAT(run_program(bench_short + " --frames 8 --out " + (folder / "again")).output,
-                HasSubstr("--frames: found 8, expected 1 to 3, the drive's moments"));
+    EXPECT_THAT(run_program(bench_short + " --count 8 --out " + (folder / "again")).output,
+                HasSubstr("--count: found 8, expected 1 to 3, the drive's moments"));
 }
 
 TEST(BenchRun, EndsAfterARoundWhenInterrupted) {

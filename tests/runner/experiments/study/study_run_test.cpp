@@ -187,7 +187,7 @@ TEST_F(StudyProgram, RefusesBeforeAnythingIsDrawn) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
     const Outcome none = run_program("study " + library_file("studies/standard.yaml") + " --only moon --out " + (folder / "out"));
     EXPECT_EQ(none.exit_code, 2);
-    EXPECT_THAT(none.output, HasSubstr("no cell whose name holds 'moon'"));
+    EXPECT_THAT(none.output, HasSubstr("found 'moon', which fits no cell"));
 }
 
 } // namespace

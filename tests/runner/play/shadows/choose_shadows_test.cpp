@@ -196,7 +196,7 @@ TEST_F(CheckPlanar, TheFlagIsNamedWhereItAsked) {
 
 TEST_F(CheckPlanar, OtherProgramsNameDriveAndLineToo) {
     const std::string hilly = short_drive(folder_, "first-light", "planar");
-    for (const std::string command : {"accuracy --moments 1 --techniques photometric", "bench --frames 1 --techniques photometric --drive",
+    for (const std::string command : {"accuracy --moments 1 --techniques photometric", "bench --count 1 --techniques photometric",
                                       "aliasing --moment 0.2 --techniques photometric"}) {
         const Outcome run = run_program(command + " " + hilly + " --quiet --out " + (folder_ / "out"));
         EXPECT_EQ(run.exit_code, 2) << run.output;
