@@ -187,7 +187,7 @@ TEST_F(Codec, RandomRawValuesComeBackFromEveryPlace) {
     std::mt19937_64 random(20);
     for (int i = 0; i < 20000; ++i) {
         CanSignal signal{.length = static_cast<std::uint16_t>(1 + random() % 64), .big_endian = random() % 2 == 0};
-        const std::size_t first = random() % (512 - signal.length + 1);
+        const std::size_t first = random() % (513U - signal.length);
         signal.start_bit = static_cast<std::uint16_t>(signal.big_endian ? first / 8 * 8 + 7 - first % 8 : first);
         Bytes bytes(64);
         for (auto& byte : bytes)
