@@ -3,6 +3,7 @@
 #include "runner/experiments/run/run_document.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
+#include "runner/findings/moment_columns.h"
 #include "runner/write/page_base.h"
 #include "runner/write/plots/lux_map.h"
 #include "runner/write/plots/png.h"
@@ -289,6 +290,9 @@ std::string report_html(const Report& report, const std::filesystem::path& folde
 void write_report(const Report& report, const std::filesystem::path& folder, TableFormat tables) {
     // The figures first, the large page last: a disk that fills up takes the page before it takes the numbers.
     write_file(folder / "readings.csv", report_csv(report));
+    for (const PlayedVariant& played : report.played)
+        if (const std::string moments = moments_csv(played); !moments.empty())
+            write_file(folder / moments_file(played), moments);
     write_file(folder / "times.csv", times_csv(report));
     write_file(folder / "junit.xml", report_junit(report));
     write_file(folder / "report.json", report_json(report));

@@ -293,7 +293,7 @@ void repeat_drive(const Stage& stage, Device& device, const RendererSettings& se
 void repeat(const std::deque<Stage>& stages, Device& device, const RendererSettings& settings, const RunOptions& options, Report& report) {
     std::vector<RepeatFold> folds;
     for (const PlayedVariant& played : report.played)
-        folds.emplace_back(played, options.folder);
+        folds.emplace_back(played, options.folder, played_json);
     std::vector<std::span<RepeatFold>> by_drive;
     std::size_t first = 0;
     for (const Stage& stage : stages) {
