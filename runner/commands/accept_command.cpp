@@ -1,6 +1,6 @@
 #include "runner/commands/accept_command.h"
 
-#include "runner/experiments/run/report_writers.h"
+#include "runner/experiments/run/run_report.h"
 #include "runner/files/output_folder.h"
 #include "runner/judge/ray_results.h"
 #include "scenarios/values/errors.h"

@@ -4,6 +4,7 @@
 #include "runner/commands/flag_values.h"
 #include "runner/commands/judging_flags.h"
 #include "runner/commands/log_flags.h"
+#include "runner/commands/run_files.h"
 #include "runner/experiments/run/run_drives.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
@@ -96,7 +97,9 @@ int run(const RunFlags& flags, const std::vector<std::string>& command) {
     options.ticks = tick_range(flags.frames);
     options.accuracy = !flags.no_accuracy;
     options.known = take(flags.judging, options);
-    options.tables = table_format(flags.tables);
+    options.write = [tables = table_format(flags.tables)](const Report& report, const std::filesystem::path& folder) {
+        write_report(report, folder, tables);
+    };
     options.command = command;
     const DriveEdits edits = edits_of(flags);
     std::vector<Drive> drives;

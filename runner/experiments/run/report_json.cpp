@@ -1,7 +1,7 @@
 #include "metrics/display/seen_display.h"
 #include "runner/experiments/accuracy/errors_json.h"
 #include "runner/experiments/bench/bench_result.h"
-#include "runner/experiments/run/report_writers.h"
+#include "runner/experiments/run/run_report.h"
 #include "runner/files/clean_text.h"
 #include "runner/files/csv_file.h"
 #include "runner/files/json_text.h"

@@ -1,5 +1,5 @@
 #include "runner/experiments/run/run_drives.h"
-#include "runner/experiments/run/report_writers.h"
+#include "runner/experiments/run/run_report.h"
 
 #include "renderer/renderer.h"
 #include "renderer/sanity.h"
@@ -387,7 +387,7 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
         failure = std::current_exception();
     }
     add_warnings(stages, drives, options.ticks, report);
-    write_report(report, options.folder, options.tables);
+    options.write(report, options.folder);
     if (failure)
         std::rethrow_exception(failure);
     if (report.complete)

@@ -1,7 +1,7 @@
 #include "runner/experiments/study/study_run.h"
 
 #include "runner/experiments/compare/lamps/lamp_against.h"
-#include "runner/experiments/run/report_writers.h"
+#include "runner/experiments/run/run_report.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/moment_columns.h"

@@ -1,5 +1,5 @@
 // Drives by a bus through the program: the shipped recording, faults in it, what is sent, what the report says, what is refused.
-#include "runner/experiments/run/report_writers.h"
+#include "runner/commands/run_files.h"
 #include "scenarios/values/files.h"
 #include "tests/runner/program.h"
 #include "tests/runner/run_readings.h"

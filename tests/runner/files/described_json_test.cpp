@@ -2,7 +2,7 @@
 // FERNLICHT_WRITE_KEYS=1 writes the schemas (ci/write-keys), and the test fails once more.
 #include "runner/experiments/accuracy/accuracy_result.h"
 #include "runner/experiments/aliasing/aliasing_result.h"
-#include "runner/experiments/run/report_writers.h"
+#include "runner/experiments/run/run_report.h"
 #include "runner/experiments/shadows/shadow_result.h"
 #include "runner/files/described_json.h"
 #include "scenarios/values/errors.h"

@@ -1,4 +1,4 @@
-#include "runner/experiments/run/report_writers.h"
+#include "runner/commands/run_files.h"
 #include "runner/judge/references.h"
 
 #include "runner/commands/accept_command.h"

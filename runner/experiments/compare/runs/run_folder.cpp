@@ -1,7 +1,7 @@
 #include "runner/experiments/compare/runs/run_folder.h"
 
 #include "runner/experiments/compare/runs/yaml_difference.h"
-#include "runner/experiments/run/report_writers.h"
+#include "runner/experiments/run/run_report.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/moment_columns.h"
 #include "runner/play/capture.h"

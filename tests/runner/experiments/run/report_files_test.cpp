@@ -1,4 +1,4 @@
-#include "runner/experiments/run/report_writers.h"
+#include "runner/commands/run_files.h"
 #include "runner/files/clean_text.h"
 #include "runner/write/report_texts.h"
 #include "scenarios/values/errors.h"

@@ -1,5 +1,5 @@
 // report.json against runner/experiments/run/report.schema.json.
-#include "runner/experiments/run/report_writers.h"
+#include "runner/commands/run_files.h"
 #include "scenarios/values/files.h"
 #include "tests/runner/sample_report.h"
 #include "tests/runner/schema_check.h"

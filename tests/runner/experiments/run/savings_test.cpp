@@ -1,7 +1,7 @@
 // What leaving out saves: when it is measured, and how reports say it.
 #include "runner/experiments/run/savings.h"
 
-#include "runner/experiments/run/report_writers.h"
+#include "runner/commands/run_files.h"
 #include "runner/write/report_texts.h"
 #include "tests/runner/program.h"
 #include "tests/runner/sample_report.h"

@@ -1,11 +1,10 @@
-// What a run leaves: report.json, the page, and the files that are made of its verdicts and readings.
+// What a run tells: report.json, its document and page.
 #pragma once
 
-#include "runner/findings/report.h"
-#include "runner/write/document.h"
+#include "runner/findings/run_page.h"
 
+#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <string>
 
 namespace fernlicht {
 
@@ -22,12 +21,6 @@ Report read_report(const std::filesystem::path& folder);
 
 /// All of the page but what a document cannot hold: figures at a glance, the chooser of moments with its pictures and maps.
 Document document(const Report& report);
-
-/// One self-contained page. Frames are read from `folder`; one that is missing or unreadable is linked and said to be missing.
-std::string report_html(const Report& report, const std::filesystem::path& folder);
-
-/// Writes report.json, junit.xml, readings.csv, times.csv, tables as asked for and report.html into `folder` (frames are there already).
-/// Each file atomically.
-void write_report(const Report& report, const std::filesystem::path& folder, TableFormat tables = TableFormat::none);
+RunPage run_page(const Report& report);
 
 } // namespace fernlicht

@@ -1,4 +1,4 @@
-#include "runner/write/tile_sheet.h"
+#include "runner/write/plots/tile_sheet.h"
 
 #include "runner/write/plots/canvas.h"
 
