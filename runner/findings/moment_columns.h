@@ -8,8 +8,8 @@ namespace fernlicht {
 /// One figure, named as the reading that it adds up to, or "car.speed_mps", "glare_oncoming.facing_lx", "ego.speed_mps [km/h]".
 struct MomentColumn {
     std::string name;
-    /// A moment each: a number, a bound as "> 200", why there is none, or "" where the thing is not there. Metres of extents are rounded to a
-    /// tenth of a millimetre, far below the grid's own error; what is measured otherwise has seven digits.
+    /// A moment each: a number, a bound as "> 200", why there is none, or "" where the thing is not there. Metres of extents are rounded to
+    /// a tenth of a millimetre, far below the grid's own error; what is measured otherwise has seven digits.
     std::vector<std::string> cells;
 };
 

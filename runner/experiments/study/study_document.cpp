@@ -92,7 +92,7 @@ Table readings_table(const StudyResult& result) {
     const bool several_lamps = result.study.comparisons.size() > 1;
     const bool several_conditions = std::ranges::any_of(
         result.cells, [&](const CellResult& cell) { return cell.cell.condition != result.cells.front().cell.condition; });
-    Table table{.name = "readings", .caption = "", .columns = {{"row"}}, .rows = {}, .sortable = true};
+    Table table{.name = "readings", .caption = "", .columns = {{"row"}}, .rows = {}, .sortable = true, .led_to = true};
     if (!several_lamps && !result.study.comparisons.empty())
         table.caption = fmt::format("new: {}; old: {}", result.study.comparisons.front().tested, result.study.comparisons.front().against);
     const auto words = [&](const char* head) { table.columns.push_back({.head = head, .words = true}); };

@@ -49,7 +49,8 @@ Table changes_table(const std::string& name, const std::string& caption) {
             .caption = caption,
             .columns = columns_of("row<|drive<|reading<|old|new|change|%|± calc.|± noise|± aim|unit<|is<"),
             .rows = {},
-            .sortable = true};
+            .sortable = true,
+            .led_to = true};
 }
 
 void add_change(Table& table, const DriveComparison& drive, const ReadingChange& change, const std::string& id) {
@@ -170,14 +171,7 @@ Table worst_frames_table(const DriveComparison& drive) {
         }
     Table table{"pictures-" + drive.name,
                 "Stored frames, and of each channel the one that differs most",
-                {{.head = "pictures", .words = true},
-                 {"frames"},
-                 {"equal"},
-                 {"RMSE"},
-                 {"largest"},
-                 {.head = "unit", .words = true},
-                 {"SSIM"},
-                 {"most at", "s"}},
+                columns_of("pictures<|frames|equal|RMSE|largest|unit<|SSIM|most at [s]"),
                 {}};
     for (const Channel& channel : channels) {
         const auto cell = [&](const char* name) {
@@ -260,17 +254,9 @@ PictureStrip moment_strip(const DriveComparison& drive, const RunComparison& run
 Table frames_table(const DriveComparison& drive) {
     Table table{"frames-" + drive.name,
                 "Error figures of each frame and channel",
-                {{.head = "view", .words = true},
-                 {"at", "s"},
-                 {.head = "channel", .words = true},
-                 {.head = "unit", .words = true},
-                 {"largest"},
-                 {"RMSE"},
-                 {"PSNR", "dB"},
-                 {"pixels", "%"},
-                 {"SSIM"},
-                 {"FLIP"}},
+                columns_of("view<|at [s]|channel<|unit<|largest|RMSE|PSNR [dB]|pixels [%]|SSIM|FLIP"),
                 {},
+                true,
                 true};
     for (const FramePair& frame : drive.frames)
         for (const LayerComparison& layer : frame.comparison.layers) {
