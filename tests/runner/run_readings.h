@@ -3,18 +3,25 @@
 
 #include "runner/files/csv_file.h"
 
+#include <optional>
 #include <stdexcept>
 
 namespace fernlicht::tests {
 
-/// A field of the first row of this name; of one lamp set where it is named.
+/// A field of the row of this name, of the whole drive where there is one; of one lamp set where it is named.
 inline std::string field_of(const std::filesystem::path& run, const std::string& name, const char* column,
                             const std::string& lamp_set = {}) {
     const CsvFile csv = read_csv(run / "readings.csv");
+    std::optional<std::string> found;
     for (const std::vector<std::string>& row : csv.rows)
-        if (row[csv.column("name")] == name && (lamp_set.empty() || row[csv.column("lamp_set")] == lamp_set))
-            return row[csv.column(column)];
-    throw std::runtime_error("no reading " + name);
+        if (row[csv.column("name")] == name && (lamp_set.empty() || row[csv.column("lamp_set")] == lamp_set)) {
+            if (row[csv.column("frame")].empty())
+                return row[csv.column(column)];
+            found = found.value_or(row[csv.column(column)]);
+        }
+    if (!found)
+        throw std::runtime_error("no reading " + name);
+    return *found;
 }
 
 inline double reading_of(const std::filesystem::path& run, const std::string& name, const std::string& lamp_set = {}) {

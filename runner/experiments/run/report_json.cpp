@@ -293,18 +293,11 @@ JsonMembers pass_members(PassTime& pass) {
     return {{"pass", pass.name}, {"spread_s", spread_of(pass.seconds), spread_members}, {"samples_s", pass.seconds}};
 }
 
-/// Rates per second, shares of what drawing alone would reach.
 JsonMembers throughput_members(Throughput& t) {
-    const auto per_s = [](const std::optional<double>& seconds) { return seconds ? std::optional(1.0 / *seconds) : std::nullopt; };
     return {{"moments", t.moments},
             {"wall_s", t.wall_s},
-            {"moments_per_s", t.moments_per_s()},
             {"driver_view_s", t.view_s},
             {"all_drawing_s", t.drawing_s},
-            {"driver_view_alone_per_s", per_s(t.view_s)},
-            {"all_drawing_alone_per_s", per_s(t.drawing_s)},
-            {"share_of_driver_view_alone", t.share_of(t.view_s)},
-            {"share_of_all_drawing_alone", t.share_of(t.drawing_s)},
             {"peak_memory_mib", t.peak_memory_mib}};
 }
 
