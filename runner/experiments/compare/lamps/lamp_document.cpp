@@ -86,7 +86,7 @@ Table rows_table(const LampPairComparison& lamps) {
 Document document(const LampPairComparison& lamps) {
     const LampFile &a = lamps.before.file, &b = lamps.now.file;
     Document document{short_text(name_beside(b, a), 80) + " against " + short_text(name_beside(a, b), 80), {}};
-    Table told{"difference", "", {{.head = "", .words = true}, {.head = "B against A", .words = true}}, {}};
+    Table told{"difference", "", columns_of("<|B against A<"), {}};
     for (const auto& [what, text] : difference_lines(b, a, lamps.difference))
         told.rows.push_back({what.empty() ? " " : what, text});
     document.sections.push_back(

@@ -197,10 +197,7 @@ Section drive_section(const RunComparison& runs, const DriveComparison& drive) {
     if (drive.settings.empty()) {
         blocks.emplace_back("Both were played with the same settings.");
     } else {
-        Table settings{"settings-" + drive.name,
-                       "What the drives set otherwise",
-                       {{.head = "key", .words = true}, {.head = "A", .words = true}, {.head = "B", .words = true}},
-                       {}};
+        Table settings{"settings-" + drive.name, "What the drives set otherwise", columns_of("key<|A<|B<"), {}};
         const auto shown = [](const std::string& value) { return value.empty() ? "not set" : short_text(value, 160); };
         for (std::size_t i = 0; i < std::min(most_settings, drive.settings.size()); ++i)
             settings.rows.push_back(
@@ -307,8 +304,7 @@ Document document(const RunComparison& runs) {
     for (const DriveComparison& drive : runs.drives)
         for (Section section : {drive_section(runs, drive), pictures_section(runs, drive)})
             document.sections.push_back(std::move(section));
-    Table folders{"runs", "", {{.head = "", .words = true}, {.head = "folder", .words = true}, {.head = "played", .words = true}}, {}};
-    folders.columns.insert(folders.columns.end(), {{.head = "with", .words = true}, {.head = "command", .words = true}});
+    Table folders{"runs", "", columns_of("<|folder<|played<|with<|command<"), {}};
     for (const auto& [label, run] : {std::pair("A, old", &runs.before), std::pair("B, new", &runs.now)})
         folders.rows.push_back({label, run->folder.string(), run->started_utc,
                                 run->version + ", " + run->backend + ", " + run->gl_renderer + ", " + run->cpu, run->command});
