@@ -3,6 +3,7 @@
 #include "runner/experiments/run/run_report.h"
 #include "runner/files/output_folder.h"
 #include "runner/judge/ray_results.h"
+#include "runner/judge/references.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -13,45 +14,15 @@
 namespace fernlicht {
 namespace {
 
-/// A frame's file: below the run's folder, wherever a report of others would lead.
-std::filesystem::path frame_file(const std::filesystem::path& run_folder, const std::string& exr) {
-    const std::filesystem::path path = exr;
-    if (path.is_absolute() || std::ranges::find(path, std::filesystem::path("..")) != path.end())
-        throw InputError({run_folder / "report.json", 0, 0, "exr"}, "found '" + printable(exr) + "'", "a path below the run's folder");
-    return run_folder / path;
-}
-
-/// Mean and variance in place of the first play's value where the repeats differ; times are left out.
-std::vector<AcceptedReading> readings_of(const PlayedVariant& played) {
-    std::vector<AcceptedReading> readings;
-    for (const Reading& reading : played.readings) {
-        if (is_time(reading.key))
-            continue;
-        AcceptedReading accepted{reading.key, reading.tick, reading.value, played.repeats.count, 0.0};
-        if (!reading.value.measured()) {
-            accepted.mean = {}; // without the reason
-            accepted.count = 0;
-        }
-        for (const ReadingSpread& spread : played.repeats.spread)
-            if (spread.key == reading.key && spread.tick == reading.tick)
-                accepted = {reading.key, reading.tick, spread.mean, spread.count, spread.variance};
-        readings.push_back(std::move(accepted));
-    }
-    return readings;
-}
-
-AcceptedReference reference_of(const PlayedVariant& played, const RunContext& context, const std::filesystem::path& run_folder) {
+/// Throws InputError for one that did not end, and where a report of others would lead out of the run's folder.
+void refuse_unfit(const PlayedVariant& played, const std::filesystem::path& report) {
     if (played.ticks_done != played.ticks_planned)
-        throw InputError({run_folder / "report.json", 0, 0, "ticks_done"}, fmt::format("found '{}'", played.ticks_done),
+        throw InputError({report, 0, 0, "ticks_done"}, fmt::format("found '{}'", played.ticks_done),
                          "all moments that were planned: an incomplete run is no reference");
-    AcceptedReference reference;
-    reference.key = reference_key(played.drive, played.variant, played.technique, context, played.inputs);
-    reference.producer = {context.versions, context.gl_version, context.cpu, context.os, played.inputs};
-    reference.readings = readings_of(played);
     for (const StoredFrame& frame : played.frames)
-        if (!frame.exr.empty())
-            reference.frames.push_back({frame.tick, frame.view, frame_file(run_folder, frame.exr), ""});
-    return reference;
+        if (const std::filesystem::path path = frame.exr;
+            path.is_absolute() || std::ranges::find(path, std::filesystem::path("..")) != path.end())
+            throw InputError({report, 0, 0, "exr"}, "found '" + printable(frame.exr) + "'", "a path below the run's folder");
 }
 
 /// "3f2a91c04b7e  straight/halogen/photometric: new"
@@ -123,8 +94,10 @@ RunResults read_run(const std::filesystem::path& run_folder) {
                          "one that `fernlicht run`, `study` or `reference` wrote");
     const Report report = read_report(run_folder);
     RunResults results{{}, report.context.started_utc};
-    for (const PlayedVariant& played : report.played)
-        results.references.push_back(reference_of(played, report.context, run_folder));
+    for (const PlayedVariant& played : report.played) {
+        refuse_unfit(played, run_folder / "report.json");
+        results.references.push_back(results_of(played, report.context, run_folder, played.technique));
+    }
     return results;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runner/judge/reference_store.h"
-#include "runner/judge/run_results.h"
+#include "runner/judge/accepted_reference.h"
 
 namespace fernlicht {
 
