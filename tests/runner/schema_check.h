@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -74,5 +75,11 @@ class Schema {
     json root_;
     std::vector<std::string> complaints_;
 };
+
+/// Of a value against a schema below runner/experiments: "run/report".
+inline std::vector<std::string> complaints_about(const nlohmann::json& value, const std::string& schema) {
+    std::ifstream file(FERNLICHT_SOURCE_DIR "/runner/experiments/" + schema + ".schema.json");
+    return Schema(nlohmann::json::parse(file)).check(value);
+}
 
 } // namespace fernlicht::tests

@@ -89,8 +89,7 @@ TEST(DisplayRun, PicturesSayWhatTheyWereShownBy) {
 
 json drive_in(const std::string& out) {
     const json report = json::parse(content_of(out + "/report.json"));
-    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/experiments/run/report.schema.json")));
-    EXPECT_THAT(schema.check(report), testing::IsEmpty());
+    EXPECT_THAT(tests::complaints_about(report, "run/report"), testing::IsEmpty());
     return report.at("drives").at(0);
 }
 
@@ -320,10 +319,7 @@ TEST(DisplayRun, PicturesThatDoNotTellHowTheyWereShownAreComparedWithANote) {
     EXPECT_THAT(run_program("compare " + ours + " " + ours).output, testing::Not(testing::HasSubstr("note:")));
     const json written = json::parse(run_program("compare --json " + ours + " " + others).output);
     EXPECT_EQ(written.at("notes").size(), 1U);
-    FilesRead opened;
-    EXPECT_THAT(tests::Schema(json::parse(read_file(FERNLICHT_SOURCE_DIR "/runner/experiments/compare/compare.schema.json", opened)))
-                    .check(written),
-                testing::IsEmpty());
+    EXPECT_THAT(tests::complaints_about(written, "compare/compare"), testing::IsEmpty());
 }
 
 /// A projector from 2.5 m (2.1 mm a pixel) with the view's 72 rows, and one that says only half of it.
@@ -331,10 +327,7 @@ TEST(DisplayRun, TheReportSaysHowLargePicturesAreSeen) {
     const TemporaryFolder folder;
     const std::string out = played(folder, "seen", "display: " + library_file("displays/projector.yaml") + "\n");
     const json report = json::parse(content_of(out + "/report.json"));
-    FilesRead opened;
-    EXPECT_THAT(
-        tests::Schema(json::parse(read_file(FERNLICHT_SOURCE_DIR "/runner/experiments/run/report.schema.json", opened))).check(report),
-        testing::IsEmpty());
+    EXPECT_THAT(tests::complaints_about(report, "run/report"), testing::IsEmpty());
     const json& display = report.at("drives").at(0).at("display");
     EXPECT_EQ(display.at("profile"), "projector");
     const json& view = display.at("views").at(0);
