@@ -18,6 +18,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -51,16 +52,19 @@ JsonMembers spread_members(Spread& spread) {
         {"minimum", spread.minimum}, {"maximum", spread.maximum}, {"mean", spread.mean}, {"standard_deviation", spread.standard_deviation}};
 }
 
-/// Values by name, then the reasons of those that are null.
-JsonMembers with_reasons(const std::vector<std::pair<std::string, Value>>& values) {
-    JsonMembers members;
+using NamedValues = std::vector<std::pair<std::string, Value>>;
+
+/// Values by name, others where they are there, then the reasons of those that are null.
+JsonMembers with_reasons(const NamedValues& values, const NamedValues& others = {}, bool has_others = false) {
+    JsonMembers members, more;
     JsonTexts reasons;
-    for (const auto& [name, value] : values) {
-        members.emplace_back(name, value);
-        if (!value.measured())
-            reasons.emplace_back(name, value.reason());
-    }
-    return joined(std::move(members), when(!reasons.empty(), {{"not_measured", JsonTexts(reasons)}}));
+    for (const auto& [named, to, is_there] : {std::tuple(&values, &members, true), std::tuple(&others, &more, has_others)})
+        for (const auto& [name, value] : *named) {
+            to->emplace_back(name, value);
+            if (is_there && !value.measured())
+                reasons.emplace_back(name, value.reason());
+        }
+    return joined(std::move(members), when(has_others, std::move(more)), when(!reasons.empty(), {{"not_measured", JsonTexts(reasons)}}));
 }
 
 /// null where no moment gave anything.
@@ -88,11 +92,12 @@ JsonMembers summary_members(ExtentSummary& summary) {
                    {"moments_cut_off", summary.cut_off},
                    {"reach_m", moments_part(summary.reach)},
                    {"widths_m", Widths(summary.widths.begin(), summary.widths.end()), width_members},
-                   {"area_m2", moments_part(summary.area)},
-                   {"largest_twin_difference_m", summary.twin_difference.quantile(1.0)}},
-                  when(summary.key.lane == "own", {{"metres_per_tenth_degree", summary.per_tenth_degree.quantile(0.5)},
-                                                   {"metres_per_tenth_flux", summary.per_tenth_flux.quantile(0.5)},
-                                                   {"grid_error_m", summary.grid_error.quantile(0.5)}}));
+                   {"area_m2", moments_part(summary.area)}},
+                  with_reasons({{"largest_twin_difference_m", summary.twin_difference.quantile(1.0)}},
+                               {{"metres_per_tenth_degree", summary.per_tenth_degree.quantile(0.5)},
+                                {"metres_per_tenth_flux", summary.per_tenth_flux.quantile(0.5)},
+                                {"grid_error_m", summary.grid_error.quantile(0.5)}},
+                               summary.key.lane == "own"));
 }
 
 JsonMembers frame_members(StoredFrame& frame) {
