@@ -21,7 +21,7 @@ using kainjow::mustache::data;
 using List = data::type;
 
 /// Of pictures as they lie on disk; base64 makes a third more of it. Larger pages open slowly.
-constexpr std::size_t embedded_bytes = std::size_t{48} << 20;
+constexpr std::size_t run_pictures_bytes = std::size_t{48} << 20;
 constexpr std::size_t largest_picture_bytes = std::size_t{16} << 20;
 
 std::string lamp_colour(std::size_t variant) { return plots::css(plots::lamp_colour(variant)); }
@@ -265,7 +265,7 @@ data verdict_part(const Report& report, Section section) {
 } // namespace
 
 std::string run_page_html(const Report& report, const RunPage& run, const std::filesystem::path& folder) {
-    std::size_t budget_bytes = embedded_bytes;
+    std::size_t budget_bytes = run_pictures_bytes;
     data page, parts{List::list};
     for (const RunPage::OfDrive& drive : run.drives)
         parts.push_back(drive_part(drive, folder, budget_bytes, run.drives.size() > 1));

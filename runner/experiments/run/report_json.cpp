@@ -385,7 +385,7 @@ JsonMembers report_members(Report& report) {
 }
 
 /// Rows tell drive and lamp set by name.
-void add_readings(const CsvFile& csv, Report& report) {
+void take_readings(const CsvFile& csv, Report& report) {
     const std::size_t drive = csv.column("drive"), set = csv.column("lamp_set"), frame = csv.column("frame"), name = csv.column("name"),
                       unit = csv.column("unit"), bound = csv.column("bound"), value = csv.column("value"), reason = csv.column("reason"),
                       where = csv.column("where");
@@ -433,7 +433,7 @@ Report read_report(const std::filesystem::path& folder) {
     if (const CheckedJson complete = json.at("complete"); !complete.truth())
         complete.refuse("a complete run");
     Report report = from_json<Report>(json, report_members);
-    add_readings(read_csv(folder / "readings.csv"), report);
+    take_readings(read_csv(folder / "readings.csv"), report);
     return report;
 }
 

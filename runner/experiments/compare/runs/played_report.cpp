@@ -19,13 +19,13 @@ std::vector<double> figures_in(const CsvFile& moments, std::size_t column) {
 }
 
 /// Of one play: its standard deviation times Student's t, two-sided, 5 %.
-void add_repeats(const PlayedVariant& played, PlayedResult& result) {
+void read_repeats(const PlayedVariant& played, PlayedResult& result) {
     for (const ReadingSpread& spread : played.repeats.spread)
         if (spread.count > 1 && spread.tick < 0)
             result.by_repeats[spread.key] = student_bound(spread.count - 1, 0.05, 1) * std::sqrt(spread.variance);
 }
 
-void add_reaches(const CsvFile& moments, PlayedResult& result) {
+void read_reaches(const CsvFile& moments, PlayedResult& result) {
     for (std::size_t column = 0; column < moments.heads.size(); ++column) {
         const auto key = key_of(moments.heads[column]);
         if (!key)
@@ -40,7 +40,7 @@ void add_reaches(const CsvFile& moments, PlayedResult& result) {
 }
 
 /// Over the moments in which there is a distance; only drives with eyes to glare have any.
-void add_glares(const PlayedVariant& played, const CsvFile& moments, PlayedResult& result) {
+void read_glares(const PlayedVariant& played, const CsvFile& moments, PlayedResult& result) {
     for (const SeeingSeries& series : played.seeing) {
         const auto eye = eye_of(series.subject);
         const std::string facing = series.subject + ".facing_lx";
@@ -83,9 +83,9 @@ PlayedResult played_result(const PlayedVariant& played, const CsvFile& moments, 
     for (const Reading& reading : played.readings)
         if (reading.tick < 0)
             result.readings.emplace(reading.key, reading);
-    add_repeats(played, result);
-    add_reaches(moments, result);
-    add_glares(played, moments, result);
+    read_repeats(played, result);
+    read_reaches(moments, result);
+    read_glares(played, moments, result);
     if (const std::optional<PixelErrors>& road = played.error.road; road && road->pixels > 0) {
         result.error_share = road->error.p95;
         result.error_floor_share = road->floor.p95;
