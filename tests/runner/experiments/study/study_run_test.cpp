@@ -58,8 +58,8 @@ TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
         for (const auto& [cell, value] : {std::pair("old_cell", "old_value"), std::pair("new_cell", "new_value")}) {
             if (change.at("decides") == false)
                 break;
-            const std::string run = folder / ("out/cells/" + change.at(cell).get<std::string>());
-            const std::string found = tests::field_of(run, change.at("reading"), "value");
+            const std::string played = folder / ("out/cells/" + change.at(cell).get<std::string>());
+            const std::string found = tests::field_of(played, change.at("reading").get<std::string>(), "value");
             const json& told = change.at(value).is_object() ? change.at(value).front() : change.at(value); // a bound
             EXPECT_EQ(found.empty() ? json(nullptr) : json(std::stod(found)), told) << change;
         }
