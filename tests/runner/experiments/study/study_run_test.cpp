@@ -1,5 +1,6 @@
 // Whole studies through the program.
 #include "tests/runner/opened_page.h"
+#include "tests/runner/run_readings.h"
 #include "tests/runner/schema_check.h"
 
 #include <fmt/format.h>
