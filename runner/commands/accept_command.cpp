@@ -1,10 +1,9 @@
 #include "runner/commands/accept_command.h"
 
+#include "runner/experiments/run/run_report.h"
 #include "runner/files/output_folder.h"
-#include "runner/findings/context_json.h"
-#include "runner/findings/summary.h"
 #include "runner/judge/ray_results.h"
-#include "runner/judge/verdict_json.h"
+#include "runner/judge/references.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -15,55 +14,15 @@
 namespace fernlicht {
 namespace {
 
-AcceptedReading reading_of(const CheckedJson& row, int count) {
-    const CheckedJson frame = row.at("frame");
-    const Value value = value_in(row.at("value"));
-    return {key_with_unit(row), frame.is_null() ? -1 : frame.whole(), value, value.measured() ? count : 0, 0.0};
-}
-
-/// A frame's file: below the run's folder, wherever a report of others would lead.
-std::filesystem::path frame_file(const std::filesystem::path& run_folder, const CheckedJson& exr) {
-    const std::filesystem::path path = exr.text();
-    if (path.is_absolute() || std::ranges::find(path, std::filesystem::path("..")) != path.end())
-        exr.refuse("a path below the run's folder");
-    return run_folder / path;
-}
-
-/// Key, producer and frames of each lamp set that was played.
-AcceptedReference reference_of(const CheckedJson& played, const RunContext& context, const std::filesystem::path& run_folder) {
-    if (const CheckedJson done = played.at("ticks_done"); done.whole() != played.at("ticks_planned").whole())
-        done.refuse("all moments that were planned: an incomplete run is no reference");
-    if (!played.has("inputs"))
-        throw InputError({run_folder / "report.json", 0, 0, {}}, "was written by a version that did not keep a run's inputs and repeats",
-                         "a run of this version: play it again");
-    AcceptedReference reference;
-    std::vector<std::pair<std::string, std::string>> inputs = played.at("inputs").texts();
-    reference.key = reference_key(played.at("drive").text(), played.at("variant").text(), played.at("technique").text(), context, inputs);
-    reference.producer = {context.versions, context.gl_version, context.cpu, context.os, std::move(inputs)};
-    for (const CheckedJson& frame : played.at("frames").items())
-        if (const CheckedJson exr = frame.at("exr"); !exr.is_null())
-            reference.frames.push_back({frame.at("frame").whole(), frame.at("view").text(), frame_file(run_folder, exr), ""});
-    return reference;
-}
-
-/// Mean and variance in place of the first play's value where the repeats differ.
-void add_spread(AcceptedReference& reference, const CheckedJson& repeats) {
-    for (const ReadingSpread& spread : from_json<Repeats>(repeats, repeats_members).spread)
-        for (AcceptedReading& reading : reference.readings)
-            if (reading.key == spread.key && reading.tick == spread.tick) {
-                reading.mean = spread.mean;
-                reading.count = spread.count;
-                reading.variance = spread.variance;
-            }
-}
-
-/// Rows tell drive and lamp set by name.
-void add_readings(AcceptedReference& reference, const CheckedJson& rows, const CheckedJson& repeats) {
-    for (const CheckedJson& row : rows.items())
-        if (row.at("drive").text() == reference.key.drive && row.at("variant").text() == reference.key.variant)
-            if (AcceptedReading reading = reading_of(row, repeats.at("count").whole()); !is_time(reading.key))
-                reference.readings.push_back(std::move(reading));
-    add_spread(reference, repeats);
+/// Throws InputError for one that did not end, and where a report of others would lead out of the run's folder.
+void refuse_unfit(const PlayedVariant& played, const std::filesystem::path& report) {
+    if (played.ticks_done != played.ticks_planned)
+        throw InputError({report, 0, 0, "ticks_done"}, fmt::format("found '{}'", played.ticks_done),
+                         "all moments that were planned: an incomplete run is no reference");
+    for (const StoredFrame& frame : played.frames)
+        if (const std::filesystem::path path = frame.exr;
+            path.is_absolute() || std::ranges::find(path, std::filesystem::path("..")) != path.end())
+            throw InputError({report, 0, 0, "exr"}, "found '" + printable(frame.exr) + "'", "a path below the run's folder");
 }
 
 /// "3f2a91c04b7e  straight/halogen/photometric: new"
@@ -133,16 +92,11 @@ RunResults read_run(const std::filesystem::path& run_folder) {
     if (std::error_code ignored; !std::filesystem::exists(run_folder / "report.json", ignored))
         throw InputError({run_folder, 0, 0, {}}, "is no folder of a run, a study or rays",
                          "one that `fernlicht run`, `study` or `reference` wrote");
-    const CheckedJson report = CheckedJson::read(run_folder / "report.json");
-    report.expect_schema("fernlicht report", 1);
-    if (const CheckedJson complete = report.at("complete"); !complete.truth())
-        complete.refuse("a complete run");
-    const RunContext context = from_json<RunContext>(report.at("context"), context_members);
-    RunResults results;
-    results.started_utc = context.started_utc;
-    for (const CheckedJson& played : report.at("drives").items()) {
-        results.references.push_back(reference_of(played, context, run_folder));
-        add_readings(results.references.back(), report.at("rows"), played.at("repeats"));
+    const Report report = read_report(run_folder);
+    RunResults results{{}, report.context.started_utc};
+    for (const PlayedVariant& played : report.played) {
+        refuse_unfit(played, run_folder / "report.json");
+        results.references.push_back(results_of(played, report.context, run_folder, played.technique));
     }
     return results;
 }

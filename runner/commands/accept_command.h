@@ -1,8 +1,8 @@
 // `fernlicht accept RUN_FOLDER [--to FOLDER]`: take a run's results as what later runs are compared with. Judges nothing.
 #pragma once
 
+#include "runner/judge/accepted_reference.h"
 #include "runner/judge/reference_store.h"
-#include "runner/judge/run_results.h"
 
 namespace fernlicht {
 

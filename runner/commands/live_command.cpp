@@ -2,8 +2,10 @@
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/run_files.h"
 #include "runner/experiments/live/live_run.h"
-#include "runner/experiments/run/report_writers.h"
+#include "runner/files/output_folder.h"
+#include "runner/findings/run_context.h"
 #include "scenarios/drives/keys/bus_keys.h"
 #include "scenarios/values/errors.h"
 

@@ -4,10 +4,9 @@
 #include "runner/files/durable_files.h"
 #include "runner/files/json_text.h"
 #include "runner/files/value_json.h"
-#include "runner/judge/device_spread.h"
-#include "runner/judge/reference_choice.h"
 #include "runner/judge/reference_difference.h"
 #include "runner/judge/reference_json.h"
+#include "runner/judge/references.h"
 #include "runner/write/aligned_table.h"
 #include "scenarios/values/errors.h"
 

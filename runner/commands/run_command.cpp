@@ -2,6 +2,7 @@
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/run_files.h"
 #include "runner/experiments/run/run_drives.h"
 #include "runner/judge/verdict_line.h"
 #include "scenarios/values/errors.h"
@@ -89,7 +90,9 @@ int run(const RunFlags& flags, const std::vector<std::string>& command) {
     options.ticks = tick_range(flags.frames);
     options.accuracy = !flags.no_accuracy;
     options.known = take(flags.judging, options);
-    options.tables = table_format(flags.tables);
+    options.write = [tables = table_format(flags.tables)](const Report& report, const std::filesystem::path& folder) {
+        write_report(report, folder, tables);
+    };
     options.command = command;
     const DriveEdits edits = edits_of(flags);
     std::vector<Drive> drives;

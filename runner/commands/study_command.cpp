@@ -2,6 +2,7 @@
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/run_files.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/experiments/study/study_run.h"
 #include "runner/write/document.h"
@@ -58,6 +59,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     options.run.accuracy = !flags.no_accuracy;
     options.known = take(flags.judging, options.run);
     options.run.command = command;
+    options.run.write = [](const Report& report, const std::filesystem::path& cell) { write_report(report, cell); };
     options.write = [&](const StudyResult& result) { write_study(result, options.folder); };
     const StudyResult result = run_study(study, options);
     fmt::print("{}{}\n", document_text(study_summary(result)), (options.folder / "report.html").string());

@@ -97,6 +97,15 @@ Json nullable(Json schema) {
     return schema;
 }
 
+JsonPart null_unless(bool there, JsonPart part) {
+    return {[=] { return there ? part.write() : Json(nullptr); },
+            [=](const CheckedJson& json) {
+                if (!json.is_null())
+                    part.read(json);
+            },
+            [=] { return nullable(part.schema()); }};
+}
+
 JsonPart or_why(JsonPart optional, const std::string& why, std::string* back) {
     return {[=] {
                 const Json value = optional.write();

@@ -137,6 +137,9 @@ template <class T> JsonPart or_null(T& value, T none = T{}) {
                    [&value, none](const std::optional<T>& given) { value = given.value_or(none); });
 }
 
+/// null unless it is there.
+JsonPart null_unless(bool there, JsonPart part);
+
 /// Of an optional value: {"not_measured": why} rather than null, read back into `back`.
 JsonPart or_why(JsonPart optional, const std::string& why, std::string* back = nullptr);
 

@@ -56,7 +56,8 @@ struct Table {
     std::vector<Column> columns;
     std::vector<std::vector<Cell>> rows; ///< the first cell names the row; where cells are missing, the last one takes their place
     bool aside = false;                  ///< says in figures what a plot shows: folded away on a page, left out on a terminal
-    bool sortable = false;               ///< its columns sort on a page, and its rows can be led to by their first cell
+    bool sortable = false;               ///< its columns sort on a page; none has a group
+    bool led_to = false;                 ///< links lead to its rows by their first cell
     std::vector<std::size_t> quiet = {}; ///< rows in grey
 };
 

@@ -44,6 +44,15 @@ std::vector<ExtentKey> extent_keys(const PlayedVariant& played) {
     return keys;
 }
 
+ReadingKey extent_reading(const ExtentKey& key, Quantity quantity, ReadingPlace place, Aspect aspect) {
+    return {.quantity = quantity,
+            .surface = key.plane == ExtentPlane::road ? ReadingSurface::road : ReadingSurface::target,
+            .lane = key.lane,
+            .threshold = {key.limit_lx, ThresholdUnit::lx},
+            .place = place,
+            .aspect = aspect};
+}
+
 const LaneExtent* find_extent(const std::vector<LaneExtent>& extents, const ExtentKey& key) {
     const auto found = std::find_if(extents.begin(), extents.end(), [&](const LaneExtent& extent) {
         return extent.plane == key.plane && extent.limit_lx == key.limit_lx && extent.lane == key.lane;

@@ -11,6 +11,9 @@ const char* verdict_name(VerdictKind kind); ///< "pass", "fail", "not_measured"
 /// Every key that occurs in any moment (rendered or twin): planes, then lanes, in the order of first sight, then limits ascending.
 std::vector<ExtentKey> extent_keys(const PlayedVariant& played);
 
+/// The reading of an extent, over the whole drive.
+ReadingKey extent_reading(const ExtentKey& key, Quantity quantity, ReadingPlace place = ReadingPlace::none, Aspect aspect = Aspect::value);
+
 /// The extent of that key in one moment's list; nullptr where there is none (a lane that ended).
 const LaneExtent* find_extent(const std::vector<LaneExtent>& extents, const ExtentKey& key);
 

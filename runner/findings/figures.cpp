@@ -20,6 +20,15 @@ std::string signed_figure(double value, int decimals) {
     return negative || nothing ? text : "+" + text;
 }
 
+std::string four_digits(double value) {
+    std::string text = fmt::format("{:.4g}", value + 0.0);
+    if (text.find("e+") != std::string::npos)
+        text = fmt::format("{:.0f}", std::stod(text));
+    if (text.front() == '-')
+        text.replace(0, 1, "\u2212");
+    return text;
+}
+
 std::string two_digits(double value) {
     const double size = std::abs(value);
     if (size == 0.0)

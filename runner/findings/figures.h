@@ -10,6 +10,8 @@ namespace fernlicht {
 /// Numbers for people: fixed decimals with U+2212 as minus sign; a difference always carries its sign.
 std::string figure(double value, int decimals);
 std::string signed_figure(double value, int decimals);
+/// At most four significant digits without an exponent from 0.0001 on: "0.0812", "29.35", "23990"; U+2212 as minus sign.
+std::string four_digits(double value);
 /// Two significant digits without an exponent from 0.001 on: "0.053", "12", "1.2e-05"; "0".
 std::string two_digits(double value);
 /// "0.053 %"; "< 0.02 %" for an error below the floor; "not measured".

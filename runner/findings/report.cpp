@@ -1,5 +1,9 @@
 #include "runner/findings/report.h"
 
+#include "runner/findings/run_page.h"
+
+#include <algorithm>
+
 namespace fernlicht {
 namespace {
 
@@ -36,6 +40,17 @@ VerdictKind overall(const Report& report) {
     if (counts.flaky > 0)
         return VerdictKind::flaky;
     return counts.not_measured > 0 || !report.complete ? VerdictKind::not_measured : VerdictKind::pass;
+}
+
+std::vector<ComparedDrive> compared_drives(const Report& report) {
+    std::vector<ComparedDrive> drives;
+    for (const PlayedVariant& played : report.played) {
+        auto found = std::ranges::find(drives, played.drive, &ComparedDrive::name);
+        if (found == drives.end())
+            found = drives.insert(drives.end(), ComparedDrive{played.drive, {}});
+        found->variants.push_back(&played);
+    }
+    return drives;
 }
 
 std::vector<std::size_t> spread_over(std::size_t count, std::size_t most) {

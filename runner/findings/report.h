@@ -158,7 +158,7 @@ struct PlayedVariant {
     std::vector<std::pair<std::string, std::string>> inputs; ///< what decides the results: "drive", "road", "lamp file 1" ... -> XXH3-128
     std::string title;                                       ///< of the drive, for people
     std::vector<std::pair<std::string, std::string>> lamps;  ///< lamp name -> file name
-    int ticks_planned = 0, ticks_done = 0;
+    int first_tick = 0, ticks_planned = 0, ticks_done = 0;
     std::vector<StoredFrame> frames;
     StoredFrame contact_sheet;                        ///< one moment drawn in every technique; without a PNG where none was asked for
     std::vector<StoredSheet> more_sheets;             ///< the same moment otherwise; only where contact_sheet is

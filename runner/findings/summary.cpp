@@ -18,12 +18,7 @@ struct Subject {
     std::string where; ///< "own lane on the road"
 
     ReadingKey of(Quantity quantity, ReadingPlace place = ReadingPlace::none, Aspect aspect = Aspect::value) const {
-        return {.quantity = quantity,
-                .surface = key.plane == ExtentPlane::road ? ReadingSurface::road : ReadingSurface::target,
-                .lane = key.lane,
-                .threshold = {key.limit_lx, ThresholdUnit::lx},
-                .place = place,
-                .aspect = aspect};
+        return extent_reading(key, quantity, place, aspect);
     }
 };
 

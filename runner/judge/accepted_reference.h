@@ -40,6 +40,12 @@ struct AcceptedReference {
     bool frames_left_out = false; ///< accepted without its frames: readings alone are compared
 };
 
+/// What a run or a picture by rays found, as it would be accepted.
+struct RunResults {
+    std::vector<AcceptedReference> references; ///< one for each lamp set of each drive
+    std::string started_utc;
+};
+
 /// The same readings and the same bytes of frames, whoever made them.
 bool same_results(const AcceptedReference& a, const AcceptedReference& b);
 

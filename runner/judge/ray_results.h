@@ -1,7 +1,7 @@
 // A folder of `fernlicht reference`: one picture by rays, each pixel with its variance.
 #pragma once
 
-#include "runner/judge/run_results.h"
+#include "runner/judge/accepted_reference.h"
 
 namespace fernlicht {
 

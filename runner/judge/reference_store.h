@@ -56,4 +56,12 @@ struct Removal {
 /// Throws InputError for a damaged index or a damaged object of an entry that stays, DeviceError when the folder cannot be written.
 Removal remove_references(const std::filesystem::path& store, const std::vector<std::string>& ids, bool dry);
 
+/// What a word of the command line means:
+/// entries whose id begins with `word` (at least four hexadecimal digits), or those whose cell (drive/lamp set/technique) or a part of it
+/// from the left is `word`: "straight", "straight/halogen". Throws InputError where there is none, naming the nearest, or no store.
+std::vector<StoredReference> choose_references(const std::filesystem::path& store, const std::string& word);
+
+/// The one entry that `word` means. Throws InputError that lists them where it means several.
+StoredReference choose_reference(const std::filesystem::path& store, const std::string& word);
+
 } // namespace fernlicht

@@ -1,16 +1,17 @@
 #include "runner/judge/references.h"
 
 #include "metrics/readings/significance.h"
+#include "metrics/statistics/statistics.h"
 #include "runner/files/durable_files.h"
 #include "runner/findings/summary.h"
-#include "runner/judge/device_spread.h"
-#include "runner/judge/reference_store.h"
 #include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 #include <tuple>
+#include <utility>
 
 namespace fernlicht {
 namespace {
@@ -173,7 +174,45 @@ std::vector<Verdict> judge_across(const std::filesystem::path& store, const Devi
 /// References store whether a reading was measured, not why.
 Value without_reason(const Value& value) { return value.measured() ? value : Value(); }
 
+/// What tells readings apart.
+using Name = std::pair<ReadingKey, int>;
+using Values = std::map<Name, std::vector<double>>;
+
+Values values_of(const AcceptedReference& reference) {
+    Values values;
+    for (const AcceptedReading& reading : reference.readings)
+        if (const auto mean = reading.mean.figure())
+            values[{reading.key, reading.tick}].push_back(*mean);
+    return values;
+}
+
 } // namespace
+
+DeviceSpread spread_over_devices(const std::filesystem::path& store, const std::vector<StoredReference>& all, const ReferenceKey& key,
+                                 const std::string& but) {
+    std::map<std::string, Values> by_device;
+    DeviceSpread spread;
+    for (const StoredReference& entry : all) {
+        const std::string device = device_text(entry.key);
+        if (!same_but_device(entry.key, key) || device == but)
+            continue;
+        spread.entries.push_back(entry);
+        for (const auto& [name, values] : values_of(load_reference(store, entry)))
+            by_device[device][name].insert(by_device[device][name].end(), values.begin(), values.end());
+    }
+    spread.devices = by_device.size();
+    Values means;
+    for (const auto& [device, values] : by_device)
+        for (const auto& [name, samples] : values)
+            means[name].push_back(spread_of(samples)->mean);
+    for (const auto& [name, samples] : means)
+        if (samples.size() == spread.devices) {
+            const Spread over = *spread_of(samples);
+            spread.readings.push_back(
+                {name.first, name.second, over.mean, static_cast<int>(over.count), over.standard_deviation * over.standard_deviation});
+        }
+    return spread;
+}
 
 AcceptedReference results_of(const PlayedVariant& played, const RunContext& context, const std::filesystem::path& run_folder,
                              const std::string& technique) {

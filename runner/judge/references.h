@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runner/judge/reference_difference.h"
+#include "runner/judge/reference_store.h"
 
 namespace fernlicht {
 
@@ -11,6 +12,19 @@ inline constexpr const char* other_device_verdict = "reference device";
 /// What was played as it would be accepted; frames' paths lead into the run's folder, their hashes are left out.
 AcceptedReference results_of(const PlayedVariant& played, const RunContext& context, const std::filesystem::path& run_folder,
                              const std::string& technique);
+
+/// What several classes of device gave for the same drive, lamp set, technique and inputs: how much a device decides.
+struct DeviceSpread {
+    std::size_t devices = 0; ///< classes with accepted results
+    /// Readings that all of them have: mean over the classes, their number, and the variance between them (n - 1). A class with several
+    /// results counts once, by their mean.
+    std::vector<AcceptedReading> readings;
+    std::vector<StoredReference> entries; ///< all results behind it
+};
+
+/// Over all classes of device but `but` ("" for all), as key_text's device. Throws InputError as load_reference.
+DeviceSpread spread_over_devices(const std::filesystem::path& store, const std::vector<StoredReference>& all, const ReferenceKey& key,
+                                 const std::string& but = "");
 
 /// Verdicts on all frames and readings against what was accepted for this drive, lamp set, technique, class of device and inputs. Where
 /// several results are accepted, one that agrees in everything decides, and the text says which; else the nearest, by the number of

@@ -1,7 +1,7 @@
 #include "runner/judge/repeats.h"
 
 #include "runner/findings/extent_keys.h"
-#include "runner/judge/verdict_json.h"
+#include "runner/findings/moment_columns.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
 
@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstring>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace fernlicht {
 namespace {
@@ -17,8 +18,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_file_bytes = std::size_t{1} << 30;
 
-/// All results as JSON, without what is compared by itself and what only the first play has: accuracy, contact sheets.
-Json results_json(const PlayedVariant& played) {
+/// Without what is compared by itself and what only the first play has: accuracy, contact sheets.
+PlayedVariant comparable(const PlayedVariant& played) {
     PlayedVariant plain = played;
     plain.error = {};
     plain.contact_sheet = {};
@@ -26,7 +27,7 @@ Json results_json(const PlayedVariant& played) {
     plain.shadows = nullptr;
     plain.verdicts.clear();
     plain.repeats = {};
-    return played_json(plain);
+    return plain;
 }
 
 std::string shown(const Json& value) { return printable(value.dump(-1, ' ', false, Json::error_handler_t::replace), 80); }
@@ -126,13 +127,29 @@ Counted verdicts_that_differ(const PlayedVariant& first, const PlayedVariant& ag
     return verdicts;
 }
 
+/// The first figure of a moment that differs; "" where all are the same.
+std::string moment_difference(const PlayedVariant& first, const PlayedVariant& again) {
+    const std::vector<MomentColumn> before = moment_columns(first), now = moment_columns(again);
+    if (before.size() != now.size())
+        return fmt::format("{} columns of moments, at first {}", now.size(), before.size());
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const std::vector<std::string>&a = before[i].cells, &b = now[i].cells;
+        if (before[i].name != now[i].name || a.size() != b.size())
+            return fmt::format("{} of {} moments, at first {} of {}", now[i].name, b.size(), before[i].name, a.size());
+        if (const auto [old, found] = std::ranges::mismatch(a, b); old != a.end())
+            return fmt::format("{}[{}]: {}, at first {}", now[i].name, found - b.begin(), *found, *old);
+    }
+    return {};
+}
+
 } // namespace
 
 std::string first_difference(const std::string& first, const std::string& again) {
     return difference(Json::parse(first), Json::parse(again), "");
 }
 
-RepeatFold::RepeatFold(const PlayedVariant& first, std::filesystem::path folder) : first_(&first), folder_(std::move(folder)) {
+RepeatFold::RepeatFold(const PlayedVariant& first, std::filesystem::path folder, Told told)
+    : first_(&first), folder_(std::move(folder)), told_(std::move(told)) {
     for (std::size_t i = 0; i < first.readings.size(); ++i)
         if (const auto number = first.readings[i].value.number())
             values_[i].push_back(*number);
@@ -158,7 +175,9 @@ bool RepeatFold::add(const PlayedVariant& again, const std::filesystem::path& fo
     verdicts_that_differ(*first_, again).take_to(differ_, plays_, "limits");
     files_that_differ(*first_, folder_, again, folder).take_to(differ_, plays_, "files");
     maps_that_differ(*first_, again).take_to(differ_, plays_, "maps");
-    if (const std::string found = difference(results_json(*first_), results_json(again), ""); !found.empty())
+    if (const std::string found = moment_difference(*first_, again); !found.empty())
+        differ_.push_back(fmt::format("play {}: {}", plays_, found));
+    if (const std::string found = difference(told_(comparable(*first_)), told_(comparable(again)), ""); !found.empty())
         differ_.push_back(fmt::format("play {}: {}", plays_, found));
     return differ_.size() == before;
 }

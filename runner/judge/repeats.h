@@ -3,15 +3,19 @@
 
 #include "runner/findings/report.h"
 
+#include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 
 namespace fernlicht {
 
 /// Compares each play with the first, then says so in it. The first must outlive it.
 class RepeatFold {
   public:
+    /// All that is reported of a play but readings, moments and times.
+    using Told = std::function<nlohmann::ordered_json(const PlayedVariant&)>;
     /// `folder` is where the frames of the first play lie.
-    RepeatFold(const PlayedVariant& first, std::filesystem::path folder);
+    RepeatFold(const PlayedVariant& first, std::filesystem::path folder, Told told);
 
     /// True where nothing differs: readings and all else in report.json to the last bit, lux maps, the bytes of all stored files, and the
     /// verdicts on limits. Times do not count, other than by a verdict that they turn.
@@ -24,6 +28,7 @@ class RepeatFold {
   private:
     const PlayedVariant* first_;
     std::filesystem::path folder_;
+    Told told_;
     int plays_ = 1;
     std::vector<std::string> differ_;
     std::map<std::size_t, std::vector<double>> values_; ///< by reading: of the plays that measured it

@@ -158,6 +158,7 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
     played.drawn_by = std::make_shared<const DrawnBy>(drawn_by(drive));
     for (const MountedLamp& lamp : variant.lamps)
         played.lamps.emplace_back(lamp.name, lamp.file->name);
+    played.first_tick = std::max(0, options.ticks.first);
     played.ticks_planned = ticks_to_play(drive, options.ticks);
     FrameTimes times(options.warm_up, options.profile);
     Pictures pictures(drive, route, options, played, writers, times);

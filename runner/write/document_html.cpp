@@ -93,7 +93,7 @@ data row_of(const std::vector<Cell>& row, const Table& table, bool is_quiet) {
         cell.set("attributes", attributes_of(row, i, table));
         cells.push_back(cell);
     }
-    part.set("attributes", (table.sortable ? " id=\"" + xml_text(row.front().text) + "\"" : "") +
+    part.set("attributes", (table.led_to ? " id=\"" + xml_text(row.front().text) + "\"" : "") +
                                (is_quiet ? std::string(" class=\"quiet\"") : std::string()));
     part.set("cells", cells);
     return part;

@@ -2,6 +2,7 @@
 
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
+#include "runner/findings/moment_columns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +43,20 @@ std::string report_csv(const Report& report) {
             out += fmt::format("{}\r\n", fmt::join(fields, ","));
         }
     return out;
+}
+
+std::string moments_csv(const PlayedVariant& played) {
+    const std::vector<MomentColumn> columns = moment_columns(played);
+    if (columns.empty())
+        return {};
+    std::string out;
+    for (const MomentColumn& column : columns)
+        out += (out.empty() ? "" : ",") + csv_text(column.name);
+    for (std::size_t moment = 0; moment < columns.front().cells.size(); ++moment)
+        for (const MomentColumn& column : columns)
+            out += (&column == columns.data() ? "\r\n" : ",") +
+                   (column.cells[moment].starts_with('-') ? column.cells[moment] : csv_text(column.cells[moment]));
+    return out + "\r\n";
 }
 
 std::string times_csv(const Report& report) {

@@ -13,6 +13,9 @@ std::string report_junit(const Report& report);
 /// RFC 4180, one line per reading.
 std::string report_csv(const Report& report);
 
+/// RFC 4180, a line for each moment; "" where none was played.
+std::string moments_csv(const PlayedVariant& played);
+
 /// RFC 4180: times of passes and the run's throughput. What differs from run to run is here and not in report_csv.
 std::string times_csv(const Report& report);
 

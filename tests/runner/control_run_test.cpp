@@ -1,5 +1,6 @@
 // Lamp control through the program: what the report says of it, the table of signals, a plug-in among the inputs, a swivel that sticks.
 #include "tests/runner/program.h"
+#include "tests/runner/run_readings.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -33,18 +34,17 @@ measure: {{extent: false}}
 
 using Table = std::vector<std::map<std::string, std::string>>;
 
-Table table_of(const std::string& csv) {
-    std::vector<std::vector<std::string>> rows = csv_rows(csv);
-    Table table(rows.size() - 1);
-    for (std::size_t row = 1; row < rows.size(); ++row) {
-        rows[row].resize(rows[0].size());
-        for (std::size_t i = 0; i < rows[0].size(); ++i)
-            table[row - 1][rows[0][i]] = rows[row][i];
-    }
+Table table_of(const std::filesystem::path& file) {
+    const CsvFile csv = read_csv(file);
+    Table table;
+    for (const std::vector<std::string>& row : csv.rows)
+        for (std::size_t i = 0; i < row.size(); ++i)
+            (i == 0 ? table.emplace_back() : table.back())[csv.heads[i]] = row[i];
     return table;
 }
 
 struct Ran {
+    std::string out;
     Json report;
     Table signals;
     std::string page;
@@ -57,15 +57,8 @@ class ControlRunTest : public testing::Test {
         const std::string out = folder_ / fmt::format("out{}", ++runs_);
         const Outcome outcome = run_program("run " + (folder_ / "bends.yaml") + small_frames + "--out " + out);
         EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-        return {Json::parse(content_of(out + "/report.json")), table_of(content_of(out + "/signals-bends-moving.csv")),
+        return {out, Json::parse(content_of(out + "/report.json")), table_of(out + "/signals-bends-moving.csv"),
                 content_of(out + "/report.html")};
-    }
-    static double reading(const Json& report, const std::string& variant, const std::string& name) {
-        for (const Json& row : report["rows"])
-            if (row["variant"] == variant && row["name"] == name)
-                return row["value"].is_number() ? row["value"].get<double>() : std::nan("");
-        ADD_FAILURE() << "no reading " << name;
-        return 0.0;
     }
 
   private:
@@ -81,10 +74,10 @@ TEST_F(ControlRunTest, ReportsSwivelAndWhatItIsWorth) {
         most_rad = std::max(most_rad, std::abs(std::stod(row.at("lamp.left.swivel_rad"))));
     // 20 m/s over 150 m for 1.5 s: 20 * 1.5 / 300 rad = 5.7 degrees.
     EXPECT_NEAR(most_rad * 180.0 / 3.14159265, 5.7, 0.3);
-    EXPECT_NEAR(reading(ran.report, "moving", "control_swivel_max_deg"), most_rad * 180.0 / 3.14159265, 0.2);
+    EXPECT_NEAR(tests::reading_of(ran.out, "control_swivel_max_deg", "moving"), most_rad * 180.0 / 3.14159265, 0.2);
     EXPECT_EQ(ran.signals.front().at("ego.speed_mps"), "20");
-    EXPECT_GT(reading(ran.report, "moving", "control_left_bends_inside_at_50m_lx"), 0.0);
-    EXPECT_EQ(reading(ran.report, "still", "control_swivel_max_deg"), 0.0);
+    EXPECT_GT(tests::reading_of(ran.out, "control_left_bends_inside_at_50m_lx", "moving"), 0.0);
+    EXPECT_EQ(tests::reading_of(ran.out, "control_swivel_max_deg", "still"), 0.0);
     EXPECT_THAT(ran.page, HasSubstr("Lamps that move"));
 }
 

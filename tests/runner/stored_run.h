@@ -1,7 +1,7 @@
 // A small run on disk, made without drawing: for tests of what is done with runs.
 #pragma once
 
-#include "runner/experiments/run/report_writers.h"
+#include "runner/commands/run_files.h"
 #include "runner/files/picture_file.h"
 #include "runner/findings/report.h"
 #include "runner/judge/references.h"

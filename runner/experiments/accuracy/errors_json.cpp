@@ -64,10 +64,4 @@ JsonMembers reach_members(ReachError& error) {
         when(!error.why_not.empty(), {{"not_measured", error.why_not}}));
 }
 
-nlohmann::ordered_json errors_json(const std::optional<PixelErrors>& errors, const std::string& why_not, const std::vector<int>& frames) {
-    return errors_part(const_cast<std::optional<PixelErrors>&>(errors), why_not, nullptr, [&] { return frames; }).write();
-}
-
-nlohmann::ordered_json reach_json(const std::vector<ReachError>& reach) { return as_json(reach, reach_members); }
-
 } // namespace fernlicht

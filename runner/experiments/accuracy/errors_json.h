@@ -25,7 +25,4 @@ template <class Inner> JsonPart typical_work_part(std::vector<Work>& work, Inner
                    [&](const std::optional<Work>& typical) { work.assign(typical ? 1 : 0, typical.value_or(Work{})); }, inner);
 }
 
-nlohmann::ordered_json errors_json(const std::optional<PixelErrors>& errors, const std::string& why_not, const std::vector<int>& frames);
-nlohmann::ordered_json reach_json(const std::vector<ReachError>& reach);
-
 } // namespace fernlicht

@@ -11,10 +11,7 @@ std::string six_digits(double value) {
 }
 
 Table values_table(const LayerComparison& layer) {
-    Table table{"figures-" + layer.name,
-                "",
-                {{.head = "figure", .words = true}, {"value"}, {.head = "unit", .words = true}, {.head = "place", .words = true}},
-                {}};
+    Table table{"figures-" + layer.name, "", columns_of("figure<|value|unit<|place<"), {}};
     for (const ComparedValue& v : layer.values)
         if (v.value)
             table.rows.push_back({v.name,

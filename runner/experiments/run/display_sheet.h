@@ -3,7 +3,7 @@
 
 #include "renderer/renderer.h"
 #include "runner/play/stage.h"
-#include "runner/write/tile_sheet.h"
+#include "runner/write/plots/tile_sheet.h"
 #include "scenarios/display/tone_mapper.h"
 
 #include <string>

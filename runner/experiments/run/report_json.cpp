@@ -1,24 +1,23 @@
 #include "metrics/display/seen_display.h"
 #include "runner/experiments/accuracy/errors_json.h"
 #include "runner/experiments/bench/bench_result.h"
-#include "runner/experiments/run/report_writers.h"
-#include "runner/experiments/run/run_json.h"
+#include "runner/experiments/run/run_report.h"
 #include "runner/files/clean_text.h"
+#include "runner/files/csv_file.h"
 #include "runner/files/json_text.h"
-#include "runner/files/value_json.h"
 #include "runner/findings/context_json.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/judge/verdict_json.h"
 #include "runner/play/live/live_figures.h"
 #include "runner/play/shadows/choose_shadows.h"
 #include "runner/play/shown_picture.h"
-#include "scenarios/display/tone_mapper.h"
 #include "scenarios/drives/keys/shadow_keys.h"
+#include "scenarios/values/errors.h"
 
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -38,297 +37,403 @@ void refuse_no_numbers(const Json& json, const std::string& place) {
             refuse_no_numbers(value, place);
 }
 
-Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+template <class T> T value_of(const std::shared_ptr<const T>& found) { return found ? *found : T{}; }
 
-Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
-
-Json pairs(const std::vector<std::pair<std::string, std::string>>& texts) {
-    Json out = Json::object();
-    for (const auto& [name, text] : texts)
-        out[name] = text;
-    return out;
+/// Far below what any of the lamp tables knows; of times six places, as candump has.
+double seven_digits(double value) { return std::stod(fmt::format("{:.7g}", value)); }
+std::optional<double> microseconds(const std::optional<double>& value) {
+    return value ? std::optional(std::stod(fmt::format("{:.6f}", *value))) : std::nullopt;
 }
 
-Json spread_json(const std::optional<Spread>& spread) {
-    if (!spread)
-        return nullptr;
-    return {{"count", spread->count},     {"median", spread->median},
-            {"p05", spread->p05},         {"p95", spread->p95},
-            {"minimum", spread->minimum}, {"maximum", spread->maximum},
-            {"mean", spread->mean},       {"standard_deviation", spread->standard_deviation}};
+JsonMembers spread_members(Spread& spread) {
+    return {
+        {"count", spread.count},     {"median", spread.median},   {"p05", spread.p05},   {"p95", spread.p95},
+        {"minimum", spread.minimum}, {"maximum", spread.maximum}, {"mean", spread.mean}, {"standard_deviation", spread.standard_deviation}};
 }
 
-Json rows_json(const Report& report) {
-    Json rows = Json::array();
-    for (const PlayedVariant& played : report.played)
-        for (const Reading& reading : played.readings) {
-            Json row{{"name", reading.name()},
-                     {"value", value_json(reading.value)},
-                     {"unit", reading.unit()},
-                     {"where", reading.where},
-                     {"frame", reading.tick < 0 ? Json(nullptr) : Json(reading.tick)},
-                     {"drive", played.drive},
-                     {"variant", played.variant}};
-            if (!reading.value.measured())
-                row["not_measured"] = reading.value.reason();
-            rows.push_back(std::move(row));
+using NamedValues = std::vector<std::pair<std::string, Value>>;
+
+/// Values by name, others where they are there, then the reasons of those that are null.
+JsonMembers with_reasons(const NamedValues& values, const NamedValues& others = {}, bool has_others = false) {
+    JsonMembers members, more;
+    JsonTexts reasons;
+    for (const auto& [named, to, is_there] : {std::tuple(&values, &members, true), std::tuple(&others, &more, has_others)})
+        for (const auto& [name, value] : *named) {
+            to->emplace_back(name, value);
+            if (is_there && !value.measured())
+                reasons.emplace_back(name, value.reason());
         }
-    return rows;
+    return joined(std::move(members), when(has_others, std::move(more)), when(!reasons.empty(), {{"not_measured", JsonTexts(reasons)}}));
 }
 
-Json contact_sheet_json(const StoredFrame& sheet) {
-    if (sheet.png.empty())
-        return nullptr;
-    return {{"frame", sheet.tick}, {"time_s", sheet.time_s}, {"png", sheet.png}};
+/// null where no moment gave anything.
+JsonPart moments_part(const ManyMoments& moments) {
+    return null_unless(moments.count() > 0,
+                       joined({{"count", moments.count()}}, with_reasons({{"median", moments.quantile(0.5)},
+                                                                          {"p05", moments.quantile(0.05)},
+                                                                          {"p95", moments.quantile(0.95)},
+                                                                          {"minimum", moments.quantile(0.0)},
+                                                                          {"maximum", moments.quantile(1.0)},
+                                                                          {"mean", moments.mean()},
+                                                                          {"standard_deviation", moments.standard_deviation()}})));
 }
 
-Json more_sheets_json(const std::vector<StoredSheet>& sheets) {
-    return list_of(sheets, [](const StoredSheet& sheet) {
-        return Json{{"what", sheet.what}, {"frame", sheet.picture.tick}, {"time_s", sheet.picture.time_s}, {"png", sheet.picture.png}};
-    });
-}
-
-Json shadow_choice_json(const ShadowChoice& choice) {
-    const auto tried = [](const TriedShadows& one) {
-        if (!one.error)
-            return Json{{"method", name(one.method)}, {"refused", one.refused}};
-        return Json{{"method", name(one.method)},     {"error", *one.error},          {"worst_s", one.worst_s},
-                    {"worst_variant", one.worst_set}, {"worst_view", one.worst_view}, {"pictures", one.pictures}};
+/// Trust in the reach is told of the own lane alone.
+JsonMembers summary_members(ExtentSummary& summary) {
+    const auto width_members = [](std::pair<double, ManyMoments>& width) -> JsonMembers {
+        return {{"at_m", width.first}, {"width_m", moments_part(width.second)}};
     };
-    return {{"chosen", name(choice.chosen)},
+    using Widths = std::vector<std::pair<double, ManyMoments>>;
+    return joined({{"plane", one_of(summary.key.plane, names_of<ExtentPlane>(plane_name, 2))},
+                   {"lane", summary.key.lane},
+                   {"limit_lx", summary.key.limit_lx},
+                   {"moments", summary.reach.count()},
+                   {"moments_cut_off", summary.cut_off},
+                   {"reach_m", moments_part(summary.reach)},
+                   {"widths_m", Widths(summary.widths.begin(), summary.widths.end()), width_members},
+                   {"area_m2", moments_part(summary.area)}},
+                  with_reasons({{"largest_twin_difference_m", summary.twin_difference.quantile(1.0)}},
+                               {{"metres_per_tenth_degree", summary.per_tenth_degree.quantile(0.5)},
+                                {"metres_per_tenth_flux", summary.per_tenth_flux.quantile(0.5)},
+                                {"grid_error_m", summary.grid_error.quantile(0.5)}},
+                               summary.key.lane == "own"));
+}
+
+JsonMembers frame_members(StoredFrame& frame) {
+    return {
+        {"frame", frame.tick}, {"time_s", frame.time_s}, {"view", frame.view}, {"png", or_null(frame.png)}, {"exr", or_null(frame.exr)}};
+}
+
+JsonMembers sheet_members(StoredFrame& sheet) { return {{"frame", sheet.tick}, {"time_s", sheet.time_s}, {"png", sheet.png}}; }
+
+JsonMembers titled_sheet_members(StoredSheet& sheet) { return joined({{"what", sheet.what}}, sheet_members(sheet.picture)); }
+
+JsonMembers tried_members(TriedShadows& tried) {
+    return joined({{"method", shadow_method_part(tried.method)}},
+                  when(tried.error.has_value(), {{"error", tried.error.value_or(0.0)},
+                                                 {"worst_s", tried.worst_s},
+                                                 {"worst_variant", tried.worst_set},
+                                                 {"worst_view", tried.worst_view},
+                                                 {"pictures", tried.pictures}}),
+                  when(!tried.error, {{"refused", tried.refused}}));
+}
+
+JsonMembers choice_members(ShadowChoice& choice) {
+    return {{"chosen", shadow_method_part(choice.chosen)},
             {"why", choice.why},
             {"error_bound", choice.bound},
             {"moments", choice.ticks},
             {"moments_shadowed", choice.ticks_shadowed},
             {"moments_compared", choice.compared},
-            {"tried", list_of(choice.tried, tried)}};
+            {"tried", choice.tried, tried_members}};
 }
 
-Json drawn_shadows_json(const DrawnBy& drawn) {
-    Json settings = Json::object();
-    for (const auto& [key, text] : used_shadow_keys(drawn.shadows)) // numbers and lists of them, which JSON writes as YAML does
-        settings[std::string(key)] = Json::parse(text);
-    return {{"method", name(drawn.shadows.method)},
+/// Settings are numbers and lists of them, which JSON writes as YAML does.
+JsonMembers drawn_shadows_members(DrawnBy& drawn) {
+    const JsonPart settings(
+        [&drawn] {
+            Json used = Json::object();
+            for (const auto& [key, text] : used_shadow_keys(drawn.shadows))
+                used[std::string(key)] = Json::parse(text);
+            return used;
+        },
+        nullptr,
+        [] {
+            return Json{{"type", "object"}};
+        });
+    return {{"method", shadow_method_part(drawn.shadows.method)},
             {"things_cast", drawn.shadows.things_cast},
             {"settings", settings},
-            {"not_used", text_or_null(drawn.shadows_instead)}};
+            {"not_used", or_null(drawn.shadows_instead)}};
 }
 
-Json shown_by_json(const DrawnBy& drawn) {
+JsonMembers shown_by_members(DrawnBy& drawn) {
     const DisplayProfile display = display_of(drawn);
-    const bool has_s = drawn.tone_mapper.kind == ToneMapperKind::rational || drawn.tone_mapper.kind == ToneMapperKind::logarithmic;
-    const auto shown = [&](double seen) { return Json{{"seen_cdm2", seen}, {"shown_cdm2", seven_digits(shown_cdm2(drawn, seen))}}; };
+    const ToneMapperKind kind = drawn.tone_mapper.kind;
+    const bool has_s = kind == ToneMapperKind::rational || kind == ToneMapperKind::logarithmic;
+    std::vector<std::pair<double, double>> luminances;
+    for (const double seen : {0.1, 1.0, 10.0})
+        luminances.emplace_back(seen, seven_digits(shown_cdm2(drawn, seen)));
+    const auto luminance_members = [](std::pair<double, double>& seen) -> JsonMembers {
+        return {{"seen_cdm2", seen.first}, {"shown_cdm2", seen.second}};
+    };
     return {{"text", shown_by(drawn.display, drawn.tone_mapper)},
-            {"tone_mapper", name(drawn.tone_mapper.kind)},
-            {"s", has_s ? Json(drawn.tone_mapper.s) : Json(nullptr)},
+            {"tone_mapper", name(kind)},
+            {"s", has_s ? std::optional(drawn.tone_mapper.s) : std::nullopt},
             {"white_cdm2", drawn.tone_mapper.l_max_cdm2},
             {"display", display.name},
             {"gamut", display.gamut == GamutRule::clip ? "clip" : "keep-luminance"},
             {"peak_cdm2", seven_digits(display.peak_cdm2())},
             {"black_cdm2", display.black_cdm2},
             {"stages", display_stages(drawn)},
-            {"luminances", list_of(std::array{0.1, 1.0, 10.0}, shown)}};
+            {"luminances", std::move(luminances), luminance_members}};
 }
 
-Json seen_display_json(const SeenDisplay& seen) {
-    Json views = Json::array();
-    for (const SeenView& view : seen.views) {
-        const std::optional<double> resolved = view.resolved();
-        Json row{{"view", view.view},
-                 {"scene_pixel_arcmin", view.size.scene_pixel_arcmin},
-                 {"display_pixel_arcmin", view.size.display_pixel_arcmin},
-                 {"magnification", view.size.magnification()},
-                 {"life_size_m", view.size.life_size_m},
-                 {"finer_than_eye_by_day", view.finer_by_day()},
-                 {"pictures", view.pictures},
-                 {"mean_cdm2", or_null(view.mean_cdm2)},
-                 {"resolved_arcmin", or_null(resolved)},
-                 {"finer_than_eye", resolved ? Json(view.size.display_pixel_arcmin <= *resolved) : Json(nullptr)}};
-        if (!view.mean_cdm2)
-            row["not_measured"] = "no picture of this view was shown by the profile";
-        views.push_back(std::move(row));
-    }
+JsonMembers seen_view_members(SeenView& view) {
+    const std::optional<double> resolved = view.resolved();
+    return joined({{"view", view.view},
+                   {"scene_pixel_arcmin", view.size.scene_pixel_arcmin},
+                   {"display_pixel_arcmin", view.size.display_pixel_arcmin},
+                   {"magnification", view.size.magnification()},
+                   {"life_size_m", view.size.life_size_m},
+                   {"finer_than_eye_by_day", view.finer_by_day()},
+                   {"pictures", view.pictures},
+                   {"mean_cdm2", view.mean_cdm2},
+                   {"resolved_arcmin", resolved},
+                   {"finer_than_eye", resolved ? std::optional(view.size.display_pixel_arcmin <= *resolved) : std::nullopt}},
+                  when(!view.mean_cdm2, {{"not_measured", "no picture of this view was shown by the profile"}}));
+}
+
+JsonMembers seen_display_members(SeenDisplay& seen) {
     return {{"profile", seen.profile},
             {"viewing_distance_m", seen.viewing_distance_m},
             {"pixel_pitch_mm", seen.pixel_pitch_mm},
-            {"views", views}};
+            {"views", seen.views, seen_view_members}};
 }
 
 /// Null where the run was told to leave it out.
-Json accuracy_json(const DriveError& error) {
-    if (!error.measured())
-        return error.not_measured.empty() ? Json(nullptr) : Json{{"not_measured", error.not_measured}};
-    Json out = {{"frames", error.ticks},
-                {"width_px", error.width_px},
-                {"height_px", error.height_px},
-                {"rays", error.rays},
-                {"road", errors_json(error.road, "", error.ticks)},
-                {"road_p95_by_moment", error.road_p95},
-                {"whole_view", errors_json(error.whole, "", error.ticks)},
-                {"target", errors_json(error.target, error.no_target, error.ticks)},
-                {"luminance", errors_json(error.luminance, error.no_luminance, error.ticks)},
-                {"reach", reach_json(error.reach)}};
-    if (error.lamp_radius_m > 0.0)
-        out["lamp_radius_m"] = error.lamp_radius_m;
-    return out;
+JsonPart accuracy_part(DriveError& error) {
+    const Ticks ticks = [&error] { return error.ticks; };
+    return null_unless(
+        error.measured() || !error.not_measured.empty(),
+        joined(when(error.measured(), {{"frames", error.ticks},
+                                       {"width_px", error.width_px},
+                                       {"height_px", error.height_px},
+                                       {"rays", error.rays},
+                                       {"road", errors_part(error.road, "", nullptr, ticks)},
+                                       {"road_p95_by_moment", error.road_p95},
+                                       {"whole_view", errors_part(error.whole, "", nullptr, ticks)},
+                                       {"target", errors_part(error.target, error.no_target, &error.no_target, ticks)},
+                                       {"luminance", errors_part(error.luminance, error.no_luminance, &error.no_luminance, ticks)},
+                                       {"reach", error.reach, reach_members}}),
+               when(error.measured() && error.lamp_radius_m > 0.0, {{"lamp_radius_m", error.lamp_radius_m}}),
+               when(!error.measured(), {{"not_measured", error.not_measured}})));
 }
 
-/// Columns with an entry per moment; only the actuators that the lamp set has.
-Json car_json(const std::vector<CarRow>& rows) {
-    Json columns;
-    for (const CarRow& row : rows) {
-        columns["time_s"].push_back(row.time_s);
-        columns["pitch_deg"].push_back(row.pitch_deg);
-        columns["rear_lift_mm"].push_back(row.rear_lift_mm);
-        if (row.levelling_deg)
-            columns["levelling_deg"].push_back(*row.levelling_deg);
-        if (row.swivel_deg)
-            columns["swivel_deg"].push_back(*row.swivel_deg);
-    }
-    return columns;
+/// What the columns of each subject are, whose figures lie in the moments' CSV.
+JsonMembers seeing_members(SeeingSeries& series) {
+    const auto column_members = [](SeeingSeries::Column& column) -> JsonMembers {
+        return {{"name", column.name}, {"what", column.label}, {"unit", column.unit}};
+    };
+    return {{"subject", series.subject}, {"over", series.over}, {"columns", series.columns, column_members}};
 }
 
-/// What comparing took, and what a frame takes.
-Json accuracy_times_json(const Report& report) {
-    Json out = Json::array();
-    for (const PlayedVariant& played : report.played)
-        if (played.error.measured())
-            out.push_back({{"drive", played.drive},
-                           {"variant", played.variant},
-                           {"frame_s", or_null(played.throughput.view_s)},
-                           {"comparing_s", played.error.seconds}});
-    return out;
+constexpr const char* state_names[] = {"fresh", "stale", "missing", "out_of_range", "contradictory"};
+
+JsonMembers by_state(std::array<std::uint64_t, 5>& counts) {
+    JsonMembers members;
+    for (std::size_t state = 0; state < counts.size(); ++state)
+        members.emplace_back(state_names[state], counts[state]);
+    return members;
 }
 
-Json timing_json(const Report& report) {
-    Json out = Json::array();
-    for (const PlayedVariant& played : report.played)
-        for (const PassTime& pass : played.passes)
-            out.push_back({{"drive", played.drive},
-                           {"variant", played.variant},
-                           {"pass", pass.name},
-                           {"warm_up_dropped", played.warm_up_dropped},
-                           {"spread_s", spread_json(spread_of(pass.seconds))},
-                           {"samples_s", pass.seconds}});
-    return out;
+JsonMembers state_members(std::pair<double, std::size_t>& state) {
+    const auto names = [] { return std::vector<std::string>(std::begin(state_names), std::end(state_names)); };
+    return {{"from_s", microseconds(state.first).value()}, {"state", one_of(state.second, names)}};
 }
 
-/// Rates per second, shares of what drawing alone would reach.
-Json throughput_json(const Report& report) {
-    Json out = Json::array();
-    for (const PlayedVariant& played : report.played) {
-        const Throughput& t = played.throughput;
-        const auto per_s = [](const std::optional<double>& seconds) { return seconds ? std::optional(1.0 / *seconds) : std::nullopt; };
-        out.push_back({{"drive", played.drive},
-                       {"variant", played.variant},
-                       {"moments", t.moments},
-                       {"wall_s", t.wall_s},
-                       {"moments_per_s", or_null(t.moments_per_s())},
-                       {"driver_view_alone_per_s", or_null(per_s(t.view_s))},
-                       {"all_drawing_alone_per_s", or_null(per_s(t.drawing_s))},
-                       {"share_of_driver_view_alone", or_null(t.share_of(t.view_s))},
-                       {"share_of_all_drawing_alone", or_null(t.share_of(t.drawing_s))},
-                       {"peak_memory_mib", t.peak_memory_mib}});
-    }
-    return out;
+JsonMembers input_members(BusSignalReport& signal) {
+    JsonTexts policies;
+    for (std::size_t state = 0; state < signal.policies.size(); ++state)
+        if (!signal.policies[state].empty())
+            policies.emplace_back(state_names[state], signal.policies[state]);
+    return {{"name", signal.name},
+            {"source", signal.source},
+            {"also", or_null(signal.also)},
+            {"tolerance", seven_digits(signal.tolerance)},
+            {"unit", signal.unit},
+            {"frames", signal.frames},
+            {"changes", signal.changes},
+            {"age_max_s", signal.frames > 0 ? microseconds(signal.oldest_s) : std::nullopt},
+            {"stale_after_s", microseconds(signal.stale_after_s)},
+            {"last_change_s", microseconds(signal.changed_s)},
+            {"ticks", by_state(signal.ticks)},
+            {"policy_acted", by_state(signal.acted)},
+            {"unchecked", signal.unchecked},
+            {"policies", JsonTexts(policies)},
+            {"states", signal.states, state_members}};
 }
 
-Json work_json(const Work& work) {
+JsonMembers stamp_members(SignalStamp& signal) {
+    return {{"name", signal.name},
+            {"unit", signal.unit},
+            {"last_change_s", microseconds(signal.changed_s).value()},
+            {"age_s", microseconds(signal.age_s)}};
+}
+
+JsonMembers bus_members(BusReport& bus) {
+    return {{"log", or_null(bus.log)},      {"start_s", microseconds(bus.start_s).value()},
+            {"frames", bus.frames},         {"frames_read", bus.read},
+            {"frames_sent", bus.sent},      {"inputs", bus.signals, input_members},
+            {"all", bus.all, stamp_members}};
+}
+
+JsonMembers played_members(PlayedVariant& played) {
+    return joined({{"drive", played.drive},
+                   {"variant", played.variant},
+                   {"technique", played.technique},
+                   {"lamps", played.lamps},
+                   {"inputs", played.inputs},
+                   {"ticks_planned", played.ticks_planned},
+                   {"ticks_done", played.ticks_done},
+                   {"repeats", repeats_members(played.repeats)},
+                   {"verdicts", played.verdicts, verdict_members},
+                   {"left_out", played.left_out},
+                   {"notes", played.notes},
+                   {"summary", std::as_const(played.extent_summaries), summary_members},
+                   {"frames", played.frames, frame_members},
+                   {"contact_sheet", null_unless(!played.contact_sheet.png.empty(), sheet_members(played.contact_sheet))},
+                   {"accuracy", accuracy_part(played.error)}},
+                  when(played.drawn_by != nullptr, {{"shadows", value_of(played.drawn_by), drawn_shadows_members},
+                                                    {"shown_by", value_of(played.drawn_by), shown_by_members}}),
+                  when(played.shadows != nullptr, {{"shadow_choice", value_of(played.shadows), choice_members}}),
+                  when(played.display != nullptr, {{"display", value_of(played.display), seen_display_members}}),
+                  when(!played.more_sheets.empty(), {{"more_sheets", played.more_sheets, titled_sheet_members}}),
+                  when(!played.seeing.empty(), {{"seeing", played.seeing, seeing_members}}),
+                  when(!played.bus.empty(), {{"signals", bus_members(played.bus)}}));
+}
+
+JsonMembers pass_members(PassTime& pass) {
+    return {{"pass", pass.name}, {"spread_s", spread_of(pass.seconds), spread_members}, {"samples_s", pass.seconds}};
+}
+
+JsonMembers throughput_members(Throughput& t) {
+    return {{"moments", t.moments},
+            {"wall_s", t.wall_s},
+            {"driver_view_s", t.view_s},
+            {"all_drawing_s", t.drawing_s},
+            {"peak_memory_mib", t.peak_memory_mib}};
+}
+
+JsonMembers counted_work_members(Work& work) {
     return {
         {"passes", work.passes},     {"draws", work.draws},         {"calls", work.calls},         {"samplers", work.samplers},
         {"features", work.features}, {"triangles", work.triangles}, {"fragments", work.fragments}, {"texture_bytes", work.texture_bytes}};
 }
 
+JsonPart drawn_part(std::vector<double>& seconds, Work& work) {
+    return null_unless(
+        !seconds.empty(),
+        JsonMembers{{"spread_s", spread_of(seconds), spread_members}, {"samples_s", seconds}, {"work", counted_work_members(work)}});
+}
+
+JsonMembers ratio_members(PairedRatio& ratio) {
+    return {{"rounds", ratio.rounds},
+            {"median", ratio.median},
+            {"p05", ratio.p05},
+            {"p95", ratio.p95},
+            {"verdict", one_of(ratio.difference, names_of<Difference>(difference_name, 3))}};
+}
+
 /// Where nothing was measured, times and counts are null.
-Json savings_json(const Report& report) {
-    Json out = Json::array();
-    for (const PlayedVariant& played : report.played) {
-        const Savings& s = played.savings;
-        const std::optional<PairedRatio> ratio = s.ratio();
-        Json entry{{"drive", played.drive}, {"variant", played.variant}, {"frames", s.ticks}};
-        for (const auto& [name, samples, work] :
-             {std::tuple("pruned", &s.pruned_s, &s.pruned), std::tuple("unpruned", &s.unpruned_s, &s.unpruned)})
-            entry[name] = ratio ? Json{{"spread_s", spread_json(spread_of(*samples))}, {"samples_s", *samples}, {"work", work_json(*work)}}
-                                : Json(nullptr);
-        entry["ratio"] = ratio ? Json{{"rounds", ratio->rounds},
-                                      {"median", ratio->median},
-                                      {"p05", ratio->p05},
-                                      {"p95", ratio->p95},
-                                      {"verdict", difference_name(ratio->difference)}}
-                               : Json(nullptr);
-        if (!ratio)
-            entry["not_measured"] = s.not_measured;
-        out.push_back(std::move(entry));
+JsonMembers savings_members(Savings& savings) {
+    return joined({{"frames", savings.ticks},
+                   {"pruned", drawn_part(savings.pruned_s, savings.pruned)},
+                   {"unpruned", drawn_part(savings.unpruned_s, savings.unpruned)},
+                   {"ratio", savings.ratio(), ratio_members}},
+                  when(!savings.ratio(), {{"not_measured", savings.not_measured}}));
+}
+
+/// What no two runs agree on.
+JsonMembers times_members(PlayedVariant& played) {
+    return {{"drive", played.drive},
+            {"variant", played.variant},
+            {"warm_up_dropped", played.warm_up_dropped},
+            {"passes", played.passes, pass_members},
+            {"throughput", throughput_members(played.throughput)},
+            {"comparing_s", or_null(played.error.seconds)},
+            {"savings", savings_members(played.savings)}};
+}
+
+/// One for each of the drives, which are read before.
+JsonPart times_part(std::vector<PlayedVariant>& played) {
+    return {[&played] { return as_json(played, times_members); },
+            [&played](const CheckedJson& json) {
+                const std::vector<CheckedJson> entries = json.items();
+                if (entries.size() != played.size())
+                    json.refuse(fmt::format("{} entries, as drives has", played.size()));
+                for (std::size_t i = 0; i < entries.size(); ++i)
+                    JsonPart(times_members(played[i])).read(entries[i]);
+            },
+            [] {
+                std::vector<PlayedVariant> none;
+                return json_part(none, times_members).schema();
+            }};
+}
+
+JsonMembers report_members(Report& report) {
+    const auto names = names_of<VerdictKind>(verdict_name, 4);
+    const JsonPart verdict([&report] { return Json(verdict_name(overall(report))); }, nullptr, [names] { return Json{{"enum", names()}}; });
+    const JsonPart live([&report] { return live_json(*report.live); }, nullptr,
+                        [] {
+                            LiveFigures none;
+                            return JsonPart(live_members(none)).schema();
+                        });
+    return joined({{"schema", json_constant("fernlicht report")},
+                   {"schema_version", json_constant(2)},
+                   {"verdict", verdict},
+                   {"verdict_counts", count_verdicts(report), count_members},
+                   {"known_failures", report.listed, verdict_members},
+                   {"warnings", report.warnings},
+                   {"complete", report.complete},
+                   {"interrupted", or_null(report.interrupted)},
+                   {"drives", report.played, played_members},
+                   {"context", context_members(report.context)},
+                   {"times", times_part(report.played)}},
+                  when(report.live != nullptr, {{"live", live}}));
+}
+
+/// Rows tell drive and lamp set by name.
+void take_readings(const CsvFile& csv, Report& report) {
+    const std::size_t drive = csv.column("drive"), set = csv.column("lamp_set"), frame = csv.column("frame"), name = csv.column("name"),
+                      unit = csv.column("unit"), bound = csv.column("bound"), value = csv.column("value"), reason = csv.column("reason"),
+                      where = csv.column("where");
+    for (std::size_t i = 0; i < csv.rows.size(); ++i) {
+        const std::vector<std::string>& row = csv.rows[i];
+        const auto key = key_of(row[name]);
+        if (!key)
+            csv.refuse(i, name, "the name of a reading");
+        if (row[unit] != unit_of(*key))
+            csv.refuse(i, unit, std::string("the unit ") + unit_of(*key));
+        Reading reading{*key, Value::not_measured(row[reason]), row[where],
+                        row[frame].empty() ? -1 : static_cast<int>(csv.number(i, frame))};
+        if (!row[value].empty()) {
+            const double number = csv.number(i, value);
+            reading.value = row[bound].empty()         ? Value(number)
+                            : row[bound] == "at_least" ? Value::at_least(number)
+                            : row[bound] == "at_most"  ? Value::at_most(number)
+                                                       : (csv.refuse(i, bound, "at_least or at_most"), Value());
+        }
+        for (PlayedVariant& played : report.played)
+            if (clean_text(played.drive) == row[drive] && clean_text(played.variant) == row[set])
+                played.readings.push_back(reading);
     }
-    return out;
 }
 
 } // namespace
 
-nlohmann::ordered_json played_json(const PlayedVariant& played) {
-    const auto frame_json = [](const StoredFrame& frame) {
-        return Json{{"frame", frame.tick},
-                    {"time_s", frame.time_s},
-                    {"view", frame.view},
-                    {"png", text_or_null(frame.png)},
-                    {"exr", text_or_null(frame.exr)}};
-    };
-    Json json{{"drive", played.drive},
-              {"variant", played.variant},
-              {"technique", played.technique},
-              {"lamps", pairs(played.lamps)},
-              {"inputs", pairs(played.inputs)},
-              {"ticks_planned", played.ticks_planned},
-              {"ticks_done", played.ticks_done},
-              {"repeats", repeats_json(played.repeats)},
-              {"verdicts", verdicts_json(played.verdicts)},
-              {"left_out", played.left_out},
-              {"notes", played.notes},
-              {"summary", summary_json(played)},
-              {"frames", list_of(played.frames, frame_json)},
-              {"contact_sheet", contact_sheet_json(played.contact_sheet)},
-              {"speed_mps", played.speed_mps},
-              {"accuracy", accuracy_json(played.error)},
-              {"extents", extents_json(played)}};
-    if (played.drawn_by) {
-        json["shadows"] = drawn_shadows_json(*played.drawn_by);
-        json["shown_by"] = shown_by_json(*played.drawn_by);
-    }
-    if (played.shadows)
-        json["shadow_choice"] = shadow_choice_json(*played.shadows);
-    if (played.display)
-        json["display"] = seen_display_json(*played.display);
-    if (!played.more_sheets.empty())
-        json["more_sheets"] = more_sheets_json(played.more_sheets);
-    if (!played.seeing.empty())
-        json["seeing"] = seeing_json(played.seeing);
-    if (!played.car.empty())
-        json["car"] = car_json(played.car);
-    if (!played.bus.empty())
-        json["signals"] = signals_json(played.bus);
-    return json;
-}
+nlohmann::ordered_json played_json(const PlayedVariant& played) { return as_json(played, played_members); }
 
 std::string report_json(const Report& report) {
-    Json whole{{"schema", "fernlicht report"},
-               {"schema_version", 1},
-               {"verdict", verdict_name(overall(report))},
-               {"verdict_counts", counts_json(count_verdicts(report))},
-               {"known_failures", verdicts_json(report.listed)},
-               {"warnings", report.warnings},
-               {"complete", report.complete},
-               {"interrupted", report.complete ? Json(nullptr) : Json(report.interrupted)},
-               {"rows", rows_json(report)},
-               {"drives", list_of(report.played, played_json)},
-               {"context", context_json(report.context)},
-               {"timing", timing_json(report)},
-               {"throughput", throughput_json(report)},
-               {"accuracy_times", accuracy_times_json(report)},
-               {"savings", savings_json(report)}};
-    if (report.live)
-        whole["live"] = live_json(*report.live);
+    const Json whole = as_json(report, report_members);
     refuse_no_numbers(whole, "");
     return json_text(whole);
+}
+
+std::string report_json_schema() { return json_schema(report_members); }
+
+Report read_report(const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / "report.json";
+    const CheckedJson json = CheckedJson::read(file);
+    if (const CheckedJson schema = json.at("schema"); schema.text() != "fernlicht report")
+        schema.refuse("fernlicht report");
+    if (json.at("schema_version").whole() != 2)
+        throw InputError({file, 0, 0, {}}, "was written by another version of this program", "a run of this version: play it again");
+    if (const CheckedJson complete = json.at("complete"); !complete.truth())
+        complete.refuse("a complete run");
+    Report report = from_json<Report>(json, report_members);
+    take_readings(read_csv(folder / "readings.csv"), report);
+    return report;
 }
 
 } // namespace fernlicht

@@ -1,7 +1,7 @@
 #include "runner/experiments/run/run_document.h"
 
-#include "runner/experiments/run/report_writers.h"
 #include "runner/experiments/run/run_plots.h"
+#include "runner/experiments/run/run_report.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/findings/figures.h"
@@ -114,17 +114,6 @@ void add_costs(const ComparedDrive& drive, Sections& sections) {
 
 } // namespace
 
-std::vector<ComparedDrive> compared_drives(const Report& report) {
-    std::vector<ComparedDrive> drives;
-    for (const PlayedVariant& played : report.played) {
-        auto found = std::ranges::find(drives, played.drive, &ComparedDrive::name);
-        if (found == drives.end())
-            found = drives.insert(drives.end(), ComparedDrive{played.drive, {}});
-        found->variants.push_back(&played);
-    }
-    return drives;
-}
-
 Cell lamp_cell(const ComparedDrive& drive, std::size_t index) {
     return Cell::of_series(short_text(drive.variants[index]->variant, 40), index);
 }
@@ -182,6 +171,17 @@ void add_course(const ComparedDrive& drive, Sections& sections) {
                    "lamps.",
                    drive.name + "-seeing", seeing_svgs(drive));
     add_costs(drive, sections);
+}
+
+RunPage run_page(const Report& report) {
+    RunPage page{verdict_section(report), report.live ? Sections{live_section(*report.live)} : Sections(), {}};
+    for (ComparedDrive& drive : compared_drives(report)) {
+        RunPage::OfDrive& part = page.drives.emplace_back(RunPage::OfDrive{std::move(drive), {}, {}});
+        add_extents(part.drive, part.extents);
+        for (const auto add : {add_course, add_accuracy, add_details, add_drawing})
+            add(part.drive, part.others);
+    }
+    return page;
 }
 
 Document document(const Report& report) {

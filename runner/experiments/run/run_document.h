@@ -1,17 +1,9 @@
 // A run's report as sections of a document.
 #pragma once
 
-#include "runner/findings/document.h"
-#include "runner/findings/report.h"
+#include "runner/findings/run_page.h"
 
 namespace fernlicht {
-
-/// One drive with every lamp set that it was played with, in the order of the report.
-struct ComparedDrive {
-    std::string name;
-    std::vector<const PlayedVariant*> variants;
-};
-std::vector<ComparedDrive> compared_drives(const Report& report);
 
 /// A lamp set's name beside its colour.
 Cell lamp_cell(const ComparedDrive& drive, std::size_t index);

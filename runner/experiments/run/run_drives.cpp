@@ -1,5 +1,5 @@
 #include "runner/experiments/run/run_drives.h"
-#include "runner/experiments/run/report_writers.h"
+#include "runner/experiments/run/run_report.h"
 
 #include "renderer/renderer.h"
 #include "renderer/sanity.h"
@@ -289,7 +289,7 @@ void repeat_drive(const Stage& stage, Device& device, const RendererSettings& se
 void repeat(const std::deque<Stage>& stages, Device& device, const RendererSettings& settings, const RunOptions& options, Report& report) {
     std::vector<RepeatFold> folds;
     for (const PlayedVariant& played : report.played)
-        folds.emplace_back(played, options.folder);
+        folds.emplace_back(played, options.folder, played_json);
     std::vector<std::span<RepeatFold>> by_drive;
     std::size_t first = 0;
     for (const Stage& stage : stages) {
@@ -383,7 +383,7 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
         failure = std::current_exception();
     }
     add_warnings(stages, drives, options.ticks, report);
-    write_report(report, options.folder, options.tables);
+    options.write(report, options.folder);
     if (failure)
         std::rethrow_exception(failure);
     if (report.complete)

@@ -3,7 +3,8 @@
 
 #include "runner/judge/known_failures.h"
 #include "runner/play/play.h"
-#include "runner/write/document.h"
+
+#include <functional>
 
 namespace fernlicht {
 
@@ -17,15 +18,15 @@ struct RunOptions {
     bool across_devices = false;      ///< where this class of device has none, by those of others
     int repeats = 1;                  ///< plays of each lamp set; all must agree
     std::optional<KnownFailures> known;
-    std::string today;                      ///< 2026-12-31: by which known failures expire
-    bool accuracy = true;                   ///< hold a few moments of each lamp set against the reference
-    bool contact_sheet = false;             ///< add one moment of each lamp set, drawn in every technique
-    TableFormat tables = TableFormat::none; ///< of the page, as files, too
+    std::string today;          ///< 2026-12-31: by which known failures expire
+    bool accuracy = true;       ///< hold a few moments of each lamp set against the reference
+    bool contact_sheet = false; ///< add one moment of each lamp set, drawn in every technique
     std::vector<std::string> command;
+    std::function<void(const Report&, const std::filesystem::path& folder)> write; ///< at the end, or what was done until then
 };
 
-/// Plays the drives and writes the report, also when interrupted (SIGINT, SIGTERM) or stopped by an error, in which case what
-/// was done is kept, marked incomplete, and the error is thrown on.
+/// Plays the drives and hands the report over to be written, also when interrupted (SIGINT, SIGTERM) or stopped by an error, in which case
+/// what was done is kept, marked incomplete, and the error is thrown on.
 Report run_drives(const std::vector<Drive>& drives, const RunOptions& options);
 
 /// Reports and folders tell drives apart by their names. Throws InputError for two of one name.

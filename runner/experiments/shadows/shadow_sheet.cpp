@@ -3,7 +3,7 @@
 #include "runner/findings/figures.h"
 #include "runner/findings/plots/colour.h"
 #include "runner/findings/shadow_figures.h"
-#include "runner/write/tile_sheet.h"
+#include "runner/write/plots/tile_sheet.h"
 #include "scenarios/photometry.h"
 
 #include <algorithm>

@@ -92,20 +92,11 @@ Table readings_table(const StudyResult& result) {
     const bool several_lamps = result.study.comparisons.size() > 1;
     const bool several_conditions = std::ranges::any_of(
         result.cells, [&](const CellResult& cell) { return cell.cell.condition != result.cells.front().cell.condition; });
-    Table table{.name = "readings", .caption = "", .columns = {{"row"}}, .rows = {}, .sortable = true};
+    const std::string heads = std::string("row") + (several_lamps ? "|new / old<" : "") + "|drive<" +
+                              (several_conditions ? "|condition<" : "") + "|reading<|old|new|change|%|± calc.|± noise|± aim|unit<|is<";
+    Table table{.name = "readings", .caption = "", .columns = columns_of(heads), .rows = {}, .sortable = true, .led_to = true};
     if (!several_lamps && !result.study.comparisons.empty())
         table.caption = fmt::format("new: {}; old: {}", result.study.comparisons.front().tested, result.study.comparisons.front().against);
-    const auto words = [&](const char* head) { table.columns.push_back({.head = head, .words = true}); };
-    if (several_lamps)
-        words("new / old");
-    words("drive");
-    if (several_conditions)
-        words("condition");
-    words("reading");
-    for (const char* head : {"old", "new", "change", "%", "± calc.", "± noise", "± aim"})
-        table.columns.push_back({head});
-    words("unit");
-    words("is");
     for (std::size_t i = 0; i < result.changes.size(); ++i) {
         const Change& change = result.changes[i];
         if (!change.decides)
@@ -131,13 +122,7 @@ Table readings_table(const StudyResult& result) {
 
 /// What is red or known, and cells that were not played.
 Table failures_table(const StudyResult& result) {
-    Table table{"failures",
-                "Outside limits or references, or not measured",
-                {{.head = "what", .words = true},
-                 {.head = "where", .words = true},
-                 {.head = "found", .words = true},
-                 {.head = "repeat with", .words = true, .code = true}},
-                {}};
+    Table table{"failures", "Outside limits or references, or not measured", columns_of("what<|where<|found<|repeat with`"), {}};
     const auto add = [&](const std::string& where, const Verdict& verdict) {
         if (verdict.kind != VerdictKind::pass || is_red(verdict))
             table.rows.push_back(
@@ -241,14 +226,7 @@ Section views_section(const StudyResult& result) {
 }
 
 Table cells_table(const StudyResult& result) {
-    Table table{"cells",
-                "",
-                {{.head = "cell", .words = true},
-                 {.head = "condition", .words = true},
-                 {"95 % of the road within", "%"},
-                 {"frame", "ms"},
-                 {.head = "repeat with", .words = true, .code = true}},
-                {}};
+    Table table{"cells", "", columns_of("cell<|condition<|95 % of the road within [%]|frame [ms]|repeat with`"), {}};
     const auto figure_of = [](const std::optional<double>& value, double scale, int decimals) {
         return value ? Cell(figure(scale * *value, decimals), scale * *value) : Cell("not measured");
     };
@@ -342,13 +320,7 @@ Document study_summary(const StudyResult& result) {
 }
 
 Document study_paper(const StudyResult& result) {
-    Table table{"readings", "", {}, {}};
-    for (const char* head : {"new / old", "drive", "condition", "reading"})
-        table.columns.push_back({.head = head, .words = true});
-    for (const char* head : {"old", "new", "change", "±"})
-        table.columns.push_back({head});
-    for (const char* head : {"unit", "is"})
-        table.columns.push_back({.head = head, .words = true});
+    Table table{"readings", "", columns_of("new / old<|drive<|condition<|reading<|old|new|change|±|unit<|is<"), {}};
     const auto rounded = [](const Value& value, bool is_change) {
         return value.measured() ? cell_of(value, fmt::format(fmt::runtime(is_change ? "{:+.2f}" : "{:.2f}"), *value.figure())) : Cell("");
     };

@@ -1,9 +1,10 @@
 #include "runner/experiments/study/study_run.h"
 
 #include "runner/experiments/compare/lamps/lamp_against.h"
+#include "runner/experiments/run/run_report.h"
 #include "runner/experiments/study/study_document.h"
-#include "runner/files/checked_json.h"
 #include "runner/files/output_folder.h"
+#include "runner/findings/moment_columns.h"
 #include "runner/findings/run_context.h"
 #include "runner/play/capture.h"
 #include "runner/play/progress.h"
@@ -82,13 +83,12 @@ bool is_same_cell(const fs::path& folder, const Drive& drive, const TickRange& t
     FilesRead ignored;
     if (!fs::is_regular_file(folder / resolved_name(drive)) || read_file(folder / resolved_name(drive), ignored) != write_drive(drive))
         return false;
-    const CheckedJson report = CheckedJson::read(folder / "report.json");
+    const Report report = read_report(folder);
     std::map<std::string, std::string> hashes;
-    for (const CheckedJson& input : report.at("context").at("inputs").items())
-        hashes[input.at("path").text()] = input.at("xxh128").text();
+    for (const FileRead& input : report.context.inputs)
+        hashes[input.path.string()] = input.xxh128;
     const auto is_known = [&](const FileRead& file) { return file.path == drive.file || hashes[file.path.string()] == file.xxh128; };
-    const std::vector<CheckedJson> played = report.at("drives").items();
-    return played.size() == 1 && played.front().at("ticks_planned").whole() == ticks_to_play(drive, ticks) &&
+    return report.played.size() == 1 && report.played.front().ticks_planned == ticks_to_play(drive, ticks) &&
            std::ranges::all_of(drive.opened, is_known);
 }
 
@@ -161,14 +161,12 @@ std::string repeating(const StudyOptions& options, const fs::path& folder, const
 /// Fills a cell's result from the report in its folder. Throws InputError when that is no complete report of one drive.
 void read_cell_report(const fs::path& study_folder, CellResult& cell) {
     const std::string folder = "cells/" + cell.cell.name;
-    const CheckedJson report = CheckedJson::read(study_folder / folder / "report.json");
-    report.expect_schema("fernlicht report", 1);
-    if (const CheckedJson complete = report.at("complete"); !complete.truth())
-        complete.refuse("a complete run");
-    const std::vector<CheckedJson> drives = report.at("drives").items();
-    if (drives.size() != 1)
-        report.at("drives").refuse("one drive with one lamp set");
-    PlayedResult played = read_played(report, drives.front(), folder);
+    const Report report = read_report(study_folder / folder);
+    if (report.played.size() != 1)
+        throw InputError({study_folder / folder / "report.json", 0, 0, "drives"}, fmt::format("found {}", report.played.size()),
+                         "one drive with one lamp set");
+    const PlayedVariant& only = report.played.front();
+    PlayedResult played = played_result(only, read_csv(study_folder / folder / moments_file(only)), folder);
     static_cast<Steps&>(played) = cell; // the drive's, not the report's
     static_cast<PlayedResult&>(cell) = std::move(played);
 }

@@ -5,31 +5,35 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace fernlicht {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 const char* outage_name(CanOutage::Kind kind) {
     return kind == CanOutage::Kind::down ? "down" : kind == CanOutage::Kind::removed ? "removed" : "bus_off";
 }
 
-Json quantiles_json(const std::vector<double>& samples) {
-    if (samples.empty())
-        return nullptr;
-    return {{"p50", LiveFigures::quantile(samples, 0.5)},
-            {"p99", LiveFigures::quantile(samples, 0.99)},
-            {"max", LiveFigures::quantile(samples, 1.0)}};
+struct Lateness {
+    double p50, p99, max;
+};
+
+/// nullopt without samples.
+std::optional<Lateness> lateness_of(const LiveFigures& live, const std::vector<double>& samples) {
+    if (samples.empty() || !live.waited)
+        return std::nullopt;
+    return Lateness{LiveFigures::quantile(samples, 0.5), LiveFigures::quantile(samples, 0.99), LiveFigures::quantile(samples, 1.0)};
 }
 
-Json socket_json(const CanSocketFigures& socket) {
-    Json outages = Json::array();
-    for (const CanOutage& outage : socket.outages)
-        outages.push_back({{"kind", outage_name(outage.kind)},
-                           {"from_s", 1e-9 * static_cast<double>(outage.from_ns)},
-                           {"until_s", outage.until_ns == 0 ? Json(nullptr) : Json(1e-9 * static_cast<double>(outage.until_ns))}});
+JsonMembers lateness_members(Lateness& late) { return {{"p50", late.p50}, {"p99", late.p99}, {"max", late.max}}; }
+
+JsonMembers outage_members(CanOutage& outage) {
+    const double until_s = 1e-9 * static_cast<double>(outage.until_ns);
+    return {{"kind", one_of(outage.kind, names_of<CanOutage::Kind>(outage_name, 3))},
+            {"from_s", 1e-9 * static_cast<double>(outage.from_ns)},
+            {"until_s", outage.until_ns == 0 ? std::nullopt : std::optional(until_s)}};
+}
+
+JsonMembers socket_members(CanSocketFigures& socket) {
     return {{"received", socket.received},
             {"dropped", socket.dropped},
             {"error_frames", socket.error_frames},
@@ -41,9 +45,9 @@ Json socket_json(const CanSocketFigures& socket) {
             {"superseded", socket.superseded},
             {"not_sent", socket.not_sent},
             {"why_not_sent", socket.why_not_sent},
-            {"outages", outages},
+            {"outages", socket.outages, outage_members},
             {"receive_buffer_bytes", socket.receive_buffer_bytes},
-            {"kernel_filters", socket.filters < 0 ? Json(nullptr) : Json(socket.filters)}};
+            {"kernel_filters", or_null(socket.filters, -1)}};
 }
 
 /// "0.082 ms"
@@ -80,38 +84,36 @@ double LiveFigures::quantile(std::vector<double> samples, double share) {
 
 std::string candump_stamp(std::int64_t time_ns) { return fmt::format("{}.{:06}", time_ns / 1'000'000'000, time_ns / 1000 % 1'000'000); }
 
-nlohmann::ordered_json live_json(const LiveFigures& live) {
-    Json json{{"interface", live.interface.empty() ? Json(nullptr) : Json(live.interface)},
-              {"log", live.log.empty() ? Json(nullptr) : Json(live.log.string())},
-              {"start_s", candump_stamp(live.start_ns)},
-              {"period_s", live.period_s},
-              {"listened_s", live.listened_s},
-              {"ticks_planned", live.ticks_planned},
-              {"ticks", live.late_s.size()},
-              {"lateness_s", live.waited ? quantiles_json(live.late_s) : Json(nullptr)},
-              {"work_s", live.waited ? quantiles_json(live.work_s) : Json(nullptr)},
-              {"overruns", live.overruns},
-              {"real_time_priority", live.punctuality.no_priority.empty()},
-              {"locked_pages", live.punctuality.no_locked_pages.empty()},
-              {"clock_set_by_s", 1e-9 * static_cast<double>(live.clock_set_by_ns)},
-              {"frames_used", live.used},
-              {"frames_late", live.late},
-              {"latest_frame_s", live.latest_s},
-              {"frames_from_future", live.from_future},
-              {"frames_unused", live.unused},
-              {"socket", live.interface.empty() ? Json(nullptr) : socket_json(live.socket)},
-              {"outputs_due", live.outputs},
-              {"recording", live.recording.empty() ? Json(nullptr) : Json(live.recording.string())},
-              {"recorded", live.recorded},
-              {"not_recorded", live.not_recorded},
-              {"replay", live.replay}};
-    json["pictures"] = live.drawing ? Json{{"moments", live.moments},
-                                           {"drawn", live.drawn},
-                                           {"skipped", live.moments - live.drawn},
-                                           {"to_store", live.captures},
-                                           {"stored", live.captured}}
-                                    : Json(nullptr);
-    return json;
+JsonMembers live_members(LiveFigures& live) {
+    return {{"interface", or_null(live.interface)},
+            {"log", live.log.empty() ? std::nullopt : std::optional(live.log.string())},
+            {"start_s", candump_stamp(live.start_ns)},
+            {"period_s", live.period_s},
+            {"listened_s", live.listened_s},
+            {"ticks_planned", live.ticks_planned},
+            {"ticks", live.late_s.size()},
+            {"lateness_s", lateness_of(live, live.late_s), lateness_members},
+            {"work_s", lateness_of(live, live.work_s), lateness_members},
+            {"overruns", live.overruns},
+            {"real_time_priority", live.punctuality.no_priority.empty()},
+            {"locked_pages", live.punctuality.no_locked_pages.empty()},
+            {"clock_set_by_s", 1e-9 * static_cast<double>(live.clock_set_by_ns)},
+            {"frames_used", live.used},
+            {"frames_late", live.late},
+            {"latest_frame_s", live.latest_s},
+            {"frames_from_future", live.from_future},
+            {"frames_unused", live.unused},
+            {"socket", null_unless(!live.interface.empty(), socket_members(live.socket))},
+            {"outputs_due", live.outputs},
+            {"recording", live.recording.empty() ? std::nullopt : std::optional(live.recording.string())},
+            {"recorded", live.recorded},
+            {"not_recorded", live.not_recorded},
+            {"replay", live.replay},
+            {"pictures", null_unless(live.drawing, JsonMembers{{"moments", live.moments},
+                                                               {"drawn", live.drawn},
+                                                               {"skipped", live.moments - live.drawn},
+                                                               {"to_store", live.captures},
+                                                               {"stored", live.captured}})}};
 }
 
 std::string live_text(const LiveFigures& live) {

@@ -1,11 +1,11 @@
 // What a live run lost and how punctual it was.
 #pragma once
 
+#include "runner/files/described_json.h"
 #include "runner/play/live/can_socket.h"
 #include "runner/play/live/tick_clock.h"
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 
 namespace fernlicht {
 
@@ -47,7 +47,8 @@ struct LiveFigures {
 std::string candump_stamp(std::int64_t time_ns);
 
 /// Live figures for programs; times of outages from the drive's 0 s.
-nlohmann::ordered_json live_json(const LiveFigures& live);
+JsonMembers live_members(LiveFigures& live);
+inline nlohmann::ordered_json live_json(const LiveFigures& live) { return as_json(live, live_members); }
 /// For a terminal: a few lines.
 std::string live_text(const LiveFigures& live);
 

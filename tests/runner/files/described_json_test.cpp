@@ -2,6 +2,7 @@
 // FERNLICHT_WRITE_KEYS=1 writes the schemas (ci/write-keys), and the test fails once more.
 #include "runner/experiments/accuracy/accuracy_result.h"
 #include "runner/experiments/aliasing/aliasing_result.h"
+#include "runner/experiments/run/run_report.h"
 #include "runner/experiments/shadows/shadow_result.h"
 #include "runner/files/described_json.h"
 #include "scenarios/values/errors.h"
@@ -123,6 +124,7 @@ TEST(DescribedJson, IsTheSchema) {
     expect_schema("accuracy/accuracy.schema.json", accuracy_json_schema());
     expect_schema("shadows/shadows.schema.json", shadow_json_schema());
     expect_schema("aliasing/aliasing.schema.json", aliasing_json_schema());
+    expect_schema("run/report.schema.json", report_json_schema());
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "runner/experiments/run/report_writers.h"
+#include "runner/commands/run_files.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/report.h"
 #include "scenarios/values/errors.h"

@@ -1,17 +1,15 @@
 // What a drive asks to see, through the program: lamps of 206.25 cd everywhere within 30 degrees, figures by hand.
 #include "metrics/seeing/visibility.h"
 #include "tests/runner/program.h"
+#include "tests/runner/run_readings.h"
 
 #include <cmath>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <map>
-#include <nlohmann/json.hpp>
 
 namespace fernlicht {
 namespace {
 
-using nlohmann::json;
 using testing::HasSubstr;
 
 std::string drive_with(const std::string& measure) {
@@ -26,14 +24,6 @@ Outcome play(const TemporaryFolder& folder, const std::string& measure) {
     return run_program("run " + (folder / "drive.yaml") + " --quiet --no-accuracy --out " + (folder / "out"));
 }
 
-std::map<std::string, json> readings_of(const TemporaryFolder& folder) {
-    std::map<std::string, json> readings;
-    const json report = json::parse(content_of(folder / "out/report.json"));
-    for (const json& reading : report.at("rows"))
-        readings.emplace(reading.at("name").get<std::string>(), reading);
-    return readings;
-}
-
 // 50 m before the bumper is 50.2 m before the lamps, which stand 0.6 m to either side, 0.65 m up; the driver's eye 1.3 m before the rear
 // axle, 0.35 m left, 1.2 m up. The lane is 3.5 m wide and straight.
 TEST(SeeingRun, FiguresByHandAtFiftyMetres) {
@@ -43,8 +33,7 @@ TEST(SeeingRun, FiguresByHandAtFiftyMetres) {
         "  visibility: {targets: {own: {size_m: 0.18, reflectance: 0.5, level: 1}}, distances_m: [50]}\n  homogeneity: {least_lx: 0.001}\n"
         "  places: {what: [kerb, boards, markings], distances_m: [50]}\n");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-    const std::map<std::string, json> readings = readings_of(folder);
-    const auto value = [&](const std::string& name) { return readings.at(name).at("value").get<double>(); };
+    const auto value = [&](const std::string& name) { return tests::reading_of(folder / "out", name); };
     /// Of both lamps at a point so far beside the lane's centre and so high; on a face towards the lamps' axis where `upright`.
     const auto lit = [](double beside, double up, double normal) {
         double sum = 0.0;
@@ -78,19 +67,21 @@ TEST(SeeingRun, AnApproachCutShortSaysSo) {
                      "      passed: {at_m: 6, across: right-edge, above_m: 0.25}\n"
                      "  glare: {oncoming: {beyond: {at_m: 200, eye_height_m: 1.1}, by: {at_m: 6, eye_height_m: 1.1}}}\n");
     ASSERT_NE(outcome.exit_code, 2) << outcome.output;
-    const std::map<std::string, json> readings = readings_of(folder);
-    EXPECT_NEAR(readings.at("sensor_far_reach_1000lx_m").at("value").at("at_most").get<double>(), 190.0, 5.0) << "nearer was not driven";
-    EXPECT_THAT(readings.at("sensor_far_max_lx").at("where").get<std::string>(), HasSubstr("; the drive comes from 1"));
-    EXPECT_THAT(readings.at("glare_beyond_facing_max_lx").at("where").get<std::string>(), HasSubstr("(the drive comes from 1"));
-    EXPECT_EQ(readings.at("sensor_passed_reach_1000lx_m").at("value"), 0.0);
-    EXPECT_THAT(readings.at("sensor_passed_max_lx").at("where").get<std::string>(), testing::Not(HasSubstr("the drive comes")));
-    EXPECT_THAT(readings.at("glare_by_facing_max_lx").at("where").get<std::string>(), testing::Not(HasSubstr("the drive comes")));
+    const auto value = [&](const std::string& name) { return tests::reading_of(folder / "out", name); };
+    const auto where = [&](const std::string& name) { return tests::field_of(folder / "out", name, "where"); };
+    EXPECT_EQ(tests::field_of(folder / "out", "sensor_far_reach_1000lx_m", "bound"), "at_most");
+    EXPECT_NEAR(value("sensor_far_reach_1000lx_m"), 190.0, 5.0) << "nearer was not driven";
+    EXPECT_THAT(where("sensor_far_max_lx"), HasSubstr("; the drive comes from 1"));
+    EXPECT_THAT(where("glare_beyond_facing_max_lx"), HasSubstr("(the drive comes from 1"));
+    EXPECT_EQ(value("sensor_passed_reach_1000lx_m"), 0.0);
+    EXPECT_THAT(where("sensor_passed_max_lx"), testing::Not(HasSubstr("the drive comes")));
+    EXPECT_THAT(where("glare_by_facing_max_lx"), testing::Not(HasSubstr("the drive comes")));
 }
 
 TEST(SeeingRun, NobodyAskedNothingStands) {
     const TemporaryFolder folder;
     ASSERT_EQ(play(folder, "  probes: {kerb: {ahead_m: 33.6, left_m: -1.75}}\n").exit_code, 0);
-    for (const auto& [name, reading] : readings_of(folder))
+    for (const std::string& name : tests::moments_of(folder / "out/readings.csv", "name"))
         EXPECT_TRUE(name.starts_with("probe_") || name.find("_ms") != std::string::npos || name.find("pictures") != std::string::npos)
             << name;
 }

@@ -1,4 +1,4 @@
-#include "runner/experiments/run/report_writers.h"
+#include "runner/commands/run_files.h"
 #include "runner/judge/references.h"
 
 #include "runner/commands/accept_command.h"
@@ -396,13 +396,11 @@ TEST_F(References, AReaderIsWaitedFor) {
 
 TEST_F(References, ARunOfAnEarlierVersionIsRefusedWithWhatToDo) {
     std::string report = content_of(run.folder / "report.json");
-    for (std::size_t at = 0; (at = report.find("\"inputs\": {", at)) != std::string::npos; ++at)
-        report.replace(at, 8, "\"former\"");
+    report.replace(report.find("\"schema_version\": 2"), 19, "\"schema_version\": 1");
     std::ofstream(run.folder / "report.json", std::ios::trunc) << report;
     const Outcome refused = run_program("accept '" + run.folder.string() + "' --to '" + store.string() + "'");
     EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_THAT(refused.output,
-                HasSubstr("was written by a version that did not keep a run's inputs and repeats, expected a run of this version"));
+    EXPECT_THAT(refused.output, HasSubstr("was written by another version of this program, expected a run of this version: play it again"));
 }
 
 // The second lamp set's last frame is missing: by then the first set is copied already.

@@ -20,7 +20,7 @@ class RepeatedPlays : public ::testing::Test {
     /// The verdict on the first play with one more.
     Verdict verdict() {
         PlayedVariant& first = run.report.played[0];
-        RepeatFold fold(first, run.folder);
+        RepeatFold fold(first, run.folder, played_json);
         equal = fold.add(again.report.played[0], again.folder);
         PlayedVariant finished = first;
         fold.finish(finished, 2, "fernlicht run");

@@ -1,5 +1,5 @@
 // Whole drives with pictures that are made up: order, errors, memory, and techniques that compute no illuminance.
-#include "runner/experiments/run/report_writers.h"
+#include "runner/commands/run_files.h"
 #include "runner/findings/summary.h"
 #include "runner/judge/limits.h"
 #include "runner/play/frame_times.h"

@@ -9,36 +9,30 @@
 namespace fernlicht {
 namespace {
 
-Cell five_digits(const std::optional<double>& value) {
-    return value ? Cell(fmt::format("{:.5g}", *value + 0.0), *value) : Cell("not measured");
-}
+Cell figure_cell(const std::optional<double>& value) { return value ? Cell(four_digits(*value), *value) : Cell("not measured"); }
 
 Cell percent(double share) { return {signed_figure(100.0 * share, 1), 100.0 * share}; }
 
 std::string unit_words(const std::string& unit) { return unit == "deg" ? "°" : unit; }
 
 Table facts_table(const LampPairComparison& lamps) {
-    Table table{"figures", "± is how well the difference of two places is known", {{.head = "figure", .words = true}, {"A"}, {"B"}}, {}};
-    table.columns.insert(table.columns.end(),
-                         {{"B - A"}, {"%"}, {"±"}, {.head = "unit", .words = true}, {.head = "why not", .words = true}});
+    Table table{"figures", "± is how well the difference of two places is known", columns_of("figure<|A|B|B − A|%|±|unit<|why not<"), {}};
     for (const LampFact& fact : lamps.facts) {
         const bool known = fact.before && fact.now;
         const double change = known ? *fact.now - *fact.before + 0.0 : 0.0;
-        table.rows.push_back({fact.words, five_digits(fact.before), five_digits(fact.now),
-                              known ? Cell(fmt::format("{:+.5g}", change), change) : Cell(""),
+        table.rows.push_back({fact.words, figure_cell(fact.before), figure_cell(fact.now),
+                              known ? Cell((change > 0.0 ? "+" : "") + four_digits(change), change) : Cell(""),
                               known && fact.unit != "deg" && *fact.before != 0.0 ? percent(*fact.now / *fact.before - 1.0) : Cell(""),
-                              fact.uncertainty ? Cell(fmt::format("{:.2g}", *fact.uncertainty), *fact.uncertainty) : Cell(""),
-                              unit_words(fact.unit), fact.why_not});
+                              fact.uncertainty ? Cell(two_digits(*fact.uncertainty), *fact.uncertainty) : Cell(""), unit_words(fact.unit),
+                              fact.why_not});
     }
     return table;
 }
 
 Table zones_table(const LampDifference& difference) {
-    Table table{"zones",
-                "Clearest first",
-                {{"B over A, less 1", "%"}, {"±", "%"}, {"from", "°", "H"}, {"to", "°", "H"}, {"from", "°", "V"}, {"to", "°", "V"}},
-                {}};
-    table.columns.push_back({"directions"});
+    Table table{
+        "zones", "Clearest first", columns_of("B over A, less 1 [%]|± [%]|H from [°]|H to [°]|V from [°]|V to [°]|directions"), {}, false,
+        true};
     const auto degrees_cell = [](double deg) { return Cell(figure(deg, 2), deg); };
     for (const BeamZone& zone : difference.zones)
         table.rows.push_back({{signed_figure(100.0 * zone.share, 2), 100.0 * zone.share},
@@ -69,18 +63,13 @@ std::string limits_of(const ComparedRow& row) {
 Table rows_table(const LampPairComparison& lamps) {
     Table table{"regulation",
                 "Margins to the nearer limit, each lamp aimed as the procedure says; below 0 fails",
-                {{.head = "row", .words = true}, {.head = "limit", .words = true}, {.head = "unit", .words = true}, {"A"}, {"B"}},
+                columns_of("row<|limit<|unit<|A|B|margin: A [%]|margin: B [%]|margin: change [%]|A<|B<"),
                 {}};
-    table.columns.insert(table.columns.end(), {{"A", "%", "margin"},
-                                               {"B", "%", "margin"},
-                                               {"change", "%", "margin"},
-                                               {.head = "A", .words = true},
-                                               {.head = "B", .words = true}});
     const auto is_measured = [](const std::optional<RowResult>& found) { return found && found->verdict != RowVerdict::not_measured; };
     for (const ComparedRow& row : lamps.rows) {
         std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{row.id, limits_of(row), unit_words(row.any().unit)});
         for (const auto* found : {&row.before, &row.now})
-            cells.push_back(is_measured(*found) ? five_digits((*found)->found) : *found ? Cell("not measured") : Cell(""));
+            cells.push_back(is_measured(*found) ? figure_cell((*found)->found) : *found ? Cell("not measured") : Cell(""));
         for (const auto* found : {&row.before, &row.now})
             cells.push_back(is_measured(*found) ? percent((*found)->margin) : Cell(""));
         cells.push_back(is_measured(row.before) && is_measured(row.now) ? percent(row.now->margin - row.before->margin) : Cell(""));
@@ -97,7 +86,7 @@ Table rows_table(const LampPairComparison& lamps) {
 Document document(const LampPairComparison& lamps) {
     const LampFile &a = lamps.before.file, &b = lamps.now.file;
     Document document{short_text(name_beside(b, a), 80) + " against " + short_text(name_beside(a, b), 80), {}};
-    Table told{"difference", "", {{.head = "", .words = true}, {.head = "B against A", .words = true}}, {}};
+    Table told{"difference", "", columns_of("<|B against A<"), {}};
     for (const auto& [what, text] : difference_lines(b, a, lamps.difference))
         told.rows.push_back({what.empty() ? " " : what, text});
     document.sections.push_back(
@@ -116,8 +105,7 @@ Document document(const LampPairComparison& lamps) {
         beams.blocks.emplace_back(drawn.plot());
     if (!lamps.difference.zones.empty())
         document.sections.push_back({"Zones that differ", {zones_table(lamps.difference)}, 2, true});
-    Table files{"files", "", {{.head = "", .words = true}, {.head = "name", .words = true}, {.head = "format", .words = true}}, {}};
-    files.columns.push_back({.head = "file", .words = true});
+    Table files{"files", "", columns_of("<|name<|format<|file<"), {}};
     for (const auto& [side, lamp] : {std::pair("A, old", &lamps.before), std::pair("B, new", &lamps.now)})
         files.rows.push_back({side, lamp->file.name, lamp->file.format, lamp->path.string()});
     document.sections.push_back({"The files", {files}, 2, true});

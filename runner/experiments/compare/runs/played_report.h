@@ -1,8 +1,8 @@
-// What one drive with one lamp set came to, read back from a run's report.json.
+// What one drive with one lamp set came to, as a run's folder tells it.
 #pragma once
 
 #include "metrics/readings/significance.h"
-#include "runner/files/checked_json.h"
+#include "runner/files/csv_file.h"
 #include "runner/findings/report.h"
 
 namespace fernlicht {
@@ -32,7 +32,7 @@ struct PlayedResult : PlayedReadings {
     std::optional<double> frame_s;                        ///< a driver's view
 };
 
-/// One of the report's `drives`; its frames' paths begin with `folder` ("" for none). Throws InputError where the report is no report.
-PlayedResult read_played(const CheckedJson& report, const CheckedJson& played, const std::string& folder);
+/// Of one that was played; its frames' paths begin with `folder` ("" for none), its moments are those of moments_file().
+PlayedResult played_result(const PlayedVariant& played, const CsvFile& moments, const std::string& folder);
 
 } // namespace fernlicht

@@ -49,7 +49,8 @@ Table changes_table(const std::string& name, const std::string& caption) {
             .caption = caption,
             .columns = columns_of("row<|drive<|reading<|old|new|change|%|± calc.|± noise|± aim|unit<|is<"),
             .rows = {},
-            .sortable = true};
+            .sortable = true,
+            .led_to = true};
 }
 
 void add_change(Table& table, const DriveComparison& drive, const ReadingChange& change, const std::string& id) {
@@ -170,14 +171,7 @@ Table worst_frames_table(const DriveComparison& drive) {
         }
     Table table{"pictures-" + drive.name,
                 "Stored frames, and of each channel the one that differs most",
-                {{.head = "pictures", .words = true},
-                 {"frames"},
-                 {"equal"},
-                 {"RMSE"},
-                 {"largest"},
-                 {.head = "unit", .words = true},
-                 {"SSIM"},
-                 {"most at", "s"}},
+                columns_of("pictures<|frames|equal|RMSE|largest|unit<|SSIM|most at [s]"),
                 {}};
     for (const Channel& channel : channels) {
         const auto cell = [&](const char* name) {
@@ -203,10 +197,7 @@ Section drive_section(const RunComparison& runs, const DriveComparison& drive) {
     if (drive.settings.empty()) {
         blocks.emplace_back("Both were played with the same settings.");
     } else {
-        Table settings{"settings-" + drive.name,
-                       "What the drives set otherwise",
-                       {{.head = "key", .words = true}, {.head = "A", .words = true}, {.head = "B", .words = true}},
-                       {}};
+        Table settings{"settings-" + drive.name, "What the drives set otherwise", columns_of("key<|A<|B<"), {}};
         const auto shown = [](const std::string& value) { return value.empty() ? "not set" : short_text(value, 160); };
         for (std::size_t i = 0; i < std::min(most_settings, drive.settings.size()); ++i)
             settings.rows.push_back(
@@ -260,17 +251,9 @@ PictureStrip moment_strip(const DriveComparison& drive, const RunComparison& run
 Table frames_table(const DriveComparison& drive) {
     Table table{"frames-" + drive.name,
                 "Error figures of each frame and channel",
-                {{.head = "view", .words = true},
-                 {"at", "s"},
-                 {.head = "channel", .words = true},
-                 {.head = "unit", .words = true},
-                 {"largest"},
-                 {"RMSE"},
-                 {"PSNR", "dB"},
-                 {"pixels", "%"},
-                 {"SSIM"},
-                 {"FLIP"}},
+                columns_of("view<|at [s]|channel<|unit<|largest|RMSE|PSNR [dB]|pixels [%]|SSIM|FLIP"),
                 {},
+                true,
                 true};
     for (const FramePair& frame : drive.frames)
         for (const LayerComparison& layer : frame.comparison.layers) {
@@ -321,8 +304,7 @@ Document document(const RunComparison& runs) {
     for (const DriveComparison& drive : runs.drives)
         for (Section section : {drive_section(runs, drive), pictures_section(runs, drive)})
             document.sections.push_back(std::move(section));
-    Table folders{"runs", "", {{.head = "", .words = true}, {.head = "folder", .words = true}, {.head = "played", .words = true}}, {}};
-    folders.columns.insert(folders.columns.end(), {{.head = "with", .words = true}, {.head = "command", .words = true}});
+    Table folders{"runs", "", columns_of("<|folder<|played<|with<|command<"), {}};
     for (const auto& [label, run] : {std::pair("A, old", &runs.before), std::pair("B, new", &runs.now)})
         folders.rows.push_back({label, run->folder.string(), run->started_utc,
                                 run->version + ", " + run->backend + ", " + run->gl_renderer + ", " + run->cpu, run->command});

@@ -1,7 +1,9 @@
 #include "runner/experiments/compare/runs/run_folder.h"
 
 #include "runner/experiments/compare/runs/yaml_difference.h"
+#include "runner/experiments/run/run_report.h"
 #include "runner/files/output_folder.h"
+#include "runner/findings/moment_columns.h"
 #include "runner/play/capture.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/values/errors.h"
@@ -58,23 +60,22 @@ void read_resolved(const fs::path& folder, RunDrive& drive) {
             drive.road_hash = hash->second;
 }
 
-RunDrive read_drive_of(const fs::path& folder, const CheckedJson& report, const CheckedJson& played,
-                       const std::map<std::string, std::string>& hashes) {
+RunDrive read_drive_of(const fs::path& folder, const PlayedVariant& played, const std::map<std::string, std::string>& hashes) {
+    const CsvFile moments = read_csv(folder / moments_file(played));
     RunDrive drive;
-    static_cast<PlayedResult&>(drive) = read_played(report, played, "");
+    static_cast<PlayedResult&>(drive) = played_result(played, moments, "");
     drive.folder = folder;
-    drive.technique = played.at("technique").text();
+    drive.technique = played.technique;
     drive.hashes = hashes;
-    for (const CheckedJson& sample : played.at("speed_mps").items())
-        drive.time_s.push_back(sample.items().at(0).number());
-    for (const CheckedJson& pass : report.at("timing").items())
-        if (pass.at("drive").text() == drive.drive && pass.at("variant").text() == drive.variant)
-            for (const CheckedJson& sample : pass.at("samples_s").items())
-                drive.pass_s[pass.at("pass").text()].push_back(sample.number());
+    const std::size_t time = moments.column("time_s"), speed = moments.column("car.speed_mps");
+    for (std::size_t i = 0; i < moments.rows.size(); ++i)
+        drive.time_s.push_back(moments.number(i, time));
+    for (const PassTime& pass : played.passes)
+        drive.pass_s[pass.name] = pass.seconds;
     read_resolved(folder, drive);
     if (drive.step_m == 0.0 && drive.step_s > 0.0) // a storyboard says the speed: the fastest that was played
-        for (const CheckedJson& sample : played.at("speed_mps").items())
-            drive.step_m = std::max(drive.step_m, sample.items().at(1).number() * drive.step_s);
+        for (std::size_t i = 0; i < moments.rows.size(); ++i)
+            drive.step_m = std::max(drive.step_m, moments.number(i, speed) * drive.step_s);
     const YamlValue* title = member_of(drive.resolved, "title");
     drive.title = title ? title->text : drive.drive;
     return drive;
@@ -91,24 +92,17 @@ RunFolder read_run_folder(const fs::path& folder) {
         throw InputError({folder, 0, 0, {}}, "holds a run that did not end", "the folder of a run that was played to its end");
     if (!fs::is_regular_file(folder / "report.json", ignored))
         throw InputError({folder, 0, 0, {}}, "has no report.json", "a folder as fernlicht run leaves it");
-    const CheckedJson report = CheckedJson::read(folder / "report.json");
-    report.expect_schema("fernlicht report", 1);
-    if (const CheckedJson complete = report.at("complete"); !complete.truth())
-        complete.refuse("a complete run");
-    const CheckedJson context = report.at("context");
-    RunFolder run;
-    run.folder = folder;
-    run.command = context.at("command").text();
-    run.started_utc = context.at("started_utc").text();
-    run.version = context.at("versions").at("fernlicht").text();
-    run.backend = context.at("backend").text();
-    run.gl_renderer = context.at("gl_renderer").text();
-    run.cpu = context.at("cpu").text();
+    const Report report = read_report(folder);
+    const RunContext& context = report.context;
+    RunFolder run{folder, context.command, context.started_utc, "", context.backend, context.gl_renderer, context.cpu, {}};
+    for (const auto& [name, version] : context.versions)
+        if (name == "fernlicht")
+            run.version = version;
     std::map<std::string, std::string> hashes;
-    for (const CheckedJson& input : context.at("inputs").items())
-        hashes[input.at("path").text()] = input.at("xxh128").text();
-    for (const CheckedJson& played : report.at("drives").items())
-        run.drives.push_back(read_drive_of(folder, report, played, hashes));
+    for (const FileRead& input : context.inputs)
+        hashes[input.path.string()] = input.xxh128;
+    for (const PlayedVariant& played : report.played)
+        run.drives.push_back(read_drive_of(folder, played, hashes));
     return run;
 }
 

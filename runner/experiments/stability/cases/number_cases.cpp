@@ -1,8 +1,10 @@
 // Numbers themselves: rounding as IEEE 754 has it, denormals, the largest, and none that is not finite in a file.
 #include "renderer/reference/reference.h"
 #include "runner/experiments/run/run_drives.h"
+#include "runner/experiments/run/run_report.h"
 #include "runner/experiments/stability/trial.h"
 #include "runner/files/picture_file.h"
+#include "runner/findings/moment_columns.h"
 
 #include <algorithm>
 #include <cfenv>
@@ -168,6 +170,9 @@ Played play_to_the_end(StabilityBench& bench, const std::filesystem::path& drive
     options.quiet = true;
     options.ticks = {0, 1};
     options.backend = bench.backend();
+    options.write = [](const Report& report, const std::filesystem::path& folder) {
+        write_file(folder / "report.json", report_json(report));
+    };
     played.report = run_drives({read_drive(drive)}, options);
     return played;
 }
@@ -185,8 +190,10 @@ Found reports(StabilityBench& bench) {
             file);
         const Played played = play_to_the_end(bench, write_drive_file(bench, "report.yaml", more), "report");
         FilesRead read;
-        for (const char* text : {"report.json", "readings.csv", "times.csv"})
-            worst.add(static_cast<double>(not_numbers(read_file(played.folder / text, read))), fmt::format("{} with {}", text, file));
+        worst.add(static_cast<double>(not_numbers(read_file(played.folder / "report.json", read))),
+                  fmt::format("report.json with {}", file));
+        for (const PlayedVariant& variant : played.report.played) // which throws where a figure is no number
+            worst.add(moment_columns(variant).empty() ? std::nan("") : 0.0, fmt::format("moments with {}", file));
         std::size_t pictures = 0, values = 0, bad = 0;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(played.folder))
             if (entry.path().extension() == ".exr")

@@ -111,9 +111,8 @@ TEST_F(CompareCommand, ComparesLinearChannels) {
 }
 
 TEST_F(CompareCommand, JsonFitsItsSchemaAndIsTheSameTwice) {
-    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/experiments/compare/compare.schema.json")));
     const Outcome outcome = compare("a.exr", "b.exr", "--json --strictness same-light");
-    EXPECT_THAT(schema.check(json::parse(outcome.output)), IsEmpty());
+    EXPECT_THAT(tests::complaints(json::parse(outcome.output), "compare/compare"), IsEmpty());
     EXPECT_EQ(compare("a.exr", "b.exr", "--json --strictness same-light").output, outcome.output);
 }
 

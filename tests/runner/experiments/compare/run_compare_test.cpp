@@ -1,5 +1,6 @@
 // Two runs' folders against each other, through the program.
 #include "tests/runner/program.h"
+#include "tests/runner/run_readings.h"
 #include "tests/runner/schema_check.h"
 
 #include <algorithm>
@@ -44,13 +45,7 @@ class RunCompare : public ::testing::Test {
         return run_program("compare " + at(a) + " " + at(b) + " " + more);
     }
     static json report_of(const std::string& run) { return json::parse(content_of(at(run) + "/report.json")); }
-    static double row(const json& report, const std::string& name) {
-        for (const json& one : report.at("rows"))
-            if (one.at("name") == name && one.at("frame").is_null())
-                return one.at("value");
-        ADD_FAILURE() << name;
-        return 0.0;
-    }
+    static double row(const std::string& run, const std::string& name) { return tests::reading_of(at(run), name); }
     static json change_in(const json& drive, const std::string& reading) {
         for (const json& one : drive.at("changes"))
             if (one.at("reading") == reading)
@@ -84,10 +79,10 @@ TEST_F(RunCompare, EveryChangeIsThatOfTheReports) {
     const Outcome outcome = compare("halogen", "xenon", "--json");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
     const json found = json::parse(outcome.output);
-    tests::Schema schema(json::parse(content_of(FERNLICHT_SOURCE_DIR "/runner/experiments/compare/compare.schema.json")));
-    EXPECT_THAT(schema.check(found), IsEmpty());
+    EXPECT_THAT(tests::complaints(found, "compare/compare"), IsEmpty());
     EXPECT_EQ(found.at("kind"), "runs");
-    const json before = report_of("halogen"), now = report_of("xenon"), drive = found.at("drives").at(0);
+    const std::string before = "halogen", now = "xenon";
+    const json drive = found.at("drives").at(0);
     EXPECT_EQ(drive.at("old_variant"), "halogen-low");
     EXPECT_EQ(drive.at("new_variant"), "xenon-low");
     EXPECT_GT(drive.at("changes").size(), 100U);
@@ -100,8 +95,8 @@ TEST_F(RunCompare, EveryChangeIsThatOfTheReports) {
         EXPECT_EQ(change.at("change").get<double>(), row(now, name) - row(before, name)) << name;
     }
     // The rule of docs/studies.md, by the reports' own rows.
-    const auto open = [](const json& report) {
-        return row(report, "reach_1lx_road_own_grid_error_m") + row(report, "reach_1lx_road_own_twin_difference_m");
+    const auto open = [](const std::string& run) {
+        return row(run, "reach_1lx_road_own_grid_error_m") + row(run, "reach_1lx_road_own_twin_difference_m");
     };
     const json reach = change_in(drive, "reach_1lx_road_own_m");
     EXPECT_NEAR(reach.at("uncertainty").get<double>(), std::hypot(open(before), open(now)), 1e-12);

@@ -1,7 +1,9 @@
-#include "runner/experiments/run/report_writers.h"
+#include "runner/commands/run_files.h"
 #include "runner/files/clean_text.h"
 #include "runner/write/report_texts.h"
 #include "scenarios/values/errors.h"
+#include "tests/runner/program.h"
+#include "tests/runner/run_readings.h"
 #include "tests/runner/sample_report.h"
 
 #include <cmath>
@@ -14,6 +16,7 @@ namespace fernlicht {
 namespace {
 
 using nlohmann::json;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -54,35 +57,12 @@ TEST(Overall, WorstVerdictCounts) {
 TEST(ReportJson, HoldsWhatWasMeasured) {
     const Report report = tests::sample_report(3);
     const json whole = json::parse(report_json(report));
-    EXPECT_EQ(whole["schema_version"], 1);
+    EXPECT_EQ(whole["schema_version"], 2);
     EXPECT_EQ(whole["verdict"], "fail");
     EXPECT_EQ(whole["complete"], true);
     EXPECT_EQ(whole["context"]["inputs"][1]["xxh128"], "fedcba9876543210fedcba9876543210");
-    const json& drive = whole["drives"][0];
-    EXPECT_EQ(drive["extents"]["time_s"].size(), 3U);
-    for (const json& series : drive["extents"]["rendered"])
-        for (const char* const column : {"reach_centre_m", "area_m2", "reach_is_cut_off"})
-            EXPECT_EQ(series[column].size(), 3U) << series["lane"] << column;
-    EXPECT_NEAR(drive["extents"]["rendered"][0]["reach_centre_m"][0], report.played[0].extents[0].rendered[0].reach_centre_m, 5.1e-5);
-    EXPECT_EQ(whole["timing"][0]["samples_s"].size(), 3U);
-    EXPECT_EQ(whole["timing"][0]["pass"], "frame");
-}
-
-TEST(ReportJson, NotMeasuredIsNullWithItsReason) {
-    const json whole = json::parse(report_json(tests::sample_report(1)));
-    const json& row = whole["rows"][2];
-    EXPECT_EQ(row["name"], "glare_own_time_above_1lx_s");
-    EXPECT_TRUE(row["value"].is_null());
-    EXPECT_EQ(row["not_measured"], "nobody came towards the car");
-    EXPECT_TRUE(row["frame"].is_null());
-    EXPECT_FALSE(whole["rows"][1].contains("not_measured"));
-    EXPECT_EQ(whole["rows"][1]["frame"], 0);
-}
-
-TEST(ReportJson, ValuesRoundTripExactly) {
-    Report report = tests::sample_report(1);
-    report.played[0].readings[1].value = 0.1 + 0.2;
-    EXPECT_EQ(json::parse(report_json(report))["rows"][1]["value"].get<double>(), 0.1 + 0.2);
+    EXPECT_EQ(whole["times"][0]["passes"][0]["samples_s"].size(), 3U);
+    EXPECT_EQ(whole["times"][0]["passes"][0]["pass"], "frame");
 }
 
 TEST(ReportJson, RefusesNumbersThatAreNone) {
@@ -90,7 +70,7 @@ TEST(ReportJson, RefusesNumbersThatAreNone) {
         Report report = tests::sample_report(1);
         EXPECT_THROW(Value{bad}, std::invalid_argument);
         report.played[1].extents[0].rendered[0].area_m2 = bad;
-        EXPECT_THROW(report_json(report), std::logic_error);
+        EXPECT_THROW(moments_csv(report.played[1]), std::logic_error);
         report = tests::sample_report(1);
         report.played[1].passes[0].seconds[0] = bad;
         EXPECT_THROW(report_json(report), std::logic_error);
@@ -108,10 +88,7 @@ TEST(ReportJson, OnlyContextAndTimingVary) {
     EXPECT_NE(a, b);
     for (json* const whole : {&a, &b}) {
         whole->erase("context");
-        whole->erase("timing");
-        whole->erase("throughput");
-        whole->erase("accuracy_times");
-        whole->erase("savings");
+        whole->erase("times");
     }
     EXPECT_EQ(a, b);
     EXPECT_EQ(report_junit(one), report_junit(two));
@@ -128,20 +105,60 @@ TEST(ReportJson, SaysWhyItIsIncomplete) {
     EXPECT_THAT(report_junit(report), HasSubstr("<error message=\"interrupted: interrupted by the user\""));
 }
 
-TEST(ReportJson, LanesThatEndLeaveNulls) {
+/// As accepting, comparing and resuming read a run.
+TEST(ReportJson, ComesBackAsItWasWritten) {
+    const TemporaryFolder folder;
     Report report = tests::sample_report(3);
-    report.played[0].extents[1].rendered.clear();
-    const json series = json::parse(report_json(report))["drives"][0]["extents"]["rendered"][0];
-    EXPECT_TRUE(series["reach_centre_m"][1].is_null());
-    EXPECT_TRUE(series["widths"][0]["width_m"][1].is_null());
-    EXPECT_EQ(series["widths"][0]["width_m"].size(), 3U);
-    EXPECT_FALSE(series["reach_centre_m"][2].is_null());
+    PlayedVariant& played = report.played[0];
+    played.technique = "photometric";
+    played.inputs = {{"drive", "one hash"}, {"road", "another"}};
+    played.readings[0].value = Value::at_least(0.1 + 0.2);
+    played.readings[1].where = "=1+1, \"quoted\"";
+    played.repeats = {3, {"readings"}, {{played.readings[1].key, 0, 3, 33.0, 4.0}}};
+    played.seeing = {tests::sample_seeing()};
+    played.throughput = {3, 0.5, 0.01, {}, 200.0};
+    played.savings.not_measured = "too few moments were played";
+    played.error.ticks = {0, 2};
+    played.error.rays = 7;
+    PixelErrors& road = played.error.road.emplace();
+    road.pixels = 4;
+    road.error = {0.1, 0.2, 0.3};
+    road.worst.picture = 1;
+    played.error.no_target = "no target";
+    report.warnings = {"a warning"};
+    write_report(report, folder.path());
+    const Report read = read_report(folder.path());
+    EXPECT_EQ(report_csv(read), report_csv(report));
+    for (PlayedVariant& one : report.played)
+        one.extent_summaries.clear(); // moments are not read back, so that they add up to nothing
+    EXPECT_EQ(json::parse(report_json(read)), json::parse(report_json(report)));
 }
 
-TEST(ReportJson, HostileNamesStayText) {
-    const json whole = json::parse(report_json(hostile_report()));
-    EXPECT_EQ(whole["rows"][0]["where"], "=<script>alert(\"x\")</script>'&\n\x01\ufffd{{title}}");
+TEST(MomentsCsv, HasAColumnForEachFigure) {
+    Report report = tests::sample_report(3);
+    PlayedVariant& played = report.played[0];
+    played.extents[1].rendered.clear(); // the lane ends
+    played.extents[2].grid_errors[0].reach_m.reset();
+    played.car = {{0.0, -1.5, 30.25, 1.125, {}}, {0.1, -1.25, 31.0, 1.25, {}}, {0.2, -1.0, 31.5, 1.5, {}}};
+    played.seeing = {tests::sample_seeing()};
+    const TemporaryFolder folder;
+    std::ofstream(folder / "moments.csv") << moments_csv(played);
+    const auto cells = [&](const char* column) { return tests::moments_of(folder / "moments.csv", column); };
+    EXPECT_THAT(cells("frame"), ElementsAre("0", "1", "2"));
+    EXPECT_EQ(cells("reach_1lx_road_own_m")[1], "");
+    EXPECT_NEAR(std::stod(cells("reach_1lx_road_own_m")[2]), played.extents[2].rendered[0].reach_centre_m, 5.1e-5);
+    EXPECT_THAT(cells("reach_1lx_road_own_m.cut_off"), ElementsAre("0", "", "0"));
+    EXPECT_NE(cells("reach_1lx_road_own_m.twin")[1], "") << "goes on";
+    EXPECT_NE(cells("width_5lx_target_own_at_20m_m.left")[0], "");
+    EXPECT_THAT(cells("reach_1lx_road_own_grid_error_m"), ElementsAre("0.25", "0.25", ""));
+    EXPECT_THAT(cells("car.pitch_deg"), ElementsAre("-1.5", "-1.25", "-1"));
+    EXPECT_THAT(cells("car.levelling_deg"), ElementsAre("1.125", "1.25", "1.5"));
+    EXPECT_THAT(moments_csv(played), Not(HasSubstr("swivel")));
+    EXPECT_THAT(cells("glare_eye.at_m"), ElementsAre("30", "20", ""));
+    EXPECT_THAT(cells("glare_eye.de_boer"), ElementsAre("no light", "> 4", ""));
 }
+
+TEST(ReportCsv, HostileNamesStayText) { EXPECT_THAT(report_csv(hostile_report()), HasSubstr("\"'=<script>alert(\"\"x\"\")</script>'&")); }
 
 TEST(ReportCsv, MatchesByHand) {
     Report report;

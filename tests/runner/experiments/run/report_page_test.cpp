@@ -1,5 +1,5 @@
 // The page as a browser sees it. Needs Chromium; skips without.
-#include "runner/experiments/run/report_writers.h"
+#include "runner/commands/run_files.h"
 #include "runner/findings/report.h"
 #include "scenarios/values/files.h"
 #include "tests/runner/sample_report.h"

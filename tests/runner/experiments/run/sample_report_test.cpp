@@ -163,6 +163,17 @@ void write_sample_frames(const Report& report, const std::filesystem::path& fold
         }
 }
 
+SeeingSeries sample_seeing() {
+    return {"glare_eye",
+            "Oncoming driver",
+            "distance to the observer",
+            {0, 1},
+            {30.0, 20.0},
+            {{"facing_lx", "illuminance facing the lamps", "lx", true, true, {0.5, 1.25}},
+             {"de_boer", "de Boer's rating", "", false, true, {Value::not_measured("no light"), Value::at_least(4.0)}},
+             {"theta_left_deg", "angle of left", "deg", false, false, {1.0, 2.0}}}};
+}
+
 Report sample_report(int moments) {
     Report report;
     report.context.versions = {{"fernlicht", "0.1.0"}, {"compiler", "g++ 12.2.0"}, {"Mesa", "22.3.6"}};

@@ -1,17 +1,16 @@
 // A study of two cells against accepted readings, as ci/nightly plays it: what moves turns it red, and is named.
 #include "tests/runner/program.h"
+#include "tests/runner/run_readings.h"
 
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace fernlicht {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
@@ -28,14 +27,14 @@ class StudyAgainstReferences : public ::testing::Test {
     Outcome play(const std::string& file, const std::string& out, const std::string& arguments) const {
         return run_program("study " + file + " --frames 0:1 --no-accuracy --quiet --out " + (temporary / out) + " " + arguments);
     }
-    /// The cell's report with one reading 3 % up, as a program with a mistake would have written it.
+    /// The cell's readings with one reading 3 % up, as a program with a mistake would have written it.
     void move_reading(const std::string& out, const std::string& name) const {
-        const std::string file = temporary / (out + "/cells/straight_halogen/report.json");
-        json report = json::parse(content_of(file));
-        for (json& row : report.at("rows"))
-            if (row.at("name") == name)
-                row["value"] = 1.03 * row.at("value").get<double>();
-        std::ofstream(file, std::ios::trunc) << report.dump();
+        const std::string run = temporary / (out + "/cells/straight_halogen"), file = run + "/readings.csv";
+        const std::string value = tests::field_of(run, name, "value");
+        std::string text = content_of(file);
+        const std::size_t row = text.rfind("\r\n", text.find("," + name + "\r\n"));
+        text.replace(text.find("," + value + ",", row) + 1, value.size(), std::to_string(1.03 * std::stod(value)));
+        std::ofstream(file, std::ios::trunc) << text;
     }
 
     TemporaryFolder temporary;

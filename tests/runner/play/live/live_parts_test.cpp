@@ -1,5 +1,5 @@
 // Clock, recording, pictures between threads, figures: the parts of a live drive that need no bus.
-#include "runner/experiments/run/report_writers.h"
+#include "runner/commands/run_files.h"
 #include "runner/experiments/run/run_plots.h"
 #include "runner/play/live/live_figures.h"
 #include "runner/play/live/live_loop.h"

@@ -1,12 +1,11 @@
+#include "runner/write/run_page.h"
+
 #include "report_files.h"
-#include "runner/experiments/run/report_writers.h"
-#include "runner/experiments/run/run_document.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/write/page_base.h"
 #include "runner/write/plots/lux_map.h"
 #include "runner/write/plots/png.h"
-#include "runner/write/report_texts.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -22,7 +21,7 @@ using kainjow::mustache::data;
 using List = data::type;
 
 /// Of pictures as they lie on disk; base64 makes a third more of it. Larger pages open slowly.
-constexpr std::size_t embedded_bytes = std::size_t{48} << 20;
+constexpr std::size_t run_pictures_bytes = std::size_t{48} << 20;
 constexpr std::size_t largest_picture_bytes = std::size_t{16} << 20;
 
 std::string lamp_colour(std::size_t variant) { return plots::css(plots::lamp_colour(variant)); }
@@ -219,10 +218,10 @@ const std::string& shown_name(const ComparedDrive& drive) {
     return title.empty() ? drive.name : title;
 }
 
-std::string title_of(const std::vector<ComparedDrive>& drives) {
+std::string title_of(const RunPage& page) {
     std::string title;
-    for (const ComparedDrive& drive : drives)
-        title += (title.empty() ? "" : ", ") + short_text(shown_name(drive), 90);
+    for (const RunPage::OfDrive& of : page.drives)
+        title += (title.empty() ? "" : ", ") + short_text(shown_name(of.drive), 90);
     return title.empty() ? "Nothing was played" : short_text(title, 160);
 }
 
@@ -238,22 +237,17 @@ std::string subtitle_of(const Report& report) {
     return (text.empty() ? "Played " : text + ", played ") + clean_text(report.context.started_utc);
 }
 
-data drive_part(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes, bool several) {
+data drive_part(const RunPage::OfDrive& of, const std::filesystem::path& folder, std::size_t& budget_bytes, bool several) {
     data part;
-    part.set("title", several ? short_text(drive.name, 200) : "The drive");
-    part.set("pictures", moments_part(drive, folder, budget_bytes));
-    part.set("columns", fmt::format("{}", drive.variants.size()));
-    Sections extents, others;
-    add_extents(drive, extents);
-    for (const auto add : {add_course, add_accuracy, add_details, add_drawing})
-        add(drive, others);
-    part.set("extents", sections_part(extents));
-    part.set("others", sections_part(others));
+    part.set("title", several ? short_text(of.drive.name, 200) : "The drive");
+    part.set("pictures", moments_part(of.drive, folder, budget_bytes));
+    part.set("columns", fmt::format("{}", of.drive.variants.size()));
+    part.set("extents", sections_part(of.extents));
+    part.set("others", sections_part(of.others));
     return part;
 }
 
-data verdict_part(const Report& report) {
-    Section section = verdict_section(report);
+data verdict_part(const Report& report, Section section) {
     const VerdictKind verdict = overall(report);
     const bool none = count_verdicts(report).all() == 0 && report.complete;
     data part;
@@ -270,31 +264,19 @@ data verdict_part(const Report& report) {
 
 } // namespace
 
-std::string report_html(const Report& report, const std::filesystem::path& folder) {
-    const std::vector<ComparedDrive> drives = compared_drives(report);
-    std::size_t budget_bytes = embedded_bytes;
+std::string run_page_html(const Report& report, const RunPage& run, const std::filesystem::path& folder) {
+    std::size_t budget_bytes = run_pictures_bytes;
     data page, parts{List::list};
-    for (const ComparedDrive& drive : drives)
-        parts.push_back(drive_part(drive, folder, budget_bytes, drives.size() > 1));
-    page.set("title", title_of(drives));
+    for (const RunPage::OfDrive& drive : run.drives)
+        parts.push_back(drive_part(drive, folder, budget_bytes, run.drives.size() > 1));
+    page.set("title", title_of(run));
     page.set("subtitle", subtitle_of(report));
     page.set("script", std::string(report_file("report.js")));
-    page.set("verdict", verdict_part(report));
+    page.set("verdict", verdict_part(report, run.verdict));
     page.set("drives", parts);
-    page.set("live", sections_part(report.live ? Sections{live_section(*report.live)} : Sections()));
+    page.set("live", sections_part(run.live));
     page.set("context", context_part(report.context));
     return page_of("report.html.mustache", page);
-}
-
-void write_report(const Report& report, const std::filesystem::path& folder, TableFormat tables) {
-    // The figures first, the large page last: a disk that fills up takes the page before it takes the numbers.
-    write_file(folder / "readings.csv", report_csv(report));
-    write_file(folder / "times.csv", times_csv(report));
-    write_file(folder / "junit.xml", report_junit(report));
-    write_file(folder / "report.json", report_json(report));
-    if (tables != TableFormat::none)
-        write_tables(document(report), folder, tables);
-    write_file(folder / "report.html", report_html(report, folder));
 }
 
 } // namespace fernlicht

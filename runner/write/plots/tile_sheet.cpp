@@ -1,4 +1,4 @@
-#include "runner/write/tile_sheet.h"
+#include "runner/write/plots/tile_sheet.h"
 
 #include "runner/write/plots/canvas.h"
 
@@ -10,7 +10,7 @@ namespace {
 using plots::Canvas;
 
 constexpr int tiles_across = 3;
-constexpr plots::Colour sheet_ink{24, 24, 32}, sheet_faint{100, 100, 108};
+constexpr plots::Colour tile_ink{24, 24, 32}, tile_faint{100, 100, 108};
 constexpr double sheet_edge_px = 16.0, tile_gap_px = 12.0, title_px = 17.0, words_px = 13.0, tile_name_px = 13.0, tile_words_px = 12.0;
 constexpr double words_line_px = 17.0, tile_line_px = 15.0;
 constexpr double inner_px = tiles_across * tile_px + (tiles_across - 1) * tile_gap_px;
@@ -91,8 +91,8 @@ void draw_tiles(Canvas& canvas, const TileSection& section, double top) {
         std::ranges::transform(tile.picture.pixels(), pixels.data(), [](const Rgb8& p) { return plots::Colour{p.r, p.g, p.b}; });
         canvas.picture(left, at, tile_px, height, pixels);
         const double next = draw_lines(canvas, left, at + height + 15.0, tile_line_px, name_lines(tile),
-                                       {.size_px = tile_name_px, .colour = sheet_ink, .bold = true});
-        draw_lines(canvas, left, next, tile_line_px, caption_lines(tile), {.size_px = tile_words_px, .colour = sheet_faint});
+                                       {.size_px = tile_name_px, .colour = tile_ink, .bold = true});
+        draw_lines(canvas, left, next, tile_line_px, caption_lines(tile), {.size_px = tile_words_px, .colour = tile_faint});
     }
 }
 
@@ -107,9 +107,9 @@ std::string tile_sheet_svg(const std::string& title, const std::vector<TileSecti
     canvas.rectangle(0.0, 0.0, width_px, height_px, {.fill = "#ffffff"});
     double top = 0.0;
     for (const TileSection& section : sections) {
-        canvas.text(sheet_edge_px, top + 26.0, section.title, {.size_px = title_px, .colour = sheet_ink, .bold = true});
+        canvas.text(sheet_edge_px, top + 26.0, section.title, {.size_px = title_px, .colour = tile_ink, .bold = true});
         draw_lines(canvas, sheet_edge_px, top + 46.0, words_line_px, sheet_lines(section.words, words_px, inner_px),
-                   {.size_px = words_px, .colour = sheet_faint});
+                   {.size_px = words_px, .colour = tile_faint});
         draw_tiles(canvas, section, top + over_tiles(section));
         top += section_height(section);
     }

@@ -1,6 +1,6 @@
 // Captions of contact sheets: all of their words, and none beyond the picture's edge or its neighbour.
 #include "runner/write/plots/canvas.h"
-#include "runner/write/tile_sheet.h"
+#include "runner/write/plots/tile_sheet.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,0 +1,27 @@
+#include "runner/commands/run_files.h"
+
+#include "runner/findings/moment_columns.h"
+#include "runner/write/report_texts.h"
+#include "runner/write/run_page.h"
+
+namespace fernlicht {
+
+std::string report_html(const Report& report, const std::filesystem::path& folder) {
+    return run_page_html(report, run_page(report), folder);
+}
+
+void write_report(const Report& report, const std::filesystem::path& folder, TableFormat tables) {
+    // The figures first, the large page last: a disk that fills up takes the page before it takes the numbers.
+    write_file(folder / "readings.csv", report_csv(report));
+    write_file(folder / "times.csv", times_csv(report));
+    write_file(folder / "junit.xml", report_junit(report));
+    write_file(folder / "report.json", report_json(report));
+    for (const PlayedVariant& played : report.played)
+        if (const std::string moments = moments_csv(played); !moments.empty())
+            write_file(folder / moments_file(played), moments);
+    if (tables != TableFormat::none)
+        write_tables(document(report), folder, tables);
+    write_file(folder / "report.html", report_html(report, folder));
+}
+
+} // namespace fernlicht

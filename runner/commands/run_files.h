@@ -1,0 +1,16 @@
+// What a run leaves in its folder beside its pictures.
+#pragma once
+
+#include "runner/experiments/run/run_report.h"
+#include "runner/write/document.h"
+
+namespace fernlicht {
+
+/// The page alone; frames are read from `folder`.
+std::string report_html(const Report& report, const std::filesystem::path& folder);
+
+/// Writes report.json, junit.xml, readings.csv, times.csv, a CSV of each lamp set's moments, tables as asked for and report.html into
+/// `folder` (frames are there already). Each file atomically.
+void write_report(const Report& report, const std::filesystem::path& folder, TableFormat tables = TableFormat::none);
+
+} // namespace fernlicht

@@ -1,0 +1,26 @@
+// What a run tells: report.json, its document and page.
+#pragma once
+
+#include "runner/findings/run_page.h"
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+
+namespace fernlicht {
+
+/// docs/report.md and report.schema.json describe it. Throws std::logic_error naming the place when a number is NaN or infinite:
+/// whoever measured it owed a not_measured.
+std::string report_json(const Report& report);
+std::string report_json_schema();
+/// An entry of the report's `drives`: all results of one drive with one lamp set, no readings, moments and times.
+nlohmann::ordered_json played_json(const PlayedVariant& played);
+
+/// A complete run as it was written, without lux maps, summaries and what moments were like; readings come from readings.csv. Throws
+/// InputError for what is no such run.
+Report read_report(const std::filesystem::path& folder);
+
+/// All of the page but what a document cannot hold: figures at a glance, the chooser of moments with its pictures and maps.
+Document document(const Report& report);
+RunPage run_page(const Report& report);
+
+} // namespace fernlicht

@@ -1,0 +1,25 @@
+// CSV (RFC 4180) of our own writers, read back.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fernlicht {
+
+/// Fields below the heads of the first line, without the apostrophe that csv_text() puts before formulas.
+struct CsvFile {
+    std::filesystem::path file;
+    std::vector<std::string> heads;
+    std::vector<std::vector<std::string>> rows; ///< a field for each head
+
+    /// Each throws InputError with file, line and head: there is no such column; or the field is no text of that kind.
+    std::size_t column(std::string_view head) const;
+    double number(std::size_t row, std::size_t column) const;
+    [[noreturn]] void refuse(std::size_t row, std::size_t column, const std::string& expected) const;
+};
+/// Reads a file of at most 1 GiB. Throws InputError where a line has more or fewer fields than the first.
+CsvFile read_csv(const std::filesystem::path& file);
+
+} // namespace fernlicht

@@ -1,0 +1,149 @@
+#include "runner/findings/moment_columns.h"
+
+#include "runner/files/output_folder.h"
+#include "runner/findings/extent_keys.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace fernlicht {
+namespace {
+
+class Columns {
+  public:
+    explicit Columns(std::size_t moments) : moments_(moments) {}
+
+    void text(const std::string& name, std::size_t moment, std::string text) {
+        const auto [place, is_new] = places_.try_emplace(name, columns_.size());
+        if (is_new)
+            columns_.push_back({name, std::vector<std::string>(moments_)});
+        if (moment < moments_)
+            columns_[place->second].cells[moment] = std::move(text);
+    }
+    void number(const std::string& name, std::size_t moment, double value) { text(name, moment, fmt::format("{}", checked(name, value))); }
+    void metres(const std::string& name, std::size_t moment, double value) {
+        number(name, moment, std::round(checked(name, value) * 1e4) / 1e4 + 0.0);
+    }
+    void seven_digits(const std::string& name, std::size_t moment, const Value& value) {
+        text(name, moment, value.measured() ? with_bound(value, fmt::format("{:.7g}", *value.figure())) : value.reason());
+    }
+    std::vector<MomentColumn> take() { return std::move(columns_); }
+
+  private:
+    static double checked(const std::string& name, double value) {
+        if (!std::isfinite(value))
+            throw std::logic_error(fmt::format("report: {} is {}; a measurement that cannot be made is not_measured", name, value));
+        return value;
+    }
+
+    std::size_t moments_;
+    std::vector<MomentColumn> columns_;
+    std::map<std::string, std::size_t> places_;
+};
+
+std::string extent_name(const ExtentKey& key, Quantity quantity, ReadingPlace place = ReadingPlace::none, Aspect aspect = Aspect::value) {
+    ReadingKey reading = extent_reading(key, quantity, place, aspect);
+    reading.statistic = Statistic::median; // which goes without saying in its name
+    return name_of(reading);
+}
+
+std::string width_name(const ExtentKey& key, double at_m) {
+    ReadingKey reading = extent_reading(key, Quantity::width);
+    reading.distance_m = at_m;
+    reading.statistic = Statistic::median;
+    return name_of(reading);
+}
+
+/// Of the rendered image under the reading's own name, of the twin with another end.
+void add_lane(Columns& columns, const PlayedVariant& played, const ExtentKey& key) {
+    const std::string reach = extent_name(key, Quantity::reach), left = extent_name(key, Quantity::reach, ReadingPlace::left_edge),
+                      right = extent_name(key, Quantity::reach, ReadingPlace::right_edge),
+                      unlit = extent_name(key, Quantity::unlit_before_reach), area = extent_name(key, Quantity::area);
+    for (const auto& [source, end] : {std::pair(&ExtentRow::rendered, ""), std::pair(&ExtentRow::twin, ".twin")})
+        for (std::size_t i = 0; i < played.extents.size(); ++i) {
+            const LaneExtent* const extent = find_extent(played.extents[i].*source, key);
+            if (!extent)
+                continue;
+            columns.metres(reach + end, i, extent->reach_centre_m);
+            columns.text(reach + end + ".cut_off", i, extent->reach_is_cut_off ? "1" : "0");
+            columns.metres(left + end, i, extent->reach_left_edge_m);
+            columns.metres(right + end, i, extent->reach_right_edge_m);
+            columns.metres(unlit + end, i, extent->unlit_before_reach_m);
+            columns.metres(area + end, i, extent->area_m2);
+            for (const LaneExtent::Width& width : extent->widths) {
+                const std::string name = width_name(key, width.at_m) + end;
+                columns.metres(name, i, width.width_m);
+                columns.metres(name + ".left", i, width.left_m);
+                columns.metres(name + ".right", i, width.right_m);
+            }
+        }
+}
+
+/// What moves the own lane's reach, and the grid's error in it and in the area.
+void add_trust(Columns& columns, const ExtentRow& row, std::size_t moment) {
+    const auto name = [](const auto& entry, const char* lane, Quantity quantity, Aspect aspect) {
+        return extent_name({entry.plane, lane, entry.limit_lx}, quantity, ReadingPlace::none, aspect);
+    };
+    for (const ReachSensitivity& of : row.sensitivity) {
+        columns.metres(name(of, "own", Quantity::reach, Aspect::per_tenth_degree), moment, of.metres_per_tenth_degree);
+        columns.metres(name(of, "own", Quantity::reach, Aspect::per_tenth_flux), moment, of.metres_per_tenth_flux);
+    }
+    for (const GridError& error : row.grid_errors) {
+        if (error.reach_m)
+            columns.metres(name(error, "own", Quantity::reach, Aspect::grid_error), moment, *error.reach_m);
+        columns.metres(name(error, "all", Quantity::area, Aspect::grid_error), moment, error.area_m2);
+    }
+}
+
+void add_car(Columns& columns, const CarRow& row, std::size_t moment) {
+    columns.number("car.pitch_deg", moment, row.pitch_deg);
+    columns.number("car.rear_lift_mm", moment, row.rear_lift_mm);
+    if (row.levelling_deg)
+        columns.number("car.levelling_deg", moment, *row.levelling_deg);
+    if (row.swivel_deg)
+        columns.number("car.swivel_deg", moment, *row.swivel_deg);
+}
+
+void add_bus_input(Columns& columns, const BusSignalReport& signal, const std::vector<int>& ticks, int first_tick) {
+    const std::string name = fmt::format("{} [{}]", signal.name, signal.unit);
+    for (const auto& [values, end] : {std::pair(&signal.value, ""), std::pair(&signal.received, ".received")})
+        for (std::size_t i = 0; i < std::min(values->size(), ticks.size()); ++i)
+            columns.seven_digits(name + end, static_cast<std::size_t>(ticks[i] - first_tick), Value::of((*values)[i], ""));
+}
+
+} // namespace
+
+std::vector<MomentColumn> moment_columns(const PlayedVariant& played) {
+    const std::size_t moments = std::max({played.extents.size(), played.speed_mps.size(), played.car.size()});
+    Columns columns(moments);
+    for (std::size_t i = 0; i < moments; ++i)
+        columns.text("frame", i, fmt::format("{}", played.first_tick + static_cast<int>(i)));
+    for (std::size_t i = 0; i < played.speed_mps.size(); ++i) {
+        columns.number("time_s", i, played.speed_mps[i].first);
+        columns.number("car.speed_mps", i, played.speed_mps[i].second);
+    }
+    for (std::size_t i = 0; i < played.extents.size(); ++i)
+        columns.metres("car.distance_m", i, played.extents[i].distance_m);
+    for (std::size_t i = 0; i < played.car.size(); ++i)
+        add_car(columns, played.car[i], i);
+    for (const ExtentKey& key : extent_keys(played))
+        add_lane(columns, played, key);
+    for (std::size_t i = 0; i < played.extents.size(); ++i)
+        add_trust(columns, played.extents[i], i);
+    for (const SeeingSeries& series : played.seeing)
+        for (std::size_t i = 0; i < series.ticks.size(); ++i) {
+            const auto moment = static_cast<std::size_t>(series.ticks[i] - played.first_tick);
+            columns.metres(series.subject + ".at_m", moment, series.at_m[i]);
+            for (const SeeingSeries::Column& column : series.columns)
+                columns.seven_digits(series.subject + "." + column.name, moment, column.values[i]);
+        }
+    for (const BusSignalReport& signal : played.bus.signals)
+        add_bus_input(columns, signal, played.bus.frame, played.first_tick);
+    return columns.take();
+}
+
+std::string moments_file(const PlayedVariant& played) { return "moments-" + file_name_of(played.drive + "-" + played.variant) + ".csv"; }
+
+} // namespace fernlicht

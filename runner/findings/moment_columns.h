@@ -1,0 +1,22 @@
+// What a drive came to at each of its moments: speed and car, extents of every lane, glare and light at fixed places, signals from a bus.
+#pragma once
+
+#include "runner/findings/report.h"
+
+namespace fernlicht {
+
+/// One figure, named as the reading that it adds up to, or "car.speed_mps", "glare_oncoming.facing_lx", "ego.speed_mps [km/h]".
+struct MomentColumn {
+    std::string name;
+    /// A moment each: a number, a bound as "> 200", why there is none, or "" where the thing is not there. Metres of extents are rounded to
+    /// a tenth of a millimetre, far below the grid's own error; what is measured otherwise has seven digits.
+    std::vector<std::string> cells;
+};
+
+/// "frame" and "time_s", then the others. Throws std::logic_error naming the column for a number that is NaN or infinite: whoever measured
+/// it owed a not_measured.
+std::vector<MomentColumn> moment_columns(const PlayedVariant& played);
+/// Where they lie below the report's folder: "moments-DRIVE-VARIANT.csv".
+std::string moments_file(const PlayedVariant& played);
+
+} // namespace fernlicht

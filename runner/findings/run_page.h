@@ -1,0 +1,26 @@
+// What a run's page shows, drive by drive; with the moments' pictures, which it takes from the report itself.
+#pragma once
+
+#include "runner/findings/document.h"
+#include "runner/findings/report.h"
+
+namespace fernlicht {
+
+/// One drive with every lamp set that it was played with, in the order of the report.
+struct ComparedDrive {
+    std::string name;
+    std::vector<const PlayedVariant*> variants;
+};
+std::vector<ComparedDrive> compared_drives(const Report& report);
+
+struct RunPage {
+    Section verdict;
+    std::vector<Section> live;
+    struct OfDrive {
+        ComparedDrive drive;
+        std::vector<Section> extents, others; ///< before and behind its pictures
+    };
+    std::vector<OfDrive> drives;
+};
+
+} // namespace fernlicht
