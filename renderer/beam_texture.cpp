@@ -170,9 +170,9 @@ BeamTexture make_beam_texture(const CandelaTable& table, std::size_t max_texels)
 
 BeamTexture make_beam_texture(const CandelaTable& table, const BeamTexels& texels) {
     for (const int texels_each_way : {texels.width, texels.height})
-        if (texels_each_way < least_beam_texels || texels_each_way > most_beam_texels)
+        if (texels_each_way < min_beam_texels || texels_each_way > max_beam_texels)
             throw std::invalid_argument(fmt::format("beam texture: {} x {} texels, expected {} to {} each way", texels.width, texels.height,
-                                                    least_beam_texels, most_beam_texels));
+                                                    min_beam_texels, max_beam_texels));
     const auto axis = [](const std::vector<double>& samples, Range range, int count) {
         const double from = std::max(samples[range.first], -90.0), to = std::min(samples[range.last], 90.0);
         return Axis{from, to > from ? (to - from) / (count - 1) : finest_needed_deg, static_cast<std::size_t>(count)};

@@ -21,7 +21,7 @@ struct BeamTexture {
 BeamTexture make_beam_texture(const CandelaTable& table, std::size_t max_texels = std::size_t{4} << 20);
 
 /// The lit part of a table (H within +-90 degrees) on as many texels, from edge to edge. Throws std::invalid_argument for sizes out of
-/// least_beam_texels to most_beam_texels.
+/// min_beam_texels to max_beam_texels.
 BeamTexture make_beam_texture(const CandelaTable& table, const BeamTexels& texels);
 
 } // namespace fernlicht

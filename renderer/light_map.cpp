@@ -16,7 +16,7 @@ namespace {
 
 constexpr double nearest_m = 0.5;
 constexpr double lit_lx = 1.0;
-constexpr std::size_t most_texels_of_all = std::size_t{1} << 28;
+constexpr std::size_t max_texels_of_all = std::size_t{1} << 28;
 
 double facing_lx(const Moment& local, const glm::dvec3& point_m) {
     double e = 0.0;
@@ -38,8 +38,8 @@ std::size_t checked_cells(std::initializer_list<LightMapAxis> axes) {
                 fmt::format("light map: {} cells from {} to {} m growing by {}, expected at least 1, ascending, 1 or more", axis.cells,
                             axis.from_m, axis.to_m, axis.growth));
         texels *= cells(axis);
-        if (texels > most_texels_of_all)
-            throw std::invalid_argument(fmt::format("light map: more than {} texels", most_texels_of_all));
+        if (texels > max_texels_of_all)
+            throw std::invalid_argument(fmt::format("light map: more than {} texels", max_texels_of_all));
     }
     return texels;
 }

@@ -20,8 +20,8 @@ constexpr TangentWindow widest;
 constexpr double narrowest_tangent = 1e-3;
 constexpr double cd_per_lx = 625.0; // E_m at 25 m
 constexpr double near_m = 0.1;
-constexpr int most_texels = 16384;
-constexpr std::size_t most_error_samples = 4'000'000;
+constexpr int max_texels = 16384;
+constexpr std::size_t max_error_samples = 4'000'000;
 
 double tangent(double angle_deg) { return std::tan(radians(std::clamp(angle_deg, -89.9, 89.9))); }
 
@@ -58,8 +58,8 @@ WorstError worse_of(const WorstError& a, const WorstError& b) {
 double worst_error_of_peak(const ProjectedBeam& beam, const std::function<double(double, double)>& illuminance_lx) {
     const TangentWindow& window = beam.window;
     const auto width = static_cast<std::size_t>(beam.width), height = static_cast<std::size_t>(beam.height);
-    const std::size_t parts = width * height * 16 <= most_error_samples ? 4 : 2;
-    const std::size_t row_step = 1 + width * height * parts * parts / (most_error_samples + 1);
+    const std::size_t parts = width * height * 16 <= max_error_samples ? 4 : 2;
+    const std::size_t row_step = 1 + width * height * parts * parts / (max_error_samples + 1);
     std::vector<WorstError> of_row((height * parts + row_step - 1) / row_step);
     oneapi::tbb::parallel_for(std::size_t{0}, of_row.size(), [&](std::size_t row) {
         const double t = static_cast<double>(row * row_step) / static_cast<double>(height * parts);
@@ -169,8 +169,8 @@ TangentWindow lit_window(const CandelaTable& table) {
 ProjectedBeam sampled_beam(const TangentWindow& window, const BeamTexels& texels,
                            const std::function<double(double, double)>& illuminance_lx) {
     const int width = texels.width, height = texels.height;
-    if (width < 1 || height < 1 || width > most_texels || height > most_texels)
-        throw std::invalid_argument(fmt::format("projected beam: {} x {} texels, expected 1 to {} each way", width, height, most_texels));
+    if (width < 1 || height < 1 || width > max_texels || height > max_texels)
+        throw std::invalid_argument(fmt::format("projected beam: {} x {} texels, expected 1 to {} each way", width, height, max_texels));
     ProjectedBeam beam;
     beam.width = width;
     beam.height = height;

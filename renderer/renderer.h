@@ -55,10 +55,10 @@ struct Work {
 };
 
 /// Something a technique can do that a moment did not need.
-struct LeftOut {
+struct PrunedFeature {
     std::string what, why; ///< "shadow maps", "nothing stands in a beam"
 
-    bool operator==(const LeftOut&) const = default;
+    bool operator==(const PrunedFeature&) const = default;
 };
 
 class Renderer {
@@ -70,23 +70,23 @@ class Renderer {
     Renderer& operator=(const Renderer&) = delete;
 
     const Technique& technique() const;
-    /// What of `wanted` this technique has; the rest comes back empty.
-    Wanted available(Wanted wanted) const;
+    /// What of `outputs` this technique has; the rest comes back empty.
+    FrameOutputs available(FrameOutputs outputs) const;
 
     /// Draws and reads back what is wanted. Maps draw ground surfaces only. At most 8 lamps. Throws DeviceError.
-    Frame draw(const Moment& moment, const View& view, const Wanted& wanted) { return submit(moment, view, wanted)(); }
+    Frame draw(const Moment& moment, const View& view, const FrameOutputs& outputs) { return submit(moment, view, outputs)(); }
     /// The same in two steps, so that the caller can work meanwhile. Several frames may be on their way.
-    Pending submit(const Moment& moment, const View& view, const Wanted& wanted);
+    Pending submit(const Moment& moment, const View& view, const FrameOutputs& outputs);
     /// Only draws, flushed as for a display: nothing is read back, nothing waited for. finish() waits.
-    void render(const Moment& moment, const View& view, const Wanted& wanted);
+    void render(const Moment& moment, const View& view, const FrameOutputs& outputs);
     void finish();
 
     /// Compiles all that drawing these moments so can need; nothing compiles afterwards.
-    void prepare(const std::vector<Moment>& moments, const View& view, const Wanted& wanted);
+    void prepare(const std::vector<Moment>& moments, const View& view, const FrameOutputs& outputs);
     /// Draws once more and counts, fragments too.
-    Work count(const Moment& moment, const View& view, const Wanted& wanted);
+    Work count(const Moment& moment, const View& view, const FrameOutputs& outputs);
     /// What the moment drawn last did not need.
-    std::vector<LeftOut> left_out() const;
+    std::vector<PrunedFeature> pruned() const;
     /// Worst error of a lamp's beam as it is drawn with against its table, relative to the peak; nullopt where no beam of one lamp is drawn
     /// with.
     std::optional<double> beam_error(const LampFile& lamp) const;

@@ -6,9 +6,9 @@
 namespace fernlicht {
 namespace {
 
-constexpr int most_steps = 32, texels_a_row = 4, texels_a_column = 32;
+constexpr int max_steps = 32, texels_a_row = 4, texels_a_column = 32;
 constexpr double slack_rad = 1e-4; // what the GPU's angles may differ, many times over
-constexpr double most_apart = 0.2;
+constexpr double max_apart = 0.2;
 constexpr double float_sums = 1.000001; // differences are taken in float
 
 std::size_t index_of(int i) { return static_cast<std::size_t>(i); }
@@ -38,12 +38,12 @@ double traffic_error_lx(const TrafficShare& share, double most, double merging, 
 TrafficBeam::TrafficBeam(const BeamTexture& beam)
     : h_first_(beam.h_first_rad), v_first_(beam.v_first_rad), h_step_(beam.h_step_rad), v_step_(beam.v_step_rad),
       columns_((beam.width + texels_a_column - 1) / texels_a_column), rows_(index_of((beam.height + texels_a_row - 1) / texels_a_row)),
-      most_of_cell_(rows_.size() * index_of(columns_), 0.0F) {
-    const int margin = 2 * most_steps + 1;
+      max_of_cell_(rows_.size() * index_of(columns_), 0.0F) {
+    const int margin = 2 * max_steps + 1;
     std::vector<float> row(index_of(beam.width + 2 * margin), 0.0F), worst(row.size());
     for (int r = 0; r < static_cast<int>(rows_.size()); ++r) {
         Row& one = rows_[index_of(r)];
-        one.second_cd.assign(index_of(most_steps + 1), 0.0F);
+        one.second_cd.assign(index_of(max_steps + 1), 0.0F);
         // What is interpolated between two rows belongs to both.
         for (int y = std::max(0, texels_a_row * r - 1); y <= std::min(beam.height - 1, texels_a_row * (r + 1)); ++y) {
             const auto cd = [&](int x, int v) { return beam.cd[index_of(v) * index_of(beam.width) + index_of(x)]; };
@@ -56,11 +56,11 @@ TrafficBeam::TrafficBeam(const BeamTexture& beam)
                 if (x == 0 || y == 0 || x + 1 == beam.width || y + 1 == beam.height)
                     one.edge = std::max(one.edge, cd(x, y));
                 for (int column = std::max(0, (x - 1) / texels_a_column); column <= x / texels_a_column; ++column) {
-                    float& most = most_of_cell_[index_of(r) * index_of(columns_) + index_of(column)];
+                    float& most = max_of_cell_[index_of(r) * index_of(columns_) + index_of(column)];
                     most = std::max(most, cd(x, y));
                 }
             }
-            for (int n = 1; n <= most_steps; ++n) {
+            for (int n = 1; n <= max_steps; ++n) {
                 worst.assign(worst.size(), 0.0F); // by column: no maximum waits for another
                 const float* const at = row.data();
                 const std::size_t apart = index_of(n), end = row.size() - apart - 1;
@@ -76,8 +76,8 @@ TrafficBeam::TrafficBeam(const BeamTexture& beam)
         for (std::size_t n = 1; n < one.second_cd.size(); ++n)
             one.second_cd[n] = std::max(one.second_cd[n], one.second_cd[n - 1]);
     }
-    if (!most_of_cell_.empty())
-        most_ = static_cast<double>(*std::max_element(most_of_cell_.begin(), most_of_cell_.end()));
+    if (!max_of_cell_.empty())
+        most_ = static_cast<double>(*std::max_element(max_of_cell_.begin(), max_of_cell_.end()));
 }
 
 std::pair<int, int> TrafficBeam::rows_of(double v_from_rad, double v_to_rad) const {
@@ -88,7 +88,7 @@ std::pair<int, int> TrafficBeam::rows_of(double v_from_rad, double v_to_rad) con
     return {std::max(0, row(v_from_rad)), std::min(static_cast<int>(rows_.size()) - 1, row(v_to_rad))};
 }
 
-double TrafficBeam::most_cd(const BeamWindow& w) const {
+double TrafficBeam::max_cd(const BeamWindow& w) const {
     const auto [low, high] = rows_of(w.v_from_rad - slack_rad, w.v_to_rad + slack_rad);
     const double size = texels_a_column * h_step_;
     const auto column = [&](double h_rad) {
@@ -98,14 +98,14 @@ double TrafficBeam::most_cd(const BeamWindow& w) const {
     float most = 0.0F;
     for (int row = low; row <= high; ++row)
         for (int k = left; k <= right; ++k)
-            most = std::max(most, most_of_cell_[index_of(row) * index_of(columns_) + index_of(k)]);
+            most = std::max(most, max_of_cell_[index_of(row) * index_of(columns_) + index_of(k)]);
     return static_cast<double>(most);
 }
 
-double TrafficBeam::merging_lx(double apart, double apart_up, const BeamWindow& w, double lx_a_cd, double most_lx) const {
+double TrafficBeam::merging_lx(double apart, double apart_up, const BeamWindow& w, double lx_a_cd, double max_lx) const {
     const double v = std::max(std::abs(w.v_from_rad), std::abs(w.v_to_rad)), steps = std::ceil(apart / (std::cos(v) * h_step_));
-    if (apart > most_apart || !(std::cos(v) > 0.1) || !(steps <= most_steps))
-        return 2.0 * most_lx;
+    if (apart > max_apart || !(std::cos(v) > 0.1) || !(steps <= max_steps))
+        return 2.0 * max_lx;
     const double tilt = apart_up + apart * std::sin(v) + apart * apart; // change of V from the middle to a lamp
     const auto [low, high] = rows_of(w.v_from_rad - tilt - slack_rad, w.v_to_rad + tilt + slack_rad);
     double cd = 0.0;
@@ -115,7 +115,7 @@ double TrafficBeam::merging_lx(double apart, double apart_up, const BeamWindow& 
                               static_cast<double>(row.up) / v_step_ * tilt +
                               3.5 * static_cast<double>(row.across) / h_step_ * apart * apart);
     }
-    return std::min(2.0 * most_lx, float_sums * cd * lx_a_cd + 6.0 * apart * apart * most_lx);
+    return std::min(2.0 * max_lx, float_sums * cd * lx_a_cd + 6.0 * apart * apart * max_lx);
 }
 
 } // namespace fernlicht

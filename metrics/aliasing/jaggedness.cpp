@@ -157,7 +157,7 @@ namespace {
 // How far a drawn line may lie from the true one and still be the same line: texels of a coarse beam are many pixels wide, a mark's border
 // is drawn within one. The others stand in the header.
 constexpr int reach_px = 2;
-constexpr double shadow_share = 0.02, least_contrast = 2.0, background_px = 4.0, straight_px = 2.0, cut_off_search_px = 16.0,
+constexpr double shadow_share = 0.02, min_contrast = 2.0, background_px = 4.0, straight_px = 2.0, cut_off_search_px = 16.0,
                  mark_search_px = 1.0;
 
 void check(const Image<float>& tested, const EdgeReference& reference, const Image<float>& fine) {
@@ -266,7 +266,7 @@ std::optional<EdgeJaggedness> mark_jaggedness(const Image<float>& tested_cdm2, c
     };
     const cv::Mat road_share = share_of(Ground::road), mark_share = share_of(Ground::mark), other_share = share_of(Ground::other);
     const cv::Mat road = brightness_of(Ground::road, reference, road_share), mark = brightness_of(Ground::mark, reference, mark_share);
-    const cv::Mat lit = (mark - road >= least_seen_cdm2) & (mark >= least_contrast * road);
+    const cv::Mat lit = (mark - road >= min_seen_cdm2) & (mark >= min_contrast * road);
     cv::Mat around; // half along a straight border, less at corners, at the ends of dashes and on marks too narrow to tell
     cv::GaussianBlur(mark_share, around, {0, 0}, straight_px);
     const cv::Mat straight = (around >= 0.3) & (around <= 0.7);

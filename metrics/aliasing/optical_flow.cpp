@@ -17,24 +17,24 @@
 namespace fernlicht {
 namespace {
 
-constexpr int least_px = 32;
+constexpr int min_px = 32;
 constexpr double structure_px = 4.0, full_rms = 4.0;
 constexpr int contrast_window_px = 9;
 /// Of pixels that are off by rounding alone, 1/12 each in the square: their difference over two pixels, halved.
 constexpr double rounding_eigenvalue = 1.0 / 24.0;
 
 void check(const Image<float>& from, const Image<float>& to) {
-    if (from.width() != to.width() || from.height() != to.height() || std::min(from.width(), from.height()) < least_px)
+    if (from.width() != to.width() || from.height() != to.height() || std::min(from.width(), from.height()) < min_px)
         throw std::invalid_argument(fmt::format("motion from {}x{} to {}x{} pixels cannot be told; both must have one size of at least "
                                                 "{} each way",
-                                                from.width(), from.height(), to.width(), to.height(), least_px));
+                                                from.width(), from.height(), to.width(), to.height(), min_px));
     for (const Image<float>* picture : {&from, &to})
         for (const float value : picture->pixels())
             if (!std::isfinite(value))
                 throw std::invalid_argument(fmt::format("a pixel is {}", value));
 }
 
-double level_of(float luminance_cdm2) { return std::log1p(std::max(0.0, static_cast<double>(luminance_cdm2)) / least_seen_cdm2); }
+double level_of(float luminance_cdm2) { return std::log1p(std::max(0.0, static_cast<double>(luminance_cdm2)) / min_seen_cdm2); }
 
 /// Headlamps light the road alike from frame to frame, so what they do to it stands on the screen while the road moves: taken out.
 cv::Mat structure_of(const Image<float>& picture) {
@@ -129,7 +129,7 @@ Image<std::uint8_t> has_contrast(const Image<float>& picture, const Image<float>
     return found;
 }
 
-Image<std::uint8_t> found_again(const Flow& there, const Flow& back, double most_px) {
+Image<std::uint8_t> found_again(const Flow& there, const Flow& back, double max_px) {
     const int width = there.dx_px.width(), height = there.dx_px.height();
     if (back.dx_px.width() != width || back.dx_px.height() != height)
         throw std::invalid_argument("motion there and back is of pictures of one size");
@@ -141,7 +141,7 @@ Image<std::uint8_t> found_again(const Flow& there, const Flow& back, double most
             if (!(at_x >= 0.0 && at_y >= 0.0 && at_x <= width - 1.0 && at_y <= height - 1.0))
                 continue;
             const double off = std::hypot(dx + between_pixels(back.dx_px, at_x, at_y), dy + between_pixels(back.dy_px, at_x, at_y));
-            found.at(x, y) = off <= most_px ? 1 : 0;
+            found.at(x, y) = off <= max_px ? 1 : 0;
         }
     return found;
 }
@@ -194,8 +194,8 @@ struct Step {
 
 std::pair<Step, Step> steps_between(const Image<float>& a, const Image<float>& b, FlowMethod method) {
     Step there{optical_flow(a, b, method), {}}, back{optical_flow(b, a, method), {}};
-    there.kept = found_again(there.flow, back.flow, most_return_px);
-    back.kept = found_again(back.flow, there.flow, most_return_px);
+    there.kept = found_again(there.flow, back.flow, max_return_px);
+    back.kept = found_again(back.flow, there.flow, max_return_px);
     return {std::move(there), std::move(back)};
 }
 

@@ -27,9 +27,9 @@ enum class FlowMethod : std::uint8_t {
 /// brightest of both as 255. Throws std::invalid_argument unless both have one size of at least 32 x 32 pixels and values that are finite.
 Flow optical_flow(const Image<float>& from, const Image<float>& to, FlowMethod method = FlowMethod::dis);
 
-/// 1 where going there and back ends within `most_px` of the start; 0 where it does not, or leaves the picture: hidden in one of them, or
+/// 1 where going there and back ends within `max_px` of the start; 0 where it does not, or leaves the picture: hidden in one of them, or
 /// not to be found. Throws std::invalid_argument for sizes that differ.
-Image<std::uint8_t> found_again(const Flow& there, const Flow& back, double most_px);
+Image<std::uint8_t> found_again(const Flow& there, const Flow& back, double max_px);
 
 /// 1 where a picture has contrast in two directions, without which no motion can be told: the smaller eigenvalue of its structure tensor
 /// over 9 x 9 pixels (Shi and Tomasi 1994) is above four times what rounding to the 8 bits that the search sees puts there, and the
@@ -74,10 +74,10 @@ struct FlowPaths {
 };
 
 /// How far going there and back may end from the start.
-inline constexpr double most_return_px = 0.5;
+inline constexpr double max_return_px = 0.5;
 
 /// Every `stride`-th pixel each way of picture `from`, followed from one picture to the next in both directions of time. Left out is what
-/// has_contrast() does not tell in picture `from`, which was rounded by `step_cdm2`, what found_again() does not find within most_return_px
+/// has_contrast() does not tell in picture `from`, which was rounded by `step_cdm2`, what found_again() does not find within max_return_px
 /// at any step, and what leaves the picture: dark, hidden or wrong. Errors of the steps add up along a path. Throws std::invalid_argument
 /// as optical_flow() and for `from` beyond the pictures.
 FlowPaths paths_by_flow(const std::vector<Image<float>>& pictures, std::size_t from, int stride, FlowMethod method = FlowMethod::dis,

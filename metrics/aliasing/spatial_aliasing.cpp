@@ -171,7 +171,7 @@ enum Part { aliasing, folded, rest, lost };
 struct BlockResult {
     std::array<std::array<Squares, band_count>, part_count> bands{};
     Block aliasing, folded;
-    double luminance_cdm2 = least_seen_cdm2;
+    double luminance_cdm2 = min_seen_cdm2;
 };
 
 std::size_t band_of(std::size_t bin) {
@@ -221,7 +221,7 @@ BlockResult measure_block(const Image<double>& tested, const BandSplit& split, i
     Block target = block_at(tested, left, top), ideal = block_at(split.ideal, left, top);
     const double tested_mean = mean_of(target), ideal_mean = mean_of(ideal);
     BlockResult result;
-    const double luminance = result.luminance_cdm2 = std::max({rms_of(target), rms_of(ideal), least_seen_cdm2});
+    const double luminance = result.luminance_cdm2 = std::max({rms_of(target), rms_of(ideal), min_seen_cdm2});
     const double gain = tested_mean > 0.0 && ideal_mean > 0.0 ? tested_mean / ideal_mean : 1.0;
     remove_slope(target);
     remove_slope(ideal);

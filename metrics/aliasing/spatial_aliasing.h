@@ -41,7 +41,7 @@ struct SpatialAliasing {
 double still_contrast_sensitivity(double cycles_per_degree, double luminance_cdm2);
 
 /// Luminances below count as this where contrast is taken: the lower end of mesopic vision in CIE 191:2010.
-inline constexpr double least_seen_cdm2 = 0.005;
+inline constexpr double min_seen_cdm2 = 0.005;
 
 /// Blocks of 32 x 32 pixels under a sine window, neighbours overlapping by half. In each, `tested` without level and slope is told apart by
 /// least squares (squared window) into

@@ -71,7 +71,7 @@ std::vector<double> summed(const std::vector<TrackSamples>& tracks, std::size_t 
     const Periodogram periodogram(frames);
     std::vector<double> sums(frames / 2);
     for (const TrackSamples& track : tracks) {
-        const double level = std::max(track.level, least_seen_cdm2);
+        const double level = std::max(track.level, min_seen_cdm2);
         const std::vector<double> powers = periodogram.of(track.values);
         for (std::size_t k = 0; k < powers.size(); ++k)
             sums[k] += powers[k] / (level * level);

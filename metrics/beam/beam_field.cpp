@@ -135,14 +135,14 @@ double rounding_of(const CandelaTable& table) {
 
 namespace {
 
-constexpr double widest_deg = 20.0, highest_deg = 4.0, least_fall_per_deg = 1.5, least_share_of_peak = 0.02;
+constexpr double widest_deg = 20.0, highest_deg = 4.0, min_fall_per_deg = 1.5, min_share_of_peak = 0.02;
 
-std::optional<double> steepest_fall(const BeamField& beam, std::size_t h, double least_cd) {
+std::optional<double> steepest_fall(const BeamField& beam, std::size_t h, double min_cd) {
     const CandelaTable& table = beam.table();
-    double steepest = -least_fall_per_deg;
+    double steepest = -min_fall_per_deg;
     std::optional<double> at_deg;
     for (std::size_t v = 1; v + 1 < table.v_deg.size(); ++v) {
-        if (std::abs(table.v_deg[v]) > highest_deg || table.at(v - 1, h) < least_cd)
+        if (std::abs(table.v_deg[v]) > highest_deg || table.at(v - 1, h) < min_cd)
             continue;
         if (const double fall = beam.gradient(v, h).second; fall < steepest) {
             steepest = fall;
@@ -156,7 +156,7 @@ std::optional<double> steepest_fall(const BeamField& beam, std::size_t h, double
 
 CutOffLine::CutOffLine(const BeamField& beam, double peak_cd) : h_deg_(beam.table().h_deg) {
     for (std::size_t h = 0; h < h_deg_.size(); ++h) {
-        v_deg_.push_back(std::abs(h_deg_[h]) <= widest_deg ? steepest_fall(beam, h, least_share_of_peak * peak_cd) : std::nullopt);
+        v_deg_.push_back(std::abs(h_deg_[h]) <= widest_deg ? steepest_fall(beam, h, min_share_of_peak * peak_cd) : std::nullopt);
         if (v_deg_.back())
             ++columns_;
     }

@@ -13,7 +13,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_zones = 64;
+constexpr std::size_t max_zones = 64;
 constexpr std::array<int, 3> block_halves{0, 1, 2}; // 1, 3 x 3, 5 x 5 samples
 
 struct Block {
@@ -264,7 +264,7 @@ std::vector<BeamZone> find_zones(const ResidualGrid& grid, double z_limit) {
     std::vector<BeamZone> zones;
     ResidualGrid rest = grid;
     // One zone after the other, each taken out with the samples round it: blocks that reach into it would begin another beside it.
-    while (zones.size() < most_zones) {
+    while (zones.size() < max_zones) {
         const Smoothed smoothed = smooth(rest);
         const std::vector<std::size_t> members = largest_zone(rest, smoothed, z_limit);
         if (members.empty())

@@ -12,7 +12,7 @@ namespace {
 constexpr double scan_step_deg = 0.01;
 constexpr std::size_t over_steps = 10; // 0.1 degrees, over which G is taken
 constexpr double search_from_deg = -3.0, search_to_deg = 2.0;
-constexpr double most_kink_uncertainty_deg = 0.15;
+constexpr double max_kink_uncertainty_deg = 0.15;
 
 /// Coarsest step of the axis between two angles.
 double coarsest_step(const std::vector<double>& axis, double from, double to) {
@@ -122,8 +122,8 @@ CutOffScan scan_along(const AimedLamp& lamp, const ScanLine& line, const CutOffO
         return scan;
     }
     scan.sharpness = *top;
-    if (*top < least_sharpness) {
-        scan.reason = fmt::format("no edge: the greatest G is {:.3f}, and aiming needs {:.2f}", *top, least_sharpness);
+    if (*top < min_sharpness) {
+        scan.reason = fmt::format("no edge: the greatest G is {:.3f}, and aiming needs {:.2f}", *top, min_sharpness);
         return scan;
     }
     // Between the samples of a table that runs linearly, G has ripples of a few per cent: the middle of the run at 80 % does not follow
@@ -182,7 +182,7 @@ void find_kink(CutOffFigures& c) {
     }
     const double kink = h_mean + (*c.level.inflection_deg - v_mean) / slope, lever = h_mean - kink;
     c.kink_uncertainty_deg = std::hypot(c.level.uncertainty_deg(), rise_uncertainty * std::sqrt(1.0 / 3.0 + lever * lever / hh)) / slope;
-    if (c.kink_uncertainty_deg > most_kink_uncertainty_deg)
+    if (c.kink_uncertainty_deg > max_kink_uncertainty_deg)
         c.kink_reason = fmt::format("the edge at 1, 2 and 3 degrees right places the kink to {:.2f} degrees only", c.kink_uncertainty_deg);
     else if (kink > first.at_deg + c.kink_uncertainty_deg)
         c.kink_reason =

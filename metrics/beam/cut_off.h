@@ -58,6 +58,6 @@ CutOffScan vertical_scan(const AimedLamp& lamp, double h_deg, double v_from_deg,
 CutOffFigures measure_cut_off(const AimedLamp& lamp, const CutOffOptions& options = {});
 
 /// The least G of an edge that one may aim by; of the level part the texts ask for 0.13 to 0.40.
-inline constexpr double least_sharpness = 0.08;
+inline constexpr double min_sharpness = 0.08;
 
 } // namespace fernlicht

@@ -14,9 +14,9 @@ namespace {
 
 constexpr double from_h_deg = -5.0, to_h_deg = 6.0, from_v_deg = -3.5, to_v_deg = 5.0;
 constexpr double half_window_deg = 0.16;
-constexpr double least_fall = 1.5;     // ln I per degree
-constexpr double least_light = 0.02;   // of the peak, below the edge
-constexpr double least_slope = 0.0524; // tan 3 degrees
+constexpr double min_fall = 1.5;     // ln I per degree
+constexpr double min_light = 0.02;   // of the peak, below the edge
+constexpr double min_slope = 0.0524; // tan 3 degrees
 constexpr double fewest_rising_columns = 2.0;
 constexpr double z99 = 2.576;
 
@@ -69,8 +69,8 @@ std::optional<EdgePoint> edge_of(const CandelaTable& t, std::size_t column, doub
     const std::vector<Fall> smooth = falls_of(t, column, 1e-4 * peak);
     const Fall* top = nullptr;
     for (const Fall& f : smooth)
-        if (f.fall >= least_fall && (!top || f.fall > top->fall) &&
-            intensity_cd(t, t.h_deg[column], f.v_deg - half_window_deg) >= least_light * peak)
+        if (f.fall >= min_fall && (!top || f.fall > top->fall) &&
+            intensity_cd(t, t.h_deg[column], f.v_deg - half_window_deg) >= min_light * peak)
             top = &f;
     if (!top)
         return std::nullopt;
@@ -253,7 +253,7 @@ CutOffElbow fit_elbow(const AimedLamp& lamp) {
         if (std::abs(t.v_deg[j] + lamp.turned.v_deg - elbow.points.front().v_deg) < 1.0)
             row_step = std::max(row_step, t.v_deg[j] - t.v_deg[j - 1]);
     const Fit fit = robust_fit(elbow.points, shortest, row_step, sigma);
-    if (!(fit.slope >= least_slope)) {
+    if (!(fit.slope >= min_slope)) {
         elbow.reason = "the edge has no rise of 3 degrees or more";
         return elbow;
     }

@@ -18,9 +18,9 @@ constexpr double floor_share = 1e-4;    ///< of the peak; less is taken as this,
 constexpr double compared_share = 1e-3; ///< of the peak: fainter light is not compared
 constexpr double band_deg = 0.5;        ///< round the cut-off: what a raised cut-off moves
 constexpr double body_deg = 1.5;        ///< below its level part begins the light that it does not move
-constexpr std::size_t most_fitted = 3000;
+constexpr std::size_t max_fitted = 3000;
 /// A shift below this part of the tables' steps cannot be told from how intensity runs between the samples.
-constexpr double least_step_share = 0.05;
+constexpr double min_step_share = 0.05;
 /// An explanation counts when it at least halves the directions that would be claimed as zones: a zone's own border is uncertain by a
 /// sample.
 constexpr double must_leave = 0.5;
@@ -95,7 +95,7 @@ class Comparison {
         result.noise_relative = noise_at_peak_;
         result.zones = find_zones(residuals(best), z_limit_);
         if (!result.aim_up_deg && !result.cut_off_up_deg)
-            result.not_told.clear();
+            result.undecided.clear();
         return result;
     }
 
@@ -225,16 +225,16 @@ class Comparison {
     std::vector<BeamSample> where(const auto& belongs) const {
         std::vector<BeamSample> chosen, out;
         std::ranges::copy_if(samples_, std::back_inserter(chosen), belongs);
-        const std::size_t stride = chosen.size() / most_fitted + 1;
+        const std::size_t stride = chosen.size() / max_fitted + 1;
         for (std::size_t i = 0; i < chosen.size(); i += stride)
             out.push_back(chosen[i]);
         return out;
     }
 
     bool is_shift(const ShiftFit& fit) const {
-        const double least_h = least_step_share * steps_.h_deg, least_v = least_step_share * steps_.v_deg;
+        const double min_h = min_step_share * steps_.h_deg, min_v = min_step_share * steps_.v_deg;
         return fit.found &&
-               (is_beyond(fit.shift.up_deg, fit.up_error_deg, least_v) || is_beyond(fit.shift.right_deg, fit.right_error_deg, least_h));
+               (is_beyond(fit.shift.up_deg, fit.up_error_deg, min_v) || is_beyond(fit.shift.right_deg, fit.right_error_deg, min_h));
     }
 
     std::size_t claimed(const Explanation& explained) const {
@@ -265,10 +265,10 @@ class Comparison {
         const ShiftFit body = fit_shift(against_, where([&](const BeamSample& s) { return s.v_deg < line_.lowest_deg() - body_deg; }), {});
         const double raise = band.shift.up_deg - body.shift.up_deg, error = std::hypot(band.up_error_deg, body.up_error_deg);
         if (!body.found || body.up_error_deg > std::abs(band.shift.up_deg) / 4.0) {
-            result.not_told = "the light below the cut-off is too even to tell whether the whole beam moved or the cut-off alone";
+            result.undecided = "the light below the cut-off is too even to tell whether the whole beam moved or the cut-off alone";
             return false;
         }
-        const double least = least_step_share * steps_.v_deg;
+        const double least = min_step_share * steps_.v_deg;
         if (!is_beyond(raise, error, least) || std::abs(body.shift.up_deg) > std::abs(raise) / 2.0)
             return false;
         Explanation tried = best;
@@ -408,8 +408,8 @@ std::vector<std::string> sentences_of(const LampDifference& difference) {
                                   zone.h_from_deg, zone.h_to_deg, zone.v_from_deg, zone.v_to_deg, 100.0 * zone.uncertainty, zone.samples));
     if (out.empty())
         out.push_back("no difference beyond noise");
-    if (!difference.not_told.empty())
-        out.push_back(difference.not_told);
+    if (!difference.undecided.empty())
+        out.push_back(difference.undecided);
     return out;
 }
 

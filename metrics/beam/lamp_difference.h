@@ -36,7 +36,7 @@ struct LampDifference {
     std::optional<FittedFigure> cut_off_up_deg;            ///< over the light below it, where claimed
     std::optional<FittedFigure> level;                     ///< share: +0.03 is 3 % brighter all over; where claimed
     std::vector<BeamZone> zones;                           ///< clearest first
-    std::string not_told;                                  ///< what could not be told apart, if anything: one sentence
+    std::string undecided;                                 ///< what could not be told apart, if anything: one sentence
 
     bool any() const { return aim_up_deg || cut_off_up_deg || level || !zones.empty(); }
 };

@@ -14,9 +14,9 @@ namespace fernlicht {
 namespace {
 
 constexpr double adapts_deg = 1.0;
-constexpr double least_fitted_cdm2 = 1.0e-3, tenth_deg_cycles = 0.34155; // sqrt(ln(10) / 2) / pi
-constexpr double least_sigma_px = 0.2, sigma_ratio = 1.4142135623730951;
-constexpr double least_mesopic_cdm2 = 1.0e-4, most_mesopic_cdm2 = 10.0;
+constexpr double min_fitted_cdm2 = 1.0e-3, tenth_deg_cycles = 0.34155; // sqrt(ln(10) / 2) / pi
+constexpr double min_sigma_px = 0.2, sigma_ratio = 1.4142135623730951;
+constexpr double min_mesopic_cdm2 = 1.0e-4, max_mesopic_cdm2 = 10.0;
 constexpr int shares_a_decade = 100;
 
 /// The share of cones by decades: computed once, as its iteration takes longer than a pixel may.
@@ -25,7 +25,7 @@ const std::array<float, 5 * shares_a_decade + 1>& cone_shares() {
         std::array<float, 5 * shares_a_decade + 1> table{};
         for (std::size_t i = 0; i < table.size(); ++i)
             table[i] =
-                static_cast<float>(mesopic_luminance(least_mesopic_cdm2 * std::pow(10.0, static_cast<double>(i) / shares_a_decade), 1.0).m);
+                static_cast<float>(mesopic_luminance(min_mesopic_cdm2 * std::pow(10.0, static_cast<double>(i) / shares_a_decade), 1.0).m);
         return table;
     }();
     return shares;
@@ -39,7 +39,7 @@ cv::Mat matrix_of(const Image<glm::vec3>& picture) {
 /// Gaussians of 0.2 pixels and each sqrt(2) more, up to the widest that is needed; [0] is the picture itself.
 std::vector<Image<glm::vec3>> blurred(const Image<glm::vec3>& light, double widest_px) {
     std::vector<Image<glm::vec3>> all{light};
-    for (double sigma = least_sigma_px * sigma_ratio; all.back().width() > 0 && sigma < widest_px * sigma_ratio; sigma *= sigma_ratio) {
+    for (double sigma = min_sigma_px * sigma_ratio; all.back().width() > 0 && sigma < widest_px * sigma_ratio; sigma *= sigma_ratio) {
         Image<glm::vec3> next(light.width(), light.height());
         cv::Mat into = matrix_of(next);
         const int reach = 2 * static_cast<int>(std::ceil(4.0 * sigma)) + 1;
@@ -52,15 +52,15 @@ std::vector<Image<glm::vec3>> blurred(const Image<glm::vec3>& light, double wide
 } // namespace
 
 double acuity_cycles_per_deg(double adaptation_cdm2) {
-    return 17.25 * std::atan(1.4 * std::log10(std::max(adaptation_cdm2, least_fitted_cdm2)) + 0.35) + 25.72;
+    return 17.25 * std::atan(1.4 * std::log10(std::max(adaptation_cdm2, min_fitted_cdm2)) + 0.35) + 25.72;
 }
 
 double cone_share(double adaptation_cdm2) {
-    if (!(adaptation_cdm2 > least_mesopic_cdm2))
+    if (!(adaptation_cdm2 > min_mesopic_cdm2))
         return 0.0;
-    if (adaptation_cdm2 >= most_mesopic_cdm2)
+    if (adaptation_cdm2 >= max_mesopic_cdm2)
         return 1.0;
-    const double at = shares_a_decade * std::log10(adaptation_cdm2 / least_mesopic_cdm2);
+    const double at = shares_a_decade * std::log10(adaptation_cdm2 / min_mesopic_cdm2);
     const auto i = std::min(static_cast<std::size_t>(at), cone_shares().size() - 2);
     return std::lerp(static_cast<double>(cone_shares()[i]), static_cast<double>(cone_shares()[i + 1]), at - static_cast<double>(i));
 }
@@ -130,7 +130,7 @@ Image<glm::vec3> sharpness_at_night(const Image<glm::vec3>& light, double pixel_
     Image<glm::vec3> seen = light;
     tbb::parallel_for(0, light.height(), [&](int y) {
         for (int x = 0; x < light.width(); ++x) {
-            const double level = std::log(sigma_px(x, y) / least_sigma_px) / std::log(sigma_ratio);
+            const double level = std::log(sigma_px(x, y) / min_sigma_px) / std::log(sigma_ratio);
             if (!(level > 0.0))
                 continue;
             const auto below = std::min(static_cast<std::size_t>(level), levels.size() - 2);

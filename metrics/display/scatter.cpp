@@ -13,7 +13,7 @@ namespace {
 
 constexpr double degrees_a_radian = 180.0 / std::numbers::pi;
 constexpr double haze_from_deg = 0.1, haze_to_deg = 30.0, haze_counted_from_deg = 2.5; // the last: ASTM D1003
-constexpr int most_points = 4; // of the lattice on which a cell's veil is computed, to a side
+constexpr int max_points = 4; // of the lattice on which a cell's veil is computed, to a side
 
 /// Light of a cell: what it sends to the eye, and the direction of its centre.
 struct ScatterCell {
@@ -99,12 +99,12 @@ class ChordScatter {
 class LevelVeil {
   public:
     LevelVeil(const std::vector<ScatterLevel>& levels, std::size_t k, const PictureRays& rays, const ChordScatter& f, int near_cells)
-        : level_(levels[k]), coarsest_(k + 1 == levels.size()), size_(1 << k), points_(std::min(size_, most_points)),
+        : level_(levels[k]), coarsest_(k + 1 == levels.size()), size_(1 << k), points_(std::min(size_, max_points)),
           near_(k == 0 ? -1 : near_cells), far_(near_cells), rays_(rays), f_(f) {}
 
     /// Adds it for all pixels below the cell x, y.
     void add(int x, int y, Image<glm::vec3>& veil) const {
-        std::array<glm::vec3, most_points * most_points> sums{}, towards{};
+        std::array<glm::vec3, max_points * max_points> sums{}, towards{};
         const double step = points_ > 1 ? static_cast<double>(size_ - 1) / (points_ - 1) : 0.0;
         for (int k = 0; k < points_; ++k)
             for (int i = 0; i < points_; ++i)
@@ -134,7 +134,7 @@ class LevelVeil {
                     visit(level_.at(i, k));
     }
 
-    glm::vec3 between(const std::array<glm::vec3, most_points * most_points>& sums, double at_x, double at_y) const {
+    glm::vec3 between(const std::array<glm::vec3, max_points * max_points>& sums, double at_x, double at_y) const {
         const int i = std::min(static_cast<int>(at_x), points_ - 2), k = std::min(static_cast<int>(at_y), points_ - 2);
         const auto u = static_cast<float>(at_x - i), v = static_cast<float>(at_y - k);
         return (1.0F - v) * ((1.0F - u) * sums[index(i, k)] + u * sums[index(i + 1, k)]) +

@@ -52,7 +52,7 @@ double fitted_s(double luminance_cdm2, double l_max_cdm2, double share) {
     return std::max(1.0, share * (l_max_cdm2 - luminance_cdm2) / (luminance_cdm2 * (1.0 - share)));
 }
 
-ToneMapper histogram_mapper(const LuminanceHistogram& histogram, double l_max_cdm2, double range, double least_slope) {
+ToneMapper histogram_mapper(const LuminanceHistogram& histogram, double l_max_cdm2, double range, double min_slope) {
     ToneMapper mapper{ToneMapperKind::linear, 1.0, l_max_cdm2, {}};
     const std::vector<std::uint64_t>& counts = histogram.counts();
     std::uint64_t counted = 0, below = 0;
@@ -74,7 +74,7 @@ ToneMapper histogram_mapper(const LuminanceHistogram& histogram, double l_max_cd
     std::vector<double> shares(bins, 0.0);
     for (std::size_t i = 0; i < bins; ++i)
         shares[i] = first + i < counts.size() ? static_cast<double>(counts[first + i]) / static_cast<double>(counted) : 0.0;
-    const double least = least_slope * mean_slope, wanted = display_ln / step_ln;
+    const double least = min_slope * mean_slope, wanted = display_ln / step_ln;
     // All slopes at 1 give more than is wanted, all at the least less; bins without pixels stay at the least, so that the most of the rest
     // may not suffice: then the empty ones take what is left, evenly.
     double low = 0.0, high = 1.0;

@@ -21,8 +21,8 @@ class LuminanceHistogram {
     void add(double luminance_cdm2);
 
     std::uint64_t pixels() const { return pixels_; }
-    double most_cdm2() const { return most_; } ///< 0: nothing shines
-    double log_mean_cdm2() const;              ///< geometric mean of what is above 1e-6 cd/m2; 0: nothing is
+    double max_cdm2() const { return most_; } ///< 0: nothing shines
+    double log_mean_cdm2() const;             ///< geometric mean of what is above 1e-6 cd/m2; 0: nothing is
     const std::vector<std::uint64_t>& counts() const { return counts_; }
     static double bin_cdm2(std::size_t bin); ///< lower edge
 
@@ -38,9 +38,9 @@ double fitted_s(double luminance_cdm2, double l_max_cdm2, double share);
 
 /// Larson, Rushmeier, Piatko 1997, equations 3 and 7, between the darkest luminance worth showing and l_max: the curve's slope in
 /// logarithms follows the share of the pixels there, but is nowhere above 1 (the linear ceiling: no contrast is raised) nor below
-/// `least_slope` of the mean slope, so that the curve has an inverse everywhere. `range` = black / white of the display, 0 < range < 1: the
+/// `min_slope` of the mean slope, so that the curve has an inverse everywhere. `range` = black / white of the display, 0 < range < 1: the
 /// darkest luminance is shown so. Where all luminances fit into the display's range the result is linear.
-ToneMapper histogram_mapper(const LuminanceHistogram& histogram, double l_max_cdm2, double range, double least_slope = 0.05);
+ToneMapper histogram_mapper(const LuminanceHistogram& histogram, double l_max_cdm2, double range, double min_slope = 0.05);
 
 /// d ln A / dt = (ln L - ln A) / tau, solved exactly for a picture whose log-mean luminance L stands for a step: the result does not depend
 /// on how a stretch of time is cut. tau is that of brighter light where L > A, of darker where L < A.

@@ -49,18 +49,18 @@ double lit_lx(const Moment& moment, const Pose& surface, double above_m) {
 
 } // namespace
 
-Variant held_still(const Variant& variant) {
-    Variant still = variant;
-    if (!variant.motion || !variant.motion->control)
+LampSet without_control(const LampSet& lamp_set) {
+    LampSet still = lamp_set;
+    if (!lamp_set.motion || !lamp_set.motion->control)
         return still;
-    Motion motion = *variant.motion;
+    Motion motion = *lamp_set.motion;
     ControlRun& run = *motion.control;
     run.masks.clear();
     for (LampRun& lamp : run.runs) {
         lamp.swivel.reset();
         lamp.pitch.reset();
     }
-    if (const auto& cornering = variant.control->cornering)
+    if (const auto& cornering = lamp_set.control->cornering)
         for (std::size_t i = 0; i < run.lamps.size(); ++i)
             if (std::ranges::find(cornering->left, run.lamps[i]) != cornering->left.end() ||
                 std::ranges::find(cornering->right, run.lamps[i]) != cornering->right.end())
@@ -70,8 +70,8 @@ Variant held_still(const Variant& variant) {
 }
 
 ControlFold::ControlFold(const Drive& drive, const Route& route) : drive_(drive), route_(route) {
-    for (const Variant& variant : drive.variants)
-        for (const MountedLamp& lamp : variant.lamps)
+    for (const LampSet& lamp_set : drive.lamp_sets)
+        for (const MountedLamp& lamp : lamp_set.lamps)
             if (std::ranges::find(lamps_, lamp.name) == lamps_.end())
                 lamps_.push_back(lamp.name);
 }
@@ -102,9 +102,9 @@ ControlFold::Light ControlFold::light(const Moment& moment, double curvature) co
     return light;
 }
 
-void ControlFold::add(const Moment& moment, const Variant& variant) {
+void ControlFold::add(const Moment& moment, const LampSet& lamp_set) {
     if (!still_)
-        still_ = std::make_shared<const Variant>(held_still(variant));
+        still_ = std::make_shared<const LampSet>(without_control(lamp_set));
     Row row;
     row.tick = moment.tick;
     row.along_m = moment.distance_m;
@@ -114,7 +114,7 @@ void ControlFold::add(const Moment& moment, const Variant& variant) {
     row.swivel_deg.resize(lamps_.size());
     row.pitch_deg.resize(lamps_.size());
     row.level.resize(lamps_.size());
-    if (const ControlRun* const run = variant.motion && variant.motion->control ? &*variant.motion->control : nullptr) {
+    if (const ControlRun* const run = lamp_set.motion && lamp_set.motion->control ? &*lamp_set.motion->control : nullptr) {
         const State state{moment.tick, moment.time_s, moment.distance_m, moment.speed_mps};
         row.still = light(moment_at(state, drive_, route_, *still_), curvature);
         for (std::size_t i = 0; i < lamps_.size(); ++i) {
@@ -130,9 +130,9 @@ void ControlFold::add(const Moment& moment, const Variant& variant) {
         }
         if (static_cast<std::size_t>(moment.tick) < run->rows.size()) {
             const std::vector<double>& signals = run->rows[static_cast<std::size_t>(moment.tick)];
-            if (variant.control->modes)
+            if (lamp_set.control->modes)
                 row.mode = signals[signal::control_mode];
-            if (variant.control->high_beam)
+            if (lamp_set.control->high_beam)
                 row.high_beam = signals[signal::control_high_beam];
         }
     }
@@ -144,12 +144,12 @@ Readings ControlFold::readings() const {
     const auto say = [&](const ReadingKey& key, const std::string& where, std::optional<double> value, const std::string& why_not) {
         readings.push_back({key, Value::of(value, why_not), where});
     };
-    double most_deg = 0.0;
+    double max_deg = 0.0;
     for (const Row& row : rows_)
         for (const std::optional<double>& swivel : row.swivel_deg)
-            most_deg = std::max(most_deg, std::abs(swivel.value_or(0.0)));
+            max_deg = std::max(max_deg, std::abs(swivel.value_or(0.0)));
     say({.quantity = Quantity::control_swivel, .statistic = Statistic::maximum}, "largest swivel of any lamp",
-        rows_.empty() ? std::nullopt : std::optional(most_deg), "no moment was played");
+        rows_.empty() ? std::nullopt : std::optional(max_deg), "no moment was played");
     const auto in_bends = [&](int side, const std::string& none, auto&& value) {
         std::vector<double> values;
         for (const Row& row : rows_)
@@ -188,8 +188,8 @@ Readings ControlFold::readings() const {
             say({.quantity = Quantity::control_others, .aspect = aspect, .statistic = Statistic::maximum}, where, most,
                 "nobody came towards the car");
         }
-    const bool any_mode = std::ranges::any_of(drive_.variants, [](const Variant& v) { return v.control && v.control->modes; });
-    const bool any_high = std::ranges::any_of(drive_.variants, [](const Variant& v) { return v.control && v.control->high_beam; });
+    const bool any_mode = std::ranges::any_of(drive_.lamp_sets, [](const LampSet& v) { return v.control && v.control->modes; });
+    const bool any_high = std::ranges::any_of(drive_.lamp_sets, [](const LampSet& v) { return v.control && v.control->high_beam; });
     const auto share = [&](Quantity quantity, const std::string& subject, const std::string& where, const auto& holds) {
         double sum = 0.0;
         std::size_t count = 0;

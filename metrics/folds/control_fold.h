@@ -8,16 +8,16 @@
 
 namespace fernlicht {
 
-/// The variant with its lamps held still: no swivel, no levelling, no dark windows, no cornering light. Classes of the beam, levels of the
+/// The lamp set with its lamps held still: no swivel, no levelling, no dark windows, no cornering light. Classes of the beam, levels of the
 /// high beam and the load stay.
-Variant held_still(const Variant& variant);
+LampSet without_control(const LampSet& lamp_set);
 
 class ControlFold {
   public:
-    /// Some variant of the drive must have control; those without are measured too, for comparison. Drive and route must outlive the fold.
+    /// Some lamp set of the drive must have control; those without are measured too, for comparison. Drive and route must outlive the fold.
     ControlFold(const Drive& drive, const Route& route);
 
-    void add(const Moment& moment, const Variant& variant);
+    void add(const Moment& moment, const LampSet& lamp_set);
     /// control_swivel_max_deg; medians over the moments in bends (radius below 1500 m) to each side: control_left_bends_inside_at_50m_lx
     /// and its gain over lamps held still, ..._reach_5lx_m and its gain, ..._glare_at_50m_lx and its cost; shares of the time with high
     /// beam and in each class of the passing beam.
@@ -41,9 +41,9 @@ class ControlFold {
 
     const Drive& drive_;
     const Route& route_;
-    std::vector<std::string> lamps_; ///< of all variants
+    std::vector<std::string> lamps_; ///< of all lamp sets
     std::vector<Row> rows_;
-    std::shared_ptr<const Variant> still_;
+    std::shared_ptr<const LampSet> still_;
 };
 
 } // namespace fernlicht

@@ -86,9 +86,9 @@ void GlareFollowed::say(Readings& readings, const ReadingKey& eye, const std::st
             add(Quantity::glare_length, Statistic::none, {limit, unit}, what, figure_of(stretch.length_m));
         }
     };
-    limits(parameters.limits_lx, facing, "", ThresholdUnit::lx, "facing the lamps");
-    limits(parameters.limits_percent, increment, no_increment, ThresholdUnit::percent, "threshold increment");
-    limits(parameters.limits_de_boer, de_boer, no_de_boer, ThresholdUnit::de_boer, "de Boer's rating");
+    limits(parameters.thresholds_lx, facing, "", ThresholdUnit::lx, "facing the lamps");
+    limits(parameters.thresholds_percent, increment, no_increment, ThresholdUnit::percent, "threshold increment");
+    limits(parameters.thresholds_de_boer, de_boer, no_de_boer, ThresholdUnit::de_boer, "de Boer's rating");
 }
 
 SeeingSeries GlareFollowed::series(const ReadingKey& eye, const std::string& title, const std::string& over,

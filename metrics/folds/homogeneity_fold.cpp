@@ -49,8 +49,8 @@ void HomogeneityFold::add(const Moment& moment) {
     if (lit.lamps.empty())
         return;
     const LaneLight light = lane_light(drive_, route_, lit, to_parent(moment.ego, driver_eye_m(drive_)));
-    rows_.push_back({moment.tick, moment.distance_m, largest_gradients(light, asked.least_lx),
-                     patches(light, asked.least_lx, asked.patch_factor), foreground_ratio(light)});
+    rows_.push_back({moment.tick, moment.distance_m, largest_gradients(light, asked.min_lx),
+                     patches(light, asked.min_lx, asked.patch_factor), foreground_ratio(light)});
 }
 
 Readings HomogeneityFold::readings() const {
@@ -61,7 +61,7 @@ Readings HomogeneityFold::readings() const {
         for (const Row& row : rows_)
             values.push_back(figure(row));
         const std::optional<Spread> spread = spread_of(values);
-        const std::string where = fmt::format("own lane to {} m, where it has {} lx, {}", asked.ahead_m, asked.least_lx, what);
+        const std::string where = fmt::format("own lane to {} m, where it has {} lx, {}", asked.ahead_m, asked.min_lx, what);
         const Value none = Value::not_measured("no lamp was lit in any moment");
         ReadingKey key{.quantity = quantity, .lane = "own", .place = place, .statistic = Statistic::median};
         readings.push_back({key, spread ? Value(spread->median) : none, where + ", median"});

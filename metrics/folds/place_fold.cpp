@@ -166,7 +166,7 @@ Readings SensorFold::readings() const {
             readings.push_back({key, found, where});
             readings.back().key.subject = sensor.name;
         };
-        for (const double limit : parameters.limits_lx)
+        for (const double limit : parameters.thresholds_lx)
             say({.quantity = Quantity::sensor_reach, .threshold = {limit, ThresholdUnit::lx}},
                 reached_from_m(here.approach, limit, here.passed));
         for (const double distance_m : parameters.distances_m)

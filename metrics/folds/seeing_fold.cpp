@@ -48,14 +48,14 @@ SeeingFold::SeeingFold(const Drive& drive, const Route& route) {
         homogeneity_.emplace(drive, route);
     if (asked.places)
         places_.emplace(drive, route);
-    if (std::ranges::any_of(drive.variants, [](const Variant& variant) { return variant.control != nullptr; }))
+    if (std::ranges::any_of(drive.lamp_sets, [](const LampSet& lamp_set) { return lamp_set.control != nullptr; }))
         control_.emplace(drive, route);
 }
 
-void SeeingFold::add(const Moment& moment, const Variant& variant) {
+void SeeingFold::add(const Moment& moment, const LampSet& lamp_set) {
     each_asked([&](auto& fold) { fold.add(moment); }, sensors_, oncoming_, mirrors_, traffic_, visibility_, homogeneity_, places_);
     if (control_)
-        control_->add(moment, variant);
+        control_->add(moment, lamp_set);
 }
 
 Readings SeeingFold::readings() const {

@@ -15,8 +15,8 @@ class SeeingFold {
     /// Drive and route must outlive the fold. Throws InputError for places beyond the route's end.
     SeeingFold(const Drive& drive, const Route& route);
 
-    /// `variant`: the one that the moment is of; only lamp control asks for it.
-    void add(const Moment& moment, const Variant& variant);
+    /// `lamp_set`: the one that the moment is of; only lamp control asks for it.
+    void add(const Moment& moment, const LampSet& lamp_set);
     /// Nothing where the drive asks for nothing. Names do not depend on what was added.
     Readings readings() const;
     std::vector<SeeingSeries> series() const;
@@ -29,7 +29,7 @@ class SeeingFold {
     std::optional<VisibilityFold> visibility_;
     std::optional<HomogeneityFold> homogeneity_;
     std::optional<PlaceFold> places_;
-    std::optional<ControlFold> control_; ///< where some variant has lamp control
+    std::optional<ControlFold> control_; ///< where some lamp set has lamp control
 };
 
 } // namespace fernlicht

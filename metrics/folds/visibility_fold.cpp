@@ -197,13 +197,13 @@ Readings VisibilityFold::readings() const {
             const std::string where = fmt::format("{}, {}{} m with {} % reflectance, {}, visibility level {}", target.name,
                                                   target.squares > 1 ? fmt::format("{} squares of ", target.squares) : "a square of ",
                                                   target.size_m, 100.0 * target.reflectance, place_name(stand.across), target.level);
-            ManyMoments reach, undetected;
+            CensoredSamples reach, undetected;
             for (const Detection& detection : sight.detections) {
                 reach.add(detection.from_m);
                 undetected.add(detection.undetected_m);
             }
             ReadingKey key = sight.key;
-            const auto quantile = [&](Statistic statistic, const ManyMoments& moments, double share, const char* what) {
+            const auto quantile = [&](Statistic statistic, const CensoredSamples& moments, double share, const char* what) {
                 key.statistic = statistic;
                 readings.push_back({key, moments.quantile(share), fmt::format("{}, {}; {}", where, what, moments.account())});
             };

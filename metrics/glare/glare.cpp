@@ -14,7 +14,7 @@ namespace {
 constexpr double arc_minutes = 60.0; // in a degree
 
 struct Domain {
-    double least_deg, greatest_deg;
+    double min_deg, max_deg;
 };
 
 Domain domain_of(VeilingEquation equation) { return equation == VeilingEquation::cie_general ? Domain{0.1, 100.0} : Domain{1.0, 30.0}; }
@@ -65,9 +65,9 @@ Value veiling_luminance_cdm2(VeilingEquation equation, const std::vector<GlareSo
     for (const GlareSource& source : sources) {
         if (source.eye_lx == 0.0)
             continue;
-        if (source.theta_deg < domain.least_deg || source.theta_deg > domain.greatest_deg)
+        if (source.theta_deg < domain.min_deg || source.theta_deg > domain.max_deg)
             return Value::not_measured(fmt::format("a source {:.3g} degrees from the line of sight: {} holds from {} to {} degrees",
-                                                   source.theta_deg, name(equation), domain.least_deg, domain.greatest_deg));
+                                                   source.theta_deg, name(equation), domain.min_deg, domain.max_deg));
         veil += source.eye_lx * veil_per_lx(equation, source.theta_deg, eye);
     }
     return veil;

@@ -20,7 +20,7 @@ template <class Picture> void check(const Picture& tested, const Picture& refere
     check_comparable(tested, reference);
     if (!has_flip_at(pixels_per_degree))
         throw std::invalid_argument(
-            fmt::format("{} pixels per degree are not from {} to {}", pixels_per_degree, least_pixels_per_degree, most_pixels_per_degree));
+            fmt::format("{} pixels per degree are not from {} to {}", pixels_per_degree, min_pixels_per_degree, max_pixels_per_degree));
 }
 
 /// Calls `work(tile, memory)` for all tiles of a picture, several at once.
@@ -103,7 +103,7 @@ template <class Pixel> ExposureRange exposures_of(const Image<Pixel>& reference)
     }
     ExposureRange range;
     range.start = std::log2(aces::bright_end() / largest);
-    range.stop = std::min(std::log2(aces::bright_end() / middle), range.start + most_stops);
+    range.stop = std::min(std::log2(aces::bright_end() / middle), range.start + max_stops);
     range.count = std::max(2, static_cast<int>(std::ceil(range.stop - range.start)));
     return range;
 }

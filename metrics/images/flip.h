@@ -13,9 +13,9 @@ namespace fernlicht {
 /// Of the papers: a screen 3840 pixels and 0.7 m wide, 0.7 m away.
 inline constexpr double default_pixels_per_degree = 67.02064327658226;
 /// What FLIP is taken at: coarser, its filters are less than a pixel; finer, they are larger than pictures.
-inline constexpr double least_pixels_per_degree = 1.0, most_pixels_per_degree = 1000.0;
+inline constexpr double min_pixels_per_degree = 1.0, max_pixels_per_degree = 1000.0;
 inline bool has_flip_at(double pixels_per_degree) {
-    return pixels_per_degree >= least_pixels_per_degree && pixels_per_degree <= most_pixels_per_degree;
+    return pixels_per_degree >= min_pixels_per_degree && pixels_per_degree <= max_pixels_per_degree;
 }
 
 /// On the axis of a perspective view: a picture seen from where it was drawn for. Field of view above 0 and below 180 degrees.
@@ -32,10 +32,10 @@ struct ExposureRange {
 };
 
 /// The most stops between start and stop: a million to one, more than an eye adapted to any one level tells apart.
-inline constexpr double most_stops = 20.0;
+inline constexpr double max_stops = 20.0;
 
 /// Start: the tone mapper gives 0.85 to the reference's largest luminance; stop: to its median. Night pictures are black for more than
-/// half: where the median is 0, it is that of the pixels above 0 (the paper has no answer there), and stop is at most start + most_stops.
+/// half: where the median is 0, it is that of the pixels above 0 (the paper has no answer there), and stop is at most start + max_stops.
 /// Throws std::invalid_argument for a picture without light, or with values below 0 or not finite.
 ExposureRange exposures_for(const Image<glm::vec3>& reference);
 ExposureRange exposures_for(const Image<float>& reference);

@@ -86,7 +86,7 @@ struct QuantityRow {
     bool is_extent; ///< lit road, measured as `extent` asks
     Exactness exactness;
     WithLight with_light;
-    const char* words; ///< for people; reading_words.cpp fills the braces
+    const char* words; ///< for people; reading_labels.cpp fills the braces
     const char *meaning, *equation, *source;
 };
 

@@ -389,7 +389,7 @@ std::optional<ReadingKey> eye_of(std::string_view name) {
 const char* unit_of(const ReadingKey& key) { return row_of(key.quantity).unit; }
 bool is_extent(const ReadingKey& key) { return row_of(key.quantity).is_extent; }
 bool is_time(const ReadingKey& key) { return key.quantity == Quantity::pass_time; }
-bool says_how_exact(const ReadingKey& key) { return key.aspect >= Aspect::twin; }
+bool is_uncertainty(const ReadingKey& key) { return key.aspect >= Aspect::twin; }
 
 std::vector<ReadingKey> shapes_of(const ReadingKey& sample) {
     std::vector<ReadingKey> shapes;

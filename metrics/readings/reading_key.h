@@ -81,7 +81,7 @@ std::optional<ReadingKey> eye_of(std::string_view name);
 const char* unit_of(const ReadingKey& key); ///< "m", "cd/m2", "%", "1"
 bool is_extent(const ReadingKey& key);      ///< reach, unlit length, width, area
 bool is_time(const ReadingKey& key);        ///< of this machine: reported, never compared
-bool says_how_exact(const ReadingKey& key); ///< of another reading, or how sensitive that is: never compared itself
+bool is_uncertainty(const ReadingKey& key); ///< of another reading, or how sensitive that is: never compared itself
 
 /// Every key of the sample's quantity, with its subject, lane, distance and threshold's value where names have them.
 std::vector<ReadingKey> shapes_of(const ReadingKey& sample);

@@ -12,7 +12,7 @@ constexpr double double_precision = 1e-6;
 constexpr double evenness_step_m = 0.5;
 
 /// Of a reading; nullopt where it is missing or no number.
-std::optional<double> value_of(const PlayedReadings& played, const ReadingKey& key) {
+std::optional<double> value_of(const ReadingsOfCell& played, const ReadingKey& key) {
     const auto found = played.readings.find(key);
     return found == played.readings.end() ? std::nullopt : found->second.value.number();
 }
@@ -30,7 +30,7 @@ ReadingKey about_lane(Quantity quantity, const ReadingKey& key, Aspect aspect) {
 std::optional<double> positive(double step) { return step > 0.0 ? std::optional(step) : std::nullopt; }
 
 /// The grid's error on that line and the distance between drawing and double precision.
-std::optional<double> of_grid_and_drawing(const PlayedReadings& played, const ReadingKey& key) {
+std::optional<double> of_grid_and_drawing(const ReadingsOfCell& played, const ReadingKey& key) {
     const auto centre = value_of(played, about_lane(Quantity::reach, key, Aspect::grid_error)),
                twin = value_of(played, about_lane(Quantity::reach, key, Aspect::twin_difference));
     ReadingKey line = about_lane(key.quantity, key, Aspect::grid_error);
@@ -40,7 +40,7 @@ std::optional<double> of_grid_and_drawing(const PlayedReadings& played, const Re
     return grid && twin ? std::optional(*grid + *twin) : std::nullopt;
 }
 
-std::optional<double> of_drawing(const PlayedReadings& played, const Reading& reading) {
+std::optional<double> of_drawing(const ReadingsOfCell& played, const Reading& reading) {
     ReadingKey key = reading.key;
     key.aspect = Aspect::twin;
     const auto twin = reading.key.aspect == Aspect::value && key.statistic == Statistic::median ? value_of(played, key) : std::nullopt;
@@ -48,7 +48,7 @@ std::optional<double> of_drawing(const PlayedReadings& played, const Reading& re
 }
 
 /// To either side, in the reading's unit; nullopt when nothing tells.
-std::optional<double> left_open(const PlayedReadings& played, const Reading& reading) {
+std::optional<double> numerical_uncertainty(const ReadingsOfCell& played, const Reading& reading) {
     if (!reading.value.measured())
         return std::nullopt;
     if (ReadingKey key = reading.key; key.aspect == Aspect::value) {
@@ -88,7 +88,7 @@ constexpr double noise_deviations = 3.0;
 constexpr double rating_by_light = 2.0 / 2.302585092994046; // de Boer: W = 5 - 2 lg (E ...), after ln E
 
 /// The same figure at all thresholds that have it, by their values.
-std::map<double, double> over_thresholds(const PlayedReadings& played, ReadingKey key) {
+std::map<double, double> over_thresholds(const ReadingsOfCell& played, ReadingKey key) {
     std::map<double, double> by_threshold;
     for (const auto& [other, found] : played.readings) {
         key.threshold.value = other.threshold.value;
@@ -99,7 +99,7 @@ std::map<double, double> over_thresholds(const PlayedReadings& played, ReadingKe
 }
 
 /// The steeper of the slopes to the thresholds next to this one, over the logarithm of the light.
-std::optional<double> slope_over_limits(const PlayedReadings& played, const Reading& reading) {
+std::optional<double> slope_over_limits(const ReadingsOfCell& played, const Reading& reading) {
     const double own_lx = reading.key.threshold.value;
     std::map<double, double> by_lx = over_thresholds(played, reading.key);
     std::erase_if(by_lx, [](const auto& at) { return !(at.first > 0.0); });
@@ -115,7 +115,7 @@ std::optional<double> slope_over_limits(const PlayedReadings& played, const Read
 }
 
 /// Times and lengths below a rating, over the ratings that have them: the steepest slope, by how the rating goes with the light.
-std::optional<double> slope_over_ratings(const PlayedReadings& played, const Reading& reading) {
+std::optional<double> slope_over_ratings(const ReadingsOfCell& played, const Reading& reading) {
     const std::map<double, double> by_rating = over_thresholds(played, reading.key);
     std::optional<double> slope;
     for (auto above = by_rating.begin(); above != by_rating.end(); ++above)
@@ -128,7 +128,7 @@ std::optional<double> slope_over_ratings(const PlayedReadings& played, const Rea
 
 /// Detection: the level of a target goes with the light at most, so the distance moves no further than the steepest fall of the level over
 /// the distance lets it.
-std::optional<double> slope_over_distance(const PlayedReadings& played, const Reading& reading) {
+std::optional<double> slope_over_distance(const ReadingsOfCell& played, const Reading& reading) {
     const ReadingKey& key = reading.key;
     std::map<double, double> levels;
     for (const auto& [other, found] : played.readings)
@@ -149,7 +149,7 @@ std::optional<double> slope_over_distance(const PlayedReadings& played, const Re
 /// What 100 % more light would move a reading by, going on as it begins: its derivative after the logarithm of the light. Illuminance and
 /// luminance go with the light; reach has its sensitivity to flux; other extents take the steeper slope to the same extent at the next
 /// limits, for twice the light reaches twice the limit. nullopt when nothing tells.
-std::optional<double> moved_by_light(const PlayedReadings& played, const Reading& reading) {
+std::optional<double> light_sensitivity(const ReadingsOfCell& played, const Reading& reading) {
     if (!reading.value.number())
         return std::nullopt;
     const double size = std::abs(*reading.value.number());
@@ -179,15 +179,15 @@ std::optional<double> moved_by_light(const PlayedReadings& played, const Reading
 }
 
 /// The spread between repeats on top of what calculation leaves open, where they differ.
-std::optional<double> with_repeats(const PlayedReadings& cell, const Reading& reading) {
-    std::optional<double> calculated = left_open(cell, reading);
+std::optional<double> with_repeats(const ReadingsOfCell& cell, const Reading& reading) {
+    std::optional<double> calculated = numerical_uncertainty(cell, reading);
     if (!calculated && reading.value.censored()) // as a bound it is exact
         calculated = 0.0;
     const auto spread = cell.by_repeats.find(reading.key);
     return spread == cell.by_repeats.end() ? calculated : std::hypot(calculated.value_or(0.0), spread->second);
 }
 
-std::optional<double> by_aim(const PlayedReadings& a, const PlayedReadings& b, const ReadingKey& key) {
+std::optional<double> aim_effect(const ReadingsOfCell& a, const ReadingsOfCell& b, const ReadingKey& key) {
     const ReadingKey row = about_lane(Quantity::reach, key, Aspect::per_tenth_degree);
     const auto first = value_of(a, row), second = value_of(b, row);
     if (key.quantity != Quantity::reach || (!first && !second))
@@ -195,10 +195,10 @@ std::optional<double> by_aim(const PlayedReadings& a, const PlayedReadings& b, c
     return std::max(std::abs(first.value_or(0.0)), std::abs(second.value_or(0.0)));
 }
 
-std::optional<double> by_noise(const PlayedReadings& a, const PlayedReadings& b, const ReadingKey& key, double lamp_noise) {
+std::optional<double> noise_effect(const ReadingsOfCell& a, const ReadingsOfCell& b, const ReadingKey& key, double lamp_noise) {
     if (lamp_noise == 0.0)
         return 0.0;
-    const auto now = moved_by_light(a, a.readings.at(key)), before = moved_by_light(b, b.readings.at(key));
+    const auto now = light_sensitivity(a, a.readings.at(key)), before = light_sensitivity(b, b.readings.at(key));
     if (!now && !before)
         return std::nullopt;
     return noise_deviations * lamp_noise * std::max(now.value_or(0.0), before.value_or(0.0));
@@ -207,7 +207,7 @@ std::optional<double> by_noise(const PlayedReadings& a, const PlayedReadings& b,
 void judge(ReadingChange& change, const std::optional<double>& tested, const std::optional<double>& against) {
     const Value found = change.change();
     if (!found.measured()) {
-        change.why_not = found.reason();
+        change.reason_unknown = found.reason();
         return;
     }
     if (!tested || !against) {
@@ -215,21 +215,21 @@ void judge(ReadingChange& change, const std::optional<double>& tested, const std
             change.kind = ChangeKind::none;
             return;
         }
-        change.why_not = "nothing tells how exact this reading is";
+        change.reason_unknown = "nothing tells how exact this reading is";
         return;
     }
     change.uncertainty = std::hypot(*tested, *against);
-    const double size = change.least(), unsure = change.unsure();
-    if (size > unsure && !change.by_noise) {
-        change.why_not = "nothing tells how noise of the lamp tables moves this reading";
+    const double size = change.least(), unsure = change.total_uncertainty();
+    if (size > unsure && !change.noise_effect) {
+        change.reason_unknown = "nothing tells how noise of the lamp tables moves this reading";
         return;
     }
-    change.kind = size <= unsure                                                ? ChangeKind::none
-                  : change.by_aim && size <= std::hypot(*change.by_aim, unsure) ? ChangeKind::within_aim
-                                                                                : ChangeKind::real;
+    change.kind = size <= unsure                                                        ? ChangeKind::none
+                  : change.aim_effect && size <= std::hypot(*change.aim_effect, unsure) ? ChangeKind::within_aim
+                                                                                        : ChangeKind::real;
     if (found.censored() && change.kind != ChangeKind::real) { // it may be much more
         change.kind = ChangeKind::unknown;
-        change.why_not = "one of both lies beyond what was looked at";
+        change.reason_unknown = "one of both lies beyond what was looked at";
     }
 }
 
@@ -255,13 +255,13 @@ double ReadingChange::size() const {
     return largest > 0.0 ? least() / largest : 0.0;
 }
 
-ReadingChange change_of_reading(const ReadingKey& key, const PlayedReadings& now, const PlayedReadings& before, double lamp_noise) {
+ReadingChange change_of_reading(const ReadingKey& key, const ReadingsOfCell& now, const ReadingsOfCell& before, double lamp_noise) {
     const Reading &tested = now.readings.at(key), &against = before.readings.at(key);
     ReadingChange change{.reading = key,
                          .new_value = tested.value,
                          .old_value = against.value,
-                         .by_aim = by_aim(now, before, key),
-                         .by_noise = by_noise(now, before, key, lamp_noise)};
+                         .aim_effect = aim_effect(now, before, key),
+                         .noise_effect = noise_effect(now, before, key, lamp_noise)};
     judge(change, with_repeats(now, tested), with_repeats(before, against));
     return change;
 }

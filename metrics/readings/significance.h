@@ -21,14 +21,16 @@ const char* change_name(ChangeKind kind); ///< "real", "within aim", "no differe
 struct ReadingChange {
     ReadingKey reading = {};
     Value new_value = {}, old_value = {};
-    std::optional<double> uncertainty = {}; ///< of the difference, same unit; docs/studies.md
-    std::optional<double> by_aim = {};      ///< what 0.1 degrees of aim moves the reading by, the larger of both sides
-    std::optional<double> by_noise = {};    ///< what three standard deviations of the lamps' noise move it by; nullopt when nothing tells
+    std::optional<double> uncertainty = {};  ///< of the difference, same unit; docs/studies.md
+    std::optional<double> aim_effect = {};   ///< what 0.1 degrees of aim moves the reading by, the larger of both sides
+    std::optional<double> noise_effect = {}; ///< what three standard deviations of the lamps' noise move it by; nullopt when nothing tells
     ChangeKind kind = ChangeKind::unknown;
-    std::string why_not = {}; ///< for unknown
+    std::string reason_unknown = {}; ///< for unknown
 
     const char* unit() const { return unit_of(reading); }
-    double unsure() const { return std::hypot(uncertainty.value_or(0.0), by_noise.value_or(0.0)); } ///< calculation and noise
+    double total_uncertainty() const {
+        return std::hypot(uncertainty.value_or(0.0), noise_effect.value_or(0.0));
+    } ///< calculation and noise
     Value change() const { return difference(new_value, old_value, unit()); }
     double least() const;                   ///< |change| is at least this; 0 where it is not measured
     std::optional<double> relative() const; ///< to the old value's size; nullopt where that is 0, or one of both is no number
@@ -44,13 +46,13 @@ struct Steps {
 };
 
 /// What one side of a comparison read over a whole drive, rows that say how exact others are among it.
-struct PlayedReadings : Steps {
+struct ReadingsOfCell : Steps {
     std::map<ReadingKey, Reading> readings;
     std::map<ReadingKey, double> by_repeats; ///< of readings that differ between repeats: what chance reaches in 5 % of them
 };
 
 /// Both sides must have this reading. `lamp_noise` is the standard deviation of the difference of two intensities of the lamps'
 /// tables that is no difference of the lamps, relative; 0 where both sides' tables are taken as they are.
-ReadingChange change_of_reading(const ReadingKey& key, const PlayedReadings& now, const PlayedReadings& before, double lamp_noise = 0.0);
+ReadingChange change_of_reading(const ReadingKey& key, const ReadingsOfCell& now, const ReadingsOfCell& before, double lamp_noise = 0.0);
 
 } // namespace fernlicht

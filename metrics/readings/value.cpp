@@ -97,7 +97,7 @@ double quantile_with_bounds(std::vector<double> values, double share) {
 
 } // namespace
 
-void ManyMoments::add(const Value& value) {
+void CensoredSamples::add(const Value& value) {
     if (!value.measured()) {
         if (left_out_++ == 0)
             why_left_out_ = value.reason();
@@ -109,11 +109,11 @@ void ManyMoments::add(const Value& value) {
     at_most_ += value.kind() == Value::Kind::at_most ? 1U : 0U;
 }
 
-std::string ManyMoments::why_none() const { return left_out_ > 0 ? why_left_out_ + " in every moment" : why_none_; }
+std::string CensoredSamples::reason() const { return left_out_ > 0 ? why_left_out_ + " in every moment" : why_none_; }
 
-Value ManyMoments::quantile(double share) const {
+Value CensoredSamples::quantile(double share) const {
     if (count() == 0)
-        return Value::not_measured(why_none());
+        return Value::not_measured(reason());
     const double low = quantile_with_bounds(low_, share), high = quantile_with_bounds(high_, share);
     if (low != high && at_most_ == 0)
         return Value::at_least(low);
@@ -122,20 +122,20 @@ Value ManyMoments::quantile(double share) const {
     return Value::between(low, high, "nothing bounds it");
 }
 
-Value ManyMoments::mean() const {
+Value CensoredSamples::mean() const {
     if (count() == 0)
-        return Value::not_measured(why_none());
+        return Value::not_measured(reason());
     if (const std::size_t bounds = at_least_ + at_most_; bounds > 0)
         return Value::not_measured(fmt::format("{} of {} moments give a bound only", bounds, count()));
     return spread_of(low_)->mean;
 }
 
-Value ManyMoments::standard_deviation() const {
+Value CensoredSamples::standard_deviation() const {
     const Value mean = this->mean();
     return mean.measured() ? Value(spread_of(low_)->standard_deviation) : mean;
 }
 
-std::string ManyMoments::account() const {
+std::string CensoredSamples::account() const {
     std::string text = count() == 1 ? "1 moment" : fmt::format("{} moments", count());
     if (left_out_ > 0)
         text += fmt::format(", {} left out: {}", left_out_, why_left_out_);

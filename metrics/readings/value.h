@@ -64,11 +64,11 @@ Value median_value(const std::vector<double>& values, const std::string& why_non
 
 /// Quantiles of type 7 (Hyndman and Fan 1996) of what the moments gave. A moment that gave a bound may be anything beyond it: a quantile
 /// that this can move is a bound itself, all others are numbers.
-class ManyMoments {
+class CensoredSamples {
   public:
     /// `why_none`: the reason when no moment adds anything.
-    explicit ManyMoments(std::string why_none) : why_none_(std::move(why_none)) {}
-    ManyMoments() : ManyMoments("not there in any moment") {}
+    explicit CensoredSamples(std::string why_none) : why_none_(std::move(why_none)) {}
+    CensoredSamples() : CensoredSamples("not there in any moment") {}
 
     /// One that is not measured says nothing of rank: it is left out, and its reason told.
     void add(const Value& value);
@@ -83,7 +83,7 @@ class ManyMoments {
     std::string account() const;
 
   private:
-    std::string why_none() const;
+    std::string reason() const;
 
     std::string why_none_, why_left_out_;
     std::vector<double> low_, high_; ///< what each moment may be, at least and at most

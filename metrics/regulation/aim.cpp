@@ -12,16 +12,16 @@ namespace fernlicht {
 namespace {
 
 constexpr double settled_deg = 0.002; // well below the 0.01 degrees of a goniometer
-constexpr int most_rounds = 20;
+constexpr int max_rounds = 20;
 
 /// An edge known only to a file's coarse step would turn the beam by more than any re-aim allows (0.25 degrees in V).
-constexpr double most_position_error_deg = 0.25;
+constexpr double max_position_error_deg = 0.25;
 
 std::string angle(double deg, const char* positive, const char* negative) {
     return fmt::format("{:.2f} {}", std::abs(deg), deg < 0.0 ? negative : positive);
 }
 
-bool usable(const CutOffScan& scan) { return scan.inflection_deg && scan.position_error_deg <= most_position_error_deg; }
+bool usable(const CutOffScan& scan) { return scan.inflection_deg && scan.position_error_deg <= max_position_error_deg; }
 
 std::string why_not(const CutOffScan& scan) {
     return scan.inflection_deg ? fmt::format("its place is known to {:.2g} degrees only: {}", scan.position_error_deg, scan.reason)
@@ -35,7 +35,7 @@ struct Sideways {
     std::string why_not;
 };
 
-double usual_slope() { return std::tan(radians(15.0)); }
+double default_slope() { return std::tan(radians(15.0)); }
 
 /// The shoulder on the line at 0.2 D, where the elbow's fit does not contradict it: that line may run above a short rise and find another
 /// edge.
@@ -43,7 +43,7 @@ Sideways by_line(const CutOffFigures& c, const CutOffElbow& elbow, Direction tur
     if (!usable(c.shoulder))
         return {std::nullopt, 0.0, why_not(c.shoulder)};
     const double found = *c.shoulder.inflection_deg;
-    const double slope = elbow.at ? std::tan(radians(elbow.rise_angle_deg)) : usual_slope();
+    const double slope = elbow.at ? std::tan(radians(elbow.rise_angle_deg)) : default_slope();
     const double bound = c.shoulder.uncertainty_deg() + 0.3 * c.shoulder.table_step_deg + c.level.uncertainty_deg() / slope;
     constexpr double above_level_deg = 0.37;
     if (elbow.at) {
@@ -105,7 +105,7 @@ Aim by_cut_off(const CandelaTable& lamp, AimRule rule, const CutOffElbow& elbow)
         const double off = std::hypot(aim.residual.h_deg, aim.residual.v_deg);
         if (off < settled_deg)
             break;
-        if (off >= before || aim.rounds == most_rounds) {
+        if (off >= before || aim.rounds == max_rounds) {
             if (std::abs(aim.residual.h_deg) > aim.bound.h_deg || std::abs(aim.residual.v_deg) > aim.bound.v_deg)
                 return left_as_filed(
                     fmt::format("not converged after {} rounds, left as filed: {:.2f} degrees off, and {:.2f} the round before", aim.rounds,

@@ -16,7 +16,7 @@ inline constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 inline Limits at_least(double cd) { return {cd, no_limit}; }
 inline Limits at_most(double cd) { return {0.0, cd}; }
-inline Limits between(double least_cd, double most_cd) { return {least_cd, most_cd}; }
+inline Limits between(double min_cd, double max_cd) { return {min_cd, max_cd}; }
 
 inline RegulationRow point(std::string id, double h_deg, double v_deg, Limits limits) {
     return {std::move(id), RowKind::point, {{h_deg, v_deg}}, limits};

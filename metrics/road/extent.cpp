@@ -27,8 +27,8 @@ std::vector<LineSample> part_of(const AcrossCut& cut, const std::vector<double>&
     return line;
 }
 
-LaneExtent::Width width_of(const AcrossCut& cut, const std::vector<double>& offsets, const LaneSpan& span, double limit_lx) {
-    const LitLine lit = lit_line(part_of(cut, offsets, span), limit_lx);
+LaneExtent::Width width_of(const AcrossCut& cut, const std::vector<double>& offsets, const LaneSpan& span, double threshold_lx) {
+    const LitLine lit = lit_line(part_of(cut, offsets, span), threshold_lx);
     return {cut.at_m, lit.last_m, lit.first_m, lit.lit_m};
 }
 
@@ -72,27 +72,28 @@ void set_reach(LaneExtent& extent, const LitLine& centre, const LitLine& left_ed
 }
 
 LaneExtent extent_of_lane(const LitRoad& road, const LaneStrip& strip, const LaneLines& lines, const std::vector<AcrossCut>& cuts,
-                          double limit_lx, const LitArea& area) {
+                          double threshold_lx, const LitArea& area) {
     LaneExtent extent;
-    extent.limit_lx = limit_lx;
+    extent.threshold_lx = threshold_lx;
     extent.lane = strip.name;
     extent.same_direction = strip.same_direction;
-    set_reach(extent, lit_line(lines.centre, limit_lx), lit_line(lines.left_edge, limit_lx), lit_line(lines.right_edge, limit_lx));
+    set_reach(extent, lit_line(lines.centre, threshold_lx), lit_line(lines.left_edge, threshold_lx),
+              lit_line(lines.right_edge, threshold_lx));
     for (const AcrossCut& cut : cuts)
         if (const std::optional<LaneSpan> span = span_at(road, strip.spans, cut.at_m))
-            extent.widths.push_back(width_of(cut, road.grid().offset_m, *span, limit_lx));
+            extent.widths.push_back(width_of(cut, road.grid().offset_m, *span, threshold_lx));
     extent.area_m2 = area.lane_m2(strip.spans);
     return extent;
 }
 
-LaneExtent extent_of_all(const LitRoad& road, const std::vector<AcrossCut>& cuts, double limit_lx, const LitArea& area) {
+LaneExtent extent_of_all(const LitRoad& road, const std::vector<AcrossCut>& cuts, double threshold_lx, const LitArea& area) {
     const std::vector<double>& offsets = road.grid().offset_m;
     LaneExtent extent;
-    extent.limit_lx = limit_lx;
+    extent.threshold_lx = threshold_lx;
     extent.lane = "all";
-    set_reach(extent, road.farthest(limit_lx), road.column(offsets.size() - 1, limit_lx), road.column(0, limit_lx));
+    set_reach(extent, road.farthest(threshold_lx), road.column(offsets.size() - 1, threshold_lx), road.column(0, threshold_lx));
     for (const AcrossCut& cut : cuts) {
-        LaneExtent::Width& width = extent.widths.emplace_back(width_of(cut, offsets, {offsets.back(), offsets.front()}, limit_lx));
+        LaneExtent::Width& width = extent.widths.emplace_back(width_of(cut, offsets, {offsets.back(), offsets.front()}, threshold_lx));
         width.cut_off = width.width_m > 0.0 && (width.left_m >= offsets.back() || width.right_m <= offsets.front());
     }
     extent.area_m2 = area.all_m2();
@@ -101,9 +102,9 @@ LaneExtent extent_of_all(const LitRoad& road, const std::vector<AcrossCut>& cuts
 
 } // namespace
 
-std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector<double>& lx, ExtentPlane plane,
-                                       const std::vector<double>& limits_lx, const std::vector<double>& width_at_m) {
-    check_measurable(grid, lx, limits_lx);
+std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector<double>& lx, Surface surface,
+                                       const std::vector<double>& thresholds_lx, const std::vector<double>& width_at_m) {
+    check_measurable(grid, lx, thresholds_lx);
     std::vector<LaneExtent> extents;
     if (grid.ahead_m.size() < 2 || grid.offset_m.size() < 2)
         return extents;
@@ -113,17 +114,17 @@ std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector
         if (road.looked_at(at_m))
             cuts.push_back({at_m, road.across(at_m)});
     std::vector<LitArea> areas;
-    for (const double limit : limits_lx)
+    for (const double limit : thresholds_lx)
         areas.emplace_back(road, limit);
     for (const LaneStrip& strip : lane_strips(grid)) {
         const LaneLines lines = lines_of(road, strip.spans);
-        for (std::size_t i = 0; i < limits_lx.size(); ++i)
-            extents.push_back(extent_of_lane(road, strip, lines, cuts, limits_lx[i], areas[i]));
+        for (std::size_t i = 0; i < thresholds_lx.size(); ++i)
+            extents.push_back(extent_of_lane(road, strip, lines, cuts, thresholds_lx[i], areas[i]));
     }
-    for (std::size_t i = 0; i < limits_lx.size(); ++i)
-        extents.push_back(extent_of_all(road, cuts, limits_lx[i], areas[i]));
+    for (std::size_t i = 0; i < thresholds_lx.size(); ++i)
+        extents.push_back(extent_of_all(road, cuts, thresholds_lx[i], areas[i]));
     for (LaneExtent& extent : extents)
-        extent.plane = plane;
+        extent.surface = surface;
     return extents;
 }
 
@@ -152,11 +153,11 @@ PickedGrid picked(const ExtentGrid& grid, const std::vector<double>& lx, std::si
 int steps_in(double length_m, double step_m) { return static_cast<int>(std::floor(length_m / step_m * (1.0 + 1e-12))); }
 
 void check(const ExtentParameters& parameters) {
-    constexpr double most_points = 4e7;
+    constexpr double max_points = 4e7;
     const double rows = parameters.ahead_m / parameters.cell_m + 1.0;
     const double columns = 8.0 * parameters.beside_m / parameters.cell_m + 1.0;
     if (!(std::isfinite(parameters.cell_m) && parameters.cell_m > 0.0 && parameters.ahead_m > 0.0 && parameters.beside_m > 0.0 &&
-          rows * columns <= most_points))
+          rows * columns <= max_points))
         throw std::invalid_argument(fmt::format("a grid of {} m cells over {} m ahead and {} m to each side cannot be made",
                                                 parameters.cell_m, parameters.ahead_m, parameters.beside_m));
 }
@@ -202,8 +203,8 @@ ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bum
     return grid;
 }
 
-std::vector<LaneGridError> lane_grid_errors(const ExtentGrid& grid, const std::vector<double>& lx, ExtentPlane plane,
-                                            const std::vector<double>& limits_lx, const std::vector<LaneExtent>& measured) {
+std::vector<LaneGridError> lane_grid_errors(const ExtentGrid& grid, const std::vector<double>& lx, Surface surface,
+                                            const std::vector<double>& thresholds_lx, const std::vector<LaneExtent>& measured) {
     std::vector<LaneGridError> errors;
     const std::size_t columns = grid.offset_m.size();
     if (grid.ahead_m.size() < 3 || columns < 3)
@@ -212,13 +213,13 @@ std::vector<LaneGridError> lane_grid_errors(const ExtentGrid& grid, const std::v
     coarse.grid.surface.resize(coarse.lx.size()); // whose areas are known
     for (std::size_t row = 0; row < grid.ahead_m.size(); row += 2)
         coarse.grid.sections.push_back(grid.sections[row]);
-    const std::vector<LaneExtent> other = measure_extent(coarse.grid, coarse.lx, plane, limits_lx, {});
+    const std::vector<LaneExtent> other = measure_extent(coarse.grid, coarse.lx, surface, thresholds_lx, {});
     for (const LaneExtent& fine : measured) {
         const auto found = std::ranges::find_if(
-            other, [&](const LaneExtent& extent) { return extent.lane == fine.lane && extent.limit_lx == fine.limit_lx; });
+            other, [&](const LaneExtent& extent) { return extent.lane == fine.lane && extent.threshold_lx == fine.threshold_lx; });
         if (found == other.end() || fine.reach_is_cut_off || found->reach_is_cut_off)
             continue;
-        errors.push_back({fine.limit_lx, plane, fine.lane, std::abs(fine.reach_centre_m - found->reach_centre_m),
+        errors.push_back({fine.threshold_lx, surface, fine.lane, std::abs(fine.reach_centre_m - found->reach_centre_m),
                           std::max(std::abs(fine.reach_left_edge_m - found->reach_left_edge_m),
                                    std::abs(fine.reach_right_edge_m - found->reach_right_edge_m)),
                           std::abs(fine.unlit_before_reach_m - found->unlit_before_reach_m), std::abs(fine.area_m2 - found->area_m2)});
@@ -233,13 +234,13 @@ struct ReachAndArea {
     double area_m2 = 0.0;
 };
 
-std::vector<ReachAndArea> reach_and_area(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& limits_lx) {
+std::vector<ReachAndArea> reach_and_area(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& thresholds_lx) {
     const LitRoad road(grid, lx);
     const bool has_centre = grid.offset_m.front() <= 0.0 && grid.offset_m.back() >= 0.0;
     const std::optional<double> centre_m = has_centre ? std::optional(0.0) : std::nullopt;
     const std::vector<LineSample> centre = road.along(std::vector(grid.ahead_m.size(), centre_m));
     std::vector<ReachAndArea> results;
-    for (const double limit : limits_lx) {
+    for (const double limit : thresholds_lx) {
         const LitLine reach = lit_line(centre, limit);
         results.push_back({reach.lit_at_end ? std::nullopt : std::optional(reach.last_m), LitArea(road, limit).all_m2()});
     }
@@ -248,9 +249,9 @@ std::vector<ReachAndArea> reach_and_area(const ExtentGrid& grid, const std::vect
 
 } // namespace
 
-std::vector<GridError> grid_error(const ExtentGrid& grid, const std::vector<double>& lx, ExtentPlane plane,
-                                  const std::vector<double>& limits_lx) {
-    check_measurable(grid, lx, limits_lx);
+std::vector<GridError> grid_error(const ExtentGrid& grid, const std::vector<double>& lx, Surface surface,
+                                  const std::vector<double>& thresholds_lx) {
+    check_measurable(grid, lx, thresholds_lx);
     std::vector<GridError> errors;
     if (grid.ahead_m.size() < 3 || grid.offset_m.size() < 3)
         return errors;
@@ -260,11 +261,11 @@ std::vector<GridError> grid_error(const ExtentGrid& grid, const std::vector<doub
     const bool odd = rows == grid.ahead_m.size() && columns == grid.offset_m.size();
     const PickedGrid trimmed = odd ? PickedGrid{} : picked(grid, lx, 1, rows, columns);
     const PickedGrid coarse = picked(grid, lx, 2, rows, columns);
-    const std::vector<ReachAndArea> by_fine = reach_and_area(odd ? grid : trimmed.grid, odd ? lx : trimmed.lx, limits_lx);
-    const std::vector<ReachAndArea> by_coarse = reach_and_area(coarse.grid, coarse.lx, limits_lx);
-    for (std::size_t i = 0; i < limits_lx.size(); ++i) {
+    const std::vector<ReachAndArea> by_fine = reach_and_area(odd ? grid : trimmed.grid, odd ? lx : trimmed.lx, thresholds_lx);
+    const std::vector<ReachAndArea> by_coarse = reach_and_area(coarse.grid, coarse.lx, thresholds_lx);
+    for (std::size_t i = 0; i < thresholds_lx.size(); ++i) {
         const std::optional<double>&fine_m = by_fine[i].reach_m, &coarse_m = by_coarse[i].reach_m;
-        errors.push_back({limits_lx[i], plane, fine_m && coarse_m ? std::optional(std::abs(*fine_m - *coarse_m)) : std::nullopt,
+        errors.push_back({thresholds_lx[i], surface, fine_m && coarse_m ? std::optional(std::abs(*fine_m - *coarse_m)) : std::nullopt,
                           std::abs(by_fine[i].area_m2 - by_coarse[i].area_m2)});
     }
     return errors;

@@ -22,11 +22,11 @@ struct ExtentGrid {
 };
 
 /// Which illuminance: on the road's surface, or on a target facing the lamps at target height.
-enum class ExtentPlane { road, target };
+enum class Surface { road, target };
 
 struct LaneExtent {
-    double limit_lx = 0.0;
-    ExtentPlane plane = ExtentPlane::road;
+    double threshold_lx = 0.0;
+    Surface surface = Surface::road;
     std::string lane; ///< RouteLane::name, or "all" for the whole width that was looked at
     bool same_direction = true;
     /// Farthest place on the lane's centre line with E >= limit; 0: nowhere. For "all": on whichever line reaches farthest.
@@ -57,53 +57,54 @@ ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bum
 
 /// Illuminance at every grid point from the candela tables in double (scenarios/light/light.h); row-major like `surface`. No shadows.
 /// The same bytes for any number of threads.
-std::vector<double> twin_illuminance_lx(const ExtentGrid& grid, const Moment& moment, ExtentPlane plane);
+std::vector<double> twin_illuminance_lx(const ExtentGrid& grid, const Moment& moment, Surface surface);
 
 /// The same for measure_extent and grid_error, which find the same in it as long as they are asked for these limits or some of them: exact
-/// where they decide (deciding_lx.h), elsewhere a value that reaches the same limits. In a quarter of the time on the road; on targets, of
-/// which more are lit, it saves little.
-std::vector<double> deciding_twin_lx(const ExtentGrid& grid, const Moment& moment, ExtentPlane plane, const std::vector<double>& limits_lx);
+/// where they decide (lux_near_thresholds.h), elsewhere a value that reaches the same limits. In a quarter of the time on the road; on
+/// targets, of which more are lit, it saves little.
+std::vector<double> twin_lux_near_thresholds(const ExtentGrid& grid, const Moment& moment, Surface surface,
+                                             const std::vector<double>& thresholds_lx);
 
 /// Extents at every limit of every lane that lies wholly within the width that was looked at, then of "all". `lx` row-major like
 /// `grid.surface`, from any source. Between samples illuminance runs as in lit_line.h. Empty for a grid of less than two rows or
 /// columns. Throws std::invalid_argument for a wrong number of values, NaN or infinity among them, or a limit not above 0.
-std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector<double>& lx, ExtentPlane plane,
-                                       const std::vector<double>& limits_lx, const std::vector<double>& width_at_m);
+std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector<double>& lx, Surface surface,
+                                       const std::vector<double>& thresholds_lx, const std::vector<double>& width_at_m);
 
 /// How the reach on the own lane's centre answers to what is never known exactly. From the twin, which is asked between the grid's
 /// rows too. A limit whose reach is nowhere or cut off, as it is or with a lamp changed, has no difference to give and no entry.
 struct ReachSensitivity {
-    double limit_lx = 0.0;
-    ExtentPlane plane = ExtentPlane::road;
+    double threshold_lx = 0.0;
+    Surface surface = Surface::road;
     double metres_per_tenth_degree = 0.0; ///< central difference of +-0.1 degrees of pitch of all lamps
     double metres_per_tenth_flux = 0.0;   ///< central difference of +-10 % of flux
 };
-std::vector<ReachSensitivity> reach_sensitivity(const ExtentGrid& grid, const Moment& moment, const std::vector<double>& limits_lx);
+std::vector<ReachSensitivity> reach_sensitivity(const ExtentGrid& grid, const Moment& moment, const std::vector<double>& thresholds_lx);
 
 /// The grid's own error: reach on the own lane's centre and area of "all" from every second row and column against every one, as
 /// |difference| by limit. Where the error goes as the square of the cell, the grid's own is a third of this.
 struct GridError {
-    double limit_lx;
-    ExtentPlane plane;
+    double threshold_lx;
+    Surface surface;
     std::optional<double> reach_m; ///< nullopt: cut off in either, which says nothing of the cell
     double area_m2;
     bool operator==(const GridError&) const = default;
 };
-std::vector<GridError> grid_error(const ExtentGrid& grid, const std::vector<double>& lx, ExtentPlane plane,
-                                  const std::vector<double>& limits_lx);
+std::vector<GridError> grid_error(const ExtentGrid& grid, const std::vector<double>& lx, Surface surface,
+                                  const std::vector<double>& thresholds_lx);
 
 /// |difference| of one lane's extents between the grid and every second row and column of it, metres. Where the error goes as the square of
 /// the cell, the grid's own is a third of this.
 struct LaneGridError {
-    double limit_lx = 0.0;
-    ExtentPlane plane = ExtentPlane::road;
+    double threshold_lx = 0.0;
+    Surface surface = Surface::road;
     std::string lane;                                                 ///< as LaneExtent::lane
     double reach_m = 0.0, edge_m = 0.0, unlit_m = 0.0, area_m2 = 0.0; ///< `edge_m` is the larger of both edges'
 };
 
 /// `measured` is what measure_extent finds in `lx` on `grid`. A lane that the coarser grid loses (its edge lies beyond the last column),
 /// and a reach that is cut off on either, have no entry. Empty for a grid of less than three rows or columns.
-std::vector<LaneGridError> lane_grid_errors(const ExtentGrid& grid, const std::vector<double>& lx, ExtentPlane plane,
-                                            const std::vector<double>& limits_lx, const std::vector<LaneExtent>& measured);
+std::vector<LaneGridError> lane_grid_errors(const ExtentGrid& grid, const std::vector<double>& lx, Surface surface,
+                                            const std::vector<double>& thresholds_lx, const std::vector<LaneExtent>& measured);
 
 } // namespace fernlicht

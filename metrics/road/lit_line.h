@@ -22,8 +22,8 @@ struct LitLine {
     bool lit_at_end = false;            ///< at the last place that was looked at
 };
 
-/// limit_lx > 0.
-LitLine lit_line(const std::vector<LineSample>& line, double limit_lx);
+/// threshold_lx > 0.
+LitLine lit_line(const std::vector<LineSample>& line, double threshold_lx);
 
 /// Away from the lamps light falls off by powers of distance and beams by factors per degree: straight in the logarithm. Where
 /// either sample is dark there is no logarithm, and the value runs straight.

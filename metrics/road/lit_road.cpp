@@ -10,14 +10,14 @@
 
 namespace fernlicht {
 
-void check_measurable(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& limits_lx) {
+void check_measurable(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& thresholds_lx) {
     const std::size_t points = grid.ahead_m.size() * grid.offset_m.size();
     if (lx.size() != points || grid.surface.size() != points || grid.sections.size() != grid.ahead_m.size())
         throw std::invalid_argument(fmt::format("a grid of {} x {} points has {} values, {} places and {} sections", grid.ahead_m.size(),
                                                 grid.offset_m.size(), lx.size(), grid.surface.size(), grid.sections.size()));
     if (!std::ranges::all_of(lx, [](double value) { return std::isfinite(value); }))
         throw std::invalid_argument("an illuminance on the grid is not finite");
-    for (const double limit : limits_lx)
+    for (const double limit : thresholds_lx)
         if (!(limit > 0.0 && std::isfinite(limit)))
             throw std::invalid_argument(fmt::format("a limit of {} lx is not above 0", limit));
 }
@@ -64,17 +64,17 @@ std::vector<LineSample> LitRoad::along(const std::vector<std::optional<double>>&
     return line;
 }
 
-LitLine LitRoad::column(std::size_t index, double limit_lx) const {
+LitLine LitRoad::column(std::size_t index, double threshold_lx) const {
     std::vector<LineSample> line;
     line.reserve(grid_.ahead_m.size());
     for (std::size_t i = 0; i < grid_.ahead_m.size(); ++i)
         line.push_back({grid_.ahead_m[i], row(i)[index]});
-    return lit_line(line, limit_lx);
+    return lit_line(line, threshold_lx);
 }
 
-LitLine LitRoad::farthest(double limit_lx) const {
+LitLine LitRoad::farthest(double threshold_lx) const {
     std::size_t last = brightest_lx_.size();
-    while (last > 0 && brightest_lx_[last - 1] < limit_lx)
+    while (last > 0 && brightest_lx_[last - 1] < threshold_lx)
         --last;
     if (last == 0)
         return {};
@@ -83,15 +83,15 @@ LitLine LitRoad::farthest(double limit_lx) const {
     double best_share = -1.0;
     for (std::size_t i = 0; i < grid_.offset_m.size(); ++i) {
         const double lx = row(last - 1)[i];
-        if (lx < limit_lx)
+        if (lx < threshold_lx)
             continue;
-        const double share = last < brightest_lx_.size() ? crossing_share(lx, row(last)[i], limit_lx) : 0.0;
+        const double share = last < brightest_lx_.size() ? crossing_share(lx, row(last)[i], threshold_lx) : 0.0;
         if (share > best_share) {
             best = i;
             best_share = share;
         }
     }
-    return column(best, limit_lx);
+    return column(best, threshold_lx);
 }
 
 std::pair<std::size_t, double> LitRoad::place(double ahead_m) const {
@@ -149,10 +149,10 @@ template <class Inside, class Share> Polygon clipped(const Polygon& polygon, Ins
     return result;
 }
 
-Polygon lit_part(const Polygon& polygon, double limit_lx) {
+Polygon lit_part(const Polygon& polygon, double threshold_lx) {
     return clipped(
-        polygon, [limit_lx](const Corner& c) { return c.lx >= limit_lx; },
-        [limit_lx](const Corner& a, const Corner& b) { return crossing_share(a.lx, b.lx, limit_lx); });
+        polygon, [threshold_lx](const Corner& c) { return c.lx >= threshold_lx; },
+        [threshold_lx](const Corner& a, const Corner& b) { return crossing_share(a.lx, b.lx, threshold_lx); });
 }
 
 /// What lies on the side of a straight lane edge where `sign * (offset - edge)` is not negative.
@@ -177,10 +177,10 @@ double triangle_area_m2(const Pose& a, const Pose& b, const Pose& c) {
 }
 
 /// Area of the part that `cut` leaves of the lit part of each of the cell's triangles.
-template <class Cut> double lit_part_m2(const std::array<Polygon, 2>& triangles, const CellArea& areas_m2, double limit_lx, Cut cut) {
+template <class Cut> double lit_part_m2(const std::array<Polygon, 2>& triangles, const CellArea& areas_m2, double threshold_lx, Cut cut) {
     double lit_m2 = 0.0;
     for (std::size_t i = 0; i < triangles.size(); ++i)
-        lit_m2 += areas_m2[i] * (signed_area(cut(lit_part(triangles[i], limit_lx))) / signed_area(triangles[i]));
+        lit_m2 += areas_m2[i] * (signed_area(cut(lit_part(triangles[i], threshold_lx))) / signed_area(triangles[i]));
     return lit_m2;
 }
 
@@ -199,14 +199,14 @@ std::vector<CellArea> cell_areas_m2(const ExtentGrid& grid, std::size_t step, st
     return areas_m2;
 }
 
-LitArea::LitArea(const LitRoad& road, double limit_lx) : road_(&road), limit_lx_(limit_lx), lit_m2_(road.cell_m2_.size()) {
+LitArea::LitArea(const LitRoad& road, double threshold_lx) : road_(&road), threshold_lx_(threshold_lx), lit_m2_(road.cell_m2_.size()) {
     for (std::size_t row = 0; row + 1 < road.grid_.ahead_m.size(); ++row) {
         if (strip_is_dark(row))
             continue;
         const double *near = road.row(row), *far = road.row(row + 1);
-        int lit_right = (near[0] >= limit_lx ? 1 : 0) + (far[0] >= limit_lx ? 1 : 0);
+        int lit_right = (near[0] >= threshold_lx ? 1 : 0) + (far[0] >= threshold_lx ? 1 : 0);
         for (std::size_t column = 0; column < cells(); ++column) {
-            const int lit_left = (near[column + 1] >= limit_lx ? 1 : 0) + (far[column + 1] >= limit_lx ? 1 : 0);
+            const int lit_left = (near[column + 1] >= threshold_lx ? 1 : 0) + (far[column + 1] >= threshold_lx ? 1 : 0);
             const int lit_corners = lit_right + lit_left;
             lit_right = lit_left;
             const std::size_t cell = row * cells() + column;
@@ -214,7 +214,7 @@ LitArea::LitArea(const LitRoad& road, double limit_lx) : road_(&road), limit_lx_
             if (lit_corners == 4)
                 lit_m2_[cell] = areas_m2[0] + areas_m2[1];
             else if (lit_corners > 0)
-                lit_m2_[cell] = lit_part_m2(triangles_of(road.grid_, road.lx_, row, column), areas_m2, limit_lx, std::identity());
+                lit_m2_[cell] = lit_part_m2(triangles_of(road.grid_, road.lx_, row, column), areas_m2, threshold_lx, std::identity());
         }
     }
 }
@@ -229,14 +229,15 @@ double LitArea::all_m2() const {
 
 double LitArea::in_cut_cell_m2(std::size_t row, std::size_t column, const LaneSpan& near, const LaneSpan& far) const {
     const double *nearer = road_->row(row) + column, *farther = road_->row(row + 1) + column;
-    if (nearer[0] < limit_lx_ && nearer[1] < limit_lx_ && farther[0] < limit_lx_ && farther[1] < limit_lx_)
+    if (nearer[0] < threshold_lx_ && nearer[1] < threshold_lx_ && farther[0] < threshold_lx_ && farther[1] < threshold_lx_)
         return 0.0;
     const double ahead_m = road_->grid_.ahead_m[row], length_m = road_->grid_.ahead_m[row + 1] - ahead_m;
-    return lit_part_m2(
-        triangles_of(road_->grid_, road_->lx_, row, column), road_->cell_m2_[row * cells() + column], limit_lx_, [&](const Polygon& part) {
-            const Polygon right_of_left_edge = beside(part, ahead_m, near.left_m, (far.left_m - near.left_m) / length_m, -1.0);
-            return beside(right_of_left_edge, ahead_m, near.right_m, (far.right_m - near.right_m) / length_m, 1.0);
-        });
+    return lit_part_m2(triangles_of(road_->grid_, road_->lx_, row, column), road_->cell_m2_[row * cells() + column], threshold_lx_,
+                       [&](const Polygon& part) {
+                           const Polygon right_of_left_edge =
+                               beside(part, ahead_m, near.left_m, (far.left_m - near.left_m) / length_m, -1.0);
+                           return beside(right_of_left_edge, ahead_m, near.right_m, (far.right_m - near.right_m) / length_m, 1.0);
+                       });
 }
 
 /// Between two rows: cells wholly inside the lane count as they are, those that an edge cuts are clipped.

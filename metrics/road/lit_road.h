@@ -27,7 +27,7 @@ inline std::vector<CellArea> cell_areas_m2(const ExtentGrid& grid) {
 }
 
 /// Throws std::invalid_argument where measure_extent says so.
-void check_measurable(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& limits_lx);
+void check_measurable(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& thresholds_lx);
 
 /// A lane with its edges in every row.
 struct LaneStrip {
@@ -58,8 +58,8 @@ class LitRoad {
     /// Samples along the road, one per row, at these offsets; nullopt where there is nothing to follow.
     std::vector<LineSample> along(const std::vector<std::optional<double>>& offsets_m) const;
     /// The line that reaches farthest of all columns.
-    LitLine farthest(double limit_lx) const;
-    LitLine column(std::size_t index, double limit_lx) const;
+    LitLine farthest(double threshold_lx) const;
+    LitLine column(std::size_t index, double threshold_lx) const;
 
     /// Row before a distance and the share of the way to the next.
     std::pair<std::size_t, double> place(double ahead_m) const;
@@ -83,7 +83,7 @@ class LitRoad {
 class LitArea {
   public:
     /// Refers to the road.
-    LitArea(const LitRoad& road, double limit_lx);
+    LitArea(const LitRoad& road, double threshold_lx);
 
     /// Over the whole grid, m2.
     double all_m2() const;
@@ -92,12 +92,14 @@ class LitArea {
 
   private:
     std::size_t cells() const { return road_->grid_.offset_m.size() - 1; } ///< of a row
-    bool strip_is_dark(std::size_t row) const { return road_->brightest_lx_[row] < limit_lx_ && road_->brightest_lx_[row + 1] < limit_lx_; }
+    bool strip_is_dark(std::size_t row) const {
+        return road_->brightest_lx_[row] < threshold_lx_ && road_->brightest_lx_[row + 1] < threshold_lx_;
+    }
     double in_cut_cell_m2(std::size_t row, std::size_t column, const LaneSpan& near, const LaneSpan& far) const;
     double in_strip_m2(std::size_t row, const LaneSpan& near, const LaneSpan& far) const;
 
     const LitRoad* road_;
-    double limit_lx_;
+    double threshold_lx_;
     std::vector<double> lit_m2_; ///< of each cell, row-major
 };
 

@@ -1,6 +1,6 @@
 #include "metrics/road/extent.h"
 
-#include "metrics/road/deciding_lx.h"
+#include "metrics/road/lux_near_thresholds.h"
 #include "scenarios/light/light.h"
 
 #include <algorithm>
@@ -18,23 +18,23 @@ Moment with_lit_lamps(const Moment& moment) {
     return result;
 }
 
-double twin_lx(const Moment& moment, const Pose& surface, double target_height_m, ExtentPlane plane) {
-    return plane == ExtentPlane::road ? surface_illuminance_lx(moment, surface.position_m, surface.up())
-                                      : target_illuminance_lx(moment, surface.position_m + target_height_m * surface.up());
+double twin_lx(const Moment& moment, const Pose& pose, double target_height_m, Surface surface) {
+    return surface == Surface::road ? surface_illuminance_lx(moment, pose.position_m, pose.up())
+                                    : target_illuminance_lx(moment, pose.position_m + target_height_m * pose.up());
 }
 
 /// The own lane's centre, the offset nearest to 0, in the light of lamps that may stand otherwise than the moment says.
 class LitCentreLine {
   public:
-    LitCentreLine(const ExtentGrid& grid, Moment moment, ExtentPlane plane)
+    LitCentreLine(const ExtentGrid& grid, Moment moment, Surface surface)
         : grid_(grid),
           column_(std::ranges::min_element(grid.offset_m, {}, [](double offset_m) { return std::abs(offset_m); }) - grid.offset_m.begin()),
-          moment_(std::move(moment)), plane_(plane), first_known_(grid.ahead_m.size()), row_lx_(grid.ahead_m.size()) {}
+          moment_(std::move(moment)), surface_(surface), first_known_(grid.ahead_m.size()), row_lx_(grid.ahead_m.size()) {}
 
     /// Farthest place with E >= limit, to a millionth of a row; nullopt where that is nowhere or beyond the last row.
-    std::optional<double> reach_m(double limit_lx) {
+    std::optional<double> reach_m(double threshold_lx) {
         std::size_t unlit = row_lx_.size();
-        while (unlit > 0 && lx_in_row(unlit - 1) < limit_lx)
+        while (unlit > 0 && lx_in_row(unlit - 1) < threshold_lx)
             --unlit;
         if (unlit == 0 || unlit == row_lx_.size())
             return std::nullopt;
@@ -42,7 +42,7 @@ class LitCentreLine {
         double unlit_row = static_cast<double>(unlit);
         for (int halving = 0; halving < 20; ++halving) {
             const double middle = 0.5 * (lit_row + unlit_row);
-            (lx(middle) >= limit_lx ? lit_row : unlit_row) = middle;
+            (lx(middle) >= threshold_lx ? lit_row : unlit_row) = middle;
         }
         return grid_.ahead_m[unlit - 1] + (lit_row - static_cast<double>(unlit - 1)) * (grid_.ahead_m[unlit] - grid_.ahead_m[unlit - 1]);
     }
@@ -54,7 +54,7 @@ class LitCentreLine {
         const Pose* const near = &grid_.surface[before * grid_.offset_m.size()] + column_;
         const Pose &a = *near, &b = near[grid_.offset_m.size()];
         const Pose between{a.position_m + share * (b.position_m - a.position_m), a.axes + share * (b.axes - a.axes)};
-        return twin_lx(moment_, between, grid_.target_height_m, plane_);
+        return twin_lx(moment_, between, grid_.target_height_m, surface_);
     }
 
     /// Asked from the far end on, by one limit after the other.
@@ -67,15 +67,15 @@ class LitCentreLine {
     const ExtentGrid& grid_;
     std::ptrdiff_t column_;
     Moment moment_;
-    ExtentPlane plane_;
+    Surface surface_;
     std::size_t first_known_;
     std::vector<double> row_lx_; ///< from `first_known_` on
 };
 
 /// Half of what the reach changes between two states of the lamps.
-std::optional<double> half_difference_m(LitCentreLine& less, LitCentreLine& more, double limit_lx) {
-    const std::optional<double> near_m = less.reach_m(limit_lx);
-    const std::optional<double> far_m = near_m ? more.reach_m(limit_lx) : std::nullopt;
+std::optional<double> half_difference_m(LitCentreLine& less, LitCentreLine& more, double threshold_lx) {
+    const std::optional<double> near_m = less.reach_m(threshold_lx);
+    const std::optional<double> far_m = near_m ? more.reach_m(threshold_lx) : std::nullopt;
     return far_m ? std::optional(0.5 * (*far_m - *near_m)) : std::nullopt;
 }
 
@@ -93,47 +93,47 @@ Moment with_flux(Moment moment, double factor) {
 
 } // namespace
 
-std::vector<double> twin_illuminance_lx(const ExtentGrid& grid, const Moment& moment, ExtentPlane plane) {
+std::vector<double> twin_illuminance_lx(const ExtentGrid& grid, const Moment& moment, Surface surface) {
     const Moment lit = with_lit_lamps(moment);
     const std::size_t columns = grid.offset_m.size();
     std::vector<double> lx(grid.surface.size());
     oneapi::tbb::parallel_for(std::size_t{0}, grid.ahead_m.size(), [&](std::size_t row) {
         for (std::size_t i = row * columns; i < (row + 1) * columns; ++i)
-            lx[i] = twin_lx(lit, grid.surface[i], grid.target_height_m, plane);
+            lx[i] = twin_lx(lit, grid.surface[i], grid.target_height_m, surface);
     });
     return lx;
 }
 
-std::vector<double> deciding_twin_lx(const ExtentGrid& grid, const Moment& moment, ExtentPlane plane,
-                                     const std::vector<double>& limits_lx) {
-    if (limits_lx.empty())
+std::vector<double> twin_lux_near_thresholds(const ExtentGrid& grid, const Moment& moment, Surface surface,
+                                             const std::vector<double>& thresholds_lx) {
+    if (thresholds_lx.empty())
         return std::vector<double>(grid.surface.size());
     const Moment lit = with_lit_lamps(moment);
-    const QuickLight light(lit);
-    const double least_lx = *std::ranges::min_element(limits_lx);
-    return deciding_lx(
-        grid, limits_lx,
+    const LightBounds light(lit);
+    const double min_lx = *std::ranges::min_element(thresholds_lx);
+    return lux_near_thresholds(
+        grid, thresholds_lx,
         [&](std::size_t i) {
-            const Pose& surface = grid.surface[i];
-            return plane == ExtentPlane::road ? light.surface_lx(surface.position_m, surface.up(), 0.99 * least_lx)
-                                              : light.target_lx(surface.position_m + grid.target_height_m * surface.up());
+            const Pose& pose = grid.surface[i];
+            return surface == Surface::road ? light.surface_lx(pose.position_m, pose.up(), 0.99 * min_lx)
+                                            : light.target_lx(pose.position_m + grid.target_height_m * pose.up());
         },
-        [&](std::size_t i) { return twin_lx(lit, grid.surface[i], grid.target_height_m, plane); });
+        [&](std::size_t i) { return twin_lx(lit, grid.surface[i], grid.target_height_m, surface); });
 }
 
-std::vector<ReachSensitivity> reach_sensitivity(const ExtentGrid& grid, const Moment& moment, const std::vector<double>& limits_lx) {
+std::vector<ReachSensitivity> reach_sensitivity(const ExtentGrid& grid, const Moment& moment, const std::vector<double>& thresholds_lx) {
     std::vector<ReachSensitivity> results;
     if (grid.ahead_m.size() < 2 || grid.offset_m.empty())
         return results;
     const Moment lit = with_lit_lamps(moment);
-    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
-        LitCentreLine lower(grid, with_pitch(lit, radians(-0.1)), plane), higher(grid, with_pitch(lit, radians(0.1)), plane);
-        LitCentreLine weaker(grid, with_flux(lit, 0.9), plane), stronger(grid, with_flux(lit, 1.1), plane);
-        for (const double limit : limits_lx) {
+    for (const Surface surface : {Surface::road, Surface::target}) {
+        LitCentreLine lower(grid, with_pitch(lit, radians(-0.1)), surface), higher(grid, with_pitch(lit, radians(0.1)), surface);
+        LitCentreLine weaker(grid, with_flux(lit, 0.9), surface), stronger(grid, with_flux(lit, 1.1), surface);
+        for (const double limit : thresholds_lx) {
             const std::optional<double> by_aim = half_difference_m(lower, higher, limit);
             const std::optional<double> by_flux = half_difference_m(weaker, stronger, limit);
             if (by_aim && by_flux)
-                results.push_back({limit, plane, *by_aim, *by_flux});
+                results.push_back({limit, surface, *by_aim, *by_flux});
         }
     }
     return results;

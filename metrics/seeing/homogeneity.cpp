@@ -18,8 +18,8 @@ void check(const LaneLight& light) {
         throw std::invalid_argument("a lane's light of a wrong number of points, or beside the lamps");
 }
 
-void take(Gradient& largest, const LaneLight& light, std::size_t a, std::size_t b, double metres, double least_lx) {
-    if (light.lx[a] < least_lx || light.lx[b] < least_lx)
+void take(Gradient& largest, const LaneLight& light, std::size_t a, std::size_t b, double metres, double min_lx) {
+    if (light.lx[a] < min_lx || light.lx[b] < min_lx)
         return;
     const double change = std::abs(std::log10(light.lx[b] / light.lx[a])), angle = angle_between_deg(light.seen_at[a], light.seen_at[b]);
     largest.per_m = std::max(largest.per_m, change / metres);
@@ -53,24 +53,24 @@ struct PlaneSums {
 };
 
 /// lg of the light over the smooth surface; nullopt where dark or not known.
-std::vector<std::optional<double>> residuals(const LaneLight& light, double least_lx) {
+std::vector<std::optional<double>> residuals(const LaneLight& light, double min_lx) {
     const std::size_t rows = light.ahead_m.size(), columns = light.offset_m.size();
     std::vector<double> lg(light.lx.size()), ln(rows);
     for (std::size_t i = 0; i < lg.size(); ++i)
-        lg[i] = light.lx[i] >= least_lx ? std::log10(light.lx[i]) : 0.0;
+        lg[i] = light.lx[i] >= min_lx ? std::log10(light.lx[i]) : 0.0;
     for (std::size_t r = 0; r < rows; ++r)
         ln[r] = std::log(light.ahead_m[r]);
     std::vector<std::optional<double>> result(light.lx.size());
     for (std::size_t r = 0; r < rows; ++r)
         for (std::size_t c = 0; c < columns; ++c) {
-            if (light.lx[r * columns + c] < least_lx)
+            if (light.lx[r * columns + c] < min_lx)
                 continue;
             PlaneSums sums;
             for (std::size_t k = 0; k < rows; ++k) {
                 if (std::abs(ln[k] - ln[r]) > window_ln)
                     continue;
                 for (std::size_t m = 0; m < columns; ++m)
-                    if (light.lx[k * columns + m] >= least_lx && std::abs(light.offset_m[m] - light.offset_m[c]) <= window_m)
+                    if (light.lx[k * columns + m] >= min_lx && std::abs(light.offset_m[m] - light.offset_m[c]) <= window_m)
                         sums.add(ln[k] - ln[r], light.offset_m[m] - light.offset_m[c], lg[k * columns + m]);
             }
             if (const std::optional<double> smooth = sums.at_origin())
@@ -90,7 +90,7 @@ Patches connected(const cv::Mat& inside, double row_m) {
 
 } // namespace
 
-Gradients largest_gradients(const LaneLight& light, double least_lx) {
+Gradients largest_gradients(const LaneLight& light, double min_lx) {
     check(light);
     Gradients gradients;
     const std::size_t rows = light.ahead_m.size(), columns = light.offset_m.size();
@@ -98,20 +98,20 @@ Gradients largest_gradients(const LaneLight& light, double least_lx) {
         for (std::size_t c = 0; c < columns; ++c) {
             const std::size_t here = r * columns + c;
             if (r + 1 < rows)
-                take(gradients.along, light, here, here + columns, light.ahead_m[r + 1] - light.ahead_m[r], least_lx);
+                take(gradients.along, light, here, here + columns, light.ahead_m[r + 1] - light.ahead_m[r], min_lx);
             if (c + 1 < columns)
-                take(gradients.across, light, here, here + 1, light.offset_m[c + 1] - light.offset_m[c], least_lx);
+                take(gradients.across, light, here, here + 1, light.offset_m[c + 1] - light.offset_m[c], min_lx);
         }
     return gradients;
 }
 
-Unevenness patches(const LaneLight& light, double least_lx, double factor) {
+Unevenness patches(const LaneLight& light, double min_lx, double factor) {
     check(light);
     if (light.ahead_m.size() < 2 || light.offset_m.empty())
         return {};
     const double limit = std::log10(factor);
     cv::Mat_<std::uint8_t> dark(static_cast<int>(light.ahead_m.size()), static_cast<int>(light.offset_m.size())), bright = dark.clone();
-    const std::vector<std::optional<double>> over = residuals(light, least_lx);
+    const std::vector<std::optional<double>> over = residuals(light, min_lx);
     std::ranges::transform(over, dark.begin(), [&](const auto& lg) { return lg && *lg < -limit ? 1 : 0; });
     std::ranges::transform(over, bright.begin(), [&](const auto& lg) { return lg && *lg > limit ? 1 : 0; });
     const double row_m = light.ahead_m[1] - light.ahead_m[0];

@@ -21,13 +21,13 @@ struct Gradient {
     double per_m = 0.0;      ///< |d lg E| a metre
     double per_degree = 0.0; ///< |d lg E| a degree seen from the driver
 };
-/// Largest between neighbours that both have at least `least_lx`; each of the two figures by itself. All 0 where nothing has.
+/// Largest between neighbours that both have at least `min_lx`; each of the two figures by itself. All 0 where nothing has.
 struct Gradients {
     Gradient along, across;
 };
-Gradients largest_gradients(const LaneLight& light, double least_lx);
+Gradients largest_gradients(const LaneLight& light, double min_lx);
 
-/// A patch is a connected part (over sides) of the points with at least `least_lx` whose light lies below or above a smooth surface by more
+/// A patch is a connected part (over sides) of the points with at least `min_lx` whose light lies below or above a smooth surface by more
 /// than `factor`. The surface: at each point the plane fitted by least squares to lg E over ln(ahead) and offset, among lit points within a
 /// quarter of the distance along and 1.75 m across; a power of the distance is smooth.
 struct Patches {
@@ -37,7 +37,7 @@ struct Patches {
 struct Unevenness {
     Patches dark, bright;
 };
-Unevenness patches(const LaneLight& light, double least_lx, double factor);
+Unevenness patches(const LaneLight& light, double min_lx, double factor);
 
 /// Mean illuminance from 5 to 15 m over that from 40 to 60 m, by `ahead_m`. Not measured where the grid does not reach or the distance is
 /// dark.

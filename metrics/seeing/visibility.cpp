@@ -12,7 +12,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr double cone_branch_cdm2 = 0.6, rod_branch_cdm2 = 0.00418, least_negative_cdm2 = 0.004, long_exposure_s = 2.0, timed_arcmin = 60.0;
+constexpr double cone_branch_cdm2 = 0.6, rod_branch_cdm2 = 0.00418, min_negative_cdm2 = 0.004, long_exposure_s = 2.0, timed_arcmin = 60.0;
 
 /// sqrt(phi), after Ricco's law: small targets are seen by their light.
 double ricco_root(double lb) {
@@ -54,7 +54,7 @@ double age_factor(double age) {
 
 constexpr double scotopic_weight = 683.0 / 1699.0;
 constexpr double converged = 1e-10; // of m: 3e-10 of the luminance, far below the four digits that a and b have
-constexpr int most_iterations = 200;
+constexpr int max_iterations = 200;
 
 double luminance_at(double m, double photopic_cdm2, double scotopic_cdm2) {
     const double rods = (1.0 - m) * scotopic_weight;
@@ -79,7 +79,7 @@ Value threshold_difference_cdm2(double background_cdm2, double size_arcmin, bool
     const double root = ricco_root(background_cdm2) / size_arcmin + weber_root(background_cdm2);
     double difference = onlooker.k * root * root;
     if (!positive) {
-        if (background_cdm2 <= least_negative_cdm2)
+        if (background_cdm2 <= min_negative_cdm2)
             return Value::not_measured(fmt::format("negative contrast on {:.2g} cd/m2: its factor holds above 0.004", background_cdm2));
         const double factor = negative_contrast_factor(background_cdm2, size_arcmin, difference);
         if (!(factor > 0.0))
@@ -106,7 +106,7 @@ Mesopic mesopic_luminance(double photopic_cdm2, double sp_ratio) {
     const auto next = [&](double m) { return adapted(luminance_at(m, photopic_cdm2, scotopic_cdm2)); };
     Mesopic result;
     double m = 0.5, change = 1.0;
-    for (int i = 0; change >= converged && i < most_iterations; ++i) {
+    for (int i = 0; change >= converged && i < max_iterations; ++i) {
         const double updated = next(m);
         change = std::abs(updated - m);
         m = updated;

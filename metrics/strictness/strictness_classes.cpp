@@ -29,7 +29,7 @@ const std::vector<StrictnessClass>& strictness_classes() {
     static const std::vector<StrictnessClass> classes{
         // "Same inputs, same backend, same driver, same kind of CPU: same bytes."
         {"identical", "the same bytes, as one machine promises for one drive", every(0.0, 0.0), every(0.0, 0.0)},
-        // As accepted references are judged: a thousandth is what rounding in another order makes of a sum of lamps, 1e-4 lx where there is
+        // As baselines are judged: a thousandth is what rounding in another order makes of a sum of lamps, 1e-4 lx where there is
         // next to no light, and one pixel in 10 000 is an edge where another triangle wins. A thousandth is a tenth of a level: one level
         // by rounding.
         {"same-driver", "what another patch level of a driver or a library may round otherwise", percentage(0.01, 1.0, 0.0, false),
@@ -50,14 +50,14 @@ const std::vector<StrictnessClass>& strictness_classes() {
 
 namespace {
 
-constexpr std::size_t most_children = 64;
+constexpr std::size_t max_children = 64;
 constexpr double largest_bound = 1e9;
 
 PixelMask read_mask(const YamlEntry& entry) {
-    constexpr std::size_t most_pixels = (std::size_t{1} << 28) / 3;
+    constexpr std::size_t max_pixels = (std::size_t{1} << 28) / 3;
     FilesRead opened;
     const std::filesystem::path path = entry.path();
-    const DecodedPicture picture = decode_picture(path, entry.key_path(), read_file(path, opened), most_pixels);
+    const DecodedPicture picture = decode_picture(path, entry.key_path(), read_file(path, opened), max_pixels);
     PixelMask mask(picture.width, picture.height);
     for (std::size_t i = 0; i < mask.size(); ++i)
         mask.pixels()[i] = picture.rgba[4 * i] || picture.rgba[4 * i + 1] || picture.rgba[4 * i + 2] ? 255 : 0;
@@ -108,7 +108,7 @@ StrictnessNode read_node(const YamlEntry& entry) {
     if (const auto leaf = leaves.find(word); leaf != leaves.end())
         return read_leaf(leaf->second, value);
     StrictnessNode node{.kind = word == "all" ? Kind::all : Kind::any};
-    for (const YamlEntry& child : value.list(1, most_children))
+    for (const YamlEntry& child : value.list(1, max_children))
         node.children.push_back(read_node(child));
     return node;
 }

@@ -9,14 +9,14 @@ namespace fernlicht {
 namespace {
 
 constexpr int probe_width = 256;
-constexpr std::size_t most_points = std::size_t{probe_width} * 256; ///< in one draw
+constexpr std::size_t max_points = std::size_t{probe_width} * 256; ///< in one draw
 
 } // namespace
 
 struct EquationProbe::State {
     State(gl::Context& c, int equation)
         : context(c), program(c, "load.vert.glsl", "equations.frag.glsl", {{"EQUATION", std::to_string(equation)}}),
-          texture(gl::make_texture(c, GL_RGBA32F, probe_width, static_cast<int>(most_points) / probe_width)),
+          texture(gl::make_texture(c, GL_RGBA32F, probe_width, static_cast<int>(max_points) / probe_width)),
           target(gl::make_framebuffer(c)), nothing(gl::make_vertex_array(c)), row_length(program.uniform("row_length")) {
         c.gl.NamedFramebufferTexture(target, GL_COLOR_ATTACHMENT0, texture, 0);
     }
@@ -37,8 +37,8 @@ std::vector<EquationValue> EquationProbe::at(const std::vector<EquationArguments
     const GladGLContext& gl = state_->context.gl;
     std::vector<EquationValue> values;
     values.reserve(points.size());
-    for (std::size_t first = 0; first < points.size(); first += most_points) {
-        const std::size_t count = std::min(most_points, points.size() - first);
+    for (std::size_t first = 0; first < points.size(); first += max_points) {
+        const std::size_t count = std::min(max_points, points.size() - first);
         const auto rows = static_cast<int>((count + probe_width - 1) / probe_width);
         std::vector<EquationArguments> batch(points.begin() + static_cast<std::ptrdiff_t>(first),
                                              points.begin() + static_cast<std::ptrdiff_t>(first + count));

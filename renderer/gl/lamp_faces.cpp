@@ -14,7 +14,7 @@ namespace {
 
 constexpr double before_body_m = 0.25; // nearer than the lamp's place: its own body does not hide it
 constexpr double grazing = 0.1;        // least cosine that the face is seen under
-constexpr double least_share = 1e-7;   // of a pixel's area that is still drawn
+constexpr double min_share = 1e-7;     // of a pixel's area that is still drawn
 
 } // namespace
 
@@ -41,7 +41,7 @@ std::vector<LampFaces::Face> LampFaces::seen(const Shot& shot) const {
         const double wider = std::sqrt(seen_under * d / depth); // of both sides, so that the solid angle is right in the picture's plane
         const glm::dvec2 a_metre = 0.5 * picture / shot.camera.half_extent / depth, size_px = lamp.face_m * wider * a_metre;
         if (at_px.x + size_px.x < -1.0 || at_px.y + size_px.y < -1.0 || at_px.x - size_px.x > picture.x + 1.0 ||
-            at_px.y - size_px.y > picture.y + 1.0 || size_px.x * size_px.y < least_share)
+            at_px.y - size_px.y > picture.y + 1.0 || size_px.x * size_px.y < min_share)
             continue;
         const glm::dvec3 light = lamp.colour.linear_srgb * (cd * air_transmittance(shot.moment.weather, d) / (area * seen_under));
         faces.push_back({glm::vec4(glm::vec2(at_px), glm::vec2(size_px)), glm::vec4(glm::vec3(light), before.z / before.w)});
@@ -49,17 +49,17 @@ std::vector<LampFaces::Face> LampFaces::seen(const Shot& shot) const {
     return faces;
 }
 
-const Program& LampFaces::program(const Wanted& wanted) {
-    if (const auto known = programs_.find(wanted_bits(wanted)); known != programs_.end())
+const Program& LampFaces::program(const FrameOutputs& outputs) {
+    if (const auto known = programs_.find(output_bits(outputs)); known != programs_.end())
         return known->second;
-    std::vector<Program::Define> d = Targets::defines(wanted);
+    std::vector<Program::Define> d = Targets::defines(outputs);
     add_tone_defines(d, tone_);
-    return programs_.emplace(wanted_bits(wanted), Program(context_, "lamp_face.vert.glsl", "lamp_face.frag.glsl", d)).first->second;
+    return programs_.emplace(output_bits(outputs), Program(context_, "lamp_face.vert.glsl", "lamp_face.frag.glsl", d)).first->second;
 }
 
 void LampFaces::draw_faces(const Shot& shot, const std::vector<Face>& faces) {
     const GladGLContext& gl = context_.gl;
-    const Program& p = program(shot.wanted);
+    const Program& p = program(shot.outputs);
     if (layout_ == 0)
         layout_ = make_vertex_array(context_);
     buffer_.fill(context_, faces);
@@ -69,9 +69,9 @@ void LampFaces::draw_faces(const Shot& shot, const std::vector<Face>& faces) {
     gl.BindVertexArray(layout_);
     // Luminance adds up, the shown colour takes the brighter, and the rest is the surface's.
     gl.DepthMask(GL_FALSE);
-    const Wanted& w = shot.wanted;
+    const FrameOutputs& w = shot.outputs;
     GLuint slot = 0;
-    for (const auto& [wanted, blended, how] :
+    for (const auto& [outputs, blended, how] :
          {std::tuple(w.colour, true, GL_MAX), std::tuple(w.illuminance, false, 0), std::tuple(w.target, false, 0),
           std::tuple(w.luminance, true, GL_FUNC_ADD), std::tuple(w.light, true, GL_FUNC_ADD), std::tuple(w.depth, false, 0),
           std::tuple(w.ids, false, 0)}) {
@@ -96,7 +96,7 @@ void LampFaces::draw_faces(const Shot& shot, const std::vector<Face>& faces) {
 }
 
 void LampFaces::draw(const Shot& shot) {
-    if (shot.camera.is_map || shot.moment.other_lamps.empty() || !shot.wanted.seen())
+    if (shot.camera.is_map || shot.moment.other_lamps.empty() || !shot.outputs.seen())
         return;
     const std::vector<Face> faces = seen(shot);
     shot.work.traffic_faces += static_cast<int>(faces.size());
@@ -105,7 +105,7 @@ void LampFaces::draw(const Shot& shot) {
 }
 
 void LampFaces::compile(const Shot& shot) {
-    if (shot.camera.is_map || !shot.wanted.seen())
+    if (shot.camera.is_map || !shot.outputs.seen())
         return;
     draw_faces(shot, {Face{glm::vec4(-10.0F, -10.0F, 1.0F, 1.0F), glm::vec4(0.0F, 0.0F, 0.0F, 0.5F)}});
 }

@@ -26,7 +26,7 @@ class LampFaces {
         glm::vec4 place_px, light;
     };
     std::vector<Face> seen(const Shot& shot) const;
-    const Program& program(const Wanted& wanted);
+    const Program& program(const FrameOutputs& outputs);
     void draw_faces(const Shot& shot, const std::vector<Face>& faces);
 
     Context& context_;

@@ -7,14 +7,14 @@
 namespace fernlicht::gl {
 NaiveLighting::NaiveLighting(Context& context, const Scene& scene, const RendererSettings& settings)
     : context_(context), settings_(settings), scene_(context, scene, false), beams_(context, settings.beams), list_(context, scene_),
-      depth_(depth_program(context, scene_.moves())), block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)),
+      depth_(depth_program(context, scene_.moves())), block_(make_buffer(context, std::vector<Packed>(max_lamps), GL_DYNAMIC_STORAGE_BIT)),
       shadow_target_(make_framebuffer(context)) {}
 
 const Program& NaiveLighting::variant(std::size_t lamps, const Shot& shot) {
-    const std::pair key(lamps, wanted_bits(shot.wanted));
+    const std::pair key(lamps, output_bits(shot.outputs));
     if (const auto known = variants_.find(key); known != variants_.end())
         return known->second;
-    std::vector<Program::Define> d = Targets::defines(shot.wanted);
+    std::vector<Program::Define> d = Targets::defines(shot.outputs);
     add_lamp_defines(d, lamps);
     d.push_back({"SHADOWS", settings_.shadows.any() ? "1" : "0"});
     if (scene_.moves())

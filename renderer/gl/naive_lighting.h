@@ -16,7 +16,7 @@ class NaiveLighting : public Lighting {
     void draw(const Shot& shot) override;
     void prepare(const Shot& shot) override;
     std::optional<double> beam_error(const LampFile& lamp) const override { return beams_.error_of_peak(lamp); }
-    std::vector<LeftOut> left_out() const override { return {}; }
+    std::vector<PrunedFeature> pruned() const override { return {}; }
 
   private:
     struct Packed { // std140, as in naive_lamps.glsl
@@ -33,7 +33,7 @@ class NaiveLighting : public Lighting {
     Beams beams_;
     DrawList list_;
     Program depth_;
-    std::map<std::pair<std::size_t, int>, Program> variants_; ///< by lamps and wanted_bits()
+    std::map<std::pair<std::size_t, int>, Program> variants_; ///< by lamps and output_bits()
     std::vector<LitLamp> lamps_;
     std::vector<Packed> packed_;
     Buffer block_;

@@ -10,12 +10,12 @@ namespace fernlicht::gl {
 namespace {
 
 /// More lamps than this have their constants in the uniform block instead of in the limited number of a vertex's outputs.
-constexpr std::size_t most_lamps_by_vertex = 4;
+constexpr std::size_t max_lamps_by_vertex = 4;
 /// Of the sky behind fog: beyond all that is drawn.
 constexpr double background_m = 5000.0;
 
 /// Headlamps bring less to a road: bounds beyond this say nothing.
-constexpr double most_useful_bound_lx = 1000.0;
+constexpr double max_useful_bound_lx = 1000.0;
 
 /// "vec4(...), vec4(...)": constants of a variant, one a lamp.
 template <class One> std::string list(const std::vector<const Beam*>& beams, One one) {
@@ -30,7 +30,7 @@ bool has_weather(const Moment& moment) {
     return moment.daylight.direct() != nullptr || moment.weather.extinction_per_m > 0.0 || moment.weather.wetness > 0.0;
 }
 
-bool fog_before_sky(const Shot& shot) { return shot.moment.weather.extinction_per_m > 0.0 && !shot.camera.is_map && shot.wanted.seen(); }
+bool fog_before_sky(const Shot& shot) { return shot.moment.weather.extinction_per_m > 0.0 && !shot.camera.is_map && shot.outputs.seen(); }
 
 void set_weather_uniforms(const GladGLContext& gl, const Program& program, const Shot& shot) {
     const Weather& weather = shot.moment.weather;
@@ -56,14 +56,14 @@ void set_weather_uniforms(const GladGLContext& gl, const Program& program, const
 PhotometricLighting::PhotometricLighting(Context& context, const Scene& scene, const RendererSettings& settings, bool pruned)
     : context_(context), settings_(settings), pruned_(pruned), scene_(context, scene, false), beams_(context, settings.beams),
       shadows_(make_shadows(context, scene_, settings.shadows, {settings.target_height_m, pruned, settings.shadow_eye})),
-      traffic_(context, scene_, beams_, settings.traffic_levels, pruned), air_lamps_(context, beams_, pruned),
+      traffic_(context, scene_, beams_, settings.traffic_levels, pruned), lamps_in_fog_(context, beams_, pruned),
       faces_(context, settings.tone_mapper), list_(context, scene_),
-      block_(make_buffer(context, std::vector<Packed>(most_lamps), GL_DYNAMIC_STORAGE_BIT)) {}
+      block_(make_buffer(context, std::vector<Packed>(max_lamps), GL_DYNAMIC_STORAGE_BIT)) {}
 
 void PhotometricLighting::set_lamps(const Shot& shot) {
     lamps_ = shining(shot.moment, !pruned_);
     // By what is mounted, not by what is on: pruning must not change how a pixel is computed.
-    by_vertex_ = shot.moment.lamps.size() <= (shot.moment.other_lamps.empty() ? most_lamps_by_vertex : most_lamps_by_vertex / 2);
+    by_vertex_ = shot.moment.lamps.size() <= (shot.moment.other_lamps.empty() ? max_lamps_by_vertex : max_lamps_by_vertex / 2);
     lamp_beams_.clear();
     packed_.clear();
     for (const LitLamp& lamp : lamps_) {
@@ -100,12 +100,12 @@ PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot,
     f.everything = !pruned_;
     f.by_vertex = by_vertex_;
     f.sky = !pruned_ || shot.moment.daylight.horizontal_illuminance_lx > 0.0;
-    const bool reflects = shot.wanted.seen();
+    const bool reflects = shot.outputs.seen();
     const bool everything = !pruned_ && has_weather(shot.moment);
     f.fog = everything || shot.moment.weather.extinction_per_m > 0.0;
-    f.air_lamps = f.fog && reflects && !shot.camera.is_map && !shot.moment.other_lamps.empty(); // though all may be too faint
+    f.lamps_in_fog = f.fog && reflects && !shot.camera.is_map && !shot.moment.other_lamps.empty(); // though all may be too faint
     f.wet = reflects && (everything || shot.moment.weather.wetness > 0.0);
-    f.wanted = wanted_bits(shot.wanted);
+    f.outputs = output_bits(shot.outputs);
     f.traffic = group.traffic || (!pruned_ && !shot.moment.other_lamps.empty());
     f.traffic_shadows = f.traffic && traffic_shadows_ && (group.traffic_shadowed || !pruned_);
     if (group.lit || !pruned_ || (f.fog && reflects && !shot.camera.is_map)) // in fog, beams are seen from beside
@@ -122,11 +122,11 @@ PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot,
     return f;
 }
 
-const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features& f, const Wanted& wanted) {
+const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features& f, const FrameOutputs& outputs) {
     if (const auto known = variants_.find(f); known != variants_.end())
         return known->second;
     std::vector<const Beam*> beams = f.beams.empty() ? std::vector<const Beam*>{} : lamp_beams_;
-    std::vector<Program::Define> d = Targets::defines(wanted);
+    std::vector<Program::Define> d = Targets::defines(outputs);
     const auto define = [&](const char* name, std::string value) { d.push_back({name, std::move(value)}); };
     add_lamp_defines(d, beams.size());
     define("LAMPS_BY_VERTEX", flag(f.by_vertex));
@@ -136,7 +136,7 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
     define("SUN_SHADOWS", flag(f.sun > 1));
     define("FOG", flag(f.fog));
     define("FOG_SAMPLES", std::to_string(settings_.fog_samples));
-    define("AIR_LAMPS", flag(f.air_lamps));
+    define("LAMPS_IN_FOG", flag(f.lamps_in_fog));
     define("AIR_BOUND", flag(pruned_));
     define("WET", flag(f.wet));
     define("WET_ALPHA", literal(wet_roughness));
@@ -177,7 +177,8 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
     Program program(context_, "photometric.vert.glsl", "photometric.frag.glsl", d);
     const GLint clip = program.uniform("clip_from_ego"), eye = program.uniform("eye_m"), axis = program.uniform("eye_axis"),
                 sky = program.uniform("sky_lx"), grid = f.traffic ? program.uniform("traffic_grid") : -1;
-    return variants_.emplace(f, Compiled{std::move(program), clip, eye, axis, sky, grid, f.shadows, f.sun > 0, f.fog || f.wet, f.air_lamps})
+    return variants_
+        .emplace(f, Compiled{std::move(program), clip, eye, axis, sky, grid, f.shadows, f.sun > 0, f.fog || f.wet, f.lamps_in_fog})
         .first->second;
 }
 
@@ -200,16 +201,16 @@ void PhotometricLighting::use(const Compiled& v, const Shot& shot) const {
         sun_->set_uniforms(v.program);
     if (v.weather)
         set_weather_uniforms(gl, v.program, shot);
-    if (v.air_lamps) {
-        gl.Uniform1f(v.program.uniform("air_lamp_count"), static_cast<float>(air_lamps_.count()));
-        gl.Uniform1f(v.program.uniform("air_least_cdm2"), air_lamps_.least_cdm2());
+    if (v.lamps_in_fog) {
+        gl.Uniform1f(v.program.uniform("air_lamp_count"), static_cast<float>(lamps_in_fog_.count()));
+        gl.Uniform1f(v.program.uniform("air_min_cdm2"), lamps_in_fog_.min_cdm2());
     }
 }
 
 void PhotometricLighting::compile(const Features& features, const Shot& shot) {
     if (variants_.contains(features))
         return;
-    use(variant(features, shot.wanted), shot);
+    use(variant(features, shot.outputs), shot);
     list_.draw_nothing(shot.moment.ego.position_m, scene_.moves() || !shot.moment.other_lamps.empty());
 }
 
@@ -226,7 +227,7 @@ void PhotometricLighting::draw_background(const Shot& shot) {
     if (!fog_before_sky(shot) || (lamps_.empty() && shot.moment.other_lamps.empty()) || scene_.pieces().empty())
         return;
     scene_.bind(0);
-    use(variant(background_features(shot), shot.wanted), shot);
+    use(variant(background_features(shot), shot.outputs), shot);
     context_.gl.DrawArrays(GL_TRIANGLES, 0, 3);
     ++shot.work.calls;
 }
@@ -261,9 +262,9 @@ std::vector<PhotometricLighting::Group> PhotometricLighting::groups_for(const Sh
         bool lit = false;
         for (std::size_t k = 0; k < lamps_.size() && !lit; ++k)
             lit = lamps_[k].intensity_factor > 0.0 &&
-                  lamp_beams_[k]->bounds.most_towards(to_lamp_space(lamps_[k], centre - (lamps_[k].pose.position_m - ego_m)),
-                                                      piece.radius_m + (shot.wanted.target ? settings_.target_height_m : 0.0)) > 0.0;
-        const bool shadowed = lit && shadows_ && shadows_->reach(piece, shot.wanted.target ? settings_.target_height_m : 0.0);
+                  lamp_beams_[k]->bounds.max_towards(to_lamp_space(lamps_[k], centre - (lamps_[k].pose.position_m - ego_m)),
+                                                     piece.radius_m + (shot.outputs.target ? settings_.target_height_m : 0.0)) > 0.0;
+        const bool shadowed = lit && shadows_ && shadows_->reach(piece, shot.outputs.target ? settings_.target_height_m : 0.0);
         const bool traffic = traffic_.any() && traffic_.reach(i);
         sorted[{piece.surface, lit, shadowed, traffic, traffic && traffic_shadows_ && traffic_shadows_->reach(i)}].emplace_back(
             distances[s], i);
@@ -291,7 +292,7 @@ void PhotometricLighting::draw(const Shot& shot) {
         if (!lamps_.empty() && (!pruned_ || shadows_->needed()))
             shadows_->draw(shot);
     }
-    air_lamps_.set(shot.moment, shot.camera);
+    lamps_in_fog_.set(shot.moment, shot.camera);
     set_sun(shot);
     if (sun_needs_ > 1) {
         shot.clock.begin("sun's shadow map");
@@ -318,19 +319,19 @@ void PhotometricLighting::draw(const Shot& shot) {
     list_.upload();
     if (traffic_.any())
         traffic_.bind();
-    air_lamps_.bind();
+    lamps_in_fog_.bind();
     gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_);
     for (std::size_t i = 0; i < lamp_beams_.size(); ++i)
         gl.BindTextureUnit(static_cast<GLuint>(i), lamp_beams_[i]->texture);
     for (std::size_t g = 0; g < groups.size(); ++g) {
         groups[g].traffic = groups[g].traffic && traffic_.any();
         const Features f = features_of(shot, groups[g], sun_needs_);
-        use(variant(f, shot.wanted), shot);
+        use(variant(f, shot.outputs), shot);
         list_.draw(static_cast<int>(g));
         shot.work.draws += static_cast<int>(groups[g].pieces.size());
         shot.work.lamps = std::max(shot.work.lamps, static_cast<int>(f.beams.size()));
         shot.work.features += static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.sky ? 1 : 0) + f.sun + (f.fog ? 1 : 0) +
-                              (f.air_lamps ? air_lamps_.count() : 0) + (f.wet ? 1 : 0) + (f.surface.retroreflecting ? 1 : 0) +
+                              (f.lamps_in_fog ? lamps_in_fog_.count() : 0) + (f.wet ? 1 : 0) + (f.surface.retroreflecting ? 1 : 0) +
                               (f.surface.tinted ? 1 : 0) + (f.surface.emissive ? 1 : 0) + (f.surface.texture > 0 ? 1 : 0);
         const int textures = static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.surface.texture > 0 ? 1 : 0) +
                              (f.sun > 1 ? 1 : 0) + (f.traffic_shadows ? 1 : 0);
@@ -374,14 +375,14 @@ void PhotometricLighting::prepare(const Shot& shot) {
         if (traffic_shadows_)
             traffic_shadows_->bind();
         faces_.compile(shot);
-        air_lamps_.set(shot.moment, shot.camera);
-        air_lamps_.bind();
+        lamps_in_fog_.set(shot.moment, shot.camera);
+        lamps_in_fog_.bind();
     }
-    const int most_sun = sun_needs_ == 0 ? 0 : shadows_ && (!scene_.flat() || !pruned_) ? 2 : 1;
+    const int max_sun = sun_needs_ == 0 ? 0 : shadows_ && (!scene_.flat() || !pruned_) ? 2 : 1;
     for (const SurfaceClass& surface : scene_.classes())
         for (const auto& [lit, shadowed] : {std::pair(false, false), std::pair(true, false), std::pair(true, true)})
             for (const auto& [traffic, traffic_shadowed] : {std::pair(false, false), std::pair(true, false), std::pair(true, true)})
-                for (int sun = std::min(sun_needs_, 1); sun <= most_sun; ++sun)
+                for (int sun = std::min(sun_needs_, 1); sun <= max_sun; ++sun)
                     if (!traffic || others)
                         compile(features_of(shot, {surface, lit, shadowed, traffic, traffic_shadowed, {}}, sun), shot);
     if (fog_before_sky(shot) && (!lamps_.empty() || others))
@@ -390,15 +391,15 @@ void PhotometricLighting::prepare(const Shot& shot) {
 }
 
 void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vector<Group>& groups) {
-    left_out_.clear();
+    pruned_features_.clear();
     if (!pruned_)
         return;
-    const auto say = [&](std::string what, std::string why) { left_out_.push_back({std::move(what), std::move(why)}); };
+    const auto say = [&](std::string what, std::string why) { pruned_features_.push_back({std::move(what), std::move(why)}); };
     if (const std::size_t off = shot.moment.lamps.size() - lamps_.size(); off > 0)
         say(fmt::format("{} of {} lamps", off, shot.moment.lamps.size()), "switched off");
     if (traffic_.left_out() > 0)
         say(fmt::format("lamps of others: {} of {}", traffic_.left_out(), traffic_.units()),
-            fmt::format("bring less than {} lx to anything in view", shot.moment.least_traffic_lx));
+            fmt::format("bring less than {} lx to anything in view", shot.moment.min_traffic_lx));
     if (const TrafficReport& r = traffic_.report(); r.merged + r.by_vertex + r.point + r.left_out > 0)
         say(fmt::format(
                 "lamps of others one by one: of {} lights on places of all pictures, {} as one beam for two lamps, {} by vertex, {} as a "
@@ -409,11 +410,11 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
                 r.worst_drawn_lx, r.worst_left_out_lx));
     else if (shot.moment.other_lamps.empty())
         say("lamps of others", "there are none");
-    if (traffic_shadows_ && traffic_shadows_->most_units_left_out() > 0)
+    if (traffic_shadows_ && traffic_shadows_->max_units_left_out() > 0)
         say(fmt::format("shadow maps of lamps of others: those of up to {} pairs or single lamps in a picture",
-                        traffic_shadows_->most_units_left_out()),
-            fmt::format("there are {} maps for the strongest; ", most_traffic_maps) +
-                (traffic_shadows_->worst_left_out_lx() <= most_useful_bound_lx
+                        traffic_shadows_->max_units_left_out()),
+            fmt::format("there are {} maps for the strongest; ", max_traffic_maps) +
+                (traffic_shadows_->worst_left_out_lx() <= max_useful_bound_lx
                      ? fmt::format("by bounds the others bring at most {:.2g} lx together to any place where their shadows may be missing",
                                    traffic_shadows_->worst_left_out_lx())
                      : "no useful bound is known of the others' light whose shadows may be missing: one of them stands within the radius "
@@ -421,7 +422,7 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
                        "piece that it may light, and bounds take a piece's nearest point"));
     else if (traffic_shadows_ && !traffic_shadows_->any() && !shot.moment.other_lamps.empty())
         say("shadow maps of lamps of others",
-            fmt::format("nothing stands where one brings more than {} lx", least_traffic_shadow * shot.moment.least_traffic_lx));
+            fmt::format("nothing stands where one brings more than {} lx", min_traffic_shadow * shot.moment.min_traffic_lx));
     if (!shadows_)
         say("shadows", "the shadow method is none");
     else if (!shadows_->needed())
@@ -430,9 +431,9 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
         say("sky light", "it is night");
     if (shot.moment.weather.extinction_per_m == 0.0)
         say("fog", "the air is clear");
-    if (air_lamps_.left_out() > 0)
-        say(fmt::format("beams of others in the fog: {} of {}", air_lamps_.left_out(), shot.moment.other_lamps.size()),
-            fmt::format("give the air less than {:.2g} cd/m2 anywhere", static_cast<double>(air_lamps_.least_cdm2())));
+    if (lamps_in_fog_.left_out() > 0)
+        say(fmt::format("beams of others in the fog: {} of {}", lamps_in_fog_.left_out(), shot.moment.other_lamps.size()),
+            fmt::format("give the air less than {:.2g} cd/m2 anywhere", static_cast<double>(lamps_in_fog_.min_cdm2())));
     if (shot.moment.weather.wetness == 0.0)
         say("water on the road", "it is dry");
     if (shot.moment.daylight.direct() == nullptr)

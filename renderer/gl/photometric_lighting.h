@@ -1,8 +1,8 @@
 // The technique `photometric`: variants compiled for what a moment needs, and drawn group by group.
 #pragma once
 
-#include "renderer/gl/air_lamps.h"
 #include "renderer/gl/lamp_faces.h"
+#include "renderer/gl/lamps_in_fog.h"
 #include "renderer/gl/scene/lighting.h"
 #include "renderer/gl/shadows/shadows.h"
 #include "renderer/gl/sun_light.h"
@@ -21,7 +21,7 @@ class PhotometricLighting : public Lighting {
     void draw(const Shot& shot) override;
     void prepare(const Shot& shot) override;
     std::optional<double> beam_error(const LampFile& lamp) const override { return beams_.error_of_peak(lamp); }
-    std::vector<LeftOut> left_out() const override { return left_out_; }
+    std::vector<PrunedFeature> pruned() const override { return pruned_features_; }
 
   private:
     /// A set of features is a shader variant.
@@ -30,14 +30,14 @@ class PhotometricLighting : public Lighting {
         SurfaceClass surface;
         bool shadows = false, sky = false, everything = false, by_vertex = true, traffic = false, traffic_shadows = false;
         int sun = 0; ///< 0: neither sun nor moon, 1: shines, 2: casts shadows
-        bool fog = false, air_lamps = false, wet = false, background = false;
-        int wanted = 0;
+        bool fog = false, lamps_in_fog = false, wet = false, background = false;
+        int outputs = 0;
         auto operator<=>(const Features&) const = default;
     };
     struct Compiled {
         Program program;
         GLint clip, eye, axis, sky, traffic_grid;
-        bool shadows, sun, weather, air_lamps;
+        bool shadows, sun, weather, lamps_in_fog;
     };
     /// Pieces that one variant draws.
     struct Group {
@@ -54,7 +54,7 @@ class PhotometricLighting : public Lighting {
     void make_traffic_shadows(const Moment& moment);
     std::vector<Group> groups_for(const Shot& shot);
     Features features_of(const Shot& shot, const Group& group, int sun) const;
-    const Compiled& variant(const Features& features, const Wanted& wanted);
+    const Compiled& variant(const Features& features, const FrameOutputs& outputs);
     void use(const Compiled& v, const Shot& shot) const;
     void compile(const Features& features, const Shot& shot);
     Features background_features(const Shot& shot) const;
@@ -69,7 +69,7 @@ class PhotometricLighting : public Lighting {
     std::unique_ptr<Shadows> shadows_; ///< nullptr: none are cast
     TrafficLights traffic_;
     std::unique_ptr<TrafficShadows> traffic_shadows_; ///< from the first moment on with lamps of others, unless none are cast
-    AirLamps air_lamps_;
+    LampsInFog lamps_in_fog_;
     LampFaces faces_;
     std::unique_ptr<SunLight> sun_; ///< from the first moment on in which sun or moon shines
     int sun_needs_ = 0;             ///< as Features::sun
@@ -80,7 +80,7 @@ class PhotometricLighting : public Lighting {
     std::vector<Packed> packed_;
     Buffer block_;
     bool by_vertex_ = true;
-    std::vector<LeftOut> left_out_;
+    std::vector<PrunedFeature> pruned_features_;
 };
 
 } // namespace fernlicht::gl

@@ -28,7 +28,7 @@ std::map<std::string, std::string> features_of(const Technique& technique) {
     return features;
 }
 
-int published_bits(const Wanted& w) { return (w.colour ? 1 : 0) | (w.illuminance ? 2 : 0) | (w.depth ? 4 : 0) | (w.ids ? 8 : 0); }
+int published_bits(const FrameOutputs& w) { return (w.colour ? 1 : 0) | (w.illuminance ? 2 : 0) | (w.depth ? 4 : 0) | (w.ids ? 8 : 0); }
 
 /// From left to right, as the car sees it.
 std::vector<LitLamp> from_left(const Moment& moment) {
@@ -38,7 +38,7 @@ std::vector<LitLamp> from_left(const Moment& moment) {
     return lamps;
 }
 
-constexpr std::size_t most_arrangements = 4;
+constexpr std::size_t max_arrangements = 4;
 constexpr double same_within = 1e-6;
 
 /// Texels [z][y][x] with the outermost ones black.
@@ -75,8 +75,8 @@ void set_linear(const GladGLContext& gl, GLuint texture) {
 PublishedLighting::PublishedLighting(Context& context, const Scene& scene, const RendererSettings& settings)
     : context_(context), settings_(settings), technique_(technique_named(settings.technique)), features_(features_of(technique_)),
       scene_(context, scene, true), beams_(context, settings.beams.value_or(projected_texels)), list_(context, scene_),
-      lamp_block_(make_buffer(context, std::vector<PackedLamp>(most_lamps), GL_DYNAMIC_STORAGE_BIT)),
-      spot_block_(make_buffer(context, std::vector<PackedSpot>(most_lamps * most_spots), GL_DYNAMIC_STORAGE_BIT)) {}
+      lamp_block_(make_buffer(context, std::vector<PackedLamp>(max_lamps), GL_DYNAMIC_STORAGE_BIT)),
+      spot_block_(make_buffer(context, std::vector<PackedSpot>(max_lamps * max_spots), GL_DYNAMIC_STORAGE_BIT)) {}
 
 void PublishedLighting::set_projected_lamp(const LitLamp& lamp, const UploadedBeam& beam, const glm::dvec3& ego_m) {
     Pose pose = lamp.pose;
@@ -95,7 +95,7 @@ void PublishedLighting::set_projected_lamp(const LitLamp& lamp, const UploadedBe
 void PublishedLighting::set_spots(const LitLamp& lamp, const glm::dvec3& ego_m) {
     packed_.push_back({glm::mat4(1.0F), four(lamp.pose.position_m - ego_m, lamp.intensity_factor)});
     std::vector<Spot> spots = beams_.spots_of(lamp.file);
-    spots.resize(most_spots, Spot{0.0, 0.0, 0.0, 0.0, 0.0}); // dark ones
+    spots.resize(max_spots, Spot{0.0, 0.0, 0.0, 0.0, 0.0}); // dark ones
     for (const Spot& spot : spots) {
         const double h = radians(spot.h_deg), v = radians(spot.v_deg);
         const glm::dvec3 axis = -lamp.pose.left() * (std::sin(h) * std::cos(v)) + lamp.pose.up() * std::sin(v) +
@@ -137,17 +137,17 @@ void PublishedLighting::set_lamps(const Shot& shot) {
     update_buffer(context_, spot_block_, spots_);
 }
 
-const PublishedLighting::Compiled& PublishedLighting::variant(const Variant& wish, const Wanted& wanted) {
+const PublishedLighting::Compiled& PublishedLighting::variant(const Variant& wish, const FrameOutputs& outputs) {
     if (const auto known = variants_.find(wish); known != variants_.end())
         return known->second;
-    std::vector<Program::Define> d = Targets::defines(wanted);
+    std::vector<Program::Define> d = Targets::defines(outputs);
     const auto define = [&](const char* name, std::string value) { d.push_back({name, std::move(value)}); };
     if (scene_.moves())
         define("MOVING", "1");
     for (const auto& [name, value] : features_)
         d.push_back({name, name == "EMISSIVE" && wish.pass == 2 ? "NONE" : value}); // once is enough
     add_lamp_defines(d, static_cast<std::size_t>(wish.lamps));
-    define("SPOT_COUNT", std::to_string(most_spots));
+    define("SPOT_COUNT", std::to_string(max_spots));
     define("PASS", std::to_string(wish.pass));
     define("TEXTURED", wish.texture > 0 ? "1" : "0");
     define("TEXTURE_MODE", std::to_string(wish.texture - 1));
@@ -204,7 +204,7 @@ void PublishedLighting::start_pass(int pass, const Shot& shot) const {
     gl.DepthFunc(GL_EQUAL);
     gl.DepthMask(GL_FALSE);
     gl.BlendFunc(GL_ONE, GL_ONE);
-    const GLuint adding = (shot.wanted.colour ? 1U : 0U) + (shot.wanted.illuminance ? 1U : 0U); // they come first (Targets)
+    const GLuint adding = (shot.outputs.colour ? 1U : 0U) + (shot.outputs.illuminance ? 1U : 0U); // they come first (Targets)
     for (GLuint slot = 0; slot < adding; ++slot)
         gl.Enablei(GL_BLEND, slot);
 }
@@ -225,7 +225,7 @@ std::vector<PublishedLighting::Group> PublishedLighting::groups_for(const Shot& 
         const glm::dvec3 centre = centre_of(piece, ego_m);
         const double distance = glm::length(centre) - piece.radius_m;
         if ((piece.ground || !shot.camera.is_map) && distance <= farthest_drawn_m && !frustum.outside(centre, piece.radius_m))
-            sorted[shot.wanted.colour ? piece.surface.texture : 0].emplace_back(distance, i);
+            sorted[shot.outputs.colour ? piece.surface.texture : 0].emplace_back(distance, i);
     }
     std::vector<Group> groups;
     pieces = 0;
@@ -255,7 +255,7 @@ void PublishedLighting::draw(const Shot& shot) {
         shot.clock.begin(pass == 2 ? "lamps" : "scene");
         start_pass(pass, shot);
         for (std::size_t g = 0; g < groups.size(); ++g) {
-            use(variant({lamps_, groups[g].texture, pass, published_bits(shot.wanted)}, shot.wanted), shot);
+            use(variant({lamps_, groups[g].texture, pass, published_bits(shot.outputs)}, shot.outputs), shot);
             list_.draw(static_cast<int>(g));
             const int samplers = (pass == 1 ? 0 : static_cast<int>(textures_.size())) + (groups[g].texture > 0 ? 1 : 0);
             shot.work.samplers = std::max(shot.work.samplers, samplers);
@@ -270,18 +270,18 @@ void PublishedLighting::draw(const Shot& shot) {
     context_.check("drawing the scene");
     shot.work.lamps = computed_lamps_;
     shot.work.texture_bytes = beams_.texture_bytes() + scene_.texture_bytes();
-    left_out_.clear();
+    pruned_features_.clear();
     const auto off = std::ranges::count(shot.moment.lamps, 0.0, &LitLamp::intensity_factor);
     if (off > 0)
-        left_out_.push_back({fmt::format("{} of {} lamps", off, shot.moment.lamps.size()), "switched off"});
+        pruned_features_.push_back({fmt::format("{} of {} lamps", off, shot.moment.lamps.size()), "switched off"});
     if (pieces < scene_.pieces().size())
-        left_out_.push_back(
+        pruned_features_.push_back(
             {fmt::format("{} of {} pieces of the scene", scene_.pieces().size() - pieces, scene_.pieces().size()), "out of view"});
 }
 
 std::optional<double> PublishedLighting::beam_error(const LampFile& lamp) const {
     if (is("LIGHT", "SPOTS"))
-        return fit_spots(lamp.table, most_spots).worst_of_peak;
+        return fit_spots(lamp.table, max_spots).worst_of_peak;
     if ((is("LIGHT", "PROJECTED") || is("LIGHT", "VERTEX_PROJECTED")) && is("MERGED", "0"))
         return beams_.error_of_peak(lamp);
     return std::nullopt;
@@ -297,10 +297,10 @@ void PublishedLighting::prepare(const Shot& shot) {
         const int pass = first_pass() + k;
         start_pass(pass, shot);
         for (const SurfaceClass& surface : scene_.classes()) {
-            const Variant wish{lamps_, shot.wanted.colour ? surface.texture : 0, pass, published_bits(shot.wanted)};
+            const Variant wish{lamps_, shot.outputs.colour ? surface.texture : 0, pass, published_bits(shot.outputs)};
             if (variants_.contains(wish))
                 continue;
-            use(variant(wish, shot.wanted), shot);
+            use(variant(wish, shot.outputs), shot);
             list_.draw_nothing(shot.moment.ego.position_m, scene_.moves());
         }
     }
@@ -332,7 +332,7 @@ double PublishedBeams::error_of_peak(const LampFile& file) const {
 
 const std::vector<Spot>& PublishedBeams::spots_of(const std::shared_ptr<const LampFile>& file) {
     const auto known = spots_.find(file);
-    return known != spots_.end() ? known->second : spots_.emplace(file, fit_spots(file->table, most_spots).spots).first->second;
+    return known != spots_.end() ? known->second : spots_.emplace(file, fit_spots(file->table, max_spots).spots).first->second;
 }
 
 template <class Made, class Make> const Made& PublishedBeams::kept(std::list<Kept<Made>>& list, const Moment& moment, Make make) {
@@ -345,7 +345,7 @@ template <class Made, class Make> const Made& PublishedBeams::kept(std::list<Kep
     const std::size_t before = texture_bytes_;
     Made made = make();
     list.push_front({arrangement, std::move(made), texture_bytes_ - before});
-    if (list.size() > most_arrangements) {
+    if (list.size() > max_arrangements) {
         texture_bytes_ -= list.back().bytes;
         list.pop_back();
     }

@@ -64,13 +64,13 @@ class PublishedLighting : public Lighting {
 
     void draw(const Shot& shot) override;
     void prepare(const Shot& shot) override;
-    std::vector<LeftOut> left_out() const override { return left_out_; }
+    std::vector<PrunedFeature> pruned() const override { return pruned_features_; }
     std::optional<double> beam_error(const LampFile& lamp) const override;
 
   private:
     /// Decides over a shader variant, beside the row.
     struct Variant {
-        int lamps = 0, texture = 0, pass = 0, wanted = 0;
+        int lamps = 0, texture = 0, pass = 0, outputs = 0;
         auto operator<=>(const Variant&) const = default;
     };
     struct Compiled {
@@ -94,7 +94,7 @@ class PublishedLighting : public Lighting {
     void set_projected_lamp(const LitLamp& lamp, const UploadedBeam& beam, const glm::dvec3& ego_m);
     void set_spots(const LitLamp& lamp, const glm::dvec3& ego_m);
     std::vector<Group> groups_for(const Shot& shot, std::size_t& pieces) const;
-    const Compiled& variant(const Variant& wish, const Wanted& wanted);
+    const Compiled& variant(const Variant& wish, const FrameOutputs& outputs);
     void use(const Compiled& v, const Shot& shot) const;
     void bind() const;
     void start_pass(int pass, const Shot& shot) const;
@@ -115,7 +115,7 @@ class PublishedLighting : public Lighting {
     std::vector<GLuint> textures_; ///< units 0, 1, ...
     const UploadedMap* map_ = nullptr;
     Buffer lamp_block_, spot_block_;
-    std::vector<LeftOut> left_out_;
+    std::vector<PrunedFeature> pruned_features_;
 };
 
 } // namespace fernlicht::gl

@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Views of so many sizes and wishes keep their targets; a drive's maps may change size with every moment.
-constexpr std::size_t most_targets = 8;
+constexpr std::size_t max_targets = 8;
 constexpr int frames = 9; // of check_read_back
 
 /// The lighting of a technique by its name. Throws InputError.
@@ -39,12 +39,12 @@ double frame_time(Device& device, ReadBack way) {
     settings.read_back = way;
     Renderer renderer(device, scene, settings);
     const View view;
-    const Wanted wanted{.colour = true, .illuminance = true, .luminance = true, .depth = true};
+    const FrameOutputs outputs{.colour = true, .illuminance = true, .luminance = true, .depth = true};
     std::vector<double> seconds;
-    Pending earlier = renderer.submit({}, view, wanted);
+    Pending earlier = renderer.submit({}, view, outputs);
     for (int i = 0; i < frames; ++i) {
         const Clock::time_point start = Clock::now();
-        Pending next = renderer.submit({}, view, wanted);
+        Pending next = renderer.submit({}, view, outputs);
         earlier();
         earlier = std::move(next);
         seconds.push_back(seconds_since(start));
@@ -63,12 +63,12 @@ struct Renderer::State {
 
     struct KnownTargets {
         int width, height;
-        Wanted wanted;
+        FrameOutputs outputs;
         std::shared_ptr<gl::Targets> targets;
     };
-    std::shared_ptr<gl::Targets> targets_for(const View& view, const Wanted& wanted);
+    std::shared_ptr<gl::Targets> targets_for(const View& view, const FrameOutputs& outputs);
     /// Counts what it takes.
-    Work shoot(const Moment& moment, const View& view, const Wanted& wanted, PassClock& clock,
+    Work shoot(const Moment& moment, const View& view, const FrameOutputs& outputs, PassClock& clock,
                void (gl::Lighting::*take)(const gl::Shot&) = &gl::Lighting::draw);
 
     gl::Context& context;
@@ -84,27 +84,27 @@ struct Renderer::State {
     }
 };
 
-std::shared_ptr<gl::Targets> Renderer::State::targets_for(const View& view, const Wanted& wanted) {
+std::shared_ptr<gl::Targets> Renderer::State::targets_for(const View& view, const FrameOutputs& outputs) {
     for (auto it = targets.begin(); it != targets.end(); ++it)
-        if (it->width == view.width_px && it->height == view.height_px && it->wanted == wanted) {
+        if (it->width == view.width_px && it->height == view.height_px && it->outputs == outputs) {
             targets.splice(targets.begin(), targets, it);
             return it->targets;
         }
     targets.push_front(
-        {view.width_px, view.height_px, wanted, std::make_shared<gl::Targets>(context, view.width_px, view.height_px, wanted)});
-    if (targets.size() > most_targets)
+        {view.width_px, view.height_px, outputs, std::make_shared<gl::Targets>(context, view.width_px, view.height_px, outputs)});
+    if (targets.size() > max_targets)
         targets.pop_back(); // a frame on its way holds its own
     return targets.front().targets;
 }
 
-Work Renderer::State::shoot(const Moment& moment, const View& view, const Wanted& wanted, PassClock& clock,
+Work Renderer::State::shoot(const Moment& moment, const View& view, const FrameOutputs& outputs, PassClock& clock,
                             void (gl::Lighting::*take)(const gl::Shot&)) {
     const double sky_luminance = moment.daylight.horizontal_illuminance_lx / pi;
     const float grey = static_cast<float>(photometry::srgb_encoded(toned(settings.tone_mapper, sky_luminance)));
     const Camera camera = camera_of(moment, view);
-    const std::shared_ptr<gl::Targets> target = targets_for(view, wanted);
+    const std::shared_ptr<gl::Targets> target = targets_for(view, outputs);
     Work work;
-    (*lighting.*take)({moment, view, wanted, camera, *target, glm::vec3(grey), static_cast<float>(sky_luminance), clock, work});
+    (*lighting.*take)({moment, view, outputs, camera, *target, glm::vec3(grey), static_cast<float>(sky_luminance), clock, work});
     return work;
 }
 
@@ -125,22 +125,22 @@ Renderer::~Renderer() = default;
 
 const Technique& Renderer::technique() const { return state_->technique; }
 
-Wanted Renderer::available(Wanted wanted) const {
+FrameOutputs Renderer::available(FrameOutputs outputs) const {
     const Technique& t = state_->technique;
-    wanted.illuminance = wanted.illuminance && t.illuminance;
-    wanted.target = wanted.target && t.target;
-    wanted.luminance = wanted.luminance && t.luminance;
-    wanted.light = wanted.light && t.luminance;
-    return wanted;
+    outputs.illuminance = outputs.illuminance && t.illuminance;
+    outputs.target = outputs.target && t.target;
+    outputs.luminance = outputs.luminance && t.luminance;
+    outputs.light = outputs.light && t.luminance;
+    return outputs;
 }
 
-Pending Renderer::submit(const Moment& moment, const View& view, const Wanted& asked) {
+Pending Renderer::submit(const Moment& moment, const View& view, const FrameOutputs& asked) {
     State& s = *state_;
-    const Wanted wanted = available(asked);
+    const FrameOutputs outputs = available(asked);
     const Clock::time_point start = Clock::now();
     PassClock passes(s.context, s.settings.profile, s.settings.gpu_clock);
-    s.add(s.shoot(moment, view, wanted, passes));
-    const std::shared_ptr<gl::Targets> targets = s.targets_for(view, wanted);
+    s.add(s.shoot(moment, view, outputs, passes));
+    const std::shared_ptr<gl::Targets> targets = s.targets_for(view, outputs);
     if (s.settings.read_back == ReadBack::overlapped) {
         const auto reading = std::make_shared<gl::Targets::Reading>(targets->start_read());
         const auto times = std::make_shared<PassClock>(std::move(passes));
@@ -159,30 +159,30 @@ Pending Renderer::submit(const Moment& moment, const View& view, const Wanted& a
     return [frame] { return std::move(*frame); };
 }
 
-void Renderer::render(const Moment& moment, const View& view, const Wanted& wanted) {
+void Renderer::render(const Moment& moment, const View& view, const FrameOutputs& outputs) {
     PassClock passes(state_->context, false, false);
-    state_->add(state_->shoot(moment, view, available(wanted), passes));
+    state_->add(state_->shoot(moment, view, available(outputs), passes));
     state_->context.gl.Flush();
 }
 
 void Renderer::finish() { state_->context.gl.Finish(); }
 
-void Renderer::prepare(const std::vector<Moment>& moments, const View& view, const Wanted& wanted) {
+void Renderer::prepare(const std::vector<Moment>& moments, const View& view, const FrameOutputs& outputs) {
     PassClock passes(state_->context, false, false);
     for (const Moment& moment : moments)
-        state_->shoot(moment, view, available(wanted), passes, &gl::Lighting::prepare);
+        state_->shoot(moment, view, available(outputs), passes, &gl::Lighting::prepare);
     finish();
 }
 
-Work Renderer::count(const Moment& moment, const View& view, const Wanted& wanted) {
+Work Renderer::count(const Moment& moment, const View& view, const FrameOutputs& outputs) {
     PassClock passes(state_->context, false, false);
     gl::FragmentCount fragments(state_->context);
-    Work work = state_->shoot(moment, view, available(wanted), passes);
+    Work work = state_->shoot(moment, view, available(outputs), passes);
     work.fragments = fragments.result();
     return work;
 }
 
-std::vector<LeftOut> Renderer::left_out() const { return state_->lighting->left_out(); }
+std::vector<PrunedFeature> Renderer::pruned() const { return state_->lighting->pruned(); }
 std::optional<double> Renderer::beam_error(const LampFile& lamp) const { return state_->lighting->beam_error(lamp); }
 Renderer::ShadowMapsUsed Renderer::shadow_maps_used() const { return state_->shadow_maps; }
 

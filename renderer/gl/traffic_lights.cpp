@@ -13,9 +13,9 @@
 namespace fernlicht::gl {
 namespace {
 
-constexpr double nearest_m = 0.05;      // from a lamp, as far as bounds go
-constexpr double same_normal = 5e-4;    // two of the ground, in length of their difference
-constexpr double least_height_m = 1e-3; // what floats may be off in a place on the ground
+constexpr double nearest_m = 0.05;    // from a lamp, as far as bounds go
+constexpr double same_normal = 5e-4;  // two of the ground, in length of their difference
+constexpr double min_height_m = 1e-3; // what floats may be off in a place on the ground
 constexpr double same_axis = 1.0 - 1e-9;
 constexpr std::uint32_t is_ground_bit = 0x80000000U;
 
@@ -34,7 +34,7 @@ double size_from_car(const glm::dvec3& centre_m, double radius_m) {
 
 /// Sine of the steepest normal's angle from the vertical.
 double lean_of(const Piece& piece) {
-    const double up = std::clamp(piece.least_up, 0.0, 1.0);
+    const double up = std::clamp(piece.min_up, 0.0, 1.0);
     return std::sqrt(1.0 - up * up);
 }
 
@@ -68,9 +68,9 @@ int TrafficLights::beam_offset(const Beam& beam) {
     return known->second;
 }
 
-void TrafficLights::pack(const Unit& unit, int first, double least_lx) {
+void TrafficLights::pack(const Unit& unit, int first, double min_lx) {
     const BeamTexture& g = unit.beam->grid;
-    packed_.push_back({four(unit.at_m, least_lx), four(unit.middle.pose.forward(), unit.factor), four(unit.middle.pose.up(), first),
+    packed_.push_back({four(unit.at_m, min_lx), four(unit.middle.pose.forward(), unit.factor), four(unit.middle.pose.up(), first),
                        four(unit.apart_m, g.width), four(unit.middle.colour.linear_srgb, g.height),
                        glm::vec4(g.h_first_rad, g.v_first_rad, 1.0 / g.h_step_rad, 1.0 / g.v_step_rad)});
 }
@@ -99,8 +99,8 @@ void TrafficLights::add_units(const Moment& moment) {
         unit.at_m = unit.middle.pose.position_m - moment.ego.position_m;
         const int first = beam_offset(*unit.beam);
         unit.bounds = &bounds_.at(unit.beam->id);
-        unit.reaches_m = std::sqrt(rounding * unit.factor * unit.bounds->most_cd() / moment.least_traffic_lx);
-        pack(unit, first, moment.least_traffic_lx);
+        unit.reaches_m = std::sqrt(rounding * unit.factor * unit.bounds->max_cd() / moment.min_traffic_lx);
+        pack(unit, first, moment.min_traffic_lx);
         units_.push_back(std::move(unit));
     }
 }
@@ -125,7 +125,7 @@ BeamWindow TrafficLights::window(const Unit& unit, const Place& place, const glm
             std::atan2(high, high > 0.0 ? across - radius : across + radius)};
 }
 
-TrafficLights::Bound TrafficLights::bound(const Unit& unit, const Place& place, double least_lx) {
+TrafficLights::Bound TrafficLights::bound(const Unit& unit, const Place& place, double min_lx) {
     const glm::dvec3 from = place.centre_m - unit.at_m;
     const double radius = place.radius_m + unit.half_m, d = glm::length(from);
     Bound bound;
@@ -142,14 +142,14 @@ TrafficLights::Bound TrafficLights::bound(const Unit& unit, const Place& place, 
     if (place.normals != nullptr)
         for (const glm::dvec4& n : *place.normals) // the lamps' height over the ground's planes, over the distance
             cosine = std::max(cosine, std::min(1.0, (glm::dot(glm::dvec3(n), unit.at_m) + std::abs(glm::dot(glm::dvec3(n), unit.apart_m)) -
-                                                     n.w + least_height_m) /
+                                                     n.w + min_height_m) /
                                                             bound.near_m +
                                                         same_normal));
     bound.lx_a_cd = rounding * cosine * unit.factor / (bound.near_m * bound.near_m);
-    bound.most_lx = unit.bounds->most_cd() * bound.lx_a_cd;
-    if (bound.most_lx > least_lx) {
+    bound.max_lx = unit.bounds->max_cd() * bound.lx_a_cd;
+    if (bound.max_lx > min_lx) {
         bound.window = window(unit, place, from);
-        bound.most_lx = unit.bounds->most_cd(bound.window) * bound.lx_a_cd;
+        bound.max_lx = unit.bounds->max_cd(bound.window) * bound.lx_a_cd;
     }
     return bound;
 }
@@ -157,7 +157,7 @@ TrafficLights::Bound TrafficLights::bound(const Unit& unit, const Place& place, 
 void TrafficLights::list(std::size_t number, const Place& place, double least, Lists& lists, Work* work) {
     Unit& unit = units_[number];
     const Bound bounds = bound(unit, place, least);
-    const double most = bounds.most_lx;
+    const double most = bounds.max_lx;
     if (most <= least) {
         lists.left_out_lx += most;
         report_.left_out += most > 0.0 && work != nullptr ? 1 : 0;
@@ -319,7 +319,7 @@ void TrafficLights::list_cells(const Moment& moment, const std::vector<std::uint
         const double half = 0.5 * traffic_cell_m + 0.01, up = 0.5 * (cell.high - cell.low);
         const glm::dvec3 centre(at, 0.5 * (cell.low + cell.high));
         const Place place{centre, std::sqrt(2.0 * half * half + up * up), cell.low, cell.high, 0.0, true, false, &cell.normals};
-        Lists lists = lists_of(place, units, moment.least_traffic_lx, &work);
+        Lists lists = lists_of(place, units, moment.min_traffic_lx, &work);
         TrafficPlace stands{{}, size_from_car(place.centre_m, place.radius_m)};
         for (std::size_t k = 0; k < stands.box_m.size(); ++k)
             stands.box_m[k] = glm::dvec3(at + ahead_ * ((k & 1) != 0 ? half : -half) + left * ((k & 2) != 0 ? half : -half),
@@ -351,7 +351,7 @@ void TrafficLights::set(const Moment& moment, const std::vector<std::uint32_t>& 
         const glm::dvec3 centre = centre_of(piece, moment.ego.position_m);
         const Place place{centre,         piece.radius_m, piece.lowest_m - car_z,       piece.highest_m - car_z,
                           lean_of(piece), piece.ground,   piece.surface.retroreflecting};
-        Lists lists = lists_of(place, all, moment.least_traffic_lx, piece.ground ? nullptr : &work); // ground is counted by its cells
+        Lists lists = lists_of(place, all, moment.min_traffic_lx, piece.ground ? nullptr : &work); // ground is counted by its cells
         TrafficPlace stands{piece.corners_m, piece.ground ? 0.0 : size_from_car(place.centre_m, place.radius_m), i};
         for (glm::dvec3& corner : stands.box_m)
             corner += piece.origin_m - moment.ego.position_m;

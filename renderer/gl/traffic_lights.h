@@ -82,17 +82,17 @@ class TrafficLights {
         double drawn_lx = 0.0, left_out_lx = 0.0; ///< bounds, summed over units
     };
     void add_units(const Moment& moment);
-    void pack(const Unit& unit, int first, double least_lx);
+    void pack(const Unit& unit, int first, double min_lx);
     int beam_offset(const Beam& beam);
-    /// What a unit can bring to a place; the coarse bound alone where that is not above `least_lx`.
+    /// What a unit can bring to a place; the coarse bound alone where that is not above `min_lx`.
     struct Bound {
-        double most_lx = 0.0, lx_a_cd = 0.0, near_m = 0.0;
+        double max_lx = 0.0, lx_a_cd = 0.0, near_m = 0.0;
         BeamWindow window;
     };
-    static Bound bound(const Unit& unit, const Place& place, double least_lx);
+    static Bound bound(const Unit& unit, const Place& place, double min_lx);
     static BeamWindow window(const Unit& unit, const Place& place, const glm::dvec3& from);
-    Lists lists_of(const Place& place, std::span<const std::size_t> units, double least_lx, Work* work);
-    void list(std::size_t number, const Place& place, double least_lx, Lists& lists, Work* work);
+    Lists lists_of(const Place& place, std::span<const std::size_t> units, double min_lx, Work* work);
+    void list(std::size_t number, const Place& place, double min_lx, Lists& lists, Work* work);
     /// Numbers of the units that may reach into a sphere; all where nothing is pruned.
     std::vector<std::size_t> reaching(const glm::dvec3& centre_m, double radius_m) const;
     std::vector<Cell> cells_of(const Moment& moment, const std::vector<std::uint32_t>& drawn) const;

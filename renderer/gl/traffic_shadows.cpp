@@ -37,15 +37,15 @@ bool behind_lamp(const Corners& box) {
 
 TrafficShadows::TrafficShadows(Context& context, const SceneBuffers& scene, const ShadowSettings& settings, bool pruned)
     : context_(context), scene_(scene), settings_(traffic_map_settings(settings)), pruned_(pruned), pass_(context, scene, scene.moves()),
-      map_buffer_(make_buffer(context, std::vector<glm::vec4>(4 * most_traffic_maps), GL_DYNAMIC_STORAGE_BIT)), layers_(most_traffic_maps) {
+      map_buffer_(make_buffer(context, std::vector<glm::vec4>(4 * max_traffic_maps), GL_DYNAMIC_STORAGE_BIT)), layers_(max_traffic_maps) {
     map_texels_ = new_texture(context_, GL_TEXTURE_BUFFER);
     context_.gl.TextureBuffer(map_texels_, GL_RGBA32F, map_buffer_);
-    maps_ = make_shadow_texture(context_, {settings_.width, settings_.height, static_cast<int>(most_traffic_maps), "lamps of others",
+    maps_ = make_shadow_texture(context_, {settings_.width, settings_.height, static_cast<int>(max_traffic_maps), "lamps of others",
                                            "a smaller map_texels, or shadows: none"});
 }
 
-/// What stands where the unit brings more than `least_lx` to a surface facing it: nothing in the shadow of all else gets more than that.
-std::vector<std::uint32_t> TrafficShadows::pieces_near(const TrafficSource& unit, double least_lx) const {
+/// What stands where the unit brings more than `min_lx` to a surface facing it: nothing in the shadow of all else gets more than that.
+std::vector<std::uint32_t> TrafficShadows::pieces_near(const TrafficSource& unit, double min_lx) const {
     std::vector<std::uint32_t> pieces;
     const glm::dvec3 at_m = unit.middle.pose.position_m - ego_m_;
     const double half_m = glm::length(unit.apart_m);
@@ -56,10 +56,10 @@ std::vector<std::uint32_t> TrafficShadows::pieces_near(const TrafficSource& unit
         if (glm::dot(unit.middle.pose.forward(), from) < -radius)
             continue;
         const double brightest = rounding * unit.middle.intensity_factor;
-        if (nearest > 0.0 && brightest * unit.beam->bounds.most() <= least_lx * nearest * nearest)
+        if (nearest > 0.0 && brightest * unit.beam->bounds.most() <= min_lx * nearest * nearest)
             continue;
-        const double most_cd = brightest * unit.beam->bounds.most_towards(to_lamp_space(unit.middle, from), radius);
-        if (most_cd == 0.0 || (nearest > 0.0 && most_cd <= least_lx * nearest * nearest))
+        const double max_cd = brightest * unit.beam->bounds.max_towards(to_lamp_space(unit.middle, from), radius);
+        if (max_cd == 0.0 || (nearest > 0.0 && max_cd <= min_lx * nearest * nearest))
             continue;
         if (piece.ground && !piece.above_ground && faces_lamp(scene_, piece, at_m + unit.apart_m, ego_m_) &&
             faces_lamp(scene_, piece, at_m - unit.apart_m, ego_m_))
@@ -114,10 +114,10 @@ TrafficShadows::Map TrafficShadows::map_of(const TrafficSource& unit, int lamp, 
     return map;
 }
 
-TrafficShadows::Candidate TrafficShadows::candidate(std::uint32_t number, const TrafficSource& unit, double least_lx) const {
+TrafficShadows::Candidate TrafficShadows::candidate(std::uint32_t number, const TrafficSource& unit, double min_lx) const {
     Candidate found;
     found.unit = number;
-    const std::vector<std::uint32_t> pieces = pieces_near(unit, least_lx);
+    const std::vector<std::uint32_t> pieces = pieces_near(unit, min_lx);
     for (int lamp = 0; lamp < unit.lamps; ++lamp)
         found.maps.push_back(map_of(unit, lamp, pieces));
     return found;
@@ -138,14 +138,14 @@ void TrafficShadows::choose(const Moment& moment, std::span<const TrafficSource>
     chosen_.clear();
     reached_.assign(scene_.pieces().size(), false);
     casters_.clear();
-    const double least_lx = least_traffic_shadow * moment.least_traffic_lx;
-    const auto counts = [&](const TrafficReceiver& r) { return r.most_lx > least_lx; };
+    const double min_lx = min_traffic_shadow * moment.min_traffic_lx;
+    const auto counts = [&](const TrafficReceiver& r) { return r.max_lx > min_lx; };
     std::vector<std::vector<std::uint32_t>> by_unit(units.size());
     std::vector<double> at_most(units.size(), 0.0); // score, were everything in shadow
     for (std::uint32_t r = 0; r < receivers.size(); ++r)
         if (counts(receivers[r])) {
             by_unit[receivers[r].unit].push_back(r);
-            at_most[receivers[r].unit] += receivers[r].most_lx * places[receivers[r].place].weight;
+            at_most[receivers[r].unit] += receivers[r].max_lx * places[receivers[r].place].weight;
         }
     std::vector<std::uint32_t> order;
     for (std::uint32_t u = 0; u < units.size(); ++u)
@@ -170,14 +170,14 @@ void TrafficShadows::choose(const Moment& moment, std::span<const TrafficSource>
         std::size_t maps = 0;
         for (const Candidate& known : candidates)
             maps += known.score >= at_most[u] ? known.maps.size() : 0;
-        if (maps > most_traffic_maps)
+        if (maps > max_traffic_maps)
             break;
-        Candidate found = candidate(u, units[u], least_lx);
+        Candidate found = candidate(u, units[u], min_lx);
         bool any = false;
         for (const std::uint32_t r : by_unit[u])
             if (shaded(found, places[receivers[r].place].box_m)) {
                 shadowed[r] = any = true;
-                found.score += receivers[r].most_lx * places[receivers[r].place].weight;
+                found.score += receivers[r].max_lx * places[receivers[r].place].weight;
             }
         if (any)
             candidates.push_back(std::move(found));
@@ -193,7 +193,7 @@ void TrafficShadows::choose(const Moment& moment, std::span<const TrafficSource>
             shadowed[r] = true; // as far as is known
     }
     for (Candidate& one : candidates) {
-        if (without > 0 || chosen_.size() + one.maps.size() > most_traffic_maps) {
+        if (without > 0 || chosen_.size() + one.maps.size() > max_traffic_maps) {
             strongest_left_out = without > 0 ? strongest_left_out : one.score;
             left_out[one.unit] = true;
             ++without;
@@ -205,7 +205,7 @@ void TrafficShadows::choose(const Moment& moment, std::span<const TrafficSource>
             chosen_.push_back(std::move(map));
         }
     }
-    most_units_left_out_ = std::max(most_units_left_out_, without + order.size() - looked_at);
+    max_units_left_out_ = std::max(max_units_left_out_, without + order.size() - looked_at);
     for (Map& map : chosen_)
         map.weight = strongest_left_out > 0.0
                          ? std::clamp((map.weight - strongest_left_out) / (traffic_map_handover * strongest_left_out), 0.0, 1.0)
@@ -221,7 +221,7 @@ void TrafficShadows::choose(const Moment& moment, std::span<const TrafficSource>
                 reached_[piece] = true;
         }
         if (left_out[one.unit] && shadowed[r])
-            missing_lx[one.place] += one.most_lx;
+            missing_lx[one.place] += one.max_lx;
     }
     worst_left_out_lx_ = std::max(worst_left_out_lx_, *std::ranges::max_element(missing_lx));
 }
@@ -229,7 +229,7 @@ void TrafficShadows::choose(const Moment& moment, std::span<const TrafficSource>
 /// A layer that holds already what a map would show keeps it.
 void TrafficShadows::place_in_layers(std::vector<char>& to_draw) {
     if (drawn_ego_m_ != ego_m_ || drawn_placed_ != scene_.placed())
-        layers_.assign(most_traffic_maps, {});
+        layers_.assign(max_traffic_maps, {});
     drawn_ego_m_ = ego_m_;
     drawn_placed_ = scene_.placed();
     std::vector<bool> taken(layers_.size(), false);
@@ -285,7 +285,7 @@ void TrafficShadows::draw(const Shot& shot) {
 
 void TrafficShadows::compile() {
     pass_.compile(settings_.width, settings_.height);
-    layers_.assign(most_traffic_maps, {});
+    layers_.assign(max_traffic_maps, {});
 }
 
 void TrafficShadows::bind() const {
@@ -296,11 +296,11 @@ void TrafficShadows::bind() const {
 std::vector<Program::Define> TrafficShadows::defines() const {
     return {{"TRAFFIC_SHADOW_NEAR", literal(shadow_near_m)},
             {"TRAFFIC_SHADOW_TOLERANCE", literal(settings_.tolerance_m)},
-            {"TRAFFIC_SHADOW_LEAST", literal(least_traffic_shadow)}};
+            {"TRAFFIC_SHADOW_LEAST", literal(min_traffic_shadow)}};
 }
 
 std::size_t TrafficShadows::texture_bytes() const {
-    return 4 * most_traffic_maps * static_cast<std::size_t>(settings_.width) * static_cast<std::size_t>(settings_.height);
+    return 4 * max_traffic_maps * static_cast<std::size_t>(settings_.width) * static_cast<std::size_t>(settings_.height);
 }
 
 } // namespace fernlicht::gl

@@ -1,7 +1,7 @@
 // Shadows in the light of other road users' lamps and of street lamps.
 //
 // A unit of traffic_lights.h has a depth map for each of its lamps. Its shadow on a fragment is ramped, from nothing where the unit brings
-// there least_traffic_shadow times the least lux to all of it at twice that: what needs no map or no look-up by a bound on its light adds
+// there min_traffic_shadow times the least lux to all of it at twice that: what needs no map or no look-up by a bound on its light adds
 // exactly nothing, and nothing pops. Of more units than there are maps the strongest have them: those with most light, by bounds, on places
 // where something may shade it, each place weighted by how large it is from the car. A unit that is near to losing its maps has faded
 // shadows, so that they do not pop either.
@@ -20,9 +20,9 @@
 namespace fernlicht::gl {
 
 /// 8 pairs: on a straight with a car each 40 m the ninth stands 320 m ahead, where a shadow of a car spans a few pixels. 8 MB.
-inline constexpr std::size_t most_traffic_maps = 16;
+inline constexpr std::size_t max_traffic_maps = 16;
 /// Light of a unit whose shadow is not drawn, in least lux.
-inline constexpr double least_traffic_shadow = 2.0;
+inline constexpr double min_traffic_shadow = 2.0;
 /// A unit with so much more than the strongest without maps has shadows in full.
 inline constexpr double traffic_map_handover = 0.25;
 
@@ -45,7 +45,7 @@ struct TrafficPlace {
 /// The light of one unit by fragment on one place.
 struct TrafficReceiver {
     std::uint32_t unit = 0, place = 0, entry = 0; ///< entry: among those of traffic_lamps.glsl
-    double most_lx = 0.0;                         ///< it brings no more
+    double max_lx = 0.0;                          ///< it brings no more
 };
 
 class TrafficShadows {
@@ -66,7 +66,7 @@ class TrafficShadows {
     std::size_t texture_bytes() const;
 
     /// That something may shade, and that are not among the strongest: the most in any picture so far.
-    std::size_t most_units_left_out() const { return most_units_left_out_; }
+    std::size_t max_units_left_out() const { return max_units_left_out_; }
     /// Most that these bring together, over all places of all pictures, by bounds: what shadows can be missing there.
     double worst_left_out_lx() const { return worst_left_out_lx_; }
 
@@ -90,9 +90,9 @@ class TrafficShadows {
         std::vector<std::uint32_t> pieces;
     };
 
-    std::vector<std::uint32_t> pieces_near(const TrafficSource& unit, double least_lx) const;
+    std::vector<std::uint32_t> pieces_near(const TrafficSource& unit, double min_lx) const;
     Map map_of(const TrafficSource& unit, int lamp, const std::vector<std::uint32_t>& pieces) const;
-    Candidate candidate(std::uint32_t number, const TrafficSource& unit, double least_lx) const;
+    Candidate candidate(std::uint32_t number, const TrafficSource& unit, double min_lx) const;
     static bool shaded(const Candidate& candidate, const Corners& box_m);
     void place_in_layers(std::vector<char>& to_draw);
 
@@ -107,7 +107,7 @@ class TrafficShadows {
     std::vector<std::uint32_t> casters_; ///< what may cast, near the car
     std::vector<Map> chosen_;
     std::vector<bool> reached_;
-    std::size_t most_units_left_out_ = 0;
+    std::size_t max_units_left_out_ = 0;
     double worst_left_out_lx_ = 0.0;
     std::vector<Layer> layers_;
     glm::dvec3 drawn_ego_m_{0.0};

@@ -12,8 +12,8 @@
 
 namespace fernlicht::reference {
 
-Shot::Shot(const EmbreeScene& e, const Moment& m, const View& v, const Wanted& w, const ReferenceSettings& s)
-    : embree(e), moment(m), view(v), wanted(w), settings(s), camera(camera_of(m, v)), car_m(m.ego.position_m - e.origin_m()) {}
+Shot::Shot(const EmbreeScene& e, const Moment& m, const View& v, const FrameOutputs& w, const ReferenceSettings& s)
+    : embree(e), moment(m), view(v), outputs(w), settings(s), camera(camera_of(m, v)), car_m(m.ego.position_m - e.origin_m()) {}
 
 Ray Shot::ray_through(double x_px, double y_px) const {
     const Ray ray = pixel_ray(camera, view, x_px, y_px);
@@ -136,7 +136,7 @@ void add_lamp(const Shot& shot, std::size_t index, const Points& lamp_m, Points&
     tally(edges, index, asked, seen);
     for (const std::size_t i : lanes_of(seen))
         light.illuminance_lx[i] += e_perp[i] * cosine[i];
-    if (shot.wanted.luminance && seen != 0)
+    if (shot.outputs.luminance && seen != 0)
         add_luminance(shot, lamp, lamp_m, e_perp, cosine, seen, light, colour);
 }
 
@@ -157,7 +157,7 @@ void add_sun(const Shot& shot, const DirectLight& sun, Points& colour, PacketLig
     const LaneMask seen = seen_lanes(shot, from_m, to_m, facing, light);
     for (const std::size_t i : lanes_of(seen)) {
         light.illuminance_lx[i] += e[i];
-        if (!shot.wanted.luminance)
+        if (!shot.outputs.luminance)
             continue;
         const SurfaceResponse& response = light.responses[i];
         glm::dvec3 returned = response.albedo * (e[i] / pi);
@@ -191,15 +191,15 @@ void light_packet(const Shot& shot, const std::array<SamplePoint, packet_size>& 
     light.hit = shot.embree.cast(rays, lanes, shot.camera.is_map, light.hits);
     const double sky_lx = shot.moment.daylight.horizontal_illuminance_lx;
     Points colour{}, lamp_m{};
-    if (shot.wanted.luminance)
+    if (shot.outputs.luminance)
         for (const std::size_t i : lanes_of(light.hit))
             light.responses[i] = response_at(shot.embree.scene(), light.hits[i]);
     for (std::size_t index = 0; index < shot.moment.lamps.size(); ++index) {
         for (const std::size_t i : lanes_of(light.hit))
             lamp_m[i] = lamp_point_m(shot, shot.moment.lamps[index], points[i], 1 + index);
-        if (shot.wanted.illuminance || shot.wanted.luminance)
+        if (shot.outputs.illuminance || shot.outputs.luminance)
             add_lamp(shot, index, lamp_m, colour, light, edges);
-        if (shot.wanted.target && shot.moment.lamps[index].body == -1) // targets are about the own lamps
+        if (shot.outputs.target && shot.moment.lamps[index].body == -1) // targets are about the own lamps
             add_target(shot, index, lamp_m, light, edges);
     }
     if (const DirectLight* direct = shot.moment.daylight.direct())
@@ -207,14 +207,14 @@ void light_packet(const Shot& shot, const std::array<SamplePoint, packet_size>& 
     for (std::size_t i = 0; i < packet_size; ++i) {
         if (!in_mask(light.hit, i)) {
             light.luminance_cdm2[i] = in_mask(lanes, i) ? sky_lx / pi : 0.0;
-            if (in_mask(lanes, i) && shot.wanted.luminance && is_in_air(shot) && !shot.camera.is_map &&
+            if (in_mask(lanes, i) && shot.outputs.luminance && is_in_air(shot) && !shot.camera.is_map &&
                 shot.settings.integrator != Integrator::path) // paths add it themselves
                 light.luminance_cdm2[i] += luminance(airlight(shot, rays[i].origin_m, rays[i].origin_m + rays[i].direction * air_end_m));
             continue;
         }
         const double e_sky = sky ? sky_lx * 0.5 * (1.0 + light.hits[i].normal.z) : 0.0;
         light.illuminance_lx[i] += e_sky;
-        if (!shot.wanted.luminance)
+        if (!shot.outputs.luminance)
             continue;
         const SurfaceResponse& response = light.responses[i];
         glm::dvec3 of_sky = response.albedo * e_sky / pi;

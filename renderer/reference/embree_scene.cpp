@@ -19,7 +19,7 @@ namespace {
 constexpr unsigned ground_mask = 1, stands_mask = 2, casters_mask = 3, no_caster_mask = 4, all_mask = 7;
 
 constexpr double raise_share = 8.0 / 16777216.0; // eight units of 2^-24
-constexpr double least_extent_m = 100.0;         // triangles of ours are up to so long, and rounding follows the larger of both
+constexpr double min_extent_m = 100.0;           // triangles of ours are up to so long, and rounding follows the larger of both
 
 /// Segments end this share before the point that they look at: a lamp's own glass, if it were there, casts no shadow on the light.
 constexpr float segment_end = 1.0F - 1e-6F;
@@ -165,7 +165,7 @@ EmbreeScene::~EmbreeScene() = default;
 
 glm::dvec3 EmbreeScene::raised(const SurfaceHit& hit) {
     const glm::dvec3 extent = glm::abs(hit.point_m);
-    return hit.point_m + hit.facet_normal * (raise_share * std::max({extent.x, extent.y, extent.z, least_extent_m}));
+    return hit.point_m + hit.facet_normal * (raise_share * std::max({extent.x, extent.y, extent.z, min_extent_m}));
 }
 
 void EmbreeScene::add_facets(const Mesh& mesh) {

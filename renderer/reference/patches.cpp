@@ -11,7 +11,7 @@ namespace fernlicht::reference {
 namespace {
 
 /// A facet smaller than this holds no light that could be told from rounding, m2.
-constexpr double least_area_m2 = 1e-12;
+constexpr double min_area_m2 = 1e-12;
 /// A triangle that reaches less far into a cell than this share of it does not meet it: far above the rounding of shares, 1e-13 for a
 /// thousand cells in a row.
 constexpr double sliver = 1e-9;
@@ -37,7 +37,7 @@ Facet facet_of(const EmbreeScene& embree, std::uint32_t mesh_index, std::uint32_
     }
     const glm::dvec3 across = glm::cross(facet.corner_m[1] - facet.corner_m[0], facet.corner_m[2] - facet.corner_m[0]);
     facet.area_m2 = 0.5 * glm::length(across);
-    if (facet.area_m2 > least_area_m2)
+    if (facet.area_m2 > min_area_m2)
         facet.facet_normal = across / (2.0 * facet.area_m2);
     if (glm::dot(facet.facet_normal, facet.normal[0] + facet.normal[1] + facet.normal[2]) < 0.0)
         facet.facet_normal = -facet.facet_normal;
@@ -119,7 +119,7 @@ std::vector<Facet> facets_within(const EmbreeScene& embree, const glm::dvec3& ce
         for (const Batch& batch : embree.scene().meshes[m].batches)
             for (std::uint32_t i = 0; i + 2 < batch.count; i += 3, ++triangle) {
                 Facet facet = facet_of(embree, m, triangle, batch, batch.first + i);
-                if (facet.area_m2 > least_area_m2 && within(facet, centre_m, reach_m))
+                if (facet.area_m2 > min_area_m2 && within(facet, centre_m, reach_m))
                     facets.push_back(std::move(facet));
             }
     }

@@ -24,7 +24,7 @@ double flight_m(const Weather& weather, double choice) { return -std::log(choice
 /// Turns the path at the place where it is; false where it ends. `scattered`: how often before.
 bool turned(const Shot& shot, const glm::dvec3& place_m, const glm::dvec2& square, double roulette, int& scattered, Ray& ray,
             glm::dvec3& weight) {
-    if (++scattered >= shot.settings.most_scatterings)
+    if (++scattered >= shot.settings.max_scatterings)
         return false;
     weight *= shot.moment.weather.scattering_albedo;
     if (scattered > scatterings_kept) {
@@ -43,12 +43,12 @@ glm::dvec3 followed(const Shot& shot, const SamplePoint& point, std::size_t pair
     const bool in_air = is_in_air(shot);
     glm::dvec3 sum(0.0), weight(1.0);
     bool specular = false;
-    for (int bounce = 0; bounce < shot.settings.most_bounces; ++bounce, pair += pairs_a_bounce) {
+    for (int bounce = 0; bounce < shot.settings.max_bounces; ++bounce, pair += pairs_a_bounce) {
         ++rays;
         const std::optional<SurfaceHit> hit = shot.embree.cast(ray);
         if (in_air) {
             const double way_m = hit ? glm::length(hit->point_m - ray.origin_m) : air_end_m;
-            if (shot.settings.most_scatterings > 0)
+            if (shot.settings.max_scatterings > 0)
                 sum += weight * lamps_in_air(shot, ray, way_m, point, pair + of_surface + 2, rays);
             const glm::dvec2 flight = point.pair(pair + of_surface);
             if (const double free_m = flight_m(weather, flight.x); free_m < way_m) {
@@ -77,7 +77,7 @@ glm::dvec3 followed(const Shot& shot, const SamplePoint& point, std::size_t pair
 /// from a place on the ray that light can have come from.
 glm::dvec3 air_seen(const Shot& shot, const SamplePoint& point, const Ray& ray, double way_m, std::uint64_t& rays) {
     glm::dvec3 sum(0.0);
-    if (shot.settings.most_scatterings < 1)
+    if (shot.settings.max_scatterings < 1)
         return sum;
     const Weather& weather = shot.moment.weather;
     sum = lamps_in_air(shot, ray, way_m, point, air_first_pair + 2, rays);
@@ -131,22 +131,22 @@ void add_bounced_light(const Shot& shot, const std::array<SamplePoint, packet_si
         const glm::dvec3 from_m = EmbreeScene::raised(hit), direction = sample_cosine(hit.normal, points[i].pair(first_pair)),
                          to_eye = glm::normalize(shot.to_eye(hit.point_m));
         const double left = left_on_way_to_eye(shot, hit.point_m), wetness = wetness_at(shot, light.responses[i]);
-        if ((shot.wanted.illuminance || shot.wanted.luminance) && glm::dot(direction, hit.facet_normal) > 0.0) {
+        if ((shot.outputs.illuminance || shot.outputs.luminance) && glm::dot(direction, hit.facet_normal) > 0.0) {
             const glm::dvec3 radiance = arriving(i, points[i], first_pair + 1, {from_m, direction}, light.rays);
             light.illuminance_lx[i] += pi * luminance(radiance);
-            if (shot.wanted.luminance)
+            if (shot.outputs.luminance)
                 light.luminance_cdm2[i] +=
                     left * luminance(diffuse_reflectance(light.responses[i].albedo, wetness, glm::dot(hit.normal, direction),
                                                          glm::dot(hit.normal, to_eye)) *
                                      radiance);
         }
-        if (shot.wanted.luminance && wetness > 0.0) {
+        if (shot.outputs.luminance && wetness > 0.0) {
             const FilmSample film = sample_film(hit.normal, to_eye, points[i].pair(film_pairs));
             if (film.weight > 0.0 && glm::dot(film.direction, hit.facet_normal) > 0.0)
                 light.luminance_cdm2[i] +=
                     left * wetness * film.weight * luminance(arriving(i, points[i], film_pairs + 1, {from_m, film.direction}, light.rays));
         }
-        if (!shot.wanted.luminance || light.responses[i].retro_rl <= 0.0)
+        if (!shot.outputs.luminance || light.responses[i].retro_rl <= 0.0)
             continue;
         const Surface surface = surface_at(shot, hit, to_eye);
         if (!surface.lobe.is_there())
@@ -167,7 +167,7 @@ void add_path_light(const Shot& shot, const std::array<SamplePoint, packet_size>
     };
     add_bounced_light(shot, points, by_path, light);
     add_smooth_light(shot, points, by_path, light);
-    if (!is_in_air(shot) || shot.camera.is_map || !shot.wanted.luminance)
+    if (!is_in_air(shot) || shot.camera.is_map || !shot.outputs.luminance)
         return;
     for (const std::size_t i : lanes_of(lanes)) {
         const double way_m = in_mask(light.hit, i) ? glm::length(light.hits[i].point_m - eye_rays[i].origin_m) : air_end_m;
@@ -176,7 +176,7 @@ void add_path_light(const Shot& shot, const std::array<SamplePoint, packet_size>
 }
 
 void add_smooth_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const Arriving& arriving, PacketLight& light) {
-    if (!shot.wanted.luminance)
+    if (!shot.outputs.luminance)
         return;
     const Scene& scene = shot.embree.scene();
     for (const std::size_t i : lanes_of(light.hit)) {
@@ -198,7 +198,7 @@ void add_whitted_light(const Shot& shot, const std::array<SamplePoint, packet_si
     add_smooth_light(
         shot, points,
         [&](std::size_t, const SamplePoint& point, std::size_t, const Ray& ray, std::uint64_t& rays) {
-            return seen_along(shot, point, ray, shot.settings.most_smooth - 1, rays);
+            return seen_along(shot, point, ray, shot.settings.max_smooth - 1, rays);
         },
         light);
 }

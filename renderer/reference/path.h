@@ -13,7 +13,7 @@
 //
 // Fog on each way from surface to surface is that of direct light (air.h). Bias: light that has left a rough surface lights no other; the
 // sky's share on a surface is (1 + n_z) / 2, hidden by nothing; feelers end at glass as at any surface, and lamps light nothing by way of
-// mirrors; after ReferenceSettings::most_smooth smooth surfaces there is no light. No noise but that of the pixel's footprint and of lamps
+// mirrors; after ReferenceSettings::max_smooth smooth surfaces there is no light. No noise but that of the pixel's footprint and of lamps
 // with an area. Where nothing is smooth it is the same picture as direct light. Shares of mirroring and refraction are Fresnel's, not the
 // constants of 1980.
 #pragma once

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t photon_seed = 0x9407035ULL; ///< apart from the pixels' nets
 constexpr std::uint32_t photons_a_question = 256;   ///< whether to go on: about a millisecond
-constexpr double plane_share = 0.3, least_cosine = 0.7;
+constexpr double plane_share = 0.3, min_cosine = 0.7;
 
 /// Cells are two radii wide: a sphere meets at most two each way.
 glm::ivec3 cell_at(const glm::dvec3& point_m, double radius_m) { return glm::ivec3(glm::floor(point_m / (2.0 * radius_m))); }
@@ -128,7 +128,7 @@ PhotonMap::Map PhotonMap::sent_out(const Shot& shot, const PhotonEmission& emiss
         glm::dvec3 weight(1.0);
         bool specular = false, straight = start.from_lamp; // from a lamp over smooth surfaces alone
         std::size_t pair = PhotonEmission::pairs;
-        for (int bounce = 0; bounce < shot.settings.most_bounces; ++bounce, pair += 2) {
+        for (int bounce = 0; bounce < shot.settings.max_bounces; ++bounce, pair += 2) {
             ++map.rays;
             const std::optional<SurfaceHit> hit = shot.embree.cast(ray);
             if (!hit)
@@ -187,7 +187,7 @@ glm::dvec3 PhotonMap::irradiance(const SurfaceHit& hit, Part part, std::size_t r
                 const glm::dvec3 away = glm::dvec3(photon.place_m) - hit.point_m;
                 const double d2 = glm::dot(away, away);
                 if (d2 >= r2 || !counts(photon.way, part) || std::abs(glm::dot(away, hit.facet_normal)) > plane_share * radius_m_ ||
-                    glm::dot(glm::dvec3(photon.normal), hit.facet_normal) < least_cosine)
+                    glm::dot(glm::dvec3(photon.normal), hit.facet_normal) < min_cosine)
                     continue;
                 sum += glm::dvec3(photon.flux_lm) * (1.0 - d2 / r2);
             }

@@ -83,19 +83,19 @@ double target_of(const Shot& shot, std::size_t result, double mean) {
 }
 
 /// A path's light may come from a small part of all directions: 64 samples in the pilot and 128 in the mean miss 1/25 of them once in 3000.
-constexpr int path_pilot_each = 4, path_least_each = 8;
+constexpr int path_pilot_each = 4, path_min_each = 8;
 
 /// Beside an edge: 128 samples miss what covers 1/32 of the pixel once in 60.
-constexpr int edge_least_each = 8;
+constexpr int edge_min_each = 8;
 
-int least_each(const ReferenceSettings& s) {
-    const int asked = static_cast<int>(std::bit_ceil((static_cast<unsigned>(s.least_samples) + 15) / 16));
-    return !is_direct(s) ? std::max(asked, path_least_each) : asked;
+int min_each(const ReferenceSettings& s) {
+    const int asked = static_cast<int>(std::bit_ceil((static_cast<unsigned>(s.min_samples) + 15) / 16));
+    return !is_direct(s) ? std::max(asked, path_min_each) : asked;
 }
-int most_each(const ReferenceSettings& s) {
+int max_each(const ReferenceSettings& s) {
     if (as_solved(s))
-        return least_each(s);
-    return std::max(least_each(s), static_cast<int>(std::bit_floor(static_cast<unsigned>(s.most_samples) / 16)));
+        return min_each(s);
+    return std::max(min_each(s), static_cast<int>(std::bit_floor(static_cast<unsigned>(s.max_samples) / 16)));
 }
 
 constexpr double n = static_cast<double>(replicate_count);
@@ -214,7 +214,7 @@ std::uint64_t draw_pixels(const Shot& shot, int x0, int y0, ReferenceImage& imag
 
 } // namespace
 
-int most_samples_used(const ReferenceSettings& s) { return most_each(s) * static_cast<int>(replicate_count); }
+int max_samples_used(const ReferenceSettings& s) { return max_each(s) * static_cast<int>(replicate_count); }
 
 Drawing pilot_of(const Shot& shot, int x, int y) {
     const bool is_path = !is_direct(shot.settings);
@@ -226,8 +226,8 @@ bool differ(const Drawing& a, const Drawing& b) {
 }
 
 PixelEstimate estimate_pixel(const Shot& shot, int x, int y, const Drawing& pilot, bool at_edge) {
-    const int most = most_each(shot.settings), pilot_each = is_direct(shot.settings) ? 1 : path_pilot_each;
-    PixelEstimate estimate{{}, std::min(most, std::max(least_each(shot.settings), at_edge ? edge_least_each : 1)), 0, 0};
+    const int most = max_each(shot.settings), pilot_each = is_direct(shot.settings) ? 1 : path_pilot_each;
+    PixelEstimate estimate{{}, std::min(most, std::max(min_each(shot.settings), at_edge ? edge_min_each : 1)), 0, 0};
     for (std::size_t r = 0; r < 3; ++r) {
         const auto [mean, error] = mean_of(pilot.sums[r], pilot_each);
         estimate.each = std::max(estimate.each, samples_for(error, target_of(shot, r, mean), falling_power(shot, pilot), pilot_each, most));

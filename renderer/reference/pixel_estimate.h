@@ -60,9 +60,9 @@ struct Drawing {
     }
 };
 
-/// What ReferenceSettings::most_samples comes to: a power of two, no less than the least that the integrator takes; and that least where
+/// What ReferenceSettings::max_samples comes to: a power of two, no less than the least that the integrator takes; and that least where
 /// more samples would not lessen the noise of what was solved.
-int most_samples_used(const ReferenceSettings& settings);
+int max_samples_used(const ReferenceSettings& settings);
 
 /// One ray a sample and feelers; the sky is a share.
 bool is_direct(const ReferenceSettings& settings);

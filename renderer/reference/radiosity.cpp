@@ -16,9 +16,9 @@ namespace fernlicht::reference {
 namespace {
 
 /// 1.2 kB a patch and 4 bytes a ray: at most 3.3 GB.
-constexpr std::size_t most_patches = 1'000'000, most_rays = std::size_t{1} << 29;
+constexpr std::size_t max_patches = 1'000'000, max_rays = std::size_t{1} << 29;
 constexpr std::uint64_t radiosity_seed = 0x5ad105171ULL; ///< apart from the pixels' nets
-constexpr int most_sweeps = 10'000;                      ///< a white closed room never ends
+constexpr int max_sweeps = 10'000;                       ///< a white closed room never ends
 
 double sum_of(const glm::dvec3& rgb) { return std::abs(rgb.x) + std::abs(rgb.y) + std::abs(rgb.z); }
 
@@ -65,7 +65,7 @@ struct Radiosity::System {
         const double wanted = shot.settings.solver.residual;
         e = given;
         int sweeps = 0;
-        for (residual = 1.0; residual > wanted && sweeps < most_sweeps; ++sweeps) {
+        for (residual = 1.0; residual > wanted && sweeps < max_sweeps; ++sweeps) {
             shot.leave_if_asked();
             double change = 0.0, total = 0.0;
             for (std::size_t i = 0; i < e.size(); ++i) {
@@ -120,10 +120,10 @@ void Radiosity::measure(const Shot& shot, std::uint32_t patch, std::vector<Syste
 
 Radiosity::Radiosity(const Shot& shot, Preparation& preparation)
     : patches_(shot.embree, facets_within(shot.embree, shot.car_m, shot.settings.solver.reach_m), shot.settings.solver.patch_m,
-               most_patches) {
+               max_patches) {
     const std::size_t count = patches_.size(),
                       each = (static_cast<std::size_t>(shot.settings.solver.form_factor_rays) + replicate_count - 1) / replicate_count;
-    if (count * each * replicate_count > most_rays)
+    if (count * each * replicate_count > max_rays)
         throw InputError({{}, 0, 0, "--form-factor-rays"}, std::to_string(count) + " patches with as many rays each as asked for",
                          "at most 2^29 rays together");
     reflectance_.resize(count, glm::dvec3(0.0)), emission_lx_.resize(count, glm::dvec3(0.0));

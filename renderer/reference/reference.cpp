@@ -34,13 +34,13 @@ void check(const ReferenceSettings& s) {
     const auto fail = [](const char* what) { throw std::invalid_argument(std::string("reference: ") + what); };
     if (!(s.target_error > 0.0) || !(s.floor_lx > 0.0) || !(s.floor_cdm2 > 0.0))
         fail("target error and floors must be above 0");
-    if (s.least_samples < 1 || s.most_samples < s.least_samples || s.most_samples > (1 << 24))
+    if (s.min_samples < 1 || s.max_samples < s.min_samples || s.max_samples > (1 << 24))
         fail("samples must be 1 <= least <= most <= 2^24");
-    if (s.most_scatterings < 0)
+    if (s.max_scatterings < 0)
         fail("scatterings must be at least 0");
-    if (s.most_bounces < 1 || !(s.lamp_radius_m >= 0.0) || !std::isfinite(s.target_height_m))
+    if (s.max_bounces < 1 || !(s.lamp_radius_m >= 0.0) || !std::isfinite(s.target_height_m))
         fail("bounces must be at least 1, a lamp's radius at least 0, a target's height finite");
-    if (s.most_smooth < 0 || s.most_smooth > 64)
+    if (s.max_smooth < 0 || s.max_smooth > 64)
         fail("smooth surfaces in a row must be 0 to 64");
     if (!s.shadows && s.integrator != Integrator::direct && s.integrator != Integrator::whitted && s.integrator != Integrator::path)
         fail("shadows cannot be left out of light that is solved");
@@ -62,12 +62,12 @@ void check_materials(const Scene& scene) {
     }
 }
 
-ReferenceImage empty_image(const View& view, const Wanted& wanted) {
+ReferenceImage empty_image(const View& view, const FrameOutputs& outputs) {
     ReferenceImage image;
-    for (const auto& [is_wanted, estimate] :
-         {std::pair(wanted.illuminance, &image.illuminance_lx), std::pair(wanted.target, &image.target_lx),
-          std::pair(wanted.luminance, &image.luminance_cdm2)})
-        if (is_wanted)
+    for (const auto& [has_output, estimate] :
+         {std::pair(outputs.illuminance, &image.illuminance_lx), std::pair(outputs.target, &image.target_lx),
+          std::pair(outputs.luminance, &image.luminance_cdm2)})
+        if (has_output)
             estimate->mean = estimate->standard_error = Image<float>(view.width_px, view.height_px);
     image.ids = Image<std::uint32_t>(view.width_px, view.height_px);
     image.samples = Image<std::uint32_t>(view.width_px, view.height_px);
@@ -172,7 +172,7 @@ std::shared_ptr<const reference::EmbreeScene> Reference::geometry(const Moment& 
     return state_->geometry;
 }
 
-ReferenceImage Reference::render(const Moment& moment, const View& view, const Wanted& wanted, const ReferenceSettings& settings,
+ReferenceImage Reference::render(const Moment& moment, const View& view, const FrameOutputs& outputs, const ReferenceSettings& settings,
                                  const GoOn& go_on, ReferenceImage from, const StopAsked& stop_asked) const {
     check(settings);
     if (!knows_weather(settings.integrator) && (moment.weather.extinction_per_m > 0.0 || moment.weather.wetness > 0.0))
@@ -182,9 +182,9 @@ ReferenceImage Reference::render(const Moment& moment, const View& view, const W
     const auto embree = geometry(moment);
     Moment lit = moment; // lamps of others light as the own do
     lit.lamps.insert(lit.lamps.end(), moment.other_lamps.begin(), moment.other_lamps.end());
-    reference::Shot shot(*embree, lit, view, wanted, settings);
+    reference::Shot shot(*embree, lit, view, outputs, settings);
     shot.stop_asked = stop_asked;
-    ReferenceImage image = empty_image(view, wanted);
+    ReferenceImage image = empty_image(view, outputs);
     if (!from.samples.empty()) {
         check_from(from, image);
         image = std::move(from);

@@ -66,13 +66,13 @@ struct ReferenceSettings {
     Footprint footprint = Footprint::pixel;
     double target_error = 0.005; ///< wanted standard error of a pixel's mean, relative to max(mean, floor)
     double floor_lx = 0.05, floor_cdm2 = 0.001;
-    int least_samples = 16, most_samples = 4096; ///< in a pixel's mean; both become powers of two from 16 up
-    int most_bounces = 1000;                     ///< path: a bound that Russian roulette, which is unbiased, never meets in practice
-    int most_scatterings = 1000;                 ///< path: in fog, of the light of one way; 1 is single scattering, 0 none
-    double lamp_radius_m = 0.0;                  ///< > 0: lamps are discs of this radius that face along their axis; 0: points
-    double target_height_m = 0.25;               ///< of target_lx, above the surface
-    bool shadows = true;                         ///< direct and whitted alone can leave them out
-    int most_smooth = 8;                         ///< whitted: mirrors and boundaries of glass in a row
+    int min_samples = 16, max_samples = 4096; ///< in a pixel's mean; both become powers of two from 16 up
+    int max_bounces = 1000;                   ///< path: a bound that Russian roulette, which is unbiased, never meets in practice
+    int max_scatterings = 1000;               ///< path: in fog, of the light of one way; 1 is single scattering, 0 none
+    double lamp_radius_m = 0.0;               ///< > 0: lamps are discs of this radius that face along their axis; 0: points
+    double target_height_m = 0.25;            ///< of target_lx, above the surface
+    bool shadows = true;                      ///< direct and whitted alone can leave them out
+    int max_smooth = 8;                       ///< whitted: mirrors and boundaries of glass in a row
     SolverSettings solver;
     std::uint64_t seed = 1;
 
@@ -130,7 +130,7 @@ class Reference {
     /// number of threads, and for a picture drawn in one go or gone on with from `from`, an incomplete picture of the same call.
     /// Throws DeviceError (Embree, memory), std::invalid_argument for settings that make no sense, a `from` of another size, and fog or
     /// water where the integrator knows neither (knows_weather).
-    ReferenceImage render(const Moment& moment, const View& view, const Wanted& wanted, const ReferenceSettings& settings,
+    ReferenceImage render(const Moment& moment, const View& view, const FrameOutputs& outputs, const ReferenceSettings& settings,
                           const GoOn& go_on = {}, ReferenceImage from = {}, const StopAsked& stop_asked = {}) const;
 
     /// Rays' geometry about a point near the car; built when first asked for, kept until another is needed.

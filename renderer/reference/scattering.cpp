@@ -12,7 +12,7 @@ namespace fernlicht::reference {
 namespace {
 
 /// Smooth surfaces in a row that a ray follows; what is met after them is black.
-constexpr std::size_t most_smooth = 64;
+constexpr std::size_t max_smooth = 64;
 
 double greatest(const glm::dvec3& rgb) { return std::max({rgb.x, rgb.y, rgb.z}); }
 
@@ -152,7 +152,7 @@ bool go_on_from(const Surface& surface, const SamplePoint& point, std::size_t pa
 
 std::optional<Surface> cast_past_smooth(const Shot& shot, const SamplePoint& point, std::size_t pair, Ray& ray, std::uint64_t& rays) {
     std::optional<Surface> surface;
-    for (std::size_t k = 0; k < most_smooth; ++k) {
+    for (std::size_t k = 0; k < max_smooth; ++k) {
         ++rays;
         const std::optional<SurfaceHit> hit = shot.embree.cast(ray);
         if (!hit)

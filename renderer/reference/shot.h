@@ -20,12 +20,12 @@ inline constexpr double sun_distance_m = 1.0e4;
 
 /// What all rays of a picture share.
 struct Shot {
-    Shot(const EmbreeScene& embree, const Moment& moment, const View& view, const Wanted& wanted, const ReferenceSettings& settings);
+    Shot(const EmbreeScene& embree, const Moment& moment, const View& view, const FrameOutputs& outputs, const ReferenceSettings& settings);
 
     const EmbreeScene& embree;
     const Moment& moment;
     const View& view;
-    Wanted wanted;
+    FrameOutputs outputs;
     ReferenceSettings settings;
     Camera camera;
     glm::dvec3 car_m{0.0};                     ///< the car's origin, relative to the scene's

@@ -29,7 +29,7 @@ void add_irradiance(const Shot& shot, Part part, PacketLight& light) {
     for (const std::size_t i : lanes_of(light.hit)) {
         const glm::dvec3 e = shot.solved->irradiance(light.hits[i], part, i);
         light.illuminance_lx[i] += luminance(e);
-        if (shot.wanted.luminance)
+        if (shot.outputs.luminance)
             light.luminance_cdm2[i] += luminance(light.responses[i].albedo * e / pi);
     }
 }

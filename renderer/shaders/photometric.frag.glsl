@@ -1,7 +1,7 @@
 // Technique `photometric`: exact distance and cosine per fragment, intensity from the candela table, one shadow map per lamp,
 // diffuse and retroreflecting surfaces with their textures, uniform sky.
 //
-// Compiled per set of features: LAMP_COUNT, SHADOWS, SKY, SUN, SUN_SHADOWS, TRAFFIC, TRAFFIC_SHADOWS, FOG, AIR_LAMPS, WET, BACKGROUND, RETRO, RETRO_TINT, EMISSIVE, TEXTURED (0: none, 1: TEXTURE_MODE alone, 2: any), and which
+// Compiled per set of features: LAMP_COUNT, SHADOWS, SKY, SUN, SUN_SHADOWS, TRAFFIC, TRAFFIC_SHADOWS, FOG, LAMPS_IN_FOG, WET, BACKGROUND, RETRO, RETRO_TINT, EMISSIVE, TEXTURED (0: none, 1: TEXTURE_MODE alone, 2: any), and which
 // results are wanted (WANT_*). What is left out adds exactly +0 or multiplies by exactly 1.
 #include "photometric_lamps.glsl"
 #include "photometric_varyings.glsl"
@@ -87,8 +87,8 @@ float scattered_on_the_way(vec3 eye, vec3 w, float factor, sampler2D beam, vec4 
 #include "traffic_shadows.glsl"
 #endif
 #endif
-#if AIR_LAMPS
-#include "air_lamps.glsl"
+#if LAMPS_IN_FOG
+#include "lamps_in_fog.glsl"
 #endif
 
 PRECISE float illuminance = 0.0;
@@ -320,7 +320,7 @@ void main() {
 #if LAMP_COUNT > 0 && FOG
     add_airlight();
 #endif
-#if AIR_LAMPS
+#if LAMPS_IN_FOG
     light += air_light_of_others();
 #endif
     float luminance = dot(luminance_weights, light);

@@ -30,9 +30,9 @@ uniform vec4 traffic_grid; // ahead x, y of the car; corner ahead, left
 #include "traffic_lamps.glsl"
 #endif
 
-#if AIR_LAMPS
+#if LAMPS_IN_FOG
 uniform float air_lamp_count;
-uniform float air_least_cdm2;
+uniform float air_min_cdm2;
 #endif
 #if FOG || WET
 uniform float sky_cdm2;
@@ -60,9 +60,9 @@ void main() {
 #if FOG
     v_fog = fog;
 #endif
-#if AIR_LAMPS
+#if LAMPS_IN_FOG
     v_air = vec4(eye_m, air_lamp_count);
-    v_air_least_cdm2 = air_least_cdm2;
+    v_air_min_cdm2 = air_min_cdm2;
 #endif
 #if WET
     v_wet = wetness * m.retro.w;

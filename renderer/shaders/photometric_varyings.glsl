@@ -46,9 +46,9 @@ flat STAGE_IO vec4 v_fog; // extinction on the way from a lamp and on that to th
 #if FOG || WET
 flat STAGE_IO float v_sky_cdm2;
 #endif
-#if AIR_LAMPS
+#if LAMPS_IN_FOG
 flat STAGE_IO vec4 v_air; // eye; number of lamps of others seen in the air
-flat STAGE_IO float v_air_least_cdm2;
+flat STAGE_IO float v_air_min_cdm2;
 #endif
 #if WET
 flat STAGE_IO float v_wet; // 0 dry .. 1 under water

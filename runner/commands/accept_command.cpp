@@ -2,8 +2,8 @@
 
 #include "runner/experiments/run/run_report.h"
 #include "runner/files/output_folder.h"
-#include "runner/judge/ray_results.h"
-#include "runner/judge/references.h"
+#include "runner/judge/baselines.h"
+#include "runner/judge/reference_results.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -15,10 +15,10 @@ namespace fernlicht {
 namespace {
 
 /// Throws InputError for one that did not end, and where a report of others would lead out of the run's folder.
-void refuse_unfit(const PlayedVariant& played, const std::filesystem::path& report) {
+void refuse_unfit(const PlayedCell& played, const std::filesystem::path& report) {
     if (played.ticks_done != played.ticks_planned)
         throw InputError({report, 0, 0, "ticks_done"}, fmt::format("found '{}'", played.ticks_done),
-                         "all moments that were planned: an incomplete run is no reference");
+                         "all moments that were planned: an incomplete run is no baseline");
     for (const StoredFrame& frame : played.frames)
         if (const std::filesystem::path path = frame.exr;
             path.is_absolute() || std::ranges::find(path, std::filesystem::path("..")) != path.end())
@@ -26,13 +26,13 @@ void refuse_unfit(const PlayedVariant& played, const std::filesystem::path& repo
 }
 
 /// "3f2a91c04b7e  straight/halogen/photometric: new"
-std::string stored_text(const AcceptedReference& reference, const Stored& stored) {
+std::string stored_text(const Baseline& baseline, const Stored& stored) {
     const std::string removed = stored.removed > 0 ? fmt::format(", in place of {}", stored.removed) : "";
-    return fmt::format("{}  {}: {}{}", short_id(stored.id), cell_text(reference.key), stored.is_new ? "new" : "accepted before", removed);
+    return fmt::format("{}  {}: {}{}", short_id(stored.id), cell_text(baseline.key), stored.is_new ? "new" : "accepted before", removed);
 }
 
 struct AcceptFlags {
-    std::string run, to = "references", note;
+    std::string run, baselines = "baselines", note;
     bool add = false, replace = false, replace_class = false, readings_only = false;
 };
 
@@ -46,15 +46,15 @@ int accept(const AcceptFlags& flags) {
                            : flags.replace       ? Acceptance::replace
                            : flags.replace_class ? Acceptance::replace_class
                                                  : Acceptance::first;
-    const Accepted accepted = accept_run(flags.run, flags.to, how, flags.note, flags.readings_only);
+    const Accepted accepted = accept_run(flags.run, flags.baselines, how, flags.note, flags.readings_only);
     std::size_t frames = 0, readings = 0;
-    for (std::size_t i = 0; i < accepted.references.size(); ++i) {
-        frames += accepted.references[i].frames.size();
-        readings += accepted.references[i].readings.size();
-        fmt::print("{}\n", stored_text(accepted.references[i], accepted.stored[i]));
+    for (std::size_t i = 0; i < accepted.baselines.size(); ++i) {
+        frames += accepted.baselines[i].frames.size();
+        readings += accepted.baselines[i].readings.size();
+        fmt::print("{}\n", stored_text(accepted.baselines[i], accepted.stored[i]));
     }
-    fmt::print("accepted into {}: {} lamp sets with {} frames and {} readings{}\n", flags.to, accepted.references.size(), frames, readings,
-               flags.readings_only ? "; frames were left out" : "");
+    fmt::print("accepted into {}: {} lamp sets with {} frames and {} readings{}\n", flags.baselines, accepted.baselines.size(), frames,
+               readings, flags.readings_only ? "; frames were left out" : "");
     return 0;
 }
 
@@ -75,7 +75,7 @@ RunResults read_cells(const std::filesystem::path& folder) {
         RunResults one = read_run(cell);
         if (all.started_utc.empty())
             all.started_utc = one.started_utc;
-        std::ranges::move(one.references, std::back_inserter(all.references));
+        std::ranges::move(one.baselines, std::back_inserter(all.baselines));
     }
     return all;
 }
@@ -83,7 +83,7 @@ RunResults read_cells(const std::filesystem::path& folder) {
 } // namespace
 
 RunResults read_run(const std::filesystem::path& run_folder) {
-    if (is_ray_folder(run_folder))
+    if (is_reference_folder(run_folder))
         return read_ray_folder(run_folder);
     if (is_marked_incomplete(run_folder))
         throw InputError({run_folder, 0, 0, {}}, "holds an incomplete run", "a complete one");
@@ -94,41 +94,41 @@ RunResults read_run(const std::filesystem::path& run_folder) {
                          "one that `fernlicht run`, `study` or `reference` wrote");
     const Report report = read_report(run_folder);
     RunResults results{{}, report.context.started_utc};
-    for (const PlayedVariant& played : report.played) {
+    for (const PlayedCell& played : report.played) {
         refuse_unfit(played, run_folder / "report.json");
-        results.references.push_back(results_of(played, report.context, run_folder, played.technique));
+        results.baselines.push_back(results_of(played, report.context, run_folder, played.technique));
     }
     return results;
 }
 
-Accepted accept_run(const std::filesystem::path& run_folder, const std::filesystem::path& references_folder, Acceptance how,
+Accepted accept_run(const std::filesystem::path& run_folder, const std::filesystem::path& baselines_folder, Acceptance how,
                     const std::string& note, bool readings_only) {
     RunResults results = read_run(run_folder);
     if (readings_only)
-        for (AcceptedReference& reference : results.references) {
-            if (reference.readings.empty())
-                throw InputError({run_folder, 0, 0, "--readings-only"}, "found no readings in " + printable(cell_text(reference.key), 200),
+        for (Baseline& baseline : results.baselines) {
+            if (baseline.readings.empty())
+                throw InputError({run_folder, 0, 0, "--readings-only"}, "found no readings in " + printable(cell_text(baseline.key), 200),
                                  "a run that measures");
-            reference.frames.clear();
-            reference.frames_left_out = true;
+            baseline.frames.clear();
+            baseline.frames_left_out = true;
         }
     Accepted accepted;
-    accepted.stored = store_references(references_folder, results.references, how, note, results.started_utc);
-    accepted.references = std::move(results.references);
+    accepted.stored = store_baselines(baselines_folder, results.baselines, how, note, results.started_utc);
+    accepted.baselines = std::move(results.baselines);
     return accepted;
 }
 
 void add_accept_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto flags = std::make_shared<AcceptFlags>();
-    CLI::App* command = app.add_subcommand("accept", "take a run's results as references for later runs; judges nothing");
+    CLI::App* command = app.add_subcommand("accept", "take a run's results as baselines for later runs; judges nothing");
     command->add_option("RUN", flags->run, "folder of a complete run or study, or of a `fernlicht reference` picture")->required();
-    command->add_option("--to,--store", flags->to, "folder of references")->capture_default_str();
+    command->add_option("--baselines", flags->baselines, "folder of baselines")->capture_default_str();
     command->add_flag("--replace", flags->replace, "replace what was accepted under the same keys");
     command->add_flag("--replace-class", flags->replace_class,
                       "replace everything accepted for this device class; other classes keep theirs");
     command->add_flag("--add", flags->add, "accept these as well: a run that agrees with either passes; needs --note");
     command->add_flag("--readings-only", flags->readings_only, "store no frames, a thousandth of the size; pictures are then not compared");
-    command->add_option("--note", flags->note, "the reason, in one sentence; `fernlicht references` shows it");
+    command->add_option("--note", flags->note, "the reason, in one sentence; `fernlicht baselines` shows it");
     command->callback([flags, &chosen] { chosen = [flags] { return accept(*flags); }; });
 }
 

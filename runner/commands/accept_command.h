@@ -1,8 +1,8 @@
-// `fernlicht accept RUN_FOLDER [--to FOLDER]`: take a run's results as what later runs are compared with. Judges nothing.
+// `fernlicht accept RUN_FOLDER [--baselines FOLDER]`: take a run's results as what later runs are compared with. Judges nothing.
 #pragma once
 
-#include "runner/judge/accepted_reference.h"
-#include "runner/judge/reference_store.h"
+#include "runner/judge/baseline.h"
+#include "runner/judge/baseline_store.h"
 
 namespace fernlicht {
 
@@ -12,11 +12,11 @@ namespace fernlicht {
 RunResults read_run(const std::filesystem::path& run_folder);
 
 struct Accepted {
-    std::vector<AcceptedReference> references;
-    std::vector<Stored> stored; ///< one for each reference
+    std::vector<Baseline> baselines;
+    std::vector<Stored> stored; ///< one for each baseline
 };
-/// `readings_only` leaves the frames out. Throws as read_run and store_references; what was accepted before then still holds.
-Accepted accept_run(const std::filesystem::path& run_folder, const std::filesystem::path& references_folder,
+/// `readings_only` leaves the frames out. Throws as read_run and store_baselines; what was accepted before then still holds.
+Accepted accept_run(const std::filesystem::path& run_folder, const std::filesystem::path& baselines_folder,
                     Acceptance how = Acceptance::first, const std::string& note = "", bool readings_only = false);
 
 } // namespace fernlicht

@@ -20,7 +20,7 @@ namespace {
 struct AccuracyFlags {
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> techniques, resolutions, shadow_maps, beams;
-    std::string variant, target_error = "0.5%", backend = "auto", out, tables;
+    std::string lamp_set, target_error = "0.5%", backend = "auto", out, tables;
     std::vector<std::string> diagrams{"techniques"};
     SweepRequest sweep;
     bool quiet = false;
@@ -50,7 +50,7 @@ int accuracy(const AccuracyFlags& flags, const std::vector<std::string>& command
     AccuracyRequest request;
     request.diagrams = diagrams_of(flags.diagrams);
     request.sweep = flags.sweep;
-    request.sweep.variant = flags.variant;
+    request.sweep.lamp_set = flags.lamp_set;
     request.sweep.target_error = share_of("--target-error", flags.target_error);
     request.sweep.techniques = items_of("--techniques", flags.techniques);
     request.sweep.resolutions = sizes_of("--resolutions", flags.resolutions, 8192);
@@ -91,7 +91,7 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
            "all, or some of techniques, reference, classical, solvers, control, extent, beam, weather, metrics, step, traffic, shadows; "
            "else techniques")
         ->allow_extra_args(false);
-    sub->add_option("--variant", flags->variant, "lamp set of the drives (default: the first of each)");
+    sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drives (default: the first of each)");
     sub->add_option("--techniques", flags->techniques, "comma-separated names (default: all)")->allow_extra_args(false);
     sub->add_option("--resolutions", flags->resolutions,
                     "WIDTHxHEIGHT,...: the first for all, the others varied (default: the drive's, a half and a quarter of it)")
@@ -103,7 +103,7 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
                     "float, eight-bit or WIDTHxHEIGHTxBITS,...: the first for all, the others varied (default: the drive's and four more)")
         ->allow_extra_args(false);
     sub->add_flag("--full", flags->sweep.full, "every technique with every resolution, shadow map and beam (default: vary one at a time)");
-    sub->add_option("--moments", flags->sweep.moments, "number of moments, spread evenly over the drive")
+    sub->add_option("--count", flags->sweep.moments, "number of moments, spread evenly over the drive")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     sub->add_option("--rounds", flags->sweep.rounds, "number of timing rounds; in each, every configuration renders the moments once")
@@ -111,7 +111,7 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
         ->capture_default_str();
     sub->add_option("--target-error", flags->target_error, "target standard error of each reference pixel, e.g. 0.5% or 0.005")
         ->capture_default_str();
-    sub->add_option("--samples", flags->sweep.most_samples, "maximum samples per reference pixel")
+    sub->add_option("--max-samples", flags->sweep.max_samples, "maximum samples per reference pixel")
         ->check(CLI::Range(16, 1 << 20))
         ->capture_default_str();
     add_seed_flag(*sub, flags->sweep.seed, "seed of the reference and of the order in each round");

@@ -19,7 +19,7 @@ namespace {
 struct AliasingFlags {
     std::filesystem::path drive;
     std::optional<double> moment_s;
-    std::string variant, frames, resolution, backend = "auto", out, tables, picture = "luminance";
+    std::string lamp_set, frames, resolution, backend = "auto", out, tables, picture = "luminance";
     std::vector<std::string> techniques, beams, filters{"mipmapped", "none", "trilinear"};
     std::vector<int> samples{1, 4};
     int supersample = 4;
@@ -77,7 +77,7 @@ AliasingRequest request_of(const AliasingFlags& flags) {
     }
     check_once("--beams", request.beams, flags.beams);
     request.moment_s = flags.moment_s;
-    request.variant = flags.variant;
+    request.lamp_set = flags.lamp_set;
     request.techniques = flags.techniques;
     request.supersample = flags.supersample;
     request.displayed = flags.picture == "display";
@@ -167,7 +167,7 @@ void add_aliasing_command(CLI::App& app, const std::vector<std::string>& command
     sub->add_option("--ppd", flags->pixels_per_degree, "pixels per degree of the sequence")->needs(sequence);
     sub->add_option("--view-fov", flags->view_fov_deg, "vertical field of view of the sequence in degrees, instead of --ppd")
         ->needs(sequence);
-    sub->add_option("--variant", flags->variant, "lamp set of the drive (default: its first)");
+    sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drive (default: its first)");
     const auto list = [&](const char* name, auto& values, const char* text) {
         return sub->add_option(name, values, text)->delimiter(',')->allow_extra_args(false);
     };
@@ -188,8 +188,8 @@ void add_aliasing_command(CLI::App& app, const std::vector<std::string>& command
     sub->add_option("--out", flags->out, "new or empty folder for the results");
     add_tables_flag(*sub, flags->tables);
     sub->add_flag("--quiet", flags->quiet, "show no progress");
-    for (const char* of_drives : {"--moment", "--variant", "--techniques", "--beams", "--samples", "--filter", "--supersample", "--picture",
-                                  "--level", "--resolution", "--backend", "--flow"})
+    for (const char* of_drives : {"--moment", "--lamp-set", "--techniques", "--beams", "--samples", "--filter", "--supersample",
+                                  "--picture", "--level", "--resolution", "--backend", "--flow"})
         sequence->excludes(of_drives);
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return aliasing(*flags, command); }; });
 }

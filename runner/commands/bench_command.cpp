@@ -19,7 +19,7 @@ constexpr const char* default_drive = "scenarios/library/drives/bench.yaml";
 /// The flags as typed.
 struct BenchFlags {
     std::filesystem::path drive = default_drive;
-    std::string variant, resolution, backend = "auto", out, tables;
+    std::string lamp_set, resolution, backend = "auto", out, tables;
     std::vector<std::string> techniques;
     std::optional<int> count;
     int rounds = 21;
@@ -38,7 +38,7 @@ int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
         throw InputError({{}, 0, 0, "DRIVE"}, "found no " + flags.drive.string() + " from here",
                          "to be run from the repository's root, or a drive file");
     request.drive = read_drive(flags.drive, edits);
-    request.variant = flags.variant;
+    request.lamp_set = flags.lamp_set;
     request.techniques = items_of("--techniques", flags.techniques);
     request.moments = flags.count;
     request.rounds = flags.rounds;
@@ -63,11 +63,11 @@ void add_bench_command(CLI::App& app, const std::vector<std::string>& command, s
     const auto flags = std::make_shared<BenchFlags>();
     CLI::App* sub = app.add_subcommand("bench", "time the techniques against one another");
     sub->add_option("DRIVE", flags->drive, "drive file (YAML) whose moments are rendered")->capture_default_str();
-    sub->add_option("--variant", flags->variant, "lamp set of the drive (default: its first)");
+    sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drive (default: its first)");
     sub->add_option("--techniques", flags->techniques, "comma-separated names (default: all)")->allow_extra_args(false);
     sub->add_option(
         "--count", flags->count,
-        fmt::format("number of moments, spread evenly over the drive (default: {}, or all of a shorter drive)", usual_bench_moments));
+        fmt::format("number of moments, spread evenly over the drive (default: {}, or all of a shorter drive)", default_bench_moments));
     sub->add_option("--rounds", flags->rounds, "number of rounds; in each, every technique renders the moments once")
         ->capture_default_str();
     add_seed_flag(*sub, flags->seed, "seed of the order in each round");

@@ -138,8 +138,8 @@ std::vector<std::optional<BeamTexels>> beams_of(const std::vector<std::string>& 
         const std::size_t last = std::min(text.rfind('x'), text.size() - 1);
         const std::string depth = text.substr(last + 1);
         const auto [width, height] = two_numbers("--beams", text.substr(0, last), 'x', false, expected);
-        if ((depth != "8" && depth != "16" && depth != "32") || std::min(width, height) < least_beam_texels ||
-            std::max(width, height) > most_beam_texels)
+        if ((depth != "8" && depth != "16" && depth != "32") || std::min(width, height) < min_beam_texels ||
+            std::max(width, height) > max_beam_texels)
             refuse_flag("--beams", text, expected);
         beams.emplace_back(BeamTexels{width, height, depth == "8" ? 8 : depth == "16" ? 16 : 32});
     }
@@ -160,7 +160,7 @@ TickRange tick_range(const std::string& frames) {
 }
 
 void add_judging_flags(CLI::App& command, JudgingFlags& flags) {
-    command.add_option("--references", flags.references, "folder of accepted results to judge against");
+    command.add_option("--baselines", flags.baselines, "folder of accepted results to judge against");
     command.add_flag("--across-devices", flags.across_devices,
                      "where nothing is accepted for this device class, judge by results of other classes");
     command.add_option("--repeat", flags.repeats, "times to play each lamp set; results that differ in a byte are flaky, which is red")
@@ -171,9 +171,9 @@ void add_judging_flags(CLI::App& command, JudgingFlags& flags) {
 }
 
 std::optional<KnownFailures> take(const JudgingFlags& flags, RunOptions& options) {
-    if (flags.across_devices && flags.references.empty())
-        throw InputError({{}, 0, 0, "--across-devices"}, "found no --references", "the folder of accepted results");
-    options.references = flags.references;
+    if (flags.across_devices && flags.baselines.empty())
+        throw InputError({{}, 0, 0, "--across-devices"}, "found no --baselines", "the folder of accepted results");
+    options.baselines = flags.baselines;
     options.across_devices = flags.across_devices;
     options.repeats = flags.repeats;
     options.today = today_of(flags);
@@ -218,7 +218,7 @@ CandumpReading reading_of(const LogFlags& flags) {
         reading.first_ns = nanoseconds_of("--start", flags.start);
     if (!flags.utc_offset.empty())
         reading.utc_offset_s = utc_offset_of(flags.utc_offset);
-    reading.stopped = Interruption::asked;
+    reading.stopped = Interruption::requested;
     return reading;
 }
 

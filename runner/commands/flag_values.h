@@ -57,14 +57,14 @@ TickRange tick_range(const std::string& frames);
 
 /// By what results of `run` and `study` are judged, as typed.
 struct JudgingFlags {
-    std::string references, known, today;
+    std::string baselines, known, today;
     int repeats = 1;
     bool across_devices = false;
 };
 
 void add_judging_flags(CLI::App& command, JudgingFlags& flags);
 
-/// Sets references, across_devices, repeats and today of `options`, and reads the list of known failures, where there is one. The only
+/// Sets baselines, across_devices, repeats and today of `options`, and reads the list of known failures, where there is one. The only
 /// place that asks the clock for the day. Throws InputError for flags without effect, what is no date, and a list that cannot be read.
 std::optional<KnownFailures> take(const JudgingFlags& flags, RunOptions& options);
 

@@ -16,8 +16,8 @@
 namespace fernlicht {
 namespace {
 
-constexpr rlim_t most_memory_bytes = rlim_t{4} << 30;
-constexpr unsigned most_seconds = 300;
+constexpr rlim_t max_memory_bytes = rlim_t{4} << 30;
+constexpr unsigned max_seconds = 300;
 
 std::filesystem::path beside_this_program() {
     std::error_code error;
@@ -57,10 +57,10 @@ Ended run(const std::filesystem::path& program, const std::filesystem::path& fil
         ::dup2(channel[1], 2);
         ::close(channel[0]);
         ::close(channel[1]);
-        const rlimit memory{most_memory_bytes, most_memory_bytes}, core{0, 0};
+        const rlimit memory{max_memory_bytes, max_memory_bytes}, core{0, 0};
         ::setrlimit(RLIMIT_AS, &memory);
         ::setrlimit(RLIMIT_CORE, &core);
-        ::alarm(most_seconds);
+        ::alarm(max_seconds);
         ::execv(arguments[0], const_cast<char* const*>(arguments));
         ::_exit(127);
     }
@@ -92,7 +92,7 @@ int import_command(const ImportRequest& request) {
     if (WIFSIGNALED(ended.status))
         throw InputError({request.file, 0, 0, {}},
                          WTERMSIG(ended.status) == SIGALRM
-                             ? fmt::format("not read within {} s", most_seconds)
+                             ? fmt::format("not read within {} s", max_seconds)
                              : fmt::format("OpenSceneGraph's reader ended by signal {}", WTERMSIG(ended.status)),
                          "an OpenFlight file that is whole");
     const int code = WEXITSTATUS(ended.status);

@@ -2,8 +2,8 @@
 
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
-#include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/compare/lamps/lamp_description.h"
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/json_text.h"
 #include "runner/findings/plots/isocandela.h"
 #include "runner/write/plots/png.h"
@@ -213,8 +213,8 @@ int lamp_command(const LampRequest& request) {
     if (request.cut_off)
         return lamp_cut_off(request);
     refuse_regulation_options(request);
-    if (request.spots && (*request.spots < 1 || *request.spots > most_spots))
-        throw InputError({{}, 0, 0, "--spots"}, fmt::format("found {}", *request.spots), fmt::format("1 to {}", most_spots));
+    if (request.spots && (*request.spots < 1 || *request.spots > max_spots))
+        throw InputError({{}, 0, 0, "--spots"}, fmt::format("found {}", *request.spots), fmt::format("1 to {}", max_spots));
     if (!request.convert.empty())
         refuse_to_overwrite(request, request.convert, "--convert");
     const LampFile lamp = lamp_of(request);

@@ -1,7 +1,7 @@
 // Commands that list what there is: techniques, readings, signals.
 #include "runner/commands/commands.h"
 
-#include "metrics/readings/reading_words.h"
+#include "metrics/readings/reading_labels.h"
 #include "runner/findings/technique_list.h"
 #include "scenarios/control/signals.h"
 #include "scenarios/drives/keys/bus_keys.h"

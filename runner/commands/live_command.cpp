@@ -109,7 +109,7 @@ void add_live_command(CLI::App& app, const std::vector<std::string>& command, st
     sub->add_option("--can-log", flags->options.log, "candump log, played at its own pace instead of listening on an interface");
     sub->add_option("--can-start", flags->start, "timestamp of the recording that is the drive's 0 s");
     sub->add_option("--duration", flags->duration_s, "seconds to drive, instead of the drive's own")->check(CLI::Range(0.01, 1.0e6));
-    sub->add_option("--variant", flags->options.variant, "lamp set to drive with, where there are several");
+    sub->add_option("--lamp-set", flags->options.lamp_set, "lamp set to drive with, where there are several");
     sub->add_option("--listen", flags->options.listen_s, "seconds to listen to the bus before 0 s")->check(CLI::Range(0.0, 3600.0));
     sub->add_option("--record", flags->options.record, "candump log to write the used frames to (default: one in the report's folder)");
     sub->add_option("--receive-buffer", flags->options.receive_buffer_bytes,

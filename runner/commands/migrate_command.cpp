@@ -101,8 +101,8 @@ std::vector<Drive> cells_in(const std::vector<fs::path>& files) {
                 cells.push_back(cell_drive(study, cell));
         } else if (!is_known_failures(tree)) {
             const Drive drive = read_drive(file);
-            for (const Variant& variant : drive.variants)
-                cells.emplace_back(drive).variants = {variant};
+            for (const LampSet& lamp_set : drive.lamp_sets)
+                cells.emplace_back(drive).lamp_sets = {lamp_set};
         }
     }
     return cells;

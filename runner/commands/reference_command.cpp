@@ -22,13 +22,13 @@ namespace {
 struct ReferenceFlags {
     std::filesystem::path drive;
     std::vector<std::string> lamps;
-    std::string variant, view, road, resolution, out, target_error = "0.5%", integrator = "direct";
+    std::string lamp_set, view, road, resolution, out, target_error = "0.5%", integrator = "direct";
     double moment_s = 0.0;
     std::optional<double> lamp_radius_m; ///< not given: as the drive draws them
-    int most_smooth = ReferenceSettings{}.most_smooth;
+    int max_smooth = ReferenceSettings{}.max_smooth;
     SolverSettings solver;
     bool no_gather = false;
-    int most_samples = ReferenceSettings{}.most_samples;
+    int max_samples = ReferenceSettings{}.max_samples;
     std::uint64_t seed = 1;
     bool resume = false, quiet = false;
     std::vector<std::string> given; ///< names of the options that were typed
@@ -59,10 +59,10 @@ void check_given(const ReferenceFlags& flags) {
             throw InputError({{}, 0, 0, one.flag}, "found --integrator " + flags.integrator + ", which makes no use of it",
                              "--integrator " + users);
         }
-    if (flags.no_gather && is_given("--most-samples"))
-        throw InputError({{}, 0, 0, "--most-samples"}, "found --no-gather, which takes as few samples as there can be", "one of the two");
+    if (flags.no_gather && is_given("--max-samples"))
+        throw InputError({{}, 0, 0, "--max-samples"}, "found --no-gather, which takes as few samples as there can be", "one of the two");
     for (const auto& [flag, text] :
-         {std::pair("--view", &flags.view), std::pair("--variant", &flags.variant), std::pair("--road", &flags.road),
+         {std::pair("--view", &flags.view), std::pair("--lamp-set", &flags.lamp_set), std::pair("--road", &flags.road),
           std::pair("--resolution", &flags.resolution), std::pair("--out", &flags.out)})
         if (is_given(flag) && text->empty())
             refuse_flag(flag, *text, "something, or the option left out");
@@ -81,22 +81,22 @@ DriveEdits edits_of(const ReferenceFlags& flags) {
 ReferenceSettings settings_of(const ReferenceFlags& flags) {
     ReferenceSettings settings;
     settings.integrator = *integrator_of(flags.integrator);
-    settings.most_smooth = flags.most_smooth;
+    settings.max_smooth = flags.max_smooth;
     settings.solver = flags.solver;
     settings.solver.final_gather = !flags.no_gather;
     settings.target_error = share_of("--target-error", flags.target_error);
-    settings.most_samples = flags.most_samples;
+    settings.max_samples = flags.max_samples;
     settings.seed = flags.seed;
     return settings;
 }
 
-/// `reference` draws, `references` looks after what was accepted: who took the one for the other is led there.
+/// `reference` draws, `baselines` looks after what was accepted: who took the one for the other is led there.
 void check_name(const ReferenceFlags& flags) {
     std::error_code ignored;
     for (const char* action : {"list", "show", "diff", "remove"})
         if (flags.drive == action && !std::filesystem::exists(flags.drive, ignored))
             throw InputError({{}, 0, 0, "DRIVE"}, fmt::format("found '{}'", action),
-                             fmt::format("a drive file; accepted results are looked at with `fernlicht references {}`", action));
+                             fmt::format("a drive file; accepted results are looked at with `fernlicht baselines {}`", action));
 }
 
 int draw_reference(const ReferenceFlags& flags, const std::vector<std::string>& command) {
@@ -108,7 +108,7 @@ int draw_reference(const ReferenceFlags& flags, const std::vector<std::string>& 
     request.settings = settings_of(flags);
     request.drive = read_drive(flags.drive, edits_of(flags));
     request.settings.lamp_radius_m = flags.lamp_radius_m.value_or(lamp_disc_radius_m(request.drive));
-    request.variant = flags.variant;
+    request.lamp_set = flags.lamp_set;
     request.view = flags.view;
     request.moment_s = flags.moment_s;
     request.folder = result_folder(flags.out, request.drive.name + "-reference");
@@ -131,7 +131,7 @@ int draw_reference(const ReferenceFlags& flags, const std::vector<std::string>& 
 
 void add_solver_options(CLI::App& sub, ReferenceFlags& flags) {
     SolverSettings& solver = flags.solver;
-    sub.add_option("--smooth-depth", flags.most_smooth, "whitted: maximum mirrors and glass surfaces in sequence")
+    sub.add_option("--smooth-depth", flags.max_smooth, "whitted: maximum mirrors and glass surfaces in sequence")
         ->check(CLI::Range(0, 64))
         ->capture_default_str();
     sub.add_option("--reach", solver.reach_m, "radiosity, photon-map: metres around the car within which surfaces reflect light")
@@ -162,7 +162,7 @@ void add_reference_command(CLI::App& app, const std::vector<std::string>& comman
     sub->add_option("--moment", flags->moment_s,
                     "seconds into the drive, from 0 to its last moment, one step before its end; renders the nearest moment")
         ->capture_default_str();
-    sub->add_option("--variant", flags->variant, "lamp set of the drive (default: its first)");
+    sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drive (default: its first)");
     sub->add_option("--view", flags->view, "view of the drive (default: the driver's)");
     sub->add_option("--integrator", flags->integrator,
                     "direct: light of lamps and sky; path: with bounced light; whitted, radiosity, photon-map: the classical methods")
@@ -171,7 +171,7 @@ void add_reference_command(CLI::App& app, const std::vector<std::string>& comman
     add_solver_options(*sub, *flags);
     sub->add_option("--target-error", flags->target_error, "target standard error of each pixel, e.g. 0.5% or 0.005")
         ->capture_default_str();
-    sub->add_option("--most-samples", flags->most_samples,
+    sub->add_option("--max-samples", flags->max_samples,
                     "maximum samples per pixel, whatever its error; rounded down to a power of two; at least 128 where light bounces")
         ->check(CLI::Range(16, 1 << 24))
         ->capture_default_str();

@@ -61,9 +61,9 @@ DriveEdits edits_of(const RunFlags& flags) {
 
 /// What is not plainly green, one line each, and how many there are of each kind.
 void print_verdicts(const Report& report) {
-    for (const PlayedVariant& played : report.played)
+    for (const PlayedCell& played : report.played)
         for (const Verdict& verdict : played.verdicts)
-            fmt::print("{}", verdict_line(verdict, fmt::format("{}, {}: ", played.drive, played.variant)));
+            fmt::print("{}", verdict_line(verdict, fmt::format("{}, {}: ", played.drive, played.lamp_set)));
     for (const Verdict& verdict : report.listed)
         fmt::print("{}", verdict_line(verdict, "known failures: "));
     for (const std::string& warning : report.warnings)

@@ -16,7 +16,7 @@ void write_report(const Report& report, const std::filesystem::path& folder, Tab
     write_file(folder / "times.csv", times_csv(report));
     write_file(folder / "junit.xml", report_junit(report));
     write_file(folder / "report.json", report_json(report));
-    for (const PlayedVariant& played : report.played)
+    for (const PlayedCell& played : report.played)
         if (const std::string moments = moments_csv(played); !moments.empty())
             write_file(folder / moments_file(played), moments);
     if (tables != TableFormat::none)

@@ -22,7 +22,7 @@ constexpr const char* default_lamp = "scenarios/library/lamps/xenon-low.ies";
 /// The flags as typed.
 struct ShadowsFlags {
     std::vector<std::filesystem::path> drives;
-    std::string variant, backend = "auto", out, tables, texels = "1024x512", resolution = "512x384";
+    std::string lamp_set, backend = "auto", out, tables, texels = "1024x512", resolution = "512x384";
     std::vector<std::string> methods, scenes{"*"};
     std::filesystem::path lamp = default_lamp;
     double lamp_radius_m = ShadowSettings{}.lamp_radius_m, floor_lx = shadow_floor_lx, vertical_fov_deg = degrees(View{}.vertical_fov_rad);
@@ -89,7 +89,7 @@ int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) 
     for (const std::filesystem::path& file : flags.drives)
         request.drives.push_back(read_drive(file));
     refuse_equal_names(request.drives);
-    request.variant = flags.variant;
+    request.lamp_set = flags.lamp_set;
     request.moments = flags.moments;
     request.backend = flags.backend;
     request.folder = result_folder(flags.out, "shadows");
@@ -121,7 +121,7 @@ void add_shadows_command(CLI::App& app, const std::vector<std::string>& command,
         ->allow_extra_args(false)
         ->default_str("");
     sub->add_option("--map-texels", flags->texels, "WIDTHxHEIGHT of each map")->capture_default_str();
-    sub->add_option("--variant", flags->variant, "lamp set of the drives (default: the first of each)");
+    sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drives (default: the first of each)");
     sub->add_option("--lamp", flags->lamp, "lamp file for the hard scenes (default: one in the repository, found from its root)")
         ->capture_default_str();
     sub->add_option("--lamp-radius", flags->lamp_radius_m, "radius in m of lamps as discs, for soft shadows; 0: do not measure them")
@@ -129,7 +129,7 @@ void add_shadows_command(CLI::App& app, const std::vector<std::string>& command,
     sub->add_option("--floor", flags->floor_lx, "lx; points that get less than this without shadows do not count")->capture_default_str();
     sub->add_option("--vertical-fov", flags->vertical_fov_deg, "vertical field of view in degrees in the hard scenes, 4:3")
         ->default_str(fmt::format("{:.1f}", flags->vertical_fov_deg));
-    sub->add_option("--moments", flags->moments, "moments of each drive, spread evenly")->check(CLI::Range(1, 100))->capture_default_str();
+    sub->add_option("--count", flags->moments, "moments of each drive, spread evenly")->check(CLI::Range(1, 100))->capture_default_str();
     sub->add_option("--rounds", flags->rounds, "number of timing rounds; in each, every method renders the moments once")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();

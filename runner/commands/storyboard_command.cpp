@@ -19,7 +19,7 @@ struct StoryboardFlags {
     std::filesystem::path file;
     std::vector<std::string> road_folders, parameters;
     std::string road, out;
-    double most_s = 60.0, step_s = 0.01;
+    double max_s = 60.0, step_s = 0.01;
     bool lenient = false, quiet = false, force = false;
 };
 
@@ -59,7 +59,7 @@ void play(const StoryboardFlags& flags, const std::filesystem::path& file, const
     const osc::Storyboard story = osc::read_storyboard(file, options);
     const std::filesystem::path road = flags.road.empty() ? story.road_file : std::filesystem::path(flags.road);
     const RoadNetwork network = road.empty() ? RoadNetwork{} : read_opendrive(road);
-    const osc::PlayedStory played = osc::play_story(story, network, {.step_s = flags.step_s, .most_s = flags.most_s});
+    const osc::PlayedStory played = osc::play_story(story, network, {.step_s = flags.step_s, .max_s = flags.max_s});
     add_rows(played, network, number, rows);
     fmt::print("{}: {:.6g} s, until {}\n", file.string(), static_cast<double>(std::max<std::size_t>(played.ticks(), 1) - 1) * played.step_s,
                played.end);
@@ -84,8 +84,8 @@ bool is_variation(const std::filesystem::path& file) {
 }
 
 int run(const StoryboardFlags& flags) {
-    if (!(flags.most_s > 0.0 && flags.most_s <= 1e5))
-        refuse_flag("--duration", fmt::format("{}", flags.most_s), "seconds above 0, at most 100 000");
+    if (!(flags.max_s > 0.0 && flags.max_s <= 1e5))
+        refuse_flag("--duration", fmt::format("{}", flags.max_s), "seconds above 0, at most 100 000");
     if (!(flags.step_s >= 1e-4 && flags.step_s <= 1.0))
         refuse_flag("--step", fmt::format("{}", flags.step_s), "seconds from 0.0001 to 1");
     refuse_existing("--out", flags.out, flags.force);
@@ -121,7 +121,7 @@ void add_storyboard_command(CLI::App& app, const std::vector<std::string>&, std:
     sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the scenario's");
     sub->add_option("--road-folder", flags->road_folders, "also look here for the scenario's road")->allow_extra_args(false);
     sub->add_option("--parameter", flags->parameters, "NAME=VALUE for a parameter that the file declares")->allow_extra_args(false);
-    sub->add_option("--duration", flags->most_s, "maximum time to play, in s (default: 60)");
+    sub->add_option("--duration", flags->max_s, "maximum time to play, in s (default: 60)");
     sub->add_option("--step", flags->step_s, "time step in s (default: 0.01)");
     sub->add_option("--out", flags->out, "write a CSV with one row per step and entity");
     sub->add_flag("--force", flags->force, "let --out replace an existing file");

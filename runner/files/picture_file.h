@@ -28,7 +28,7 @@ void write_channels(const std::vector<PictureChannel>& channels, const Moment& m
 
 /// What a picture says of itself.
 struct PictureTags {
-    std::string shown_by; ///< one line on tone mapper and display (shown_picture.h); "": nothing is said
+    std::string shown_by; ///< one line on tone mapper and display (display_pipeline.h); "": nothing is said
     std::string icc;      ///< the display's ICC profile; "": sRGB
 };
 /// 8-bit sRGB. Throws DeviceError.

@@ -5,7 +5,7 @@
 
 namespace fernlicht {
 
-const char* plane_name(ExtentPlane plane) { return plane == ExtentPlane::road ? "road" : "target"; }
+const char* surface_name(Surface surface) { return surface == Surface::road ? "road" : "target"; }
 
 const char* verdict_name(VerdictKind kind) {
     switch (kind) {
@@ -21,14 +21,14 @@ const char* verdict_name(VerdictKind kind) {
     return "not_measured";
 }
 
-std::vector<ExtentKey> extent_keys(const PlayedVariant& played) {
+std::vector<ExtentKey> extent_keys(const PlayedCell& played) {
     std::vector<std::string> lanes;
     std::vector<ExtentKey> keys;
     const auto collect = [&](const std::vector<LaneExtent>& extents) {
         for (const LaneExtent& extent : extents) {
             if (std::find(lanes.begin(), lanes.end(), extent.lane) == lanes.end())
                 lanes.push_back(extent.lane);
-            const ExtentKey key{extent.plane, extent.lane, extent.limit_lx};
+            const ExtentKey key{extent.surface, extent.lane, extent.threshold_lx};
             if (std::find(keys.begin(), keys.end(), key) == keys.end())
                 keys.push_back(key);
         }
@@ -38,7 +38,7 @@ std::vector<ExtentKey> extent_keys(const PlayedVariant& played) {
         collect(row.twin);
     }
     const auto rank = [&](const ExtentKey& key) {
-        return std::tuple(key.plane, std::find(lanes.begin(), lanes.end(), key.lane) - lanes.begin(), key.limit_lx);
+        return std::tuple(key.surface, std::find(lanes.begin(), lanes.end(), key.lane) - lanes.begin(), key.threshold_lx);
     };
     std::stable_sort(keys.begin(), keys.end(), [&](const ExtentKey& a, const ExtentKey& b) { return rank(a) < rank(b); });
     return keys;
@@ -46,16 +46,16 @@ std::vector<ExtentKey> extent_keys(const PlayedVariant& played) {
 
 ReadingKey extent_reading(const ExtentKey& key, Quantity quantity, ReadingPlace place, Aspect aspect) {
     return {.quantity = quantity,
-            .surface = key.plane == ExtentPlane::road ? ReadingSurface::road : ReadingSurface::target,
+            .surface = key.surface == Surface::road ? ReadingSurface::road : ReadingSurface::target,
             .lane = key.lane,
-            .threshold = {key.limit_lx, ThresholdUnit::lx},
+            .threshold = {key.threshold_lx, ThresholdUnit::lx},
             .place = place,
             .aspect = aspect};
 }
 
 const LaneExtent* find_extent(const std::vector<LaneExtent>& extents, const ExtentKey& key) {
     const auto found = std::find_if(extents.begin(), extents.end(), [&](const LaneExtent& extent) {
-        return extent.plane == key.plane && extent.limit_lx == key.limit_lx && extent.lane == key.lane;
+        return extent.surface == key.surface && extent.threshold_lx == key.threshold_lx && extent.lane == key.lane;
     });
     return found == extents.end() ? nullptr : &*found;
 }

@@ -5,11 +5,11 @@
 
 namespace fernlicht {
 
-const char* plane_name(ExtentPlane plane);  ///< "road", "target"
+const char* surface_name(Surface surface);  ///< "road", "target"
 const char* verdict_name(VerdictKind kind); ///< "pass", "fail", "not_measured"
 
 /// Every key that occurs in any moment (rendered or twin): planes, then lanes, in the order of first sight, then limits ascending.
-std::vector<ExtentKey> extent_keys(const PlayedVariant& played);
+std::vector<ExtentKey> extent_keys(const PlayedCell& played);
 
 /// The reading of an extent, over the whole drive.
 ReadingKey extent_reading(const ExtentKey& key, Quantity quantity, ReadingPlace place = ReadingPlace::none, Aspect aspect = Aspect::value);

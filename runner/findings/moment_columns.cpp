@@ -57,7 +57,7 @@ std::string width_name(const ExtentKey& key, double at_m) {
 }
 
 /// Of the rendered image under the reading's own name, of the twin with another end.
-void add_lane(Columns& columns, const PlayedVariant& played, const ExtentKey& key) {
+void add_lane(Columns& columns, const PlayedCell& played, const ExtentKey& key) {
     const std::string reach = extent_name(key, Quantity::reach), left = extent_name(key, Quantity::reach, ReadingPlace::left_edge),
                       right = extent_name(key, Quantity::reach, ReadingPlace::right_edge),
                       unlit = extent_name(key, Quantity::unlit_before_reach), area = extent_name(key, Quantity::area);
@@ -82,9 +82,9 @@ void add_lane(Columns& columns, const PlayedVariant& played, const ExtentKey& ke
 }
 
 /// What moves the own lane's reach, and the grid's error in it and in the area.
-void add_trust(Columns& columns, const ExtentRow& row, std::size_t moment) {
+void add_uncertainty(Columns& columns, const ExtentRow& row, std::size_t moment) {
     const auto name = [](const auto& entry, const char* lane, Quantity quantity, Aspect aspect) {
-        return extent_name({entry.plane, lane, entry.limit_lx}, quantity, ReadingPlace::none, aspect);
+        return extent_name({entry.surface, lane, entry.threshold_lx}, quantity, ReadingPlace::none, aspect);
     };
     for (const ReachSensitivity& of : row.sensitivity) {
         columns.metres(name(of, "own", Quantity::reach, Aspect::per_tenth_degree), moment, of.metres_per_tenth_degree);
@@ -115,7 +115,7 @@ void add_bus_input(Columns& columns, const BusSignalReport& signal, const std::v
 
 } // namespace
 
-std::vector<MomentColumn> moment_columns(const PlayedVariant& played) {
+std::vector<MomentColumn> moment_columns(const PlayedCell& played) {
     const std::size_t moments = std::max({played.extents.size(), played.speed_mps.size(), played.car.size()});
     Columns columns(moments);
     for (std::size_t i = 0; i < moments; ++i)
@@ -131,7 +131,7 @@ std::vector<MomentColumn> moment_columns(const PlayedVariant& played) {
     for (const ExtentKey& key : extent_keys(played))
         add_lane(columns, played, key);
     for (std::size_t i = 0; i < played.extents.size(); ++i)
-        add_trust(columns, played.extents[i], i);
+        add_uncertainty(columns, played.extents[i], i);
     for (const SeeingSeries& series : played.seeing)
         for (std::size_t i = 0; i < series.ticks.size(); ++i) {
             const auto moment = static_cast<std::size_t>(series.ticks[i] - played.first_tick);
@@ -144,6 +144,6 @@ std::vector<MomentColumn> moment_columns(const PlayedVariant& played) {
     return columns.take();
 }
 
-std::string moments_file(const PlayedVariant& played) { return "moments-" + file_name_of(played.drive + "-" + played.variant) + ".csv"; }
+std::string moments_file(const PlayedCell& played) { return "moments-" + file_name_of(played.drive + "-" + played.lamp_set) + ".csv"; }
 
 } // namespace fernlicht

@@ -15,8 +15,8 @@ struct MomentColumn {
 
 /// "frame" and "time_s", then the others. Throws std::logic_error naming the column for a number that is NaN or infinite: whoever measured
 /// it owed a not_measured.
-std::vector<MomentColumn> moment_columns(const PlayedVariant& played);
+std::vector<MomentColumn> moment_columns(const PlayedCell& played);
 /// Where they lie below the report's folder: "moments-DRIVE-VARIANT.csv".
-std::string moments_file(const PlayedVariant& played);
+std::string moments_file(const PlayedCell& played);
 
 } // namespace fernlicht

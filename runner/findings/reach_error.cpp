@@ -9,15 +9,15 @@
 namespace fernlicht {
 
 std::vector<ReachError> reach_errors(const std::vector<std::vector<LaneExtent>>& tested,
-                                     const std::vector<std::vector<LaneExtent>>& reference, const std::vector<double>& limits_lx,
+                                     const std::vector<std::vector<LaneExtent>>& reference, const std::vector<double>& thresholds_lx,
                                      const std::string& no_road, const std::string& no_target) {
     std::vector<ReachError> errors;
-    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target})
-        for (const double limit_lx : limits_lx) {
-            ReachError error{plane, limit_lx, 0, 0.0, 0.0, plane == ExtentPlane::road ? no_road : no_target};
+    for (const Surface surface : {Surface::road, Surface::target})
+        for (const double threshold_lx : thresholds_lx) {
+            ReachError error{surface, threshold_lx, 0, 0.0, 0.0, surface == Surface::road ? no_road : no_target};
             std::vector<double> differences;
             for (std::size_t m = 0; m < tested.size(); ++m) {
-                const ExtentKey key{plane, "own", limit_lx};
+                const ExtentKey key{surface, "own", threshold_lx};
                 const LaneExtent *const ours = find_extent(tested[m], key), *const truth = find_extent(reference.at(m), key);
                 if (ours && truth && !ours->reach_is_cut_off && !truth->reach_is_cut_off)
                     differences.push_back(ours->reach_centre_m - truth->reach_centre_m);

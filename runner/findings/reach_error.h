@@ -10,8 +10,8 @@ namespace fernlicht {
 
 /// Reach on the own lane's centre against the reference's, over the moments in which both have one.
 struct ReachError {
-    ExtentPlane plane = ExtentPlane::road;
-    double limit_lx = 0.0;
+    Surface surface = Surface::road;
+    double threshold_lx = 0.0;
     std::size_t moments = 0;
     double median_m = 0.0, worst_m = 0.0; ///< signed: above 0 the picture is lit farther; `worst` by its size
     std::string why_not;                  ///< why there is none; "" where there is
@@ -19,7 +19,7 @@ struct ReachError {
 
 /// By plane and limit. `tested` and `reference` hold the extents of the same moments. A plane for which a reason is given has none.
 std::vector<ReachError> reach_errors(const std::vector<std::vector<LaneExtent>>& tested,
-                                     const std::vector<std::vector<LaneExtent>>& reference, const std::vector<double>& limits_lx,
+                                     const std::vector<std::vector<LaneExtent>>& reference, const std::vector<double>& thresholds_lx,
                                      const std::string& no_road, const std::string& no_target);
 
 } // namespace fernlicht

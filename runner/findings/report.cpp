@@ -8,7 +8,7 @@ namespace fernlicht {
 namespace {
 
 template <class Take> void each_verdict(const Report& report, const Take& take) {
-    for (const PlayedVariant& played : report.played)
+    for (const PlayedCell& played : report.played)
         for (const Verdict& verdict : played.verdicts)
             take(verdict);
     for (const Verdict& verdict : report.listed)
@@ -44,11 +44,11 @@ VerdictKind overall(const Report& report) {
 
 std::vector<ComparedDrive> compared_drives(const Report& report) {
     std::vector<ComparedDrive> drives;
-    for (const PlayedVariant& played : report.played) {
+    for (const PlayedCell& played : report.played) {
         auto found = std::ranges::find(drives, played.drive, &ComparedDrive::name);
         if (found == drives.end())
             found = drives.insert(drives.end(), ComparedDrive{played.drive, {}});
-        found->variants.push_back(&played);
+        found->lamp_sets.push_back(&played);
     }
     return drives;
 }

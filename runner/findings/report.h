@@ -44,19 +44,19 @@ struct LuxMap {
 
 /// Which of a moment's extents.
 struct ExtentKey {
-    ExtentPlane plane = ExtentPlane::road;
+    Surface surface = Surface::road;
     std::string lane;
-    double limit_lx = 0.0;
+    double threshold_lx = 0.0;
     auto operator<=>(const ExtentKey&) const = default;
 };
 
 /// What the moments' extents of one key add up to.
 struct ExtentSummary {
     ExtentKey key;
-    ManyMoments reach, left_edge, right_edge, unlit_before_reach, area, twin_difference; ///< rendered; |rendered - twin| of reach
-    std::map<double, ManyMoments> widths;                                                ///< by distance ahead
-    ManyMoments per_tenth_degree, per_tenth_flux, grid_error; ///< of the own lane's reach: what moves it, and the grid's error
-    std::size_t cut_off = 0;                                  ///< moments whose reach is a lower bound, by road's end or grid's
+    CensoredSamples reach, left_edge, right_edge, unlit_before_reach, area, twin_difference; ///< rendered; |rendered - twin| of reach
+    std::map<double, CensoredSamples> widths;                                                ///< by distance ahead
+    CensoredSamples per_tenth_degree, per_tenth_flux, grid_error; ///< of the own lane's reach: what moves it, and the grid's error
+    std::size_t cut_off = 0;                                      ///< moments whose reach is a lower bound, by road's end or grid's
 };
 
 /// Extents of one moment.
@@ -90,7 +90,7 @@ struct Throughput {
 };
 
 /// What leaving out saves: frames of the driver's view drawn in turns, as the run draws them and with nothing left out.
-struct Savings {
+struct PruningSavings {
     std::vector<int> ticks;                   ///< the moments drawn
     std::vector<double> pruned_s, unpruned_s; ///< by round: a frame, back to back
     Work pruned, unpruned;                    ///< of each count the median over the moments
@@ -143,7 +143,7 @@ struct Repeats {
 };
 
 /// One drive played with one lamp set.
-struct DrawnBy;
+struct RenderingSettings;
 struct ShadowChoice;
 struct SeenDisplay;
 
@@ -153,11 +153,12 @@ struct StoredSheet {
     StoredFrame picture;
 };
 
-struct PlayedVariant {
-    std::string drive, variant, technique;
-    std::vector<std::pair<std::string, std::string>> inputs; ///< what decides the results: "drive", "road", "lamp file 1" ... -> XXH3-128
-    std::string title;                                       ///< of the drive, for people
-    std::vector<std::pair<std::string, std::string>> lamps;  ///< lamp name -> file name
+struct PlayedCell {
+    std::string drive, lamp_set, technique;
+    std::vector<std::pair<std::string, std::string>>
+        input_hashes;                                       ///< what decides the results: "drive", "road", "lamp file 1" ... -> XXH3-128
+    std::string title;                                      ///< of the drive, for people
+    std::vector<std::pair<std::string, std::string>> lamps; ///< lamp name -> file name
     int first_tick = 0, ticks_planned = 0, ticks_done = 0;
     std::vector<StoredFrame> frames;
     StoredFrame contact_sheet;                        ///< one moment drawn in every technique; without a PNG where none was asked for
@@ -173,9 +174,10 @@ struct PlayedVariant {
     std::vector<PassTime> passes;                     ///< raw samples of frames drawn alone, warm-up dropped: "frame", "shadow", ...
     Throughput throughput;
     int warm_up_dropped = 0;
-    Savings savings;
+    PruningSavings savings;
     DriveError error;
-    std::shared_ptr<const DrawnBy> drawn_by = nullptr;     ///< shadow method, tone mapper and display; nullptr: nothing was drawn
+    std::shared_ptr<const RenderingSettings> rendering_settings =
+        nullptr;                                           ///< shadow method, tone mapper and display; nullptr: nothing was drawn
     std::shared_ptr<const ShadowChoice> shadows = nullptr; ///< how `shadows: auto` was decided; nullptr: the drive names its method
     std::shared_ptr<const SeenDisplay> display = nullptr;  ///< how pictures are seen; nullptr: the display says not where it is seen from
     Readings readings;                                     ///< summary of the drive and probes
@@ -188,7 +190,7 @@ struct PlayedVariant {
 struct LiveFigures;
 struct Report {
     RunContext context;
-    std::vector<PlayedVariant> played;
+    std::vector<PlayedCell> played;
     bool complete = true;
     std::string interrupted;                           ///< why not complete
     std::vector<Verdict> listed;                       ///< on the list of known failures itself: entries that are of no use any more
@@ -197,7 +199,7 @@ struct Report {
 };
 
 /// The page shows this many moments of a drive: of all that are pictured, evenly spread, first and last among them.
-inline constexpr std::size_t most_pictured_moments = 12;
+inline constexpr std::size_t max_pictured_moments = 12;
 /// At most `most` of `count` indices, evenly spread, first and last among them.
 std::vector<std::size_t> spread_over(std::size_t count, std::size_t most);
 

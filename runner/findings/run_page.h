@@ -9,7 +9,7 @@ namespace fernlicht {
 /// One drive with every lamp set that it was played with, in the order of the report.
 struct ComparedDrive {
     std::string name;
-    std::vector<const PlayedVariant*> variants;
+    std::vector<const PlayedCell*> lamp_sets;
 };
 std::vector<ComparedDrive> compared_drives(const Report& report);
 

@@ -8,7 +8,7 @@ namespace fernlicht {
 
 /// Below these a figure is rounding: of single-precision light (%), of a pixel of the ground (0.02 m2), and a hundredth of the pixels in
 /// which edges are measured (edge_pixel_m).
-inline constexpr double least_shadow_percent = 1e-4, least_shadow_m2 = 5e-4, least_shadow_cm = 0.01;
+inline constexpr double min_shadow_percent = 1e-4, min_shadow_m2 = 5e-4, min_shadow_cm = 0.01;
 
 /// "0.053", "12", "260", without the unit; "0" below `least`, which is 1e-4 or more.
 std::string shadow_figure(double value, double least);

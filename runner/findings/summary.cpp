@@ -24,20 +24,20 @@ struct Subject {
 
 Subject subject_of(const ExtentKey& key) {
     const std::string place = key.lane == "all" ? "whole width" : key.lane + " lane";
-    return {key, place + (key.plane == ExtentPlane::road ? ", on the road" : ", on a target")};
+    return {key, place + (key.surface == Surface::road ? ", on the road" : ", on a target")};
 }
 
-void add_quantile(Readings& readings, ReadingKey key, Statistic statistic, const ManyMoments& moments, double share,
+void add_quantile(Readings& readings, ReadingKey key, Statistic statistic, const CensoredSamples& moments, double share,
                   const std::string& where) {
     key.statistic = statistic;
     readings.push_back({std::move(key), moments.quantile(share), fmt::format("{}; {}", where, moments.account())});
 }
 
-void add_median(Readings& readings, const ReadingKey& key, const ManyMoments& moments, const std::string& where) {
+void add_median(Readings& readings, const ReadingKey& key, const CensoredSamples& moments, const std::string& where) {
     add_quantile(readings, key, Statistic::median, moments, 0.5, where + ", median");
 }
 
-void add_quantiles(Readings& readings, const ReadingKey& key, const ManyMoments& moments, const std::string& where) {
+void add_quantiles(Readings& readings, const ReadingKey& key, const CensoredSamples& moments, const std::string& where) {
     add_median(readings, key, moments, where);
     add_quantile(readings, key, Statistic::minimum, moments, 0.0, where + ", smallest");
     add_quantile(readings, key, Statistic::p05, moments, 0.05, where + ", 5th percentile");
@@ -49,10 +49,10 @@ class Folding {
   public:
     Folding(const ExtentKey& key, const ExtentParameters& parameters, const std::string& not_drawn)
         : last_row_m_(parameters.ahead_m - parameters.cell_m) {
-        const ManyMoments moments = not_drawn.empty() ? ManyMoments() : ManyMoments(not_drawn);
+        const CensoredSamples moments = not_drawn.empty() ? CensoredSamples() : CensoredSamples(not_drawn);
         summary_.key = key;
-        for (ManyMoments* each : {&summary_.reach, &summary_.left_edge, &summary_.right_edge, &summary_.unlit_before_reach, &summary_.area,
-                                  &summary_.twin_difference})
+        for (CensoredSamples* each : {&summary_.reach, &summary_.left_edge, &summary_.right_edge, &summary_.unlit_before_reach,
+                                      &summary_.area, &summary_.twin_difference})
             *each = moments;
         for (const double at_m : parameters.width_at_m)
             summary_.widths.emplace(at_m, moments);
@@ -86,10 +86,11 @@ class Folding {
     }
 
     /// `own`: the twin's extent of this moment.
-    void add_trust(const ExtentRow& row, const LaneExtent* own) {
+    void add_uncertainty(const ExtentRow& row, const LaneExtent* own) {
         const auto of_key = [&](const auto& entries) {
-            return std::ranges::find_if(
-                entries, [&](const auto& entry) { return entry.plane == summary_.key.plane && entry.limit_lx == summary_.key.limit_lx; });
+            return std::ranges::find_if(entries, [&](const auto& entry) {
+                return entry.surface == summary_.key.surface && entry.threshold_lx == summary_.key.threshold_lx;
+            });
         };
         if (const auto found = of_key(row.sensitivity); found != row.sensitivity.end()) {
             summary_.per_tenth_degree.add(found->metres_per_tenth_degree);
@@ -145,12 +146,13 @@ void add_extent(Readings& readings, const ExtentSummary& summary) {
 }
 
 /// How far extents beside the own lane's reach and the whole width's area can be trusted: the grid's error in each of them.
-void add_lane_trust(Readings& readings, const PlayedVariant& played, const Subject& subject) {
+void add_lane_uncertainty(Readings& readings, const PlayedCell& played, const Subject& subject) {
     const auto add = [&](Quantity quantity, ReadingPlace place, double LaneGridError::*figure) {
-        ManyMoments moments;
+        CensoredSamples moments;
         for (const ExtentRow& row : played.extents) {
             const auto found = std::ranges::find_if(row.lane_grid_errors, [&](const LaneGridError& error) {
-                return error.plane == subject.key.plane && error.limit_lx == subject.key.limit_lx && error.lane == subject.key.lane;
+                return error.surface == subject.key.surface && error.threshold_lx == subject.key.threshold_lx &&
+                       error.lane == subject.key.lane;
             });
             if (found != row.lane_grid_errors.end())
                 moments.add((*found).*figure);
@@ -167,11 +169,11 @@ void add_lane_trust(Readings& readings, const PlayedVariant& played, const Subje
         add(Quantity::area, ReadingPlace::none, &LaneGridError::area_m2);
 }
 
-void add_area_trust(Readings& readings, const PlayedVariant& played, const Subject& subject) {
-    ManyMoments moments;
+void add_area_trust(Readings& readings, const PlayedCell& played, const Subject& subject) {
+    CensoredSamples moments;
     for (const ExtentRow& row : played.extents)
         for (const GridError& error : row.grid_errors)
-            if (error.plane == subject.key.plane && error.limit_lx == subject.key.limit_lx)
+            if (error.surface == subject.key.surface && error.threshold_lx == subject.key.threshold_lx)
                 moments.add(error.area_m2);
     add_median(readings, subject.of(Quantity::area, ReadingPlace::none, Aspect::grid_error), moments,
                subject.where + ", grid of half the samples");
@@ -192,10 +194,10 @@ void add_times(Readings& readings, const PassTime& pass) {
 
 } // namespace
 
-std::vector<ExtentSummary> summarise_extents(const PlayedVariant& played, const ExtentParameters& parameters) {
+std::vector<ExtentSummary> summarise_extents(const PlayedCell& played, const ExtentParameters& parameters) {
     std::vector<ExtentSummary> summaries;
     for (const ExtentKey& key : extent_keys(played)) {
-        Folding folding(key, parameters, key.plane == ExtentPlane::road ? played.no_road_lx : played.no_target_lx);
+        Folding folding(key, parameters, key.surface == Surface::road ? played.no_road_lx : played.no_target_lx);
         for (const ExtentRow& row : played.extents) {
             const LaneExtent* const rendered = find_extent(row.rendered, key);
             const LaneExtent* const twin = find_extent(row.twin, key);
@@ -204,26 +206,26 @@ std::vector<ExtentSummary> summarise_extents(const PlayedVariant& played, const 
             if (rendered && twin)
                 folding.compare(*rendered, *twin);
             if (key.lane == "own")
-                folding.add_trust(row, twin);
+                folding.add_uncertainty(row, twin);
         }
         summaries.push_back(folding.finish());
     }
     return summaries;
 }
 
-Readings extent_readings(const PlayedVariant& played) {
+Readings extent_readings(const PlayedCell& played) {
     Readings readings;
     for (const ExtentSummary& summary : played.extent_summaries) {
         const Subject subject = subject_of(summary.key);
         add_extent(readings, summary);
         if (subject.key.lane == "all")
             add_area_trust(readings, played, subject);
-        add_lane_trust(readings, played, subject);
+        add_lane_uncertainty(readings, played, subject);
     }
     return readings;
 }
 
-Readings times(const PlayedVariant& played) {
+Readings times(const PlayedCell& played) {
     Readings readings;
     for (const PassTime& pass : played.passes)
         add_times(readings, pass);

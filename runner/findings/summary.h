@@ -6,12 +6,12 @@
 namespace fernlicht {
 
 /// What the extents of all moments add up to, one for each of extent_keys(). The same inputs give the same bytes.
-std::vector<ExtentSummary> summarise_extents(const PlayedVariant& played, const ExtentParameters& parameters);
+std::vector<ExtentSummary> summarise_extents(const PlayedCell& played, const ExtentParameters& parameters);
 
 /// Readings of the whole drive from `extent_summaries`, with the grid's error in each lane from `extents`.
-Readings extent_readings(const PlayedVariant& played);
+Readings extent_readings(const PlayedCell& played);
 
 /// How long each pass took: median, 95th percentile and spread. Kept apart from summarise because no two runs agree on them.
-Readings times(const PlayedVariant& played);
+Readings times(const PlayedCell& played);
 
 } // namespace fernlicht

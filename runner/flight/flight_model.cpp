@@ -270,8 +270,8 @@ class Gathering : public osg::NodeVisitor {
             note_once(out_.model.notes, "points and lines are left out");
             return;
         }
-        if (soup_.triangles.size() + triangles.corners.size() / 3 > most_model_triangles)
-            throw InputError({}, fmt::format("more than {} triangles", most_model_triangles), "fewer");
+        if (soup_.triangles.size() + triangles.corners.size() / 3 > max_model_triangles)
+            throw InputError({}, fmt::format("more than {} triangles", max_model_triangles), "fewer");
         const std::size_t count = positions ? positions->size() : exact->size();
         const auto* normals = dynamic_cast<const osg::Vec3Array*>(geometry.getNormalArray());
         const bool by_vertex = normals && normals->getBinding() == osg::Array::BIND_PER_VERTEX && normals->size() >= count;

@@ -11,8 +11,8 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_entries = 10000;
-constexpr std::size_t most_list_bytes = std::size_t{4} << 20;
+constexpr std::size_t max_entries = 10000;
+constexpr std::size_t max_list_bytes = std::size_t{4} << 20;
 
 /// The part before the first slash.
 std::string drive_of(const std::string& id) { return id.substr(0, id.find('/')); }
@@ -54,7 +54,7 @@ void mark(Verdict& verdict, const KnownFailures& known, const KnownFailure& entr
 /// Marks what the entry names and no earlier entry did. Returns whether it names anything.
 bool mark_all(Report& report, const KnownFailures& known, const KnownFailure& entry, bool expired) {
     bool names = false;
-    for (PlayedVariant& played : report.played)
+    for (PlayedCell& played : report.played)
         for (Verdict& verdict : played.verdicts)
             if (matches(entry.id, verdict_id(played, verdict))) {
                 names = true;
@@ -65,7 +65,7 @@ bool mark_all(Report& report, const KnownFailures& known, const KnownFailure& en
 }
 
 bool names_a_drive(const Report& report, const KnownFailure& entry) {
-    return std::ranges::any_of(report.played, [&](const PlayedVariant& played) { return matches(drive_of(entry.id), played.drive); });
+    return std::ranges::any_of(report.played, [&](const PlayedCell& played) { return matches(drive_of(entry.id), played.drive); });
 }
 
 } // namespace
@@ -103,18 +103,18 @@ bool matches(const std::string& pattern, const std::string& text) {
     return pattern.find_first_not_of('*', p) == std::string::npos;
 }
 
-std::string verdict_id(const PlayedVariant& played, const Verdict& verdict) {
-    return fmt::format("{}/{}/{}/{}", played.drive, played.variant, played.technique, verdict.name);
+std::string verdict_id(const PlayedCell& played, const Verdict& verdict) {
+    return fmt::format("{}/{}/{}/{}", played.drive, played.lamp_set, played.technique, verdict.name);
 }
 
 KnownFailures read_known_failures(const std::filesystem::path& file) {
     KnownFailures known;
     known.file = file;
-    const YamlValue tree = parse_yaml(read_file(file, known.opened, most_list_bytes), file);
+    const YamlValue tree = parse_yaml(read_file(file, known.opened, max_list_bytes), file);
     const YamlEntry root(tree, file, "");
     const YamlMap map = root.map({"known"});
     const YamlEntry entries = map.require("known");
-    for (const YamlEntry& item : entries.list(0, most_entries)) {
+    for (const YamlEntry& item : entries.list(0, max_entries)) {
         KnownFailure entry = read_entry(item);
         const auto earlier = std::ranges::find(known.entries, entry.id, &KnownFailure::id);
         if (earlier != known.entries.end())

@@ -30,7 +30,7 @@ bool is_date(const std::string& text);
 bool matches(const std::string& pattern, const std::string& text);
 
 /// "straight/halogen/photometric/reach_5lx_road_own_m".
-std::string verdict_id(const PlayedVariant& played, const Verdict& verdict);
+std::string verdict_id(const PlayedCell& played, const Verdict& verdict);
 
 /// Marks verdicts by the first entry that names them: red in the way that is listed: known; green though listed as failing: an unexpected
 /// pass, which is red. An entry past its day covers nothing and is red itself, as is one that names a drive of this run and none of its

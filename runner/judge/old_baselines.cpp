@@ -1,8 +1,8 @@
 #include "runner/judge/old_baselines.h"
 
 #include "runner/files/durable_files.h"
-#include "runner/judge/cell_inputs.h"
-#include "runner/judge/reference_json.h"
+#include "runner/judge/baseline_json.h"
+#include "runner/judge/input_hashes.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/values/files.h"
 #include "scenarios/yaml/old_names.h"
@@ -22,7 +22,7 @@ std::map<std::string, std::string> hashes_of_today(const std::vector<Drive>& cel
         const std::string text = text_hashed_before(drive);
         for (int last = 0; last < tick_count(drive); ++last) {
             const std::string whole = text + fmt::format("moments: [0, {}]\n", last);
-            const std::string now = cell_inputs(drive, drive.variants.front(), {}, 0, last).front().second;
+            const std::string now = input_hashes(drive, drive.lamp_sets.front(), {}, 0, last).front().second;
             hashes[content_hash(whole.data(), whole.size())] = now;
             hashes[now] = now;
         }
@@ -51,7 +51,7 @@ std::vector<std::string> convert_baselines(const std::filesystem::path& store, c
         json.at("schema_version").refuse("2: a store that knows the inputs of its results");
     const std::map<std::string, std::string> hashes = hashes_of_today(cells);
     std::vector<std::filesystem::path> replaced;
-    for (const StoredReference& entry : from_json<std::vector<StoredReference>>(json.at("references"), stored_members)) {
+    for (const StoredBaseline& entry : from_json<std::vector<StoredBaseline>>(json.at("baselines"), stored_members)) {
         const std::filesystem::path path = object_path(store, entry.id);
         std::string object = baseline_text_of_today(read_file(path, opened));
         auto producer = from_json<Producer>(CheckedJson::parse(object, path).at("producer"), producer_members);

@@ -16,11 +16,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_file_bytes = std::size_t{1} << 30;
+constexpr std::size_t max_file_bytes = std::size_t{1} << 30;
 
 /// Without what is compared by itself and what only the first play has: accuracy, contact sheets.
-PlayedVariant comparable(const PlayedVariant& played) {
-    PlayedVariant plain = played;
+PlayedCell comparable(const PlayedCell& played) {
+    PlayedCell plain = played;
     plain.error = {};
     plain.contact_sheet = {};
     plain.more_sheets.clear();
@@ -68,7 +68,7 @@ std::string label_of(const Reading& reading) {
 std::string file_difference(const std::filesystem::path& first, const std::filesystem::path& again) {
     FilesRead opened;
     try {
-        const std::string a = read_file(first, opened, most_file_bytes), b = read_file(again, opened, most_file_bytes);
+        const std::string a = read_file(first, opened, max_file_bytes), b = read_file(again, opened, max_file_bytes);
         if (a == b)
             return {};
         const auto [at, ignored] =
@@ -94,7 +94,7 @@ struct Counted {
     }
 };
 
-Counted files_that_differ(const PlayedVariant& first, const std::filesystem::path& first_folder, const PlayedVariant& again,
+Counted files_that_differ(const PlayedCell& first, const std::filesystem::path& first_folder, const PlayedCell& again,
                           const std::filesystem::path& folder) {
     Counted files;
     for (std::size_t i = 0; i < std::min(first.frames.size(), again.frames.size()); ++i)
@@ -105,7 +105,7 @@ Counted files_that_differ(const PlayedVariant& first, const std::filesystem::pat
     return files;
 }
 
-Counted maps_that_differ(const PlayedVariant& first, const PlayedVariant& again) {
+Counted maps_that_differ(const PlayedCell& first, const PlayedCell& again) {
     Counted maps;
     if (first.maps.size() != again.maps.size())
         maps.add(fmt::format("{} lux maps, at first {}", again.maps.size(), first.maps.size()));
@@ -118,7 +118,7 @@ Counted maps_that_differ(const PlayedVariant& first, const PlayedVariant& again)
 }
 
 /// A limit that is kept in one play and exceeded in another.
-Counted verdicts_that_differ(const PlayedVariant& first, const PlayedVariant& again) {
+Counted verdicts_that_differ(const PlayedCell& first, const PlayedCell& again) {
     Counted verdicts;
     for (std::size_t i = 0; i < std::min(first.verdicts.size(), again.verdicts.size()); ++i)
         if (first.verdicts[i].kind != again.verdicts[i].kind)
@@ -128,7 +128,7 @@ Counted verdicts_that_differ(const PlayedVariant& first, const PlayedVariant& ag
 }
 
 /// The first figure of a moment that differs; "" where all are the same.
-std::string moment_difference(const PlayedVariant& first, const PlayedVariant& again) {
+std::string moment_difference(const PlayedCell& first, const PlayedCell& again) {
     const std::vector<MomentColumn> before = moment_columns(first), now = moment_columns(again);
     if (before.size() != now.size())
         return fmt::format("{} columns of moments, at first {}", now.size(), before.size());
@@ -148,14 +148,14 @@ std::string first_difference(const std::string& first, const std::string& again)
     return difference(Json::parse(first), Json::parse(again), "");
 }
 
-RepeatFold::RepeatFold(const PlayedVariant& first, std::filesystem::path folder, Told told)
+RepeatFold::RepeatFold(const PlayedCell& first, std::filesystem::path folder, Told told)
     : first_(&first), folder_(std::move(folder)), told_(std::move(told)) {
     for (std::size_t i = 0; i < first.readings.size(); ++i)
         if (const auto number = first.readings[i].value.number())
             values_[i].push_back(*number);
 }
 
-bool RepeatFold::add(const PlayedVariant& again, const std::filesystem::path& folder) {
+bool RepeatFold::add(const PlayedCell& again, const std::filesystem::path& folder) {
     ++plays_;
     const std::size_t before = differ_.size();
     Counted readings;
@@ -182,7 +182,7 @@ bool RepeatFold::add(const PlayedVariant& again, const std::filesystem::path& fo
     return differ_.size() == before;
 }
 
-void RepeatFold::finish(PlayedVariant& first, int asked, const std::string& rerun) const {
+void RepeatFold::finish(PlayedCell& first, int asked, const std::string& rerun) const {
     first.repeats = {plays_, differ_, {}};
     for (const std::size_t i : varying_) {
         const auto values = values_.find(i);

@@ -13,20 +13,20 @@ namespace fernlicht {
 class RepeatFold {
   public:
     /// All that is reported of a play but readings, moments and times.
-    using Told = std::function<nlohmann::ordered_json(const PlayedVariant&)>;
+    using Told = std::function<nlohmann::ordered_json(const PlayedCell&)>;
     /// `folder` is where the frames of the first play lie.
-    RepeatFold(const PlayedVariant& first, std::filesystem::path folder, Told told);
+    RepeatFold(const PlayedCell& first, std::filesystem::path folder, Told told);
 
     /// True where nothing differs: readings and all else in report.json to the last bit, lux maps, the bytes of all stored files, and the
     /// verdicts on limits. Times do not count, other than by a verdict that they turn.
-    bool add(const PlayedVariant& again, const std::filesystem::path& folder);
+    bool add(const PlayedCell& again, const std::filesystem::path& folder);
 
     /// Sets `repeats` of the first play and adds the verdict "repeats": pass, flaky with what differs, or not measured where fewer than the
     /// `asked` plays were made.
-    void finish(PlayedVariant& first, int asked, const std::string& rerun) const;
+    void finish(PlayedCell& first, int asked, const std::string& rerun) const;
 
   private:
-    const PlayedVariant* first_;
+    const PlayedCell* first_;
     std::filesystem::path folder_;
     Told told_;
     int plays_ = 1;

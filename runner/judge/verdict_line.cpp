@@ -1,6 +1,6 @@
 #include "runner/judge/verdict_line.h"
 
-#include "runner/judge/references.h"
+#include "runner/judge/baselines.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ const char* word_for(const Verdict& verdict) {
     case VerdictKind::pass:
         break;
     }
-    return verdict.name == other_device_verdict ? "note:" : "";
+    return verdict.name == other_device_class ? "note:" : "";
 }
 
 } // namespace

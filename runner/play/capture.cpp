@@ -10,7 +10,7 @@
 
 namespace fernlicht {
 
-Writers::Writers(int threads, std::size_t most_waiting) : most_waiting_(most_waiting) {
+Writers::Writers(int threads, std::size_t max_waiting) : max_waiting_(max_waiting) {
     for (int i = 0; i < threads; ++i)
         threads_.emplace_back([this] { work(); });
 }
@@ -51,7 +51,7 @@ void Writers::work() {
 
 void Writers::submit(std::function<void()> job) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return waiting_.size() < most_waiting_ || failure_; });
+    changed_.wait(lock, [this] { return waiting_.size() < max_waiting_ || failure_; });
     if (failure_)
         std::rethrow_exception(std::exchange(failure_, nullptr));
     waiting_.push_back(std::move(job));

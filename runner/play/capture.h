@@ -16,7 +16,7 @@ namespace fernlicht {
 /// A bounded queue of things to write. Memory stays constant: submit() waits while the queue is full.
 class Writers {
   public:
-    explicit Writers(int threads = 1, std::size_t most_waiting = 8);
+    explicit Writers(int threads = 1, std::size_t max_waiting = 8);
     ~Writers(); ///< waits for what is queued; an error that nobody asked for is dropped
 
     /// Throws what an earlier job threw.
@@ -30,7 +30,7 @@ class Writers {
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<std::function<void()>> waiting_;
-    std::size_t most_waiting_;
+    std::size_t max_waiting_;
     int running_ = 0;
     bool stopping_ = false;
     std::exception_ptr failure_;

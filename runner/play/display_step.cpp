@@ -2,7 +2,7 @@
 
 #include "metrics/display/display_colour.h"
 #include "runner/files/picture_file.h"
-#include "runner/play/shown_picture.h"
+#include "runner/play/display_pipeline.h"
 
 #include <algorithm>
 
@@ -16,10 +16,10 @@ DisplayStep::DisplayStep(const Drive& drive)
         icc_ = icc_profile(*drive.display.profile);
 }
 
-Wanted DisplayStep::with_light(Wanted wanted, const View& view, bool stored, bool drivers) const {
-    if (after_drawing_ && wanted.colour && view.projection == Projection::perspective)
-        wanted.light = stored || (drivers && adapted_);
-    return wanted;
+FrameOutputs DisplayStep::with_light(FrameOutputs outputs, const View& view, bool stored, bool drivers) const {
+    if (after_drawing_ && outputs.colour && view.projection == Projection::perspective)
+        outputs.light = stored || (drivers && adapted_);
+    return outputs;
 }
 
 void DisplayStep::see(const Frame& frame) {

@@ -1,7 +1,7 @@
 // What a drive's stored pictures are shown by, as the play loop meets them.
 #pragma once
 
-#include "metrics/display/seen_display.h"
+#include "metrics/display/display_viewing.h"
 #include "metrics/display/tone_fit.h"
 #include "runner/findings/report.h"
 #include "scenarios/drives/play/frame.h"
@@ -23,7 +23,7 @@ class DisplayStep {
 
     /// What to draw besides, so that the picture can be shown: of a stored one its coloured light, and where white adapts that of each
     /// driver's.
-    Wanted with_light(Wanted wanted, const View& view, bool stored, bool drivers) const;
+    FrameOutputs with_light(FrameOutputs outputs, const View& view, bool stored, bool drivers) const;
     /// The driver's frame of a moment, before its pictures are written. Nothing without adaptation.
     void see(const Frame& frame);
     /// With the exposure of now; may be called by another thread, and later. Frames without coloured light (techniques that compute no

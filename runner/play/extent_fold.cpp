@@ -1,6 +1,6 @@
 #include "runner/play/extent_fold.h"
 
-#include "metrics/road/deciding_lx.h"
+#include "metrics/road/lux_near_thresholds.h"
 #include "scenarios/drives/play/camera.h"
 #include "scenarios/light/light.h"
 
@@ -13,9 +13,9 @@ namespace fernlicht {
 namespace {
 
 constexpr double margin_m = 1.0, pixel_m = 0.25;
-constexpr int most_pixels = 1024;
+constexpr int max_pixels = 1024;
 
-int pixels_for(double length_m) { return std::clamp(static_cast<int>(std::ceil(length_m / pixel_m)), 2, most_pixels); }
+int pixels_for(double length_m) { return std::clamp(static_cast<int>(std::ceil(length_m / pixel_m)), 2, max_pixels); }
 
 /// Bilinear in the logarithm where all four are lit, as reach is found along the lane: beside a cut-off a target's light changes by a
 /// factor of 1.8 from pixel to pixel, and a straight line between such values lies 5 % too high in the middle.
@@ -49,7 +49,7 @@ std::vector<PixelPlace> places_of(const ExtentGrid& grid, const View& view, cons
 
 /// The picture at grid points as measure_extent needs it for these limits.
 std::vector<double> sampled(const Image<float>& picture, const ExtentGrid& grid, const std::vector<PixelPlace>& places,
-                            const std::vector<double>& limits_lx) {
+                            const std::vector<double>& thresholds_lx) {
     const auto bounds = [&](std::size_t i) {
         const float* above = &picture.at(places[i].x, places[i].y);
         const float* below = above + picture.width();
@@ -64,7 +64,7 @@ std::vector<double> sampled(const Image<float>& picture, const ExtentGrid& grid,
         const auto e = [&](int dx, int dy) { return static_cast<double>(picture.at(p.x + dx, p.y + dy)); };
         return between(e(0, 0), e(1, 0), e(0, 1), e(1, 1), p.fx, p.fy);
     };
-    return deciding_lx(grid, limits_lx, bounds, exact);
+    return lux_near_thresholds(grid, thresholds_lx, bounds, exact);
 }
 
 } // namespace
@@ -106,10 +106,10 @@ std::vector<LaneExtent> ExtentFold::rendered(const ExtentDrawing& drawing) const
     const ExtentParameters& p = *drive_.extent;
     const std::vector<PixelPlace> places = places_of(grid, view, moment);
     std::vector<LaneExtent> extents;
-    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
-        const Image<float>& picture = plane == ExtentPlane::road ? frame.illuminance_lx : frame.target_lx;
+    for (const Surface surface : {Surface::road, Surface::target}) {
+        const Image<float>& picture = surface == Surface::road ? frame.illuminance_lx : frame.target_lx;
         if (!picture.empty())
-            std::ranges::copy(measure_extent(grid, sampled(picture, grid, places, p.limits_lx), plane, p.limits_lx, p.width_at_m),
+            std::ranges::copy(measure_extent(grid, sampled(picture, grid, places, p.thresholds_lx), surface, p.thresholds_lx, p.width_at_m),
                               std::back_inserter(extents));
     }
     return extents;
@@ -123,14 +123,14 @@ ExtentRow ExtentFold::measure(const ExtentDrawing& drawing) const {
     row.time_s = moment.time_s;
     row.distance_m = moment.distance_m;
     row.rendered = rendered(drawing);
-    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
-        const std::vector<double> truth = deciding_twin_lx(grid, moment, plane, p.limits_lx);
-        const std::vector<LaneExtent> measured = measure_extent(grid, truth, plane, p.limits_lx, p.width_at_m);
+    for (const Surface surface : {Surface::road, Surface::target}) {
+        const std::vector<double> truth = twin_lux_near_thresholds(grid, moment, surface, p.thresholds_lx);
+        const std::vector<LaneExtent> measured = measure_extent(grid, truth, surface, p.thresholds_lx, p.width_at_m);
         std::ranges::copy(measured, std::back_inserter(row.twin));
-        std::ranges::copy(grid_error(grid, truth, plane, p.limits_lx), std::back_inserter(row.grid_errors));
-        std::ranges::copy(lane_grid_errors(grid, truth, plane, p.limits_lx, measured), std::back_inserter(row.lane_grid_errors));
+        std::ranges::copy(grid_error(grid, truth, surface, p.thresholds_lx), std::back_inserter(row.grid_errors));
+        std::ranges::copy(lane_grid_errors(grid, truth, surface, p.thresholds_lx, measured), std::back_inserter(row.lane_grid_errors));
     }
-    row.sensitivity = reach_sensitivity(grid, moment, p.limits_lx);
+    row.sensitivity = reach_sensitivity(grid, moment, p.thresholds_lx);
     return row;
 }
 
@@ -158,18 +158,18 @@ View map_around(const glm::dvec3& point_m, const Moment& moment) {
 void ProbeFold::add(const Moment& moment, const Draw& draw) {
     for (std::size_t i = 0; i < found_.size(); ++i) {
         const Probe& probe = drive_.probes[i];
-        const Pose surface = route_.pose(moment.distance_m + probe.ahead_m, probe.left_m);
-        const glm::dvec3 point = surface.position_m + glm::dvec3(0.0, 0.0, probe.above_m);
+        const Pose pose = route_.pose(moment.distance_m + probe.ahead_m, probe.left_m);
+        const glm::dvec3 point = pose.position_m + glm::dvec3(0.0, 0.0, probe.above_m);
         const bool on_surface = probe.above_m == 0.0;
         for (const LitLamp& lamp : moment.lamps)
             found_[i].near_field = found_[i].near_field || glm::length(point - lamp.pose.position_m) < lamp.photometric_distance_m;
         const CrossSection across = route_.cross_section(moment.distance_m + probe.ahead_m);
         found_[i].beside_road =
             found_[i].beside_road || (on_surface && (probe.left_m > across.paved_left_m || probe.left_m < across.paved_right_m));
-        found_[i].twin.push_back(on_surface ? surface_illuminance_lx(moment, point, surface.up()) : target_illuminance_lx(moment, point));
+        found_[i].twin.push_back(on_surface ? surface_illuminance_lx(moment, point, pose.up()) : target_illuminance_lx(moment, point));
         if (!on_surface)
             continue;
-        const Frame frame = draw(moment, map_around(surface.position_m, moment), {.illuminance = true})();
+        const Frame frame = draw(moment, map_around(pose.position_m, moment), {.illuminance = true})();
         found_[i].not_drawn = frame.illuminance_lx.empty();
         if (!found_[i].not_drawn)
             found_[i].drawn.push_back(static_cast<double>(frame.illuminance_lx.at(1, 1)));

@@ -58,7 +58,7 @@ void FrameTimes::end_moment() {
         kind_->drawing_s.push_back(moment_s_);
 }
 
-void FrameTimes::finish(PlayedVariant& played) const {
+void FrameTimes::finish(PlayedCell& played) const {
     played.passes = passes_;
     played.warm_up_dropped = std::min(warm_up_, moment_ + 1);
     Throughput& result = played.throughput;

@@ -24,7 +24,7 @@ class FrameTimes {
     void end_moment();
 
     /// Samples and throughput; after the last measurement and the last file.
-    void finish(PlayedVariant& played) const;
+    void finish(PlayedCell& played) const;
 
   private:
     using Clock = std::chrono::steady_clock;

@@ -76,7 +76,7 @@ std::vector<LuxMap::Polyline> edges_on_map(const Moment& moment, const View& vie
 }
 
 LuxMaps::LuxMaps(std::size_t captured_moments) {
-    for (const std::size_t index : spread_over(captured_moments, most_pictured_moments))
+    for (const std::size_t index : spread_over(captured_moments, max_pictured_moments))
         shown_.insert(index);
 }
 
@@ -92,7 +92,7 @@ void LuxMaps::add(std::size_t captured, const std::function<LuxMap()>& make) {
                 moments.insert(index);
         return moments.size();
     };
-    while (others() > most_pictured_moments) {
+    while (others() > max_pictured_moments) {
         stride_ *= 2;
         std::erase_if(maps_, [&](const auto& entry) { return !kept(entry.first); });
     }

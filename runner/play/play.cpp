@@ -1,10 +1,10 @@
 #include "runner/play/play.h"
 
 #include "metrics/folds/seeing_fold.h"
+#include "runner/play/display_pipeline.h"
 #include "runner/play/extent_fold.h"
 #include "runner/play/frame_times.h"
 #include "runner/play/lux_map.h"
-#include "runner/play/shown_picture.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/drive_log.h"
 #include "scenarios/drives/play/motion.h"
@@ -19,7 +19,7 @@ namespace {
 /// Draws the views of a moment: all of them where it is captured, else the driver's; then hands to the writers what is stored.
 class Pictures {
   public:
-    Pictures(const Drive& drive, const Route& route, const PlayOptions& options, PlayedVariant& played, Writers& writers, FrameTimes& times)
+    Pictures(const Drive& drive, const Route& route, const PlayOptions& options, PlayedCell& played, Writers& writers, FrameTimes& times)
         : drive_(drive), route_(route), options_(options), played_(played), writers_(writers), times_(times),
           maps_(captured_moments(drive, options.ticks)), display_(drive) {}
 
@@ -33,8 +33,8 @@ class Pictures {
         const bool captured = is_captured(drive_.capture, moment.tick, drive_.step_s);
         for (std::size_t i = 0; i < (captured ? drive_.views.size() : std::min<std::size_t>(1, drive_.views.size())); ++i) {
             const View& view = drive_.views[i];
-            const Wanted wanted = captured ? stored_results(view, drive_.capture) : Wanted{.colour = true};
-            Frame frame = draw(moment, view, display_.with_light(wanted, view, captured, i == 0))();
+            const FrameOutputs outputs = captured ? stored_results(view, drive_.capture) : FrameOutputs{.colour = true};
+            Frame frame = draw(moment, view, display_.with_light(outputs, view, captured, i == 0))();
             i == 0 ? times_.add(kind(moment), frame) : times_.add(frame);
             if (i == 0)
                 display_.see(frame);
@@ -47,7 +47,7 @@ class Pictures {
         for (auto& [view, frame] : drawn_) {
             if (view->projection == Projection::map)
                 keep_map(frame, moment, *view);
-            StoredFrame stored = store_frame(writers_, options_.folder, drive_.name + "-" + played_.variant, drive_.capture,
+            StoredFrame stored = store_frame(writers_, options_.folder, drive_.name + "-" + played_.lamp_set, drive_.capture,
                                              std::move(frame), moment, *view, display_.writer());
             played_.frames.push_back(std::move(stored));
         }
@@ -80,7 +80,7 @@ class Pictures {
     const Drive& drive_;
     const Route& route_;
     const PlayOptions& options_;
-    PlayedVariant& played_;
+    PlayedCell& played_;
     Writers& writers_;
     FrameTimes& times_;
     LuxMaps maps_;
@@ -94,10 +94,10 @@ class Pictures {
 class Measuring {
   public:
     Measuring(const ExtentFold& fold, std::vector<ExtentRow>& rows)
-        : fold_(fold), rows_(rows), most_waiting_(std::clamp(std::thread::hardware_concurrency(), 2U, 8U)) {}
+        : fold_(fold), rows_(rows), max_waiting_(std::clamp(std::thread::hardware_concurrency(), 2U, 8U)) {}
 
     void add(ExtentDrawing drawing) {
-        if (waiting_.size() == most_waiting_)
+        if (waiting_.size() == max_waiting_)
             join_first();
         waiting_.push_back(std::async(std::launch::async, [this, drawing = std::move(drawing)] { return fold_.measure(drawing); }));
     }
@@ -115,7 +115,7 @@ class Measuring {
 
     const ExtentFold& fold_;
     std::vector<ExtentRow>& rows_;
-    std::size_t most_waiting_;
+    std::size_t max_waiting_;
     std::deque<std::future<ExtentRow>> waiting_; ///< each waits for its thread when it is destroyed
 };
 
@@ -133,30 +133,30 @@ CarRow car_row(const Motion& motion, double time_s) {
 
 std::string no_illuminance(const std::string& technique) { return fmt::format("technique {} does not compute an illuminance", technique); }
 
-Wanted stored_results(const View& view, const Capture& capture) {
-    Wanted wanted;
-    wanted.colour = view.projection == Projection::perspective; // a map is shown by its lux, in false colour
-    wanted.illuminance = wanted.luminance = capture.exr;
-    wanted.depth = capture.exr && view.projection == Projection::perspective;
-    wanted.target = capture.exr && view.projection == Projection::map;
+FrameOutputs stored_results(const View& view, const Capture& capture) {
+    FrameOutputs outputs;
+    outputs.colour = view.projection == Projection::perspective; // a map is shown by its lux, in false colour
+    outputs.illuminance = outputs.luminance = capture.exr;
+    outputs.depth = capture.exr && view.projection == Projection::perspective;
+    outputs.target = capture.exr && view.projection == Projection::map;
     if (view.projection == Projection::map)
-        wanted.illuminance = true; // the bird's-eye lux map of the report
-    return wanted;
+        outputs.illuminance = true; // the bird's-eye lux map of the report
+    return outputs;
 }
 
 int ticks_to_play(const Drive& drive, TickRange range) {
     return std::max(0, std::min(tick_count(drive) - 1, range.last) - std::max(0, range.first) + 1);
 }
 
-PlayedVariant play(const Drive& drive, const Route& route, const Variant& variant, const PlayOptions& options, const Draw& draw,
-                   Writers& writers) {
-    PlayedVariant played;
+PlayedCell play(const Drive& drive, const Route& route, const LampSet& lamp_set, const PlayOptions& options, const Draw& draw,
+                Writers& writers) {
+    PlayedCell played;
     played.drive = drive.name;
     played.title = drive.title;
-    played.variant = variant.name;
+    played.lamp_set = lamp_set.name;
     played.technique = drive.technique;
-    played.drawn_by = std::make_shared<const DrawnBy>(drawn_by(drive));
-    for (const MountedLamp& lamp : variant.lamps)
+    played.rendering_settings = std::make_shared<const RenderingSettings>(rendering_settings(drive));
+    for (const MountedLamp& lamp : lamp_set.lamps)
         played.lamps.emplace_back(lamp.name, lamp.file->name);
     played.first_tick = std::max(0, options.ticks.first);
     played.ticks_planned = ticks_to_play(drive, options.ticks);
@@ -171,9 +171,9 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
     while (state.tick < std::max(0, options.ticks.first) && state.tick + 1 < tick_count(drive))
         state = advance(state, drive);
     for (int k = 0; k < played.ticks_planned; ++k, state = advance(state, drive)) {
-        const Moment moment = moment_at(state, drive, route, variant);
+        const Moment moment = moment_at(state, drive, route, lamp_set);
         if (options.log)
-            *options.log << logged_moment(variant.name, moment);
+            *options.log << logged_moment(lamp_set.name, moment);
         if (times.begin_moment(pictures.kind(moment))) {
             measuring.finish();
             writers.finish();
@@ -193,13 +193,13 @@ PlayedVariant play(const Drive& drive, const Route& route, const Variant& varian
         }
         probes.add(moment, draw);
         times.end_moment();
-        seeing.add(moment, variant);
+        seeing.add(moment, lamp_set);
         pictures.store(moment);
         if (drawn)
             measuring.add(std::move(*drawn));
         played.speed_mps.emplace_back(moment.time_s, moment.speed_mps);
-        if (variant.motion && variant.motion->car)
-            played.car.push_back(car_row(*variant.motion, moment.time_s));
+        if (lamp_set.motion && lamp_set.motion->car)
+            played.car.push_back(car_row(*lamp_set.motion, moment.time_s));
         ++played.ticks_done;
         if (!options.go_on(played.ticks_done))
             break;

@@ -9,7 +9,7 @@
 namespace fernlicht {
 
 /// Whatever draws a view of a moment: the renderer, or in tests any callable.
-using Draw = std::function<Pending(const Moment&, const View&, const Wanted&)>;
+using Draw = std::function<Pending(const Moment&, const View&, const FrameOutputs&)>;
 
 /// Ticks first..last, both included.
 struct TickRange {
@@ -26,7 +26,7 @@ struct PlayOptions {
 };
 
 /// What a stored frame of a view holds.
-Wanted stored_results(const View& view, const Capture& capture);
+FrameOutputs stored_results(const View& view, const Capture& capture);
 
 /// Number of ticks of the drive that lie in the range.
 int ticks_to_play(const Drive& drive, TickRange range);
@@ -35,8 +35,8 @@ int ticks_to_play(const Drive& drive, TickRange range);
 /// Holds as many pictures at a time for a long drive as for a short one. Where a frame comes without an illuminance that was asked for, the
 /// technique computes none: there are no extents, lux maps and probes from it, and the reason stands in the result.
 /// Of readings only the probes' are made here; verdicts are left to the caller. Throws what drawing, measuring or writing threw.
-PlayedVariant play(const Drive& drive, const Route& route, const Variant& variant, const PlayOptions& options, const Draw& draw,
-                   Writers& writers);
+PlayedCell play(const Drive& drive, const Route& route, const LampSet& lamp_set, const PlayOptions& options, const Draw& draw,
+                Writers& writers);
 
 /// Why a reading of a technique without lux images is not measured.
 std::string no_illuminance(const std::string& technique);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int looked_at = 12, widest_px = 320;
 constexpr double middle_grey = 0.18;
-constexpr double least_range = 1.0e-3; // of a display whose black is dark: three decades, what an eye tells apart at a time
+constexpr double min_range = 1.0e-3; // of a display whose black is dark: three decades, what an eye tells apart at a time
 
 View small_view(const View& driver) {
     View view = driver;
@@ -52,8 +52,8 @@ SeenLuminances seen(const Stage& stage, Device& device, const RendererSettings& 
                 {stage.drive.file, 0, 0, "tone_mapper"},
                 fmt::format("a tone mapper that is fitted, of technique {}, which computes no luminance", stage.drive.technique),
                 "numbers for s and l_max_cdm2, or technique photometric");
-        for (const Variant& variant : stage.drive.variants)
-            for (const Moment& moment : moments_at(spread_ticks(tick_count(stage.drive)), stage, variant))
+        for (const LampSet& lamp_set : stage.drive.lamp_sets)
+            for (const Moment& moment : moments_at(spread_ticks(tick_count(stage.drive)), stage, lamp_set))
                 (sources ? seen.all : seen.surfaces).add(renderer.draw(moment, view, {.luminance = true}).luminance_cdm2);
     }
     return seen;
@@ -81,8 +81,8 @@ RendererSettings settings_for(const Drive& drive, RendererSettings settings) {
     return settings;
 }
 
-std::vector<std::pair<View, Wanted>> pictures_of(const Drive& drive) {
-    std::vector<std::pair<View, Wanted>> pictures;
+std::vector<std::pair<View, FrameOutputs>> pictures_of(const Drive& drive) {
+    std::vector<std::pair<View, FrameOutputs>> pictures;
     const DisplayStep display(drive);
     for (const View& view : drive.views)
         pictures.emplace_back(view, display.with_light(stored_results(view, drive.capture), view, true, false));
@@ -90,13 +90,13 @@ std::vector<std::pair<View, Wanted>> pictures_of(const Drive& drive) {
         pictures.emplace_back(drive.views.front(), display.with_light({.colour = true}, drive.views.front(), false, true));
     const View map = map_of("map", 0.0, 1.0, 1.0, 4, 4); // variants do not depend on the size
     if (drive.extent)
-        pictures.emplace_back(map, Wanted{.illuminance = true, .target = true});
+        pictures.emplace_back(map, FrameOutputs{.illuminance = true, .target = true});
     if (!drive.probes.empty())
-        pictures.emplace_back(map, Wanted{.illuminance = true});
+        pictures.emplace_back(map, FrameOutputs{.illuminance = true});
     return pictures;
 }
 
-std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, const Variant& variant, TickRange ticks) {
+std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks) {
     // Light and weather, lamps of others, and the own lamps with whether they shine.
     std::set<std::tuple<int, bool, std::vector<std::pair<const LampFile*, bool>>>> seen;
     std::vector<Moment> moments;
@@ -104,7 +104,7 @@ std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, con
     for (int tick = 0; tick <= std::min(ticks.last, tick_count(drive) - 1); ++tick, state = advance(state, drive)) {
         if (tick < ticks.first)
             continue;
-        Moment moment = moment_at(state, drive, route, variant);
+        Moment moment = moment_at(state, drive, route, lamp_set);
         std::vector<std::pair<const LampFile*, bool>> lamps;
         for (const LitLamp& lamp : moment.lamps)
             lamps.emplace_back(lamp.file.get(), lamp.intensity_factor > 0.0);
@@ -123,10 +123,10 @@ std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, con
     return moments;
 }
 
-void prepare(Renderer& renderer, const Drive& drive, const Route& route, const Variant& variant, TickRange ticks) {
-    const std::vector<Moment> moments = distinct_moments(drive, route, variant, ticks);
-    for (const auto& [view, wanted] : pictures_of(drive))
-        renderer.prepare(moments, view, wanted);
+void prepare(Renderer& renderer, const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks) {
+    const std::vector<Moment> moments = distinct_moments(drive, route, lamp_set, ticks);
+    for (const auto& [view, outputs] : pictures_of(drive))
+        renderer.prepare(moments, view, outputs);
 }
 
 void fit_tone_mapper(Stage& stage, Device& device, const RendererSettings& settings) {
@@ -138,14 +138,14 @@ void fit_tone_mapper(Stage& stage, Device& device, const RendererSettings& setti
         throw InputError({stage.drive.file, 0, 0, "tone_mapper"}, "a tone mapper that is fitted, of a drive without a driver's view",
                          "a view that is no map, or numbers for s and l_max_cdm2");
     const SeenLuminances luminances = seen(stage, device, settings, small_view(*driver));
-    const double brightest = mapper.white == WhitePoint::surfaces ? luminances.surfaces.most_cdm2() : luminances.all.most_cdm2();
+    const double brightest = mapper.white == WhitePoint::surfaces ? luminances.surfaces.max_cdm2() : luminances.all.max_cdm2();
     if (mapper.white != WhitePoint::given && brightest > 0.0)
         mapper.l_max_cdm2 = std::clamp(brightest, 1.0e-6, 1.0e9);
     if (mapper.fitted_s)
         mapper.s = std::min(fitted_s(luminances.all.log_mean_cdm2(), mapper.l_max_cdm2, middle_grey), 1.0e6);
     if (mapper.kind == ToneMapperKind::histogram) {
         const DisplayProfile display = stage.drive.display.profile.value_or(srgb_display());
-        mapper = histogram_mapper(luminances.all, mapper.l_max_cdm2, std::max(display.black_cdm2 / display.peak_cdm2(), least_range));
+        mapper = histogram_mapper(luminances.all, mapper.l_max_cdm2, std::max(display.black_cdm2 / display.peak_cdm2(), min_range));
     }
     mapper.white = WhitePoint::given;
     mapper.fitted_s = false;
@@ -158,10 +158,10 @@ void fit_tone_mapper(Stage& stage, Device& device, const RendererSettings& setti
         log_mean_cdm2 == 0.0
             ? fmt::format("tone mapper: nothing to fit to, as {} of each lamp set had no light (above 1e-6 cd/m2): {}", moments, result)
             : fmt::format("tone mapper fitted to {} of each lamp set (0 to {:.3g} cd/m2, log-mean {:.3g}): {}", moments,
-                          luminances.all.most_cdm2(), log_mean_cdm2, result));
+                          luminances.all.max_cdm2(), log_mean_cdm2, result));
 }
 
-void refuse_open_tone_mapper(const Drive& drive) {
+void refuse_unfitted_tone_mapper(const Drive& drive) {
     if (drive.tone_mapper.is_open())
         throw InputError({drive.file, 0, 0, "tone_mapper"},
                          "a tone mapper that is fitted to the drive's pictures, which `fernlicht run` does",

@@ -14,13 +14,13 @@ RendererSettings settings_for(Device& device, bool profile);
 RendererSettings settings_for(const Drive& drive, RendererSettings settings);
 
 /// Every kind of picture that play() asks for: the drive's views, plain and stored, and the maps of extents and probes.
-std::vector<std::pair<View, Wanted>> pictures_of(const Drive& drive);
+std::vector<std::pair<View, FrameOutputs>> pictures_of(const Drive& drive);
 
 /// Moments of the ticks to be played, one for each set of lamps that shine together under each sky: what variants follow from.
-std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, const Variant& variant, TickRange ticks);
+std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks);
 
-/// Compiles for all of these. Nothing compiles afterwards while the variant is played.
-void prepare(Renderer& renderer, const Drive& drive, const Route& route, const Variant& variant, TickRange ticks);
+/// Compiles for all of these. Nothing compiles afterwards while the lamp set is played.
+void prepare(Renderer& renderer, const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks);
 
 /// Draws the driver's view of moments evenly spread over the drive, small, with each of its lamp sets, and closes the drive's tone mapper
 /// by what is seen there: one exposure for all its pictures. Adds a note with the numbers. Nothing for a mapper that is closed. Throws
@@ -28,6 +28,6 @@ void prepare(Renderer& renderer, const Drive& drive, const Route& route, const V
 void fit_tone_mapper(Stage& stage, Device& device, const RendererSettings& settings);
 
 /// For programs that draw moments one by one and fit nothing. Throws InputError for a mapper that is open.
-void refuse_open_tone_mapper(const Drive& drive);
+void refuse_unfitted_tone_mapper(const Drive& drive);
 
 } // namespace fernlicht

@@ -18,8 +18,8 @@ double seconds(std::chrono::steady_clock::duration d) { return std::chrono::dura
 
 std::string clock_text(double s) { return fmt::format("{}:{:02}", static_cast<int>(s) / 60, static_cast<int>(s) % 60); }
 
-std::atomic<bool> was_asked{false};
-std::atomic<std::int64_t> asked_at_ns{0};        ///< CLOCK_MONOTONIC; 0: not yet
+std::atomic<bool> was_requested{false};
+std::atomic<std::int64_t> requested_at_ns{0};    ///< CLOCK_MONOTONIC; 0: not yet
 constexpr std::int64_t at_once_ns = 500'000'000; ///< what comes so soon was the same wish, sent to a process and to its group
 int listening = 0;                               ///< by the one thread that plays
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free,
@@ -31,8 +31,8 @@ extern "C" void on_signal(int signal) {
     clock_gettime(CLOCK_MONOTONIC, &now);
     const std::int64_t now_ns = std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
     std::int64_t first_ns = 0;
-    const bool first = asked_at_ns.compare_exchange_strong(first_ns, now_ns);
-    was_asked.store(true);
+    const bool first = requested_at_ns.compare_exchange_strong(first_ns, now_ns);
+    was_requested.store(true);
     if (!first && now_ns - first_ns >= at_once_ns) {
         std::signal(signal, SIG_DFL);
         std::raise(signal);
@@ -79,8 +79,8 @@ void Progress::show(bool last) {
 Interruption::Interruption() {
     if (listening++ > 0)
         return;
-    was_asked.store(false);
-    asked_at_ns.store(0);
+    was_requested.store(false);
+    requested_at_ns.store(0);
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
 }
@@ -92,6 +92,6 @@ Interruption::~Interruption() {
     std::signal(SIGTERM, SIG_DFL);
 }
 
-bool Interruption::asked() { return was_asked.load(); }
+bool Interruption::requested() { return was_requested.load(); }
 
 } // namespace fernlicht

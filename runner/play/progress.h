@@ -31,7 +31,7 @@ class Interruption {
     ~Interruption();
     Interruption(const Interruption&) = delete;
     Interruption& operator=(const Interruption&) = delete;
-    static bool asked();
+    static bool requested();
 };
 
 } // namespace fernlicht

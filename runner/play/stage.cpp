@@ -5,7 +5,7 @@
 #include "renderer/technique.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/staged_scene.h"
-#include "scenarios/drives/story/tell_story.h"
+#include "scenarios/drives/story/apply_storyboard.h"
 #include "scenarios/roads/mirrored_road.h"
 #include "scenarios/values/errors.h"
 
@@ -21,7 +21,7 @@ RoadNetwork network_of(Drive& drive) {
     RoadNetwork network = read_opendrive(drive.road_file);
     if (drive.mirrored_road)
         network = mirrored(std::move(network));
-    tell_story(drive, network);
+    apply_storyboard(drive, network);
     return network;
 }
 
@@ -47,27 +47,27 @@ Stage::Stage(Drive d)
             "no bodies");
 }
 
-std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage, const Variant& variant) {
+std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage, const LampSet& lamp_set) {
     std::vector<Moment> moments;
     State state = start(stage.drive);
     for (const int tick : ticks) {
         while (state.tick < tick)
             state = advance(state, stage.drive);
-        moments.push_back(moment_at(state, stage.drive, stage.route, variant));
+        moments.push_back(moment_at(state, stage.drive, stage.route, lamp_set));
     }
     return moments;
 }
 
-const Variant& variant_of(const Drive& drive, const std::string& name) {
+const LampSet& lamp_set_of(const Drive& drive, const std::string& name) {
     if (name.empty())
-        return drive.variants.front();
+        return drive.lamp_sets.front();
     std::vector<std::string> names;
-    for (const Variant& variant : drive.variants) {
-        if (variant.name == name)
-            return variant;
-        names.push_back(variant.name);
+    for (const LampSet& lamp_set : drive.lamp_sets) {
+        if (lamp_set.name == name)
+            return lamp_set;
+        names.push_back(lamp_set.name);
     }
-    throw InputError({drive.file, 0, 0, "--variant"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(names, ", ")));
+    throw InputError({drive.file, 0, 0, "--lamp-set"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(names, ", ")));
 }
 
 View at_size(View view, int width_px, int height_px) {

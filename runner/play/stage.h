@@ -19,10 +19,10 @@ struct Stage {
 };
 
 /// The moments at these ticks, which rise.
-std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage, const Variant& variant);
+std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage, const LampSet& lamp_set);
 
-/// The drive's lamp set of that name, the first for "". Throws InputError that names --variant.
-const Variant& variant_of(const Drive& drive, const std::string& name);
+/// The drive's lamp set of that name, the first for "". Throws InputError that names --lamp-set.
+const LampSet& lamp_set_of(const Drive& drive, const std::string& name);
 
 /// The view at another size, with the same field of view upwards.
 View at_size(View view, int width_px, int height_px);

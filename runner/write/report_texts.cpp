@@ -16,12 +16,12 @@ std::string report_csv(const Report& report) {
     std::string out = "drive,lamp_set,technique,frame,quantity,aspect,threshold,threshold_unit,surface,lane,place,distance_m,statistic,"
                       "subject,bound,value,unit,reason,where,name\r\n";
     const auto number = [](const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; };
-    for (const PlayedVariant& played : report.played)
+    for (const PlayedCell& played : report.played)
         for (const Reading& reading : played.readings) {
             const ReadingKey& key = reading.key;
             const bool has_threshold = key.threshold.unit != ThresholdUnit::none;
             const std::string fields[] = {csv_text(played.drive),
-                                          csv_text(played.variant),
+                                          csv_text(played.lamp_set),
                                           csv_text(played.technique),
                                           reading.tick < 0 ? "" : fmt::format("{}", reading.tick),
                                           row_of(key.quantity).id,
@@ -45,7 +45,7 @@ std::string report_csv(const Report& report) {
     return out;
 }
 
-std::string moments_csv(const PlayedVariant& played) {
+std::string moments_csv(const PlayedCell& played) {
     const std::vector<MomentColumn> columns = moment_columns(played);
     if (columns.empty())
         return {};
@@ -60,10 +60,10 @@ std::string moments_csv(const PlayedVariant& played) {
 }
 
 std::string times_csv(const Report& report) {
-    std::string out = "drive,variant,name,value,unit\r\n";
-    for (const PlayedVariant& played : report.played) {
+    std::string out = "drive,lamp_set,name,value,unit\r\n";
+    for (const PlayedCell& played : report.played) {
         const auto add = [&](const std::string& name, std::optional<double> value, const char* unit) {
-            out += fmt::format("{},{},{},{},{}\r\n", csv_text(played.drive), csv_text(played.variant), csv_text(name),
+            out += fmt::format("{},{},{},{},{}\r\n", csv_text(played.drive), csv_text(played.lamp_set), csv_text(name),
                                value ? fmt::format("{}", *value) : "", unit);
         };
         for (const PassTime& pass : played.passes)
@@ -160,8 +160,8 @@ std::string report_junit(const Report& report) {
             suites += test_case(name, verdict);
         suites += "  </testsuite>\n";
     };
-    for (const PlayedVariant& played : report.played)
-        add(played.drive + ", " + played.variant + (played.technique == "photometric" ? "" : ", technique " + played.technique),
+    for (const PlayedCell& played : report.played)
+        add(played.drive + ", " + played.lamp_set + (played.technique == "photometric" ? "" : ", technique " + played.technique),
             played.verdicts);
     if (!report.listed.empty())
         add("known failures", report.listed);

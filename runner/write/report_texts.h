@@ -7,14 +7,14 @@
 
 namespace fernlicht {
 
-/// JUnit: one test suite per drive and variant, one test case per verdict. Carries no times, so that equal runs give equal bytes.
+/// JUnit: one test suite per drive and lamp set, one test case per verdict. Carries no times, so that equal runs give equal bytes.
 std::string report_junit(const Report& report);
 
 /// RFC 4180, one line per reading.
 std::string report_csv(const Report& report);
 
 /// RFC 4180, a line for each moment; "" where none was played.
-std::string moments_csv(const PlayedVariant& played);
+std::string moments_csv(const PlayedCell& played);
 
 /// RFC 4180: times of passes and the run's throughput. What differs from run to run is here and not in report_csv.
 std::string times_csv(const Report& report);

@@ -24,7 +24,7 @@ using List = data::type;
 constexpr std::size_t run_pictures_bytes = std::size_t{48} << 20;
 constexpr std::size_t largest_picture_bytes = std::size_t{16} << 20;
 
-std::string lamp_colour(std::size_t variant) { return plots::css(plots::lamp_colour(variant)); }
+std::string lamp_colour(std::size_t lamp_set) { return plots::css(plots::lamp_colour(lamp_set)); }
 
 struct PicturedMoment {
     int tick = 0;
@@ -35,13 +35,13 @@ struct PicturedMoment {
 /// Every moment that has a picture or a map in any lamp set, in order.
 std::vector<PicturedMoment> pictured(const ComparedDrive& drive) {
     std::map<int, PicturedMoment> moments;
-    for (const PlayedVariant* const played : drive.variants) {
+    for (const PlayedCell* const played : drive.lamp_sets) {
         for (const StoredFrame& frame : played->frames)
             moments[frame.tick] = {frame.tick, frame.time_s, {}};
         for (const LuxMap& map : played->maps)
             moments[map.tick] = {map.tick, map.time_s, {}};
     }
-    for (const PlayedVariant* const played : drive.variants)
+    for (const PlayedCell* const played : drive.lamp_sets)
         for (const ExtentRow& row : played->extents)
             if (const auto found = moments.find(row.tick); found != moments.end())
                 found->second.distance_m = row.distance_m;
@@ -53,7 +53,7 @@ std::vector<PicturedMoment> pictured(const ComparedDrive& drive) {
 
 std::vector<std::string> views_of(const ComparedDrive& drive) {
     std::vector<std::string> views;
-    for (const PlayedVariant* const played : drive.variants)
+    for (const PlayedCell* const played : drive.lamp_sets)
         for (const StoredFrame& frame : played->frames)
             // A map view has no picture of its own: it is shown as the lux map.
             if ((!frame.png.empty() || played->maps.empty()) && std::find(views.begin(), views.end(), frame.view) == views.end())
@@ -61,7 +61,7 @@ std::vector<std::string> views_of(const ComparedDrive& drive) {
     return views;
 }
 
-const StoredFrame* find_frame(const PlayedVariant& played, int tick, const std::string& view) {
+const StoredFrame* find_frame(const PlayedCell& played, int tick, const std::string& view) {
     const auto found =
         std::ranges::find_if(played.frames, [&](const StoredFrame& frame) { return frame.tick == tick && frame.view == view; });
     return found == played.frames.end() ? nullptr : &*found;
@@ -96,9 +96,9 @@ data views_at(const ComparedDrive& drive, const PicturedMoment& moment, const st
     data rows{List::list};
     for (const std::string& view : views) {
         data row, cells{List::list};
-        for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-            data cell = picture(find_frame(*drive.variants[i], moment.tick, view), folder, budget_bytes);
-            cell.set("lamp", short_text(drive.variants[i]->variant, 40));
+        for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
+            data cell = picture(find_frame(*drive.lamp_sets[i], moment.tick, view), folder, budget_bytes);
+            cell.set("lamp", short_text(drive.lamp_sets[i]->lamp_set, 40));
             cell.set("colour", lamp_colour(i));
             cell.set("view", short_text(view, 40));
             cell.set("time", figure(moment.time_s, 2));
@@ -113,10 +113,10 @@ data views_at(const ComparedDrive& drive, const PicturedMoment& moment, const st
 
 data maps_at(const ComparedDrive& drive, const PicturedMoment& moment) {
     data maps{List::list};
-    for (const PlayedVariant* const played : drive.variants)
+    for (const PlayedCell* const played : drive.lamp_sets)
         for (const LuxMap& map : played->maps)
             if (map.tick == moment.tick)
-                if (std::string svg = plots::lux_map_svg(map, played->variant); !svg.empty())
+                if (std::string svg = plots::lux_map_svg(map, played->lamp_set); !svg.empty())
                     maps.push_back(std::move(svg));
     return maps;
 }
@@ -124,15 +124,15 @@ data maps_at(const ComparedDrive& drive, const PicturedMoment& moment) {
 /// By what differs in them, then by lamp set.
 data contact_sheets(const ComparedDrive& drive, const std::filesystem::path& folder, std::size_t& budget_bytes) {
     std::vector<std::pair<std::string, data>> kinds;
-    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-        const PlayedVariant& played = *drive.variants[i];
+    for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
+        const PlayedCell& played = *drive.lamp_sets[i];
         std::vector<StoredSheet> all{{"in every technique", played.contact_sheet}};
         all.insert(all.end(), played.more_sheets.begin(), played.more_sheets.end());
         for (const StoredSheet& sheet : all) {
             if (sheet.picture.png.empty())
                 continue;
             data part = picture(&sheet.picture, folder, budget_bytes);
-            part.set("lamp", short_text(played.variant, 40));
+            part.set("lamp", short_text(played.lamp_set, 40));
             part.set("colour", lamp_colour(i));
             part.set("time", figure(sheet.picture.time_s, 2));
             part.set("what", sheet.what);
@@ -155,13 +155,13 @@ data contact_sheets(const ComparedDrive& drive, const std::filesystem::path& fol
 /// Links to the stored pictures of moments that the page does not show.
 data links_of(const ComparedDrive& drive, const std::set<int>& shown) {
     data links{List::list};
-    for (const PlayedVariant* const played : drive.variants)
+    for (const PlayedCell* const played : drive.lamp_sets)
         for (const StoredFrame& frame : played->frames)
             if (!shown.contains(frame.tick) && !frame.png.empty()) {
                 data link;
                 link.set("link", relative_link(frame.png));
-                link.set("text",
-                         fmt::format("{} s, {}, {}", figure(frame.time_s, 2), short_text(played->variant, 40), short_text(frame.view, 40)));
+                link.set("text", fmt::format("{} s, {}, {}", figure(frame.time_s, 2), short_text(played->lamp_set, 40),
+                                             short_text(frame.view, 40)));
                 links.push_back(link);
             }
     return links;
@@ -170,14 +170,14 @@ data links_of(const ComparedDrive& drive, const std::set<int>& shown) {
 /// Those with lux maps, where there are any: of the others maps were not kept.
 std::vector<PicturedMoment> shown_moments(const ComparedDrive& drive, const std::vector<PicturedMoment>& all) {
     std::set<int> mapped;
-    for (const PlayedVariant* const played : drive.variants)
+    for (const PlayedCell* const played : drive.lamp_sets)
         for (const LuxMap& map : played->maps)
             mapped.insert(map.tick);
     std::vector<PicturedMoment> candidates, out;
     for (const PicturedMoment& moment : all)
         if (mapped.empty() || mapped.contains(moment.tick))
             candidates.push_back(moment);
-    for (const std::size_t index : spread_over(candidates.size(), most_pictured_moments))
+    for (const std::size_t index : spread_over(candidates.size(), max_pictured_moments))
         out.push_back(candidates[index]);
     return out;
 }
@@ -214,7 +214,7 @@ data moments_part(const ComparedDrive& drive, const std::filesystem::path& folde
 
 /// What people call the drive; its name where it has no title.
 const std::string& shown_name(const ComparedDrive& drive) {
-    const std::string& title = drive.variants.front()->title;
+    const std::string& title = drive.lamp_sets.front()->title;
     return title.empty() ? drive.name : title;
 }
 
@@ -228,9 +228,9 @@ std::string title_of(const RunPage& page) {
 /// "halogen against xenon, played 2024-11-21T19:30:00Z"
 std::string subtitle_of(const Report& report) {
     std::vector<std::string> names;
-    for (const PlayedVariant& played : report.played)
-        if (std::find(names.begin(), names.end(), played.variant) == names.end())
-            names.push_back(played.variant);
+    for (const PlayedCell& played : report.played)
+        if (std::find(names.begin(), names.end(), played.lamp_set) == names.end())
+            names.push_back(played.lamp_set);
     std::string text;
     for (const std::string& name : names)
         text += (text.empty() ? "" : " against ") + short_text(name, 40);
@@ -241,7 +241,7 @@ data drive_part(const RunPage::OfDrive& of, const std::filesystem::path& folder,
     data part;
     part.set("title", several ? short_text(of.drive.name, 200) : "The drive");
     part.set("pictures", moments_part(of.drive, folder, budget_bytes));
-    part.set("columns", fmt::format("{}", of.drive.variants.size()));
+    part.set("columns", fmt::format("{}", of.drive.lamp_sets.size()));
     part.set("extents", sections_part(of.extents));
     part.set("others", sections_part(of.others));
     return part;

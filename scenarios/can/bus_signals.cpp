@@ -106,7 +106,7 @@ void BusSignals::take(const CanFrame& frame) {
                              : readers_.find(identifier_key(frame.id, frame.extended));
     if (readers == readers_.end())
         return;
-    ++taken_;
+    ++frames_used_;
     for (const auto& [input, second] : readers->second) {
         Source& source = sources_[input];
         Reading& reading = second ? *source.second : source.first;

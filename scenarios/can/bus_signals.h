@@ -57,7 +57,7 @@ class BusSignals {
 
     const std::vector<BusInput>& inputs() const { return inputs_; }
     const std::vector<BusRecordOfInput>& records() const { return records_; }
-    std::uint64_t taken() const { return taken_; } ///< frames that held a mapped message
+    std::uint64_t frames_used() const { return frames_used_; } ///< frames that held a mapped message
     /// Identifiers that inputs read, for filters: id and whether it is extended; ascending, each once.
     std::vector<std::pair<std::uint32_t, bool>> identifiers() const;
 
@@ -89,7 +89,7 @@ class BusSignals {
     std::unordered_map<std::uint64_t, std::vector<std::pair<std::size_t, bool>>> readers_; ///< by identifier: input, its second source
     std::vector<BusValue> values_;
     std::vector<BusRecordOfInput> records_;
-    std::uint64_t taken_ = 0;
+    std::uint64_t frames_used_ = 0;
     std::int64_t last_ns_ = std::numeric_limits<std::int64_t>::min();
 };
 

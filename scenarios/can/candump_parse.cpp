@@ -8,7 +8,7 @@ namespace fernlicht {
 namespace {
 
 constexpr std::uint32_t error_flag = 0x20000000U; ///< CAN_ERR_FLAG
-constexpr std::int64_t most_seconds = 9223372035; ///< so that nanoseconds fit 64 bits
+constexpr std::int64_t max_seconds = 9223372035;  ///< so that nanoseconds fit 64 bits
 
 class CandumpParser : private CandumpCursor {
   public:
@@ -57,7 +57,7 @@ class CandumpParser : private CandumpCursor {
                 refuse(at_, "seconds since 1970 or since the log's beginning, or a date as 2026-11-22 12:38:19");
             style_.second_digits = static_cast<std::uint8_t>(digits);
         }
-        if (seconds > most_seconds)
+        if (seconds > max_seconds)
             refuse(start + 1, "seconds up to 9223372035 (April 2262)");
         expect(".", "a point between seconds and their fraction");
         std::int64_t fraction = 0;

@@ -116,7 +116,7 @@ namespace {
 
 InputError::Where in_signal(const CanSignal& signal) { return {{}, 0, 0, signal.name}; }
 
-WideWhole least_raw(const CanSignal& signal) { return signal.is_signed ? -(WideWhole{1} << (signal.length - 1)) : WideWhole{0}; }
+WideWhole min_raw(const CanSignal& signal) { return signal.is_signed ? -(WideWhole{1} << (signal.length - 1)) : WideWhole{0}; }
 WideWhole greatest_raw(const CanSignal& signal) { return (WideWhole{1} << (signal.is_signed ? signal.length - 1 : signal.length)) - 1; }
 
 std::string raw_limit_text(const CanSignal& signal, WideWhole raw) {
@@ -124,14 +124,14 @@ std::string raw_limit_text(const CanSignal& signal, WideWhole raw) {
 }
 
 [[noreturn]] void refuse_size(const CanSignal& signal, const std::string& found) {
-    std::string a = raw_limit_text(signal, least_raw(signal)), b = raw_limit_text(signal, greatest_raw(signal));
+    std::string a = raw_limit_text(signal, min_raw(signal)), b = raw_limit_text(signal, greatest_raw(signal));
     if (signal.factor < 0.0)
         std::swap(a, b);
     throw InputError(in_signal(signal), "found " + found, fmt::format("{} to {}, which is what its {} bits hold", a, b, signal.length));
 }
 
 std::uint64_t fitted(const CanSignal& signal, WideWhole raw, const std::string& found) {
-    if (raw < least_raw(signal) || raw > greatest_raw(signal))
+    if (raw < min_raw(signal) || raw > greatest_raw(signal))
         refuse_size(signal, found);
     return static_cast<std::uint64_t>(raw) & all_bits(signal);
 }

@@ -29,7 +29,7 @@ double BendLight::step(const SignalTable& table, double dt_s) {
     else if (v < 2.0 * parameters_.from_speed_mps || v <= 0.0)
         angle_rad *= v > parameters_.from_speed_mps ? v / parameters_.from_speed_mps - 1.0 : 0.0;
     angle_rad = std::copysign(std::max(std::abs(angle_rad) - parameters_.dead_band_rad, 0.0), angle_rad);
-    return filter_.step(std::clamp(angle_rad, parameters_.actuator.least_rad, parameters_.actuator.greatest_rad), dt_s);
+    return filter_.step(std::clamp(angle_rad, parameters_.actuator.min_rad, parameters_.actuator.max_rad), dt_s);
 }
 
 double bend_of_lamp_rad(const BendParameters& parameters, double bend_rad, double left_m) {

@@ -18,7 +18,7 @@ namespace fernlicht {
 class StuckSwivel {
   public:
     StuckSwivel(const StuckSwivelParameters& parameters, const ActuatorParameters& actuator)
-        : parameters_(parameters), least_rad_(actuator.least_rad), greatest_rad_(actuator.greatest_rad) {}
+        : parameters_(parameters), min_rad_(actuator.min_rad), max_rad_(actuator.max_rad) {}
 
     /// `asked_rad`: the command that has reached it, `actual_rad`: where it is, both now, `dt_s` after the last step.
     bool step(double asked_rad, double actual_rad, double dt_s);
@@ -28,7 +28,7 @@ class StuckSwivel {
 
   private:
     StuckSwivelParameters parameters_;
-    double least_rad_, greatest_rad_, last_rad_ = 0.0, still_s_ = 0.0;
+    double min_rad_, max_rad_, last_rad_ = 0.0, still_s_ = 0.0;
     bool found_ = false;
 };
 

@@ -27,8 +27,8 @@ double breach_rad(const ControlRun& run, const ActuatorParameters& actuator, dou
             const double now = run.swivel_rad(lamp, k * step_s);
             if (!std::isfinite(now))
                 return std::numeric_limits<double>::infinity();
-            worst = std::max({worst, now - actuator.greatest_rad, actuator.least_rad - now,
-                              std::abs(now - before) - actuator.rate_limit_rad_s * step_s});
+            worst = std::max(
+                {worst, now - actuator.max_rad, actuator.min_rad - now, std::abs(now - before) - actuator.rate_limit_rad_s * step_s});
             before = now;
         }
     }

@@ -175,7 +175,7 @@ void ControlPlugin::step(SignalTable& table, std::vector<std::vector<double>>& a
     ++p.calls;
 
     const bool first = p.commands.empty();
-    const auto taken = [&](double value, double least, double greatest, double otherwise) {
+    const auto value_in_range = [&](double value, double least, double greatest, double otherwise) {
         const bool good = value >= least && value <= greatest;
         p.left_out += good ? 0U : 1U;
         return good ? value : otherwise;
@@ -184,11 +184,11 @@ void ControlPlugin::step(SignalTable& table, std::vector<std::vector<double>>& a
         if (!p.may_move[i])
             continue;
         const fernlicht_lamp_command& held = first ? before[i] : p.commands[i];
-        commands[i].swivel_rad = taken(commands[i].swivel_rad, -1.6, 1.6, held.swivel_rad);
-        commands[i].pitch_rad = taken(commands[i].pitch_rad, -0.3, 0.3, held.pitch_rad);
-        commands[i].level = taken(commands[i].level, 0.0, 1.0, held.level);
+        commands[i].swivel_rad = value_in_range(commands[i].swivel_rad, -1.6, 1.6, held.swivel_rad);
+        commands[i].pitch_rad = value_in_range(commands[i].pitch_rad, -0.3, 0.3, held.pitch_rad);
+        commands[i].level = value_in_range(commands[i].level, 0.0, 1.0, held.level);
         for (std::size_t k = 0; k < segments[i].size(); ++k)
-            segments[i][k] = taken(segments[i][k], 0.0, 1.0, first ? all_segments[i][k] : p.segments[i][k]);
+            segments[i][k] = value_in_range(segments[i][k], 0.0, 1.0, first ? all_segments[i][k] : p.segments[i][k]);
     }
     p.commands = std::move(commands);
     p.segments = std::move(segments);

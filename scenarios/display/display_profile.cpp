@@ -16,17 +16,17 @@ namespace fernlicht {
 namespace {
 
 // SMPTE ST 2084:2014, equations 4.1 and 5.2, and what it ends at.
-constexpr double pq_most_cdm2 = 10000.0;
+constexpr double pq_max_cdm2 = 10000.0;
 constexpr double pq_m1 = 2610.0 / 16384.0, pq_m2 = 128.0 * 2523.0 / 4096.0, pq_c1 = 3424.0 / 4096.0, pq_c2 = 32.0 * 2413.0 / 4096.0,
                  pq_c3 = 32.0 * 2392.0 / 4096.0;
 
 double pq_luminance(double code) {
     const double e = std::pow(std::max(code, 0.0), 1.0 / pq_m2);
-    return pq_most_cdm2 * std::pow(std::max(e - pq_c1, 0.0) / (pq_c2 - pq_c3 * e), 1.0 / pq_m1);
+    return pq_max_cdm2 * std::pow(std::max(e - pq_c1, 0.0) / (pq_c2 - pq_c3 * e), 1.0 / pq_m1);
 }
 
 double pq_code(double luminance_cdm2) {
-    const double y = std::pow(std::max(luminance_cdm2, 0.0) / pq_most_cdm2, pq_m1);
+    const double y = std::pow(std::max(luminance_cdm2, 0.0) / pq_max_cdm2, pq_m1);
     return std::pow((pq_c1 + pq_c2 * y) / (1.0 + pq_c3 * y), pq_m2);
 }
 
@@ -36,15 +36,15 @@ glm::dvec3 unit_xyz(const glm::dvec2& chromaticity) {
     return {chromaticity.x / chromaticity.y, 1.0, (1.0 - chromaticity.x - chromaticity.y) / chromaticity.y};
 }
 
-constexpr std::size_t most_profile_bytes = std::size_t{1} << 20;
-constexpr double lumens_per_watt = 683.0, least_white_cdm2 = 1.0e-3, most_cdm2 = 1.0e5,
+constexpr std::size_t max_profile_bytes = std::size_t{1} << 20;
+constexpr double lumens_per_watt = 683.0, min_white_cdm2 = 1.0e-3, max_cdm2 = 1.0e5,
                  rounding_of_colours = 1.0e-3; ///< of what files give to three digits
 
 glm::dmat3 read_matrix(const YamlEntry& entry) {
     const std::vector<YamlEntry> rows = entry.list(3, 3);
     glm::dmat3 matrix;
     for (int row = 0; row < 3; ++row) {
-        const std::vector<double> numbers = rows[static_cast<std::size_t>(row)].numbers(3, 3, -most_cdm2, most_cdm2);
+        const std::vector<double> numbers = rows[static_cast<std::size_t>(row)].numbers(3, 3, -max_cdm2, max_cdm2);
         for (int column = 0; column < 3; ++column)
             matrix[column][row] = numbers[static_cast<std::size_t>(column)];
     }
@@ -53,7 +53,7 @@ glm::dmat3 read_matrix(const YamlEntry& entry) {
 
 glm::dvec2 read_chromaticity(const YamlMap& primaries, const char* key) {
     const YamlEntry entry = primaries.require(key);
-    const std::vector<double> xy = entry.numbers(2, 2, -most_cdm2, most_cdm2);
+    const std::vector<double> xy = entry.numbers(2, 2, -max_cdm2, max_cdm2);
     if (xy[0] < 0.0 || xy[1] <= 0.0 || xy[0] + xy[1] > 1.0 + rounding_of_colours)
         entry.refuse(fmt::format("found [{}, {}], a chromaticity that no light has", xy[0], xy[1]),
                      "x, y with x at least 0, y above 0 and x + y at most 1");
@@ -61,7 +61,7 @@ glm::dvec2 read_chromaticity(const YamlMap& primaries, const char* key) {
 }
 
 double read_peak(const YamlEntry& entry, double black_cdm2) {
-    const double peak_cdm2 = entry.number_above(0.0, most_cdm2);
+    const double peak_cdm2 = entry.number_above(0.0, max_cdm2);
     if (!(peak_cdm2 > black_cdm2))
         entry.refuse(fmt::format("a peak of {:g} cd/m2 with black_cdm2: {:g}", peak_cdm2, black_cdm2), "more than black_cdm2");
     return peak_cdm2;
@@ -104,8 +104,8 @@ glm::dmat3 read_light(const YamlMap& keys, double black_cdm2) {
     if (unit && unit->choice({"cd/m2", "W/(sr m2)"}) == 1)
         matrix = lumens_per_watt * matrix;
     const double white_cdm2 = matrix[0].y + matrix[1].y + matrix[2].y;
-    if (!(white_cdm2 >= least_white_cdm2 && white_cdm2 <= most_cdm2))
-        given->second.refuse(fmt::format("a white of {:.3g} cd/m2", white_cdm2), fmt::format("{:g} to {:g}", least_white_cdm2, most_cdm2));
+    if (!(white_cdm2 >= min_white_cdm2 && white_cdm2 <= max_cdm2))
+        given->second.refuse(fmt::format("a white of {:.3g} cd/m2", white_cdm2), fmt::format("{:g} to {:g}", min_white_cdm2, max_cdm2));
     if (peak)
         matrix *= (peak_cdm2 - black_cdm2) / white_cdm2;
     refuse_impossible_light(matrix, given->second);
@@ -129,12 +129,12 @@ void read_transfer(const YamlMap& keys, DisplayProfile& profile) {
 }
 
 void refuse_white_beyond_pq(const YamlMap& keys, const DisplayProfile& profile) {
-    if (profile.transfer != TransferKind::pq || profile.peak_cdm2() <= pq_most_cdm2 * (1.0 + 1.0e-9))
+    if (profile.transfer != TransferKind::pq || profile.peak_cdm2() <= pq_max_cdm2 * (1.0 + 1.0e-9))
         return;
     const auto peak = keys.find("peak_cdm2");
     (peak ? *peak : keys.require("rgb_to_xyz"))
         .refuse(fmt::format("a peak of {:g} cd/m2 with transfer: pq", profile.peak_cdm2()),
-                fmt::format("at most {:g}, where the codes of SMPTE ST 2084 end", pq_most_cdm2));
+                fmt::format("at most {:g}, where the codes of SMPTE ST 2084 end", pq_max_cdm2));
 }
 
 } // namespace
@@ -205,7 +205,7 @@ double encoded(const DisplayProfile& profile, double share) {
 }
 
 DisplayProfile read_display_profile(const std::filesystem::path& path, FilesRead& opened) {
-    const YamlValue tree = parse_yaml(read_file(path, opened, most_profile_bytes), path);
+    const YamlValue tree = parse_yaml(read_file(path, opened, max_profile_bytes), path);
     const YamlMap keys = YamlEntry(tree, path, "")
                              .map({"fernlicht_display", "title", "rgb_to_xyz", "unit", "primaries", "peak_cdm2", "black_cdm2", "transfer",
                                    "gamut", "bits", "viewing_distance_m", "pixel_pitch_mm"});
@@ -215,7 +215,7 @@ DisplayProfile read_display_profile(const std::filesystem::path& path, FilesRead
     profile.name = path.stem().string();
     const auto title = keys.find("title");
     profile.title = title ? title->text() : profile.name;
-    profile.black_cdm2 = keys.number_or("black_cdm2", 0.0, 0.0, most_cdm2);
+    profile.black_cdm2 = keys.number_or("black_cdm2", 0.0, 0.0, max_cdm2);
     profile.xyz_from_rgb = read_light(keys, profile.black_cdm2);
     read_transfer(keys, profile);
     refuse_white_beyond_pq(keys, profile);

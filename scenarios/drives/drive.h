@@ -40,14 +40,14 @@ struct ControlParameters;
 struct Motion;
 
 /// One lamp set under comparison: the whole drive is played once with each.
-struct Variant {
+struct LampSet {
     std::string name; ///< "halogen", "xenon"
     std::vector<MountedLamp> lamps;
     std::vector<LampChange> changes;
     std::optional<LevellingParameters> levelling = std::nullopt; ///< only in a drive with a vehicle, as the next
     std::optional<SwivelParameters> swivel = std::nullopt;
     std::shared_ptr<const ControlParameters> control = nullptr; ///< laws that move and dim the lamps (control_parameters.h); nullptr: none
-    std::vector<LampChange> told = {};                          ///< of the storyboard, behind `changes`; not part of the file
+    std::vector<LampChange> storyboard_changes = {};            ///< of the storyboard, behind `changes`; not part of the file
     std::shared_ptr<const Motion> motion = nullptr;             ///< what simulate() made of them (motion.h); not part of the file
 };
 
@@ -59,7 +59,7 @@ struct Probe {
 };
 
 struct ExtentParameters {
-    std::vector<double> limits_lx{1.0, 3.0, 5.0, 10.0};
+    std::vector<double> thresholds_lx{1.0, 3.0, 5.0, 10.0};
     double target_height_m = 0.25; ///< of the target that faces the car
     double ahead_m = 200.0;        ///< how far is looked
     double beside_m = 20.0;        ///< how far to each side
@@ -95,7 +95,7 @@ struct BusMapping;
 struct BusMotion;
 struct BusPlay;
 struct DriveLog;
-struct ToldStory;
+struct StoryboardTimeline;
 
 struct Drive {
     std::string name, title;
@@ -113,17 +113,18 @@ struct Drive {
     double bumper_m = 0.0;                      ///< x of the front bumper in the car's frame; reach is measured from it
     double wheelbase_m = 2.7;                   ///< from the rear axle to the front axle
     std::optional<VehicleParameters> vehicle;   ///< none: the car follows its lane as on rails
-    std::vector<Variant> variants;              ///< at least one
+    std::vector<LampSet> lamp_sets;             ///< at least one
     std::vector<TrafficRow> traffic_rows;       ///< road users as the file asks for them
-    double least_traffic_lx = 0.05;             ///< light of others below this is left out, from any one lamp (docs/traffic.md); > 0
+    double min_traffic_lx = 0.05;               ///< light of others below this is left out, from any one lamp (docs/traffic.md); > 0
     std::optional<StoryboardSource> storyboard; ///< where the own car and others go, instead of route and speed
     std::shared_ptr<const DriveLog> replay;     ///< poses, lamps and levels of a drive played before; not part of the file
     std::vector<RoadUser> traffic;              ///< what place_traffic() made of them; not part of the file
     std::shared_ptr<const Track> ego_track;     ///< the own car's way where a log or a storyboard says it; nullptr: the route's
-    std::shared_ptr<const ToldStory> told; ///< what a storyboard changes besides (told_story.h); nullptr: nothing. Not part of the file
-    std::shared_ptr<const BusMapping> can; ///< signals from and to a bus (can/bus_mapping.h); nullptr: none
-    bool live = false;                     ///< the bus is listened to while the drive happens (bus_drive.h). Not part of the file
-    std::shared_ptr<const BusPlay> bus;    ///< what simulate_bus() made of a recording (bus_play.h). Not part of the file
+    std::shared_ptr<const StoryboardTimeline>
+        timeline; ///< what a storyboard changes besides (storyboard_timeline.h); nullptr: nothing. Not part of the file
+    std::shared_ptr<const BusMapping> can;       ///< signals from and to a bus (can/bus_mapping.h); nullptr: none
+    bool live = false;                           ///< the bus is listened to while the drive happens (bus_drive.h). Not part of the file
+    std::shared_ptr<const BusPlay> bus;          ///< what simulate_bus() made of a recording (bus_play.h). Not part of the file
     std::shared_ptr<const BusMotion> bus_motion; ///< how the own car moves by the bus; nullptr: as `speed` says. Not part of the file
     std::vector<View> views;                     ///< first is the driver's
     Capture capture;

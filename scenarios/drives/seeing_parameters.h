@@ -22,7 +22,7 @@ struct Sensor {
 };
 
 struct SensorParameters {
-    std::vector<double> limits_lx{1.0, 3.0, 5.0, 10.0};
+    std::vector<double> thresholds_lx{1.0, 3.0, 5.0, 10.0};
     std::vector<double> distances_m{25.0, 50.0, 75.0, 100.0, 150.0}; ///< from the front bumper, at which the illuminance is told
     std::vector<Sensor> points;
 
@@ -67,9 +67,9 @@ struct GlareParameters {
     double pigmentation = 0.5;
     double adaptation_cdm2 = 1.0;
     std::vector<double> distances_m{25.0, 50.0, 75.0, 100.0, 150.0}; ///< from the front bumper
-    std::vector<double> limits_lx{0.5, 1.0, 3.0};                    ///< of illuminance facing the lamps, for times above them
-    std::vector<double> limits_percent{10.0};                        ///< of the threshold increment
-    std::vector<double> limits_de_boer{5.0, 3.0};                    ///< for times below them
+    std::vector<double> thresholds_lx{0.5, 1.0, 3.0};                ///< of illuminance facing the lamps, for times above them
+    std::vector<double> thresholds_percent{10.0};                    ///< of the threshold increment
+    std::vector<double> thresholds_de_boer{5.0, 3.0};                ///< for times below them
 
     bool operator==(const GlareParameters&) const = default;
 };
@@ -88,11 +88,11 @@ struct VisibilityTarget {
 };
 
 /// "card", "pedestrian-dark", "pedestrian-light" (docs/seeing.md has their sources).
-const std::vector<VisibilityTarget>& usual_targets();
+const std::vector<VisibilityTarget>& default_targets();
 
 /// Targets, and who looks for them.
 struct VisibilityParameters {
-    std::vector<VisibilityTarget> targets = usual_targets();
+    std::vector<VisibilityTarget> targets = default_targets();
     double dark_cdm2 = 0.001; ///< luminance of what is not road behind a target, without daylight
     double age_years = 25.0;
     double time_s = 0.2; ///< for which a target shows
@@ -105,7 +105,7 @@ struct VisibilityParameters {
 };
 
 struct HomogeneityParameters {
-    double least_lx = 1.0; ///< darker ground does not count
+    double min_lx = 1.0;   ///< darker ground does not count
     double ahead_m = 80.0; ///< how far is looked, from the front bumper
     double patch_factor = 1.5;
 

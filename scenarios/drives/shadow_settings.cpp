@@ -49,7 +49,7 @@ std::string_view name(ShadowMethod method) {
 
 void set_shadow_method(ShadowSettings& shadows, ShadowMethod method) {
     shadows.method = method;
-    shadows.things_cast |= method != ShadowMethod::none;
+    shadows.objects_cast |= method != ShadowMethod::none;
 }
 
 ShadowMethod shadow_method_named(const std::string& name, const std::filesystem::path& asked_in, const char* asked_by) {

@@ -35,7 +35,7 @@ struct ShadowSettings {
     double redraw_texels = 0.0;  ///< maps: one is kept while no shadow's edge has moved by more than this; 0..16; 0: never
     double lamp_radius_m = 0.06; ///< soft_map: of the discs that lamps are; 0.001..0.5
     int lamp_places = 16;        ///< soft_map: maps of each lamp; 1..64
-    bool things_cast = true;     ///< false: nothing throws a shadow, for rays either; only with none (`shadows: false`)
+    bool objects_cast = true;    ///< false: nothing throws a shadow, for rays either; only with none (`shadows: false`)
     double error_bound = 0.01;   ///< automatic: largest share of what is lit without shadows that may be drawn wrongly; 0..<1
 
     bool operator==(const ShadowSettings&) const = default;

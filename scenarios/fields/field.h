@@ -238,7 +238,7 @@ inline FieldRule above(double bound, double greatest) {
 FieldRule degrees_within(std::string_view key, double limit_deg);
 FieldRule in_radians(std::string_view key, double limit_deg); ///< the same, written in radians
 /// `key`_deg_s or `key`_rad_s.
-FieldRule angular_speed(std::string_view key, double least_deg_s, double most_deg_s, double least_rad_s, double most_rad_s);
+FieldRule angular_speed(std::string_view key, double min_deg_s, double max_deg_s, double min_rad_s, double max_rad_s);
 /// `key`_kmh up to 540, or `key`_mps.
 FieldRule speed(std::string_view key);
 FieldRule units(FieldUnit first, FieldUnit own);

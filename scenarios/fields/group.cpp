@@ -97,9 +97,9 @@ FieldRule speed(std::string_view key) {
     return units({std::string(key) + "_kmh", from_kmh, 0.0, 540.0}, {std::string(key) + "_mps", as_given, 0.0, 150.0});
 }
 
-FieldRule angular_speed(std::string_view key, double least_deg_s, double most_deg_s, double least_rad_s, double most_rad_s) {
-    return units({std::string(key) + "_deg_s", from_degrees, least_deg_s, most_deg_s},
-                 {std::string(key) + "_rad_s", as_given, least_rad_s, most_rad_s});
+FieldRule angular_speed(std::string_view key, double min_deg_s, double max_deg_s, double min_rad_s, double max_rad_s) {
+    return units({std::string(key) + "_deg_s", from_degrees, min_deg_s, max_deg_s},
+                 {std::string(key) + "_rad_s", as_given, min_rad_s, max_rad_s});
 }
 
 } // namespace fernlicht

@@ -12,7 +12,7 @@ struct BeamTexels {
 
 /// What the founding thesis had.
 inline constexpr BeamTexels eight_bit_texels{512, 128, 8};
-inline constexpr int least_beam_texels = 2, most_beam_texels = 8192;
+inline constexpr int min_beam_texels = 2, max_beam_texels = 8192;
 
 /// The largest step of texels of 8 or 16 bits.
 inline int largest_step(int bits) { return (1 << bits) - 1; }

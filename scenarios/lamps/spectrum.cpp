@@ -88,7 +88,7 @@ glm::dvec3 linear_srgb(const VisualIntegrals& i) {
     return rgb / (0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z);
 }
 
-constexpr std::size_t most_samples = 100000;
+constexpr std::size_t max_samples = 100000;
 constexpr double needed_from_nm = 400.0, needed_to_nm = 700.0, coarsest_nm = 20.0;
 
 std::vector<std::string_view> fields_of(std::string_view line) {
@@ -130,8 +130,8 @@ bool add_sample(std::string_view line, const InputError::Where& where, Spectrum&
         throw InputError(where, fmt::format("found wavelength {} nm", *nm), "wavelengths above 0 that ascend from line to line");
     if (*power < 0.0)
         throw InputError(where, fmt::format("found power {}", *power), "a relative power of 0 or more");
-    if (s.power.size() == most_samples)
-        throw InputError(where, fmt::format("found more than {} samples", most_samples), "a spectrum in nm");
+    if (s.power.size() == max_samples)
+        throw InputError(where, fmt::format("found more than {} samples", max_samples), "a spectrum in nm");
     s.wavelength_nm.push_back(*nm);
     s.power.push_back(*power);
     return true;

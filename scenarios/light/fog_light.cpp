@@ -9,7 +9,7 @@ namespace fernlicht {
 namespace {
 
 constexpr double nearest_pass_m = 1e-3;
-constexpr int most_samples = 65'536;
+constexpr int max_samples = 65'536;
 
 /// A ray past a lamp, in lamp space: angles at the lamp between which it runs before the lamp.
 struct Pass {
@@ -76,7 +76,7 @@ double airlight_cdm2(const LitLamp& lamp, const Weather& weather, const glm::dve
         return 0.0;
     double sum = sum_of(lamp, weather, pass, 256);
     int agreed = 0; // beams have kinks: once may be by chance
-    for (int samples = 512; samples <= most_samples && agreed < 2; samples *= 2) {
+    for (int samples = 512; samples <= max_samples && agreed < 2; samples *= 2) {
         const double finer = sum_of(lamp, weather, pass, samples);
         agreed = std::abs(finer - sum) <= relative * finer ? agreed + 1 : 0;
         sum = finer;

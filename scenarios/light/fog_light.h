@@ -18,8 +18,8 @@ double airlight_cdm2(const LitLamp& lamp, const Weather& weather, const glm::dve
 /// The same by a fixed number of midpoints, at the places where the shader has them.
 double airlight_cdm2(const LitLamp& lamp, const Weather& weather, const glm::dvec3& eye_m, const glm::dvec3& point_m, int samples);
 
-/// What a drawing may leave out of one lamp of others seen in the air: as much as `least_lx` gives a surface of reflectance 0.1.
-inline double least_airlight_cdm2(double least_lx) { return 0.1 * least_lx / 3.14159265358979323846; }
+/// What a drawing may leave out of one lamp of others seen in the air: as much as `min_lx` gives a surface of reflectance 0.1.
+inline double min_airlight_cdm2(double min_lx) { return 0.1 * min_lx / 3.14159265358979323846; }
 
 /// Luminance of the uniform sky before which the medium hides a surface: what comes in its place, L_sky (1 - transmittance).
 double sky_airlight_cdm2(const Daylight& daylight, const Weather& weather, double distance_m);

@@ -7,7 +7,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_offset = std::size_t{1} << 31;
+constexpr std::size_t max_offset = std::size_t{1} << 31;
 
 std::size_t component_bytes(std::size_t type) {
     return type == 5120 || type == 5121 ? 1 : type == 5122 || type == 5123 ? 2 : type == 5125 || type == 5126 ? 4 : 0;
@@ -64,7 +64,7 @@ std::string_view GltfAccessors::view_bytes(const GltfEntry& reference) const {
     const GltfEntry view = root_.at("bufferViews", reference.index(root_.list_size("bufferViews"), "buffer views"));
     const GltfEntry buffer_entry = view.require("buffer");
     const std::string& buffer = file_.buffers[buffer_entry.index(file_.buffers.size(), "buffers")];
-    const std::size_t offset = view.whole_or("byteOffset", 0, most_offset), length = view.require("byteLength").whole(most_offset);
+    const std::size_t offset = view.whole_or("byteOffset", 0, max_offset), length = view.require("byteLength").whole(max_offset);
     if (offset > buffer.size() || length > buffer.size() - offset)
         view.refuse(fmt::format("bytes {} to {} of a buffer of {}", offset, offset + length, buffer.size()), "a view within its buffer");
     return std::string_view(buffer).substr(offset, length);
@@ -110,7 +110,7 @@ GltfAccessors::Layout GltfAccessors::layout(const GltfEntry& reference) const {
 
 GltfAccessors::Layout GltfAccessors::layout_of(const GltfEntry& entry) const {
     Layout l(entry);
-    l.count = entry.require("count").whole(most_accessor_elements);
+    l.count = entry.require("count").whole(max_accessor_elements);
     l.type = entry.require("componentType").whole(10'000);
     l.bytes = component_bytes(l.type);
     if (l.bytes == 0)
@@ -121,16 +121,16 @@ GltfAccessors::Layout GltfAccessors::layout_of(const GltfEntry& entry) const {
     l.normalized = entry.flag_or("normalized", false);
     if (const auto view = entry.find("bufferView"))
         l.dense =
-            block(*view, entry.whole_or("byteOffset", 0, most_offset), l.count, l.width * l.bytes, entry.whole_or("stride1", 0, 65536));
+            block(*view, entry.whole_or("byteOffset", 0, max_offset), l.count, l.width * l.bytes, entry.whole_or("stride1", 0, 65536));
     if (const auto sparse = entry.find("sparse")) {
         l.sparse_count = sparse->require("count").whole(l.count);
         const GltfEntry indices = sparse->require("indices"), values = sparse->require("values");
         l.sparse_type = indices.require("componentType").whole(10'000);
         if (l.sparse_type != 5121 && l.sparse_type != 5123 && l.sparse_type != 5125)
             indices.require("componentType").refuse("5121, 5123 or 5125");
-        l.sparse_indices = block(indices.require("bufferView"), indices.whole_or("byteOffset", 0, most_offset), l.sparse_count,
+        l.sparse_indices = block(indices.require("bufferView"), indices.whole_or("byteOffset", 0, max_offset), l.sparse_count,
                                  component_bytes(l.sparse_type), component_bytes(l.sparse_type));
-        l.sparse_values = block(values.require("bufferView"), values.whole_or("byteOffset", 0, most_offset), l.sparse_count,
+        l.sparse_values = block(values.require("bufferView"), values.whole_or("byteOffset", 0, max_offset), l.sparse_count,
                                 l.width * l.bytes, l.width * l.bytes);
     }
     return l;

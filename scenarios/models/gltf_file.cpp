@@ -12,7 +12,7 @@ namespace fernlicht {
 namespace {
 
 constexpr int deepest_json = 64;
-constexpr std::size_t most_json_values = 4'000'000;
+constexpr std::size_t max_json_values = 4'000'000;
 constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 
 nlohmann::json parsed(const std::string& text, const std::filesystem::path& path) {
@@ -20,8 +20,8 @@ nlohmann::json parsed(const std::string& text, const std::filesystem::path& path
     const auto watch = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
         if (depth > deepest_json)
             throw InputError({path, 0, 0, {}}, fmt::format("nested deeper than {} levels", deepest_json), "a glTF model");
-        if (++values > most_json_values)
-            throw InputError({path, 0, 0, {}}, fmt::format("more than {} values of JSON", most_json_values), "a glTF model");
+        if (++values > max_json_values)
+            throw InputError({path, 0, 0, {}}, fmt::format("more than {} values of JSON", max_json_values), "a glTF model");
         return true;
     };
     try {

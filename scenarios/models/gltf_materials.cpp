@@ -11,7 +11,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_pictures = 256, most_picture_pixels = std::size_t{4096} * 4096, most_pixels = 16 * most_picture_pixels;
+constexpr std::size_t max_pictures = 256, max_picture_pixels = std::size_t{4096} * 4096, max_pixels = 16 * max_picture_pixels;
 
 float share(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
 
@@ -139,14 +139,14 @@ int GltfMaterials::texture(const GltfEntry& info, GltfLook& look) {
 }
 
 int GltfMaterials::picture(const GltfEntry& image, const std::string& name) {
-    if (pictures_.size() >= most_pictures)
-        image.refuse(fmt::format("more than {} pictures", most_pictures), "fewer");
+    if (pictures_.size() >= max_pictures)
+        image.refuse(fmt::format("more than {} pictures", max_pictures), "fewer");
     const auto uri = image.find("uri");
     const std::string bytes = uri ? file_.at_uri(*uri) : std::string(accessors_.view_bytes(image.require("bufferView")));
     const DecodedPicture decoded =
-        decode_picture(file_.path, image.way(), bytes, std::min(most_picture_pixels, most_pixels - decoded_pixels_));
+        decode_picture(file_.path, image.way(), bytes, std::min(max_picture_pixels, max_pixels - decoded_pixels_));
     decoded_pixels_ += static_cast<std::size_t>(decoded.width) * static_cast<std::size_t>(decoded.height);
-    model_.textures.push_back(surface_texture(name, decoded.width, decoded.height, decoded.rgba, most_texture_px));
+    model_.textures.push_back(surface_texture(name, decoded.width, decoded.height, decoded.rgba, max_texture_px));
     const SurfaceTexture& made = model_.textures.back();
     if (made.width != decoded.width || made.height != decoded.height)
         add_note(model_.notes, fmt::format("picture {} of {} x {} texels is taken at {} x {}", name, decoded.width, decoded.height,

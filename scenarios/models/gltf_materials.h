@@ -10,7 +10,7 @@
 
 namespace fernlicht {
 
-inline constexpr std::size_t most_accessor_elements = 12'000'000;
+inline constexpr std::size_t max_accessor_elements = 12'000'000;
 
 /// What accessors of a file hold. Points into the file.
 class GltfAccessors {

@@ -15,7 +15,7 @@ namespace fernlicht {
 namespace {
 
 constexpr double sheets_apart_m = 0.0005; ///< of a surface that is lit from both sides
-constexpr std::size_t most_nodes = 200'000;
+constexpr std::size_t max_nodes = 200'000;
 
 /// Extensions without which such a file can be read, or that are read.
 constexpr std::string_view known_extensions[] = {"KHR_texture_transform",
@@ -39,13 +39,13 @@ class GltfReading {
         const GltfEntry root = file_.root();
         check_extensions(root);
         accessors_.check_all();
-        if (root.list_size("nodes") > most_nodes)
-            root.require("nodes").refuse(fmt::format("at most {} nodes", most_nodes));
+        if (root.list_size("nodes") > max_nodes)
+            root.require("nodes").refuse(fmt::format("at most {} nodes", max_nodes));
         std::size_t triangles = 0; // counted before the first is made
         walk_nodes(root, [&](const GltfEntry& node, const glm::dmat4&) {
-            for_meshes(node, [&](const GltfEntry& mesh) { triangles += most_triangles(mesh); });
-            if (triangles > most_model_triangles)
-                node.refuse(fmt::format("with it the model has {} triangles", triangles), fmt::format("at most {}", most_model_triangles));
+            for_meshes(node, [&](const GltfEntry& mesh) { triangles += max_triangles(mesh); });
+            if (triangles > max_model_triangles)
+                node.refuse(fmt::format("with it the model has {} triangles", triangles), fmt::format("at most {}", max_model_triangles));
         });
         walk_nodes(root, [&](const GltfEntry& node, const glm::dmat4& world) { visit(node, world); });
         if (soup_.triangles.empty())
@@ -84,7 +84,7 @@ class GltfReading {
     }
 
     /// What a mesh's accessors declare.
-    std::size_t most_triangles(const GltfEntry& mesh) const {
+    std::size_t max_triangles(const GltfEntry& mesh) const {
         const std::size_t accessors = file_.root().list_size("accessors");
         std::size_t triangles = 0;
         for (const GltfEntry& primitive : mesh.list("primitives")) {
@@ -95,7 +95,7 @@ class GltfReading {
             if (!corners)
                 continue;
             const GltfEntry accessor = file_.root().at("accessors", corners->index(accessors, "accessors"));
-            const std::size_t count = accessor.require("count").whole(most_accessor_elements), mode = primitive.whole_or("mode", 4, 6);
+            const std::size_t count = accessor.require("count").whole(max_accessor_elements), mode = primitive.whole_or("mode", 4, 6);
             triangles += mode == 4 ? count / 3 : mode > 4 && count > 2 ? count - 2 : 0;
         }
         return triangles;
@@ -153,8 +153,8 @@ class GltfReading {
                 corners.indices.push_back(i);
         corners.indices = by_three(std::move(corners.indices), mode);
         const std::size_t fresh = corners.indices.size() / 3 * (look.double_sided ? 2 : 1);
-        if (fresh > most_model_triangles - soup_.triangles.size())
-            throw InputError({file_.path, 0, 0, primitive.way()}, fmt::format("more than {} triangles", most_model_triangles), "fewer");
+        if (fresh > max_model_triangles - soup_.triangles.size())
+            throw InputError({file_.path, 0, 0, primitive.way()}, fmt::format("more than {} triangles", max_model_triangles), "fewer");
         add_triangles(corners, look, world, position->way());
     }
 

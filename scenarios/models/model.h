@@ -21,7 +21,7 @@ struct Mount {
 struct Model {
     std::string name;
     std::vector<Material> materials;
-    std::vector<SurfaceTexture> textures; ///< powers of two, at most most_texture_px to a side, each of its own size
+    std::vector<SurfaceTexture> textures; ///< powers of two, at most max_texture_px to a side, each of its own size
     std::vector<Mesh> meshes;             ///< one, or one a cell of 64 m where the model is larger than 128 m
     std::vector<Mount> mounts;            ///< by name
     glm::dvec3 low_m{0.0}, high_m{0.0};   ///< the box round it
@@ -31,8 +31,8 @@ struct Model {
     std::size_t triangles() const;
 };
 
-inline constexpr int most_texture_px = 512;
-inline constexpr std::size_t most_model_triangles = 4'000'000;
+inline constexpr int max_texture_px = 512;
+inline constexpr std::size_t max_model_triangles = 4'000'000;
 inline constexpr double farthest_model_m = 100'000.0; ///< coordinates of a model
 
 /// Reads glTF 2.0 (.gltf, .glb), or 1.0 as far as it can be said in 2.0. The file's axes (y up, z forward) become ours. Nodes whose name

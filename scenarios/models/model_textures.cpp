@@ -51,18 +51,18 @@ std::vector<float> resampled(const std::vector<float>& texels, std::size_t width
 }
 
 /// The power of two that is nearest by ratio.
-std::size_t side(int px, int most_px) {
-    return std::min(std::size_t{1} << std::lround(std::log2(std::max(px, 1))), static_cast<std::size_t>(most_px));
+std::size_t side(int px, int max_px) {
+    return std::min(std::size_t{1} << std::lround(std::log2(std::max(px, 1))), static_cast<std::size_t>(max_px));
 }
 
 } // namespace
 
-SurfaceTexture surface_texture(std::string name, int width, int height, const std::vector<std::uint8_t>& rgba, int most_px) {
+SurfaceTexture surface_texture(std::string name, int width, int height, const std::vector<std::uint8_t>& rgba, int max_px) {
     static const std::array<float, 256> curve = linear_of_srgb();
     std::vector<float> linear(rgba.size());
     for (std::size_t i = 0; i < rgba.size(); ++i)
         linear[i] = i % 4 == 3 ? static_cast<float>(rgba[i]) / 255.0F : curve[rgba[i]];
-    const std::size_t to_width = side(width, most_px), to_height = side(height, most_px);
+    const std::size_t to_width = side(width, max_px), to_height = side(height, max_px);
     const std::vector<float> fitted =
         resampled(linear, static_cast<std::size_t>(width), static_cast<std::size_t>(height), to_width, to_height);
     SurfaceTexture texture{std::move(name), static_cast<int>(to_width), static_cast<int>(to_height), {}};

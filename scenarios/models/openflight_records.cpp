@@ -11,7 +11,7 @@ namespace {
 // Codes and places in the header as the OpenFlight Scene Description Database Specification has them; numbers are big-endian.
 constexpr std::size_t header = 1, push = 10, pop = 11, push_subface = 19, pop_subface = 20, push_extension = 21, pop_extension = 22,
                       push_attribute = 122, pop_attribute = 123;
-constexpr std::size_t revision_at = 12, least_header = 128;
+constexpr std::size_t revision_at = 12, min_header = 128;
 constexpr int deepest = 1000;
 
 std::size_t number(const std::string& bytes, std::size_t at, std::size_t size) {
@@ -25,7 +25,7 @@ std::size_t number(const std::string& bytes, std::size_t at, std::size_t size) {
 
 void check_openflight(const std::filesystem::path& path, const std::string& bytes) {
     const auto fail = [&](const std::string& found, const std::string& expected) { throw InputError({path, 0, 0, {}}, found, expected); };
-    if (bytes.size() < least_header || number(bytes, 0, 2) != header || number(bytes, 2, 2) < least_header)
+    if (bytes.size() < min_header || number(bytes, 0, 2) != header || number(bytes, 2, 2) < min_header)
         fail("no OpenFlight header", "an OpenFlight file");
     if (const std::size_t revision = number(bytes, revision_at, 4); revision < 1400 || revision > 1700)
         fail(fmt::format("OpenFlight of revision {}", revision), "1400 to 1700");

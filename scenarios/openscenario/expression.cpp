@@ -13,7 +13,7 @@
 namespace fernlicht::osc {
 namespace {
 
-constexpr int most_depth = 64;
+constexpr int max_depth = 64;
 
 bool starts_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool in_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
@@ -174,7 +174,7 @@ class Parser {
         }
     }
     Value signed_value() {
-        if (++depth_ > most_depth)
+        if (++depth_ > max_depth)
             throw std::invalid_argument("brackets nested too deeply");
         Value value = take("-") ? Value{-number(signed_value()), {}} : take("not") ? truth(number(signed_value()) == 0.0) : single();
         --depth_;

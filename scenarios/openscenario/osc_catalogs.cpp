@@ -111,7 +111,7 @@ OscNode catalog_entry(const OscNode& reference) {
 }
 
 OpenEntry::OpenEntry(const OscNode& node) : reading_(node.reading()) {
-    constexpr std::size_t most_open = 64, most_inner = 10'000; // files of others have one within another
+    constexpr std::size_t max_open = 64, max_inner = 10'000; // files of others have one within another
     std::vector<Reading::Entry>& open = reading_.open_entries;
     /// "'a' > 'b' > 'c'", the node last; of a long way the first and the last names.
     const auto way = [&](auto from) {
@@ -126,12 +126,12 @@ OpenEntry::OpenEntry(const OscNode& node) : reading_(node.reading()) {
     };
     if (const auto again = std::ranges::find(open, node.node(), &Reading::Entry::node); again != open.end())
         node.refuse("", "leads back to itself: " + way(again), "positions that do not need it");
-    if (open.size() == most_open)
-        node.refuse("", "lies on a way from one to the next: " + way(open.begin()), fmt::format("{} at most", most_open));
-    if (!open.empty() && ++reading_.inner_entries > most_inner)
+    if (open.size() == max_open)
+        node.refuse("", "lies on a way from one to the next: " + way(open.begin()), fmt::format("{} at most", max_open));
+    if (!open.empty() && ++reading_.inner_entries > max_inner)
         node.refuse("",
                     fmt::format("is the {}th route or trajectory that lies within others: {}", reading_.inner_entries, way(open.begin())),
-                    fmt::format("{} at most in all", most_inner));
+                    fmt::format("{} at most in all", max_inner));
     open.push_back({&node.xml(), node.node()});
 }
 

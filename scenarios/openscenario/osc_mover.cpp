@@ -10,7 +10,7 @@
 namespace fernlicht::osc {
 namespace {
 
-constexpr int most_borders = 64;
+constexpr int max_borders = 64;
 
 std::size_t section_towards(const Road& road, double s_m, bool with_s) {
     std::size_t at = 0;
@@ -119,7 +119,7 @@ Moved move_along(const World& world, const Spot& from, double distance_m, bool a
     Walker walker{world, from.road, from.lane, from.s_m, from.offset_m, from.with_s() == forward, from.relative_heading_rad};
     left = std::abs(left);
     bool end = false;
-    for (int i = 0; i < most_borders; ++i) {
+    for (int i = 0; i < max_borders; ++i) {
         const Road& road = walker.on();
         const std::size_t section = section_towards(road, walker.s, walker.with_s);
         const double border = walker.with_s ? road.sections[section].end_m : road.sections[section].s_m;
@@ -144,7 +144,7 @@ Moved move_along(const World& world, const Spot& from, double distance_m, bool a
 
 namespace {
 
-constexpr std::size_t most_places = 50'000;
+constexpr std::size_t max_places = 50'000;
 
 std::size_t section_index(const Road& road, double s_m) {
     return road.sections.empty() ? 0 : static_cast<std::size_t>(&section_at(road, s_m) - road.sections.data());
@@ -189,7 +189,7 @@ std::vector<LanePlace> shortest(const RoadNetwork& network, const LanePlace& sta
     open.emplace(0.0, 0);
     if (!once_round)
         known[{start.road, start.section, start.lane, start.with_s}] = 0.0;
-    while (!open.empty() && reached.size() < most_places) {
+    while (!open.empty() && reached.size() < max_places) {
         const std::size_t at = open.top().second;
         open.pop();
         const Reached here = reached[at];
@@ -268,7 +268,7 @@ std::vector<std::pair<std::size_t, bool>> next_roads(const RoadNetwork& network,
     return out;
 }
 
-std::optional<double> one_way(const RoadNetwork& network, const Spot& from, const Spot& to, bool with_s, double most_m) {
+std::optional<double> one_way(const RoadNetwork& network, const Spot& from, const Spot& to, bool with_s, double max_m) {
     using Item = std::tuple<double, std::size_t, bool>; // distance to where the road is entered
     std::priority_queue<Item, std::vector<Item>, std::greater<>> open;
     std::map<std::pair<std::size_t, bool>, double> known;
@@ -278,7 +278,7 @@ std::optional<double> one_way(const RoadNetwork& network, const Spot& from, cons
     while (!open.empty()) {
         const auto [distance, road, way] = open.top();
         open.pop();
-        if (distance > most_m)
+        if (distance > max_m)
             break;
         if (!known.try_emplace({road, way}, distance).second)
             continue;
@@ -293,13 +293,13 @@ std::optional<double> one_way(const RoadNetwork& network, const Spot& from, cons
 
 } // namespace
 
-std::optional<double> distance_along(const World& world, const Spot& from, const Spot& to, double most_m) {
+std::optional<double> distance_along(const World& world, const Spot& from, const Spot& to, double max_m) {
     if (!from.on_network || !to.on_network)
         return {};
     if (from.road == to.road)
         return (to.s_m - from.s_m) * (from.with_s() ? 1.0 : -1.0);
-    const auto ahead = one_way(world.network(), from, to, from.with_s(), most_m);
-    const auto behind = one_way(world.network(), from, to, !from.with_s(), most_m);
+    const auto ahead = one_way(world.network(), from, to, from.with_s(), max_m);
+    const auto behind = one_way(world.network(), from, to, !from.with_s(), max_m);
     if (ahead && (!behind || *ahead <= *behind))
         return ahead;
     return behind ? std::optional(-*behind) : std::nullopt;

@@ -133,7 +133,7 @@ std::optional<RoadPath> plan_path(const World& world, const Spot& from, const st
 inline constexpr double lane_change_m = 30.0;
 
 /// Signed distance along reference lines from one spot to another, ahead of the first positive; nullopt where no road leads there within
-/// `most_m` either way.
-std::optional<double> distance_along(const World& world, const Spot& from, const Spot& to, double most_m = 2000.0);
+/// `max_m` either way.
+std::optional<double> distance_along(const World& world, const Spot& from, const Spot& to, double max_m = 2000.0);
 
 } // namespace fernlicht::osc

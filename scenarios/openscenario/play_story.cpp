@@ -133,8 +133,8 @@ PlayedStory play_story(const Storyboard& storyboard, const RoadNetwork& network,
     world.day_rate = options.day_rate;
     StoryTree tree(storyboard, world, played);
     tree.start();
-    const auto steps = static_cast<std::size_t>(std::ceil(options.most_s / options.step_s - small));
-    played.end = fmt::format("{:.6g} s were played", options.most_s);
+    const auto steps = static_cast<std::size_t>(std::ceil(options.max_s / options.step_s - small));
+    played.end = fmt::format("{:.6g} s were played", options.max_s);
     for (std::size_t k = 0; k <= steps; ++k) { // step 0 moves nothing: what begins at the start shows in the first row
         const double dt = k == 0 ? 0.0 : options.step_s;
         run_signals(storyboard, world);

@@ -49,11 +49,11 @@ struct PlayedStory {
 
 struct PlayStoryOptions {
     double step_s = 0.01;
-    double most_s = 60.0;  ///< longest time played
+    double max_s = 60.0;   ///< longest time played
     double day_rate = 1.0; ///< seconds of an animated time of day for one of the story; conditions of the time of day go by it
 };
 
-/// From init to the stop trigger, to where all stories are over (in a storyboard that has some), or for `most_s`. Without a controller
+/// From init to the stop trigger, to where all stories are over (in a storyboard that has some), or for `max_s`. Without a controller
 /// entities move by their actions, else along their lane at their speed. Throws InputError with file and line for positions that are not
 /// on the road. The network may be empty: then only positions of the world can be placed.
 PlayedStory play_story(const Storyboard& storyboard, const RoadNetwork& network, const PlayStoryOptions& options = {});

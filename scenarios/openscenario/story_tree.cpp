@@ -58,14 +58,14 @@ void StoryTree::build() {
             for (const ManeuverGroup& group : act.groups) {
                 Element& in_group = add(in_act, Level::group, group.name);
                 in_group.group = &group;
-                in_group.most_executions = group.executions;
+                in_group.max_executions = group.executions;
                 for (const Maneuver& maneuver : group.maneuvers) {
                     Element& in_maneuver = add(in_group, Level::maneuver, maneuver.name);
                     for (const Event& event : maneuver.events) {
                         Element& in_event = add(in_maneuver, Level::event, event.name);
                         in_event.event = &event;
                         in_event.group = &group;
-                        in_event.most_executions = event.executions;
+                        in_event.max_executions = event.executions;
                         for (const Action& action : event.actions) {
                             actions_.push_back(&add(in_event, Level::action, action.name));
                             actions_.back()->action = &action;
@@ -270,7 +270,7 @@ void StoryTree::end(Element& element) {
     if (complete(element))
         return;
     const bool repeats = element.level == Level::group || element.level == Level::event;
-    if (repeats && (element.most_executions < 0 || element.executions < element.most_executions)) {
+    if (repeats && (element.max_executions < 0 || element.executions < element.max_executions)) {
         if (element.start)
             element.start->reset();
         set(element, ElementState::standby, "endTransition");

@@ -17,7 +17,7 @@ struct Element {
     Element* parent = nullptr;
     std::vector<std::unique_ptr<Element>> children;
     ElementState state = ElementState::init;
-    int executions = 0, most_executions = -1; ///< groups and events only
+    int executions = 0, max_executions = -1; ///< groups and events only
     std::optional<JudgedTrigger> start, stop;
     ElementChanges changes;
     const Act* act = nullptr;

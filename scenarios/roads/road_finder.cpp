@@ -10,7 +10,7 @@ namespace fernlicht {
 namespace {
 
 constexpr double sample_m = 4.0, cell_m = 32.0;
-constexpr int most_samples_a_road = 100'000;
+constexpr int max_samples_a_road = 100'000;
 
 std::int64_t key(std::int64_t column, std::int64_t row) { return column * 0x1'0000'0000 + row; }
 std::int64_t cell_of(double at_m) { return static_cast<std::int64_t>(std::floor(at_m / cell_m)); }
@@ -52,7 +52,7 @@ RoadFinder::RoadFinder(const RoadNetwork& network) : network_(&network) {
         const Road& road = network.roads[r];
         if (road.plan.empty() || !(road.length_m > 0.0))
             continue;
-        const int steps = std::clamp(static_cast<int>(std::ceil(road.length_m / sample_m)), 1, most_samples_a_road);
+        const int steps = std::clamp(static_cast<int>(std::ceil(road.length_m / sample_m)), 1, max_samples_a_road);
         for (int i = 0; i <= steps; ++i) {
             const double s = road.length_m * i / steps;
             const PlanPoint point = plan_point(road, s);

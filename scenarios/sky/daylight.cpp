@@ -8,10 +8,10 @@
 namespace fernlicht {
 namespace {
 
-constexpr double least_direct_lx = 1e-6;
+constexpr double min_direct_lx = 1e-6;
 
 DirectLight direct_light(const HorizontalPlace& place, double illuminance_lx) {
-    return {place.azimuth_rad, place.apparent_rad, illuminance_lx < least_direct_lx ? 0.0 : illuminance_lx};
+    return {place.azimuth_rad, place.apparent_rad, illuminance_lx < min_direct_lx ? 0.0 : illuminance_lx};
 }
 
 } // namespace

@@ -46,7 +46,7 @@ DriveEdits edits_for(const Study& study, const StudyLamp& lamp, const StudyCell&
 
 /// High beams come with the lamp set, or the drive has none.
 void put_high_beams(const Study& study, const StudyLamp& lamp, Drive& drive, DriveEdits& edits) {
-    if (!std::ranges::any_of(drive.variants.front().lamps, is_high_beam))
+    if (!std::ranges::any_of(drive.lamp_sets.front().lamps, is_high_beam))
         return;
     if (lamp.high.empty())
         throw InputError({study.file, 0, 0, "lamps." + lamp.name}, "found no high beam, and " + drive.file.string() + " has some",
@@ -103,17 +103,17 @@ Drive cell_drive(const Study& study, const StudyCell& cell) {
     drive.daylight = study.conditions.times_of_day[cell.time_of_day];
     if (drive.storyboard)
         drive.storyboard->own_daylight = true; // of the study: no environment of the storyboard changes it
-    drive.variants.resize(1);
-    Variant& variant = drive.variants.front();
-    variant.name = lamp.name + condition_part(study, cell);
+    drive.lamp_sets.resize(1);
+    LampSet& lamp_set = drive.lamp_sets.front();
+    lamp_set.name = lamp.name + condition_part(study, cell);
     const double pitch = pitch_rad(lamp, study.conditions.aim_percent[cell.aim]);
-    for (MountedLamp& mounted : variant.lamps) {
+    for (MountedLamp& mounted : lamp_set.lamps) {
         mounted.source = lamp.source;
         mounted.colour = lamp.colour;
         mounted.voltage_v = study.conditions.voltage_v[cell.voltage];
         mounted.pitch_rad += pitch;
     }
-    for (LampChange& change : variant.changes)
+    for (LampChange& change : lamp_set.changes)
         if (change.pitch_rad)
             *change.pitch_rad += pitch;
     if (study.conditions.mirror[cell.mirror])
@@ -128,7 +128,7 @@ Drive cell_drive(const Study& study, const StudyCell& cell) {
 namespace {
 
 constexpr int schema_version = 1;
-constexpr std::size_t most_bytes = std::size_t{1} << 20, most_entries = 100;
+constexpr std::size_t max_bytes = std::size_t{1} << 20, max_entries = 100;
 
 std::filesystem::path existing(const YamlEntry& entry) {
     check_file(entry.path(), entry);
@@ -168,24 +168,24 @@ const Fields<StudyLamp>& study_lamp_fields() {
 }
 
 void read_study_lamps(const YamlEntry& entry, Study& study) {
-    LampShelf shelf;
-    for (const auto& [name, given] : entry.named(most_entries)) {
+    LampCache cache;
+    for (const auto& [name, given] : entry.named(max_entries)) {
         const YamlMap keys = given.map(keys_of(study_lamp_fields()));
         StudyLamp& lamp = study.lamps.emplace_back();
         lamp.name = name;
         read_beams(keys, lamp);
         lamp.source = read_source(keys).value_or(SourceKind::filament);
-        lamp.colour = read_colour(keys, lamp.source, shelf, given);
+        lamp.colour = read_colour(keys, lamp.source, cache, given);
         read_field(study_lamp_fields(), "file_aim_percent", keys, &lamp);
         read_field(study_lamp_fields(), "mirrors", keys, &lamp);
     }
-    study.opened.insert(study.opened.end(), shelf.opened().begin(), shelf.opened().end());
+    study.opened.insert(study.opened.end(), cache.opened().begin(), cache.opened().end());
 }
 
 /// Each value once: a value twice would be two cells of one name. Where it `may_be_one`, a value may stand without its list.
 template <class Struct, class Value>
 FieldOf<Struct> values_form(std::string_view key, std::vector<Value> Struct::*values, Value (*read)(const YamlEntry&), bool may_be_one,
-                            std::string_view schema_of_one, std::string_view meaning, std::size_t most = most_entries) {
+                            std::string_view schema_of_one, std::string_view meaning, std::size_t most = max_entries) {
     FieldOf<Struct> made = form<Struct>(key, FieldKind::own, {}, meaning);
     made.read = [=](const YamlEntry& entry, void* whole) {
         std::vector<Value>& all = static_cast<Struct*>(whole)->*values;
@@ -243,7 +243,7 @@ const Fields<StudyComparison>& comparison_fields() {
 }
 
 void read_comparisons(const YamlEntry& given, Study& study) {
-    for (const YamlEntry& entry : given.list(0, most_entries)) {
+    for (const YamlEntry& entry : given.list(0, max_entries)) {
         const YamlMap pair = entry.map(keys_of(comparison_fields()));
         study.comparisons.push_back({lamp_name(pair.require("new"), study.lamps), lamp_name(pair.require("against"), study.lamps)});
         if (study.comparisons.back().tested == study.comparisons.back().against)
@@ -266,7 +266,7 @@ const Fields<StudyLimit>& study_limit_fields() {
 }
 
 void read_study_limits(const YamlEntry& given, Study& study) {
-    for (const YamlEntry& entry : given.list(0, most_entries)) {
+    for (const YamlEntry& entry : given.list(0, max_entries)) {
         const YamlMap keys = entry.map(keys_of(study_limit_fields()));
         StudyLimit& limit = study.limits.emplace_back();
         for (const char* const key : {"reading", "at_least", "at_most", "change_at_least", "change_at_most"})
@@ -295,14 +295,13 @@ void refuse_too_many(const Study& study, const YamlEntry& entry) {
     for (const std::size_t values : {study.drives.size(), study.lamps.size(), study.techniques.size(), c.times_of_day.size(),
                                      c.aim_percent.size(), c.voltage_v.size(), c.mirror.size()})
         cells *= values; // seven factors of at most 100 each stay below 2^64
-    if (cells > most_study_cells)
-        entry.refuse(fmt::format("{} cells (drives x lamps x techniques x conditions)", cells),
-                     fmt::format("at most {}", most_study_cells));
+    if (cells > max_study_cells)
+        entry.refuse(fmt::format("{} cells (drives x lamps x techniques x conditions)", cells), fmt::format("at most {}", max_study_cells));
 }
 
 } // namespace
 
-const std::vector<std::string>& usual_readings() {
+const std::vector<std::string>& default_readings() {
     // How far a target and the road are lit, how wide, how much.
     static const std::vector<std::string> readings{"reach_1lx_target_own_m",      "reach_5lx_target_own_m",      "reach_1lx_road_own_m",
                                                    "width_1lx_road_all_at_20m_m", "width_1lx_road_all_at_50m_m", "area_1lx_road_all_m2"};
@@ -315,17 +314,17 @@ const Fields<Study>& study_fields() {
         form<Study>("fernlicht_study", FieldKind::own, {}, "version of this schema").schema_by(R"({"const": 1})").required(),
         field("name", 1, &Study::name, a_name(), "of the study; the file's by default"),
         field("title", 2, &Study::title, any(), "for people; the name by default"),
-        named("lamps", 3, &Study::lamps, most_entries, study_lamp_fields(), "lamp sets under comparison")
+        named("lamps", 3, &Study::lamps, max_entries, study_lamp_fields(), "lamp sets under comparison")
             .read_by(read_study_lamps)
             .required(),
         values_form("drives", &Study::drives, existing, false, text, "drive files; relative to the study file").required(),
         values_form("techniques", &Study::techniques, technique_name, false, text, "how the drives are drawn; photometric by default"),
         field("conditions", 4, &Study::conditions, condition_fields(), "every combination is played"),
-        form<Study>("compare", FieldKind::list, names(0, most_entries), "all with the first by default", read_comparisons)
+        form<Study>("compare", FieldKind::list, names(0, max_entries), "all with the first by default", read_comparisons)
             .of(comparison_fields()),
         field("measure", 5, &Study::measure, seeing_fields(), "in every drive that does not ask itself"),
         values_form("readings", &Study::readings, reading_name, false, text, "that decide, by name"),
-        list("limits", 6, &Study::limits, 0, most_entries, study_limit_fields(), "beyond these the study fails").read_by(read_study_limits),
+        list("limits", 6, &Study::limits, 0, max_entries, study_limit_fields(), "beyond these the study fails").read_by(read_study_limits),
         field("pictured_moments", 7, &Study::pictured_moments, range(1.0, 12.0), "stored moments of each cell"),
         form<Study>("resolution_px", FieldKind::own, {}, "width, height of the cameras' views; the drives' own by default",
                     read_study_resolution)
@@ -340,7 +339,7 @@ const Fields<Study>& study_fields() {
 Study read_study(const std::filesystem::path& path) {
     Study study;
     study.file = path;
-    study.text = to_utf8(read_file(path, study.opened, most_bytes));
+    study.text = to_utf8(read_file(path, study.opened, max_bytes));
     const YamlValue document = parse_yaml(study.text, path);
     const YamlEntry whole(document, path, "");
     const YamlMap keys(whole, keys_of(study_fields()));
@@ -348,7 +347,7 @@ Study read_study(const std::filesystem::path& path) {
         keys.require("fernlicht_study").refuse(fmt::format("{}, the version of the study file's schema", schema_version));
     study.name = name_from(path);
     study.conditions.times_of_day = {Daylight{}};
-    study.readings = usual_readings();
+    study.readings = default_readings();
     read_group(study_fields(), keys, &study);
     if (study.title.empty())
         study.title = study.name;

@@ -57,7 +57,7 @@ struct Study {
 template <class Struct> struct Fields;
 const Fields<Study>& study_fields(); ///< the keys of its file
 
-inline constexpr std::size_t most_study_cells = 500;
+inline constexpr std::size_t max_study_cells = 500;
 
 /// One thing that is played: a drive with one lamp set in one technique under one condition.
 struct StudyCell {
@@ -80,6 +80,6 @@ std::vector<StudyCell> cells_of(const Study& study);
 Drive cell_drive(const Study& study, const StudyCell& cell);
 
 /// The readings that decide where nobody names any.
-const std::vector<std::string>& usual_readings();
+const std::vector<std::string>& default_readings();
 
 } // namespace fernlicht

@@ -85,8 +85,8 @@ bool RoadUser::visible_at(double time_s) const {
     return visible;
 }
 
-glm::dvec3 usual_size_m(RoadUserKind kind) { return bodies.at(static_cast<std::size_t>(kind)).size_m; }
-double usual_rear_m(RoadUserKind kind) { return bodies.at(static_cast<std::size_t>(kind)).rear_m; }
+glm::dvec3 default_size_m(RoadUserKind kind) { return bodies.at(static_cast<std::size_t>(kind)).size_m; }
+double default_rear_m(RoadUserKind kind) { return bodies.at(static_cast<std::size_t>(kind)).rear_m; }
 
 LampFunction function_of(std::string_view name) {
     struct Row {

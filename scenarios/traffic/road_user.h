@@ -63,8 +63,8 @@ struct RoadUser {
 };
 
 /// Length, width and height of the kind's usual body, and the x of its rear end.
-glm::dvec3 usual_size_m(RoadUserKind kind);
-double usual_rear_m(RoadUserKind kind);
+glm::dvec3 default_size_m(RoadUserKind kind);
+double default_rear_m(RoadUserKind kind);
 
 /// "car", "van" ...; the index of a word is the kind's.
 inline constexpr const char* road_user_kinds[] = {"car", "van", "truck", "bus", "motorcycle", "bicycle", "pedestrian", "other"};

@@ -12,7 +12,7 @@ namespace fernlicht {
 namespace {
 
 constexpr double largest_number = 1e9;
-constexpr std::size_t most_warnings = 1000;
+constexpr std::size_t max_warnings = 1000;
 
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view blank = " \t\r\n";
@@ -102,7 +102,7 @@ void XmlFile::refuse(pugi::xml_node node, std::string_view attribute, const std:
 }
 
 void XmlFile::warn(pugi::xml_node node, const std::string& what) {
-    if (warnings_.size() < most_warnings)
+    if (warnings_.size() < max_warnings)
         warnings_.push_back(fmt::format("{}:{}: {}", path_.string(), line(node), what));
     else
         ++warnings_left_out_;
@@ -113,7 +113,7 @@ void XmlFile::warn_once(pugi::xml_node node, const std::string& kind, const std:
         ++known->second.more;
         return;
     }
-    if (warnings_.size() < most_warnings)
+    if (warnings_.size() < max_warnings)
         kinds_[kind] = {warnings_.size(), 0};
     warn(node, what);
 }

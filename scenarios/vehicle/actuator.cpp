@@ -42,7 +42,7 @@ std::vector<std::pair<double, double>> commands(const ActuatorParameters& actuat
     for (const double tick_s : ticks_s) {
         if (tick_s + actuator.dead_time_s >= end_s)
             break;
-        const double angle_rad = std::clamp(command(tick_s), actuator.least_rad, actuator.greatest_rad);
+        const double angle_rad = std::clamp(command(tick_s), actuator.min_rad, actuator.max_rad);
         const double from_s = changes.empty() ? 0.0 : tick_s + actuator.dead_time_s;
         if (!changes.empty() && changes.back().first == from_s)
             changes.back().second = angle_rad;
@@ -54,10 +54,10 @@ std::vector<std::pair<double, double>> commands(const ActuatorParameters& actuat
 
 Mode mode_at(const Law& law, const ActuatorParameters& limits, std::vector<double>& x) {
     const auto outwards = [&](double side) { return side * x[1] > 0.0 || (x[1] == 0.0 && side * (law.command - x[0]) >= 0.0); };
-    if ((x[0] >= limits.greatest_rad && outwards(1.0)) || (x[0] <= limits.least_rad && outwards(-1.0))) {
-        x[0] = std::clamp(x[0], limits.least_rad, limits.greatest_rad);
+    if ((x[0] >= limits.max_rad && outwards(1.0)) || (x[0] <= limits.min_rad && outwards(-1.0))) {
+        x[0] = std::clamp(x[0], limits.min_rad, limits.max_rad);
         x[1] = 0.0;
-        const double inwards = x[0] >= limits.greatest_rad ? -1.0 : 1.0;
+        const double inwards = x[0] >= limits.max_rad ? -1.0 : 1.0;
         return inwards * (law.command - x[0]) > 0.0 ? Mode::free : Mode::at_stop;
     }
     if (std::abs(x[1]) >= law.rate) {
@@ -69,8 +69,8 @@ Mode mode_at(const Law& law, const ActuatorParameters& limits, std::vector<doubl
 }
 
 std::vector<Watch> watches_for(const Law& law, const ActuatorParameters& limits) {
-    std::vector<Watch> watches{{[&](double, const double* x) { return x[0] - limits.greatest_rad; }, true, false},
-                               {[&](double, const double* x) { return x[0] - limits.least_rad; }, false, true}};
+    std::vector<Watch> watches{{[&](double, const double* x) { return x[0] - limits.max_rad; }, true, false},
+                               {[&](double, const double* x) { return x[0] - limits.min_rad; }, false, true}};
     if (law.mode == Mode::free) {
         watches.push_back({[&](double, const double* x) { return x[1] - law.rate; }, true, false});
         watches.push_back({[&](double, const double* x) { return x[1] + law.rate; }, false, true});
@@ -110,14 +110,14 @@ struct Actuator::Parts {
 
 Actuator::Actuator(const ActuatorParameters& actuator, double angle_rad, const SolverOptions& options)
     : parts_(std::make_unique<Parts>(actuator, options)) {
-    parts_->x[0] = parts_->law.command = std::clamp(angle_rad, actuator.least_rad, actuator.greatest_rad);
+    parts_->x[0] = parts_->law.command = std::clamp(angle_rad, actuator.min_rad, actuator.max_rad);
 }
 Actuator::Actuator(Actuator&&) noexcept = default;
 Actuator::~Actuator() = default;
 
 double Actuator::angle_rad() const { return parts_->x[0]; }
 void Actuator::command(double angle_rad) {
-    parts_->law.command = std::clamp(angle_rad, parts_->actuator.least_rad, parts_->actuator.greatest_rad);
+    parts_->law.command = std::clamp(angle_rad, parts_->actuator.min_rad, parts_->actuator.max_rad);
 }
 
 void Actuator::jam(bool jammed) {

@@ -13,7 +13,7 @@ using namespace car_state;
 constexpr double air_kg_per_m3 = 1.2;
 constexpr double standing_rad_s = 0.02;  ///< brakes and rolling resistance turn from holding to sliding over this spin: 6 mm/s of the tyre
 constexpr double tyre_damping_s = 0.008; ///< of the contact's stretch: about a tenth of the critical damping of a car held by its tyres
-constexpr double least_load_n = 10.0;    ///< of an axle in the air, so that nothing is divided by 0
+constexpr double min_load_n = 10.0;      ///< of an axle in the air, so that nothing is divided by 0
 
 // The driver: reacts and acts with a lag, brakes a little harder when too fast, holds with a fifth of g. Looks 5 m and 1 s ahead.
 constexpr double pedal_lag_s = 0.1, steering_lag_s = 0.1;
@@ -119,9 +119,9 @@ template <class Real> void rates(const CarModel& model, const Real& t_s, const R
     const Real front_side_mps = x[side_speed] + a * w;
     const Real front_rolling = v * c + front_side_mps * s;
     const Contact<Real> front =
-        contact(car.front, car, at_least(front_load_n, least_load_n), front_rolling, front_rolling - radius * x[front_spin],
+        contact(car.front, car, at_least(front_load_n, min_load_n), front_rolling, front_rolling - radius * x[front_spin],
                 front_side_mps * c - v * s, x[front_stretch], x[front_sway]);
-    const Contact<Real> rear = contact(car.rear, car, at_least(rear_load_n, least_load_n), v, v - radius * x[rear_spin], rear_side_mps,
+    const Contact<Real> rear = contact(car.rear, car, at_least(rear_load_n, min_load_n), v, v - radius * x[rear_spin], rear_side_mps,
                                        x[rear_stretch], x[rear_sway]);
     out[front_stretch] = front.stretch_rate;
     out[front_sway] = front.sway_rate;

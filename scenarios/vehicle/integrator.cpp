@@ -185,7 +185,7 @@ void OdeIntegrator::weigh_stiffness() {
 /// Repeats the step so that it ends behind the event by at most `within_s`. The continuous extension, where the event was found, is less
 /// exact than the method itself, hence the corrections: Newton's, by the slope over the last fifth of the step.
 double OdeIntegrator::step_to(const Watch& watch, bool rising, double t_s, double step_s, double within_s, const std::vector<double>& x) {
-    constexpr int most_corrections = 6;
+    constexpr int max_corrections = 6;
     for (int correction = 0;; ++correction) {
         try_step(t_s, step_s, x);
         single_.extend(step_s, x);
@@ -194,7 +194,7 @@ double OdeIntegrator::step_to(const Watch& watch, bool rising, double t_s, doubl
         const double before = watch.value(t_s + 0.8 * step_s, &nodes[4 * x.size()]);
         const double slope = (there - before) / (0.2 * step_s), late_s = there / slope;
         const bool crossed = rising ? there >= 0.0 : there <= 0.0;
-        if (correction == most_corrections || (crossed && !(late_s > within_s)))
+        if (correction == max_corrections || (crossed && !(late_s > within_s)))
             return step_s;
         // Aims at the middle of what is allowed; where the slope tells nothing, just on.
         const double further_s = late_s > -0.5 * step_s && late_s < 0.5 * step_s ? 0.5 * within_s - late_s : within_s;
@@ -212,8 +212,8 @@ Arrival OdeIntegrator::integrate(double start_s, double end_s, std::vector<doubl
         step_s_ = first_step(t_s, end_s - t_s, x);
     while (t_s < end_s) {
         if (work_.dormand_prince.steps + work_.rosenbrock.steps + work_.dormand_prince.rejected + work_.rosenbrock.rejected >=
-            options_.most_steps)
-            give_up(t_s, fmt::format("{} steps", options_.most_steps));
+            options_.max_steps)
+            give_up(t_s, fmt::format("{} steps", options_.max_steps));
         // Steps of a fixed length are counted, not added up. The last step is stretched by up to a per cent rather than leave a splinter.
         const double wanted_s =
             fixed ? start_s + static_cast<double>(fixed_steps + 1) * options_.fixed_step_s - t_s : std::min(step_s_, end_s - t_s);

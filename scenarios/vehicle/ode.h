@@ -31,7 +31,7 @@ struct SolverOptions {
     double tolerance = 1.0e-6;         ///< 1e-12 .. 1e-2, of scale + |x|, for each step
     double fixed_step_s = 0.0;         ///< above 0: every step this long, the error is not looked at; needs a solver that is not automatic
     double event_tolerance_s = 1.0e-9; ///< an event is located in a bracket of this length (or of 4 roundings of t, if that is more)
-    std::uint64_t most_steps = 2'000'000;
+    std::uint64_t max_steps = 2'000'000;
 };
 
 /// What one of the two methods did.

@@ -105,8 +105,8 @@ SolverRow measured(const StudiedProblem& problem, const SolverOptions& options, 
         }
         std::ranges::sort(seconds);
         row.seconds = seconds[seconds.size() / 2];
-        row.least_seconds = seconds.front();
-        row.most_seconds = seconds.back();
+        row.min_seconds = seconds.front();
+        row.max_seconds = seconds.back();
         row.repetitions = seconds.size();
     } catch (const InputError& gave_up) {
         row.not_measured = gave_up.what();

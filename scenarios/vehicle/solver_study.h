@@ -18,7 +18,7 @@ struct SolverRow {
     std::string unit;                     ///< of error and floor
     std::string against;                  ///< "closed form", "run at a tolerance of 1e-12"
     std::uint64_t steps = 0, rejected = 0, derivatives = 0, jacobians = 0;
-    double seconds = 0.0, least_seconds = 0.0, most_seconds = 0.0; ///< median, least and most over the repetitions
+    double seconds = 0.0, min_seconds = 0.0, max_seconds = 0.0; ///< median, least and most over the repetitions
     std::size_t repetitions = 0;
     std::string not_measured; ///< why there is neither error nor time; "" where there are
 };

@@ -55,7 +55,7 @@ struct ActuatorParameters {
     double natural_frequency_hz = 5.0; ///< w / (2 pi)
     double damping = 1.0;              ///< z
     double rate_limit_rad_s = 0.2;
-    double least_rad = -0.06, greatest_rad = 0.06; ///< 0 lies between them
+    double min_rad = -0.06, max_rad = 0.06; ///< 0 lies between them
     double control_period_s = 0.01;
     double dead_time_s = 0.02;
 

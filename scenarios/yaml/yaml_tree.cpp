@@ -20,7 +20,7 @@ namespace fernlicht {
 namespace {
 
 constexpr std::size_t deepest = 32;
-constexpr std::size_t most_yaml_values = 100'000;
+constexpr std::size_t max_yaml_values = 100'000;
 
 std::size_t count_values(const YamlValue& value) {
     std::size_t count = 1;
@@ -108,8 +108,8 @@ class TreeBuilder : public YAML::EventHandler {
     }
 
     void add(YamlValue value, YAML::anchor_t anchor, const YAML::Mark& mark) {
-        if (++values_ > most_yaml_values)
-            refuse(mark, fmt::format("more than {} values", most_yaml_values), "a smaller file");
+        if (++values_ > max_yaml_values)
+            refuse(mark, fmt::format("more than {} values", max_yaml_values), "a smaller file");
         if (anchor != 0)
             anchors_[anchor] = value;
         if (open_.empty()) {

@@ -26,7 +26,7 @@ struct CountryRoad {
         State state = start(drive);
         while (state.time_s < time_s)
             state = advance(state, drive);
-        return moment_at(state, drive, route, drive.variants.front());
+        return moment_at(state, drive, route, drive.lamp_sets.front());
     }
 };
 

@@ -43,7 +43,7 @@ std::filesystem::path straight_road(double length_m) {
 /// Two lanes of 17 km and a row of cars that come, the first 40 m ahead.
 Drive oncoming(int cars, int every_m) {
     const std::string lamp = library_path("lamps/halogen-low.ies");
-    std::string text = fmt::format("fernlicht: 1\nroad: {}\nspeed_mps: 20\nduration_s: 1\nvariants: {{one: {{file: {}}}}}\n",
+    std::string text = fmt::format("fernlicht: 1\nroad: {}\nspeed_mps: 20\nduration_s: 1\nlamp_sets: {{one: {{file: {}}}}}\n",
                                    straight_road(17'000.0).string(), lamp);
     if (cars > 0)
         text += fmt::format("traffic: {{row: {{file: {}, oncoming: {{gap_m: 40}}, speed_mps: 20, repeat: {{count: {}, every_m: {}}}}}}}\n",
@@ -63,7 +63,7 @@ struct Stage {
         renderer.emplace(device, scene, RendererSettings{.traffic_levels = levels, .traffic_shadows = shadows});
         for (int frame = 0; frame < (moving ? moving_frames : 1); ++frame) {
             const double time_s = frame / frames_a_second;
-            moments.push_back(moment_at({frame, time_s, distance_m(drive.speed, time_s), 20.0}, drive, route, drive.variants.front()));
+            moments.push_back(moment_at({frame, time_s, distance_m(drive.speed, time_s), 20.0}, drive, route, drive.lamp_sets.front()));
         }
         renderer->prepare(moments, drive.views.front(), {.colour = true});
         for (int warm_up = 0; warm_up < 2; ++warm_up)
@@ -148,14 +148,14 @@ struct Road {
         scene = build_scene(network, {.seed = drive.seed});
         for (State state = start(drive); state.tick < tick_count(drive); state = advance(state, drive))
             if (state.tick % 25 == 0)
-                moments.push_back(moment_at(state, drive, route, drive.variants[0]));
+                moments.push_back(moment_at(state, drive, route, drive.lamp_sets[0]));
     }
 
     static Drive with_six_views() {
-        return read_drive(tests::written("six-views.yaml",
-                                         "fernlicht: 1\nroad: " + library_path("roads/country.xodr") +
-                                             "\nspeed_mps: 20\nduration_s: 20\nview_set: " + library_path("views/six.yaml") +
-                                             "\nvariants: {a: {source: filament, file: " + library_path("lamps/halogen-low.ies") + "}}\n"));
+        return read_drive(tests::written(
+            "six-views.yaml", "fernlicht: 1\nroad: " + library_path("roads/country.xodr") +
+                                  "\nspeed_mps: 20\nduration_s: 20\nview_set: " + library_path("views/six.yaml") +
+                                  "\nlamp_sets: {a: {source: filament, file: " + library_path("lamps/halogen-low.ies") + "}}\n"));
     }
 
     Drive drive;
@@ -171,7 +171,7 @@ void views(benchmark::State& state) {
     static Device device = open_device("auto");
     static Renderer renderer(device, road.scene, {});
     const auto count = static_cast<std::size_t>(state.range(0));
-    const Wanted colour{.colour = true};
+    const FrameOutputs colour{.colour = true};
     for (std::size_t v = 0; v < count; ++v)
         renderer.prepare(road.moments, road.drive.views[v], colour);
     for (auto _ : state)

@@ -28,23 +28,23 @@ BENCHMARK(extent_grid)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime(); 
 void twin_of_extent(benchmark::State& state) {
     const ExtentGrid grid = grid_ahead();
     for (auto _ : state)
-        benchmark::DoNotOptimize(twin_illuminance_lx(grid, country_road().moment, ExtentPlane::road));
+        benchmark::DoNotOptimize(twin_illuminance_lx(grid, country_road().moment, Surface::road));
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(grid.surface.size()));
 }
 BENCHMARK(twin_of_extent)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
 void lit_road(benchmark::State& state) {
     const ExtentGrid grid = grid_ahead();
-    const std::vector<double> lx = twin_illuminance_lx(grid, country_road().moment, ExtentPlane::road);
+    const std::vector<double> lx = twin_illuminance_lx(grid, country_road().moment, Surface::road);
     for (auto _ : state)
-        benchmark::DoNotOptimize(measure_extent(grid, lx, ExtentPlane::road, parameters.limits_lx, parameters.width_at_m));
+        benchmark::DoNotOptimize(measure_extent(grid, lx, Surface::road, parameters.thresholds_lx, parameters.width_at_m));
 }
 BENCHMARK(lit_road)->Unit(benchmark::kMillisecond);
 
 void sensitivity_of_reach(benchmark::State& state) {
     const ExtentGrid grid = grid_ahead();
     for (auto _ : state)
-        benchmark::DoNotOptimize(reach_sensitivity(grid, country_road().moment, parameters.limits_lx));
+        benchmark::DoNotOptimize(reach_sensitivity(grid, country_road().moment, parameters.thresholds_lx));
 }
 BENCHMARK(sensitivity_of_reach)->Unit(benchmark::kMillisecond);
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# ci/nightly with stand-ins for set-up, CMake and the program: what it plays, against which references, which exit code it hands on.
+# ci/nightly with stand-ins for set-up, CMake and the program: what it plays, against which baselines, which exit code it hands on.
 set -uo pipefail
 source_tree=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 tree=$(mktemp --directory)
@@ -9,17 +9,17 @@ failures=0
 mkdir -p "$tree"/{ci,bin,build/release}
 cp "$source_tree/ci/nightly" "$tree/ci/"
 printf '#!/bin/sh\n' | tee "$tree/ci/setup" >"$tree/bin/cmake"
-# Stands for `fernlicht study FILE --references FOLDER --quiet --out DIR --across-devices --backend NAME --known LIST [FLAG...]`.
+# Stands for `fernlicht study FILE --baselines FOLDER --quiet --out DIR --across-devices --backend NAME --known LIST [FLAG...]`.
 cat >"$tree/build/release/fernlicht" <<'END'
 #!/bin/sh
-[ "$1 $3 $5 $6 $8 $9" = "study --references --quiet --out --across-devices --backend" ] && [ ! -e "$7" ] || exit 2
-study=$2 references=$4 out=$7
+[ "$1 $3 $5 $6 $8 $9" = "study --baselines --quiet --out --across-devices --backend" ] && [ ! -e "$7" ] || exit 2
+study=$2 baselines=$4 out=$7
 shift 9
 [ "$2" = --known ] || exit 2
 [ "$CODE" -lt 2 ] || exit "$CODE"
 backend=$1
 shift 3
-mkdir -p "$out" && echo "$study $references $backend $*" | tee "$out/report.html" >"$out/junit.xml"
+mkdir -p "$out" && echo "$study $baselines $backend $*" | tee "$out/report.html" >"$out/junit.xml"
 exit "$CODE"
 END
 chmod +x "$tree/ci/setup" "$tree/bin/cmake" "$tree/build/release/fernlicht"
@@ -40,8 +40,8 @@ expect() {
 
 export CODE=0
 expect 0 "nightly: JUnit  out/nightly-1/junit.xml"
-[[ $(<"$tree/out/nightly-1/report.html") == "scenarios/library/studies/standard.yaml references software " ]] || { echo "played something else"; ((++failures)); }
-FERNLICHT_BACKEND=egl FERNLICHT_REFERENCES=/elsewhere expect 0 "out/mine/report.html" other.yaml out/mine --only "straight*"
+[[ $(<"$tree/out/nightly-1/report.html") == "scenarios/library/studies/standard.yaml baselines software " ]] || { echo "played something else"; ((++failures)); }
+FERNLICHT_BACKEND=egl FERNLICHT_BASELINES=/elsewhere expect 0 "out/mine/report.html" other.yaml out/mine --only "straight*"
 [[ $(<"$tree/out/mine/report.html") == "other.yaml /elsewhere egl --only straight*" ]] || { echo "took other files"; ((++failures)); }
 CODE=1 expect 1 "accept"
 CODE=3 expect 3 "left no report"
@@ -55,18 +55,18 @@ if [ "$1" = study ]; then exit "$CODE"; fi
 mkdir -p "$4" && echo "$7" >>"$4/index.json"
 END
 accept() { (cd / && PATH=$tree/bin:$PATH "$tree/ci/accept-nightly" "$@" >"$tree/said" 2>&1 </dev/null); }
-mkdir "$tree/references" && echo old >"$tree/references/index.json"
+mkdir "$tree/baselines" && echo old >"$tree/baselines/index.json"
 if accept; then echo "accepted without a reason"; ((++failures)); fi
 if CODE=1 accept why; then echo "accepted what is not green"; ((++failures)); fi
-[[ $(<"$tree/references/index.json") == old ]] || { echo "touched what was accepted"; ((++failures)); }
+[[ $(<"$tree/baselines/index.json") == old ]] || { echo "touched what was accepted"; ((++failures)); }
 rm "$tree/calls"
 CODE=0 accept "a reason" || { echo "did not accept"; cat "$tree/said"; ((++failures)); }
-[[ $(<"$tree/references/index.json") == $'old\na reason\na reason' ]] || { echo "lost what was there, or a part"; ((++failures)); }
+[[ $(<"$tree/baselines/index.json") == $'old\na reason\na reason' ]] || { echo "lost what was there, or a part"; ((++failures)); }
 diff - "$tree/calls" <<'END' || ((++failures))
 study scenarios/library/studies/standard.yaml --backend software --no-accuracy --quiet --out WORK/whole
 study scenarios/library/studies/standard.yaml --backend software --no-accuracy --quiet --out WORK/two --only straight* --frames 0:4
-accept WORK/whole --to WORK/references --readings-only --note a reason --replace-class
-accept WORK/two --to WORK/references --readings-only --note a reason
+accept WORK/whole --baselines WORK/baselines --readings-only --note a reason --replace-class
+accept WORK/two --baselines WORK/baselines --readings-only --note a reason
 END
 [[ -z $(compgen -G "$tree/.accept-nightly.*") ]] || { echo "left its scratch folder"; ((++failures)); }
 printf '#!/bin/sh\necho "$*" >>calls\n' >"$tree/ci/fresh"

@@ -43,9 +43,9 @@ template <class Lux> std::vector<double> lit_by(const ExtentGrid& grid, Lux lx) 
 }
 
 /// The extent of one lane at one limit.
-inline LaneExtent extent_of(const std::vector<LaneExtent>& extents, const std::string& lane, double limit_lx) {
+inline LaneExtent extent_of(const std::vector<LaneExtent>& extents, const std::string& lane, double threshold_lx) {
     for (const LaneExtent& extent : extents)
-        if (extent.lane == lane && extent.limit_lx == limit_lx)
+        if (extent.lane == lane && extent.threshold_lx == threshold_lx)
             return extent;
     throw std::out_of_range("no extent of lane " + lane);
 }

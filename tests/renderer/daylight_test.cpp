@@ -178,13 +178,13 @@ Moment warm_night() {
     return moment;
 }
 
-constexpr Wanted as_seen{.colour = true, .luminance = true, .light = true};
+constexpr FrameOutputs as_seen{.colour = true, .luminance = true, .light = true};
 
 class ColouredLight : public testing::TestWithParam<const char*> {
   protected:
-    Frame draw(const Wanted& wanted, const ToneMapper& mapper = {}) {
+    Frame draw(const FrameOutputs& outputs, const ToneMapper& mapper = {}) {
         Renderer renderer(device_, scene_, RendererSettings{.technique = GetParam(), .tone_mapper = mapper});
-        return renderer.draw(warm_night(), driver_view(96, 64), wanted);
+        return renderer.draw(warm_night(), driver_view(96, 64), outputs);
     }
     Device device_ = open_device("auto");
     Scene scene_ = red_board();
@@ -229,7 +229,7 @@ TEST_P(ColouredLight, TheGpuShowsItsColours) {
 }
 
 TEST_P(ColouredLight, AskingForItChangesNothingElse) {
-    Wanted without = as_seen;
+    FrameOutputs without = as_seen;
     without.light = false;
     const Frame with = draw(as_seen), plain = draw(without);
     EXPECT_EQ(std::tuple(with.colour, with.luminance_cdm2), std::tuple(plain.colour, plain.luminance_cdm2));

@@ -8,7 +8,8 @@
 
 namespace fernlicht {
 
-inline constexpr Wanted all_results{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
+inline constexpr FrameOutputs all_results{
+    .colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 
 class DeviceTest : public testing::Test {
   protected:

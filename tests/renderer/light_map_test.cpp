@@ -158,7 +158,7 @@ View over_the_bonnet() {
 }
 
 TEST(OwnCar, HidesWhatIsBehindItAndTakesNoLight) {
-    constexpr Wanted wanted{.illuminance = true, .luminance = true, .ids = true};
+    constexpr FrameOutputs outputs{.illuminance = true, .luminance = true, .ids = true};
     Drive drive{.views = {over_the_bonnet()}};
     drive.own_car.emplace().model = std::make_shared<const Model>(car_body({}));
     const Scene without = level_road();
@@ -169,7 +169,7 @@ TEST(OwnCar, HidesWhatIsBehindItAndTakesNoLight) {
     moment.bodies.push_back({"own car", moment.ego, true, 0.0, true});
     Device device = open_device("auto");
     Renderer plain(device, without, {}), body(device, with, {});
-    const Frame a = plain.draw(two_low_beams(), over_the_bonnet(), wanted), b = body.draw(moment, over_the_bonnet(), wanted);
+    const Frame a = plain.draw(two_low_beams(), over_the_bonnet(), outputs), b = body.draw(moment, over_the_bonnet(), outputs);
     const Twin twin(with, true);
     std::size_t hidden = 0, road = 0;
     for (std::size_t i = 0; i < a.ids.size(); ++i) {
@@ -189,7 +189,7 @@ TEST(OwnCar, HidesWhatIsBehindItAndTakesNoLight) {
     EXPECT_EQ(pixel.id, b.ids.at(x, y));
     EXPECT_NEAR(static_cast<double>(b.illuminance_lx.at(x, y)), pixel.illuminance_lx, 1e-5);
     moment.bodies.clear();
-    EXPECT_EQ(body.draw(moment, over_the_bonnet(), wanted).illuminance_lx, a.illuminance_lx) << "and is gone where the moment has none";
+    EXPECT_EQ(body.draw(moment, over_the_bonnet(), outputs).illuminance_lx, a.illuminance_lx) << "and is gone where the moment has none";
 }
 
 /// A wall that returns 100 cd/(lx m2) at the observation angle of the picture: red against white.

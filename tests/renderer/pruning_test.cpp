@@ -3,8 +3,8 @@
 #include "scenarios/drives/play/control_play.h"
 #include "scenarios/drives/play/motion.h"
 #include "scenarios/drives/play/staged_scene.h"
-#include "scenarios/drives/play/told_story.h"
-#include "scenarios/drives/story/tell_story.h"
+#include "scenarios/drives/play/storyboard_timeline.h"
+#include "scenarios/drives/story/apply_storyboard.h"
 #include "scenarios/roads/mesh/road_mesh.h"
 #include "tests/renderer/shadow_scene.h"
 
@@ -155,7 +155,7 @@ std::vector<std::filesystem::path> shipped_drives() {
 TEST_P(ShippedDrives, PrunedAndUnprunedGiveTheSameBytes) {
     Drive drive = read_drive(GetParam(), DriveEdits{.resolution = std::pair(320, 240)});
     const RoadNetwork network = read_opendrive(drive.road_file);
-    tell_story(drive, network);
+    apply_storyboard(drive, network);
     const Route route(network, drive.start, drive.via);
     const Scene scene = staged_scene(drive, network, route);
     Device device = open_device("auto");
@@ -164,11 +164,11 @@ TEST_P(ShippedDrives, PrunedAndUnprunedGiveTheSameBytes) {
     settings.technique = "photometric-unpruned";
     Renderer unpruned(device, scene, settings);
     const int last = tick_count(drive) - 1;
-    for (const Variant& variant : drive.variants) {
+    for (const LampSet& lamp_set : drive.lamp_sets) {
         std::vector<Moment> moments;
         State state = start(drive);
         for (int tick = 0; tick <= last; ++tick, state = advance(state, drive)) {
-            const Moment moment = moment_at(state, drive, route, variant);
+            const Moment moment = moment_at(state, drive, route, lamp_set);
             bool changed = moments.empty() || tick == last || tick == last / 2;
             for (std::size_t i = 0; !changed && i < moment.lamps.size(); ++i)
                 changed = (moment.lamps[i].intensity_factor > 0.0) != (moments.back().lamps[i].intensity_factor > 0.0);
@@ -183,7 +183,7 @@ TEST_P(ShippedDrives, PrunedAndUnprunedGiveTheSameBytes) {
         for (const Moment& moment : moments)
             for (const View& view : drive.views)
                 expect_same_frames(pruned.draw(moment, view, all_results), unpruned.draw(moment, view, all_results),
-                                   variant.name + ", " + view.name + ", " + std::to_string(moment.time_s) + " s");
+                                   lamp_set.name + ", " + view.name + ", " + std::to_string(moment.time_s) + " s");
         EXPECT_EQ(pruned.compiled_programs(), compiled) << "nothing compiles once a drive is prepared";
         EXPECT_GT(compiled, 1);
     }

@@ -15,7 +15,7 @@ namespace {
 using namespace tests;
 
 constexpr double sky_lx = 3.4;
-constexpr Wanted lux_and_ids{.illuminance = true, .ids = true};
+constexpr FrameOutputs lux_and_ids{.illuminance = true, .ids = true};
 
 /// A point on a triangle, in the car's frame.
 struct Point {

@@ -73,8 +73,8 @@ inline View view_towards(double yaw_deg, double pitch_deg) {
 class PublishedTest : public DeviceTest {
   protected:
     Frame drawn(const std::string& technique, const Scene& scene, const Moment& moment, const View& view,
-                const Wanted& wanted = {.illuminance = true, .ids = true}) {
-        return renderer(technique, scene).draw(moment, view, wanted);
+                const FrameOutputs& outputs = {.illuminance = true, .ids = true}) {
+        return renderer(technique, scene).draw(moment, view, outputs);
     }
     Renderer renderer(const std::string& technique, const Scene& scene, bool eight_bit = false) {
         RendererSettings settings{.technique = technique};

@@ -9,7 +9,7 @@ namespace {
 using namespace tests;
 
 constexpr double moonless_lx = 3.4;
-constexpr Wanted lux_and_surfaces{.illuminance = true, .ids = true};
+constexpr FrameOutputs lux_and_surfaces{.illuminance = true, .ids = true};
 
 /// Symmetric: a projection with q = 1 + z would move the axis of any other.
 CandelaTable round_beam() {
@@ -74,7 +74,7 @@ TEST_F(PublishedTest, EachPairDiffersInPixelsOrInWork) {
     const Moment moment = two_lamps(moonless_lx);
     const Scene scene = ground_and_board(moment.ego, 20);
     const View view = view_towards(0.0, -4.0);
-    constexpr Wanted wanted{.colour = true, .illuminance = true};
+    constexpr FrameOutputs outputs{.colour = true, .illuminance = true};
     struct Drawn {
         std::string_view name;
         TechniqueKind kind;
@@ -84,7 +84,7 @@ TEST_F(PublishedTest, EachPairDiffersInPixelsOrInWork) {
     std::vector<Drawn> all;
     for (const Technique& row : techniques()) {
         Renderer r = renderer(std::string(row.name), scene);
-        all.push_back({row.name, row.kind, r.draw(moment, view, wanted), r.count(moment, view, wanted)});
+        all.push_back({row.name, row.kind, r.draw(moment, view, outputs), r.count(moment, view, outputs)});
         EXPECT_EQ(all.back().frame.illuminance_lx.empty(), !row.illuminance) << row.name;
         EXPECT_FALSE(all.back().frame.colour.empty());
         if (row.kind != TechniqueKind::ours) {
@@ -126,8 +126,8 @@ TEST_F(PublishedTest, TwoPassesAddUpToOne) {
     Scene scene = ground_and_board(moment.ego, 40);
     scene.meshes.pop_back(); // the board glows, in one of them with its distance
     const View view = view_towards(0.0, -4.0);
-    constexpr Wanted wanted{.colour = true, .illuminance = true, .depth = true, .ids = true};
-    const Frame two = drawn("two-pass-projective", scene, moment, view, wanted), one = drawn("full-clamped", scene, moment, view, wanted);
+    constexpr FrameOutputs outputs{.colour = true, .illuminance = true, .depth = true, .ids = true};
+    const Frame two = drawn("two-pass-projective", scene, moment, view, outputs), one = drawn("full-clamped", scene, moment, view, outputs);
     EXPECT_EQ(std::tuple(two.ids, two.depth_m), std::tuple(one.ids, one.depth_m));
     int lit = 0;
     for (const auto& [x, y] : each_pixel(view)) {
@@ -214,14 +214,14 @@ TEST_F(PublishedTest, NothingCompilesOrIsMadeAfterPreparing) {
         if (row.kind == TechniqueKind::ours)
             continue;
         Renderer r = renderer(std::string(row.name), scene);
-        constexpr Wanted wanted{.colour = true};
-        r.prepare({moment, dark}, view_towards(0.0, -4.0), wanted);
+        constexpr FrameOutputs outputs{.colour = true};
+        r.prepare({moment, dark}, view_towards(0.0, -4.0), outputs);
         const int compiled = r.compiled_programs();
         EXPECT_GT(compiled, 0);
-        r.draw(moment, view_towards(0.0, -4.0), wanted);
-        EXPECT_TRUE(std::ranges::none_of(r.left_out(), [](const LeftOut& l) { return l.why == "switched off"; }));
-        r.draw(dark, view_towards(0.0, -4.0), wanted);
-        EXPECT_EQ(r.left_out().at(0), (LeftOut{"1 of 2 lamps", "switched off"}));
+        r.draw(moment, view_towards(0.0, -4.0), outputs);
+        EXPECT_TRUE(std::ranges::none_of(r.pruned(), [](const PrunedFeature& l) { return l.why == "switched off"; }));
+        r.draw(dark, view_towards(0.0, -4.0), outputs);
+        EXPECT_EQ(r.pruned().at(0), (PrunedFeature{"1 of 2 lamps", "switched off"}));
         EXPECT_EQ(r.compiled_programs(), compiled) << row.name;
     }
 }

@@ -27,17 +27,17 @@ class RenderTest : public DeviceTest {
 };
 
 TEST_F(RenderTest, DrawsWithTheProgramOfAFrameAndLeavesNothingBehind) {
-    constexpr Wanted wanted{.colour = true, .illuminance = true};
-    const Frame expected = Renderer(device_, scene_, {}).draw(moment_, view_, wanted);
+    constexpr FrameOutputs outputs{.colour = true, .illuminance = true};
+    const Frame expected = Renderer(device_, scene_, {}).draw(moment_, view_, outputs);
     ASSERT_GT(expected.illuminance_lx.at(32, 24), 0.0F);
     Renderer used(device_, scene_, {});
     const int before = used.compiled_programs();
     for (int i = 0; i < 3; ++i)
-        used.render(moment_, view_, wanted);
+        used.render(moment_, view_, outputs);
     used.finish();
     const int after = used.compiled_programs();
     EXPECT_GT(after, before);
-    const Frame frame = used.draw(moment_, view_, wanted);
+    const Frame frame = used.draw(moment_, view_, outputs);
     EXPECT_EQ(used.compiled_programs(), after);
     EXPECT_EQ(std::tuple(frame.colour, frame.illuminance_lx), std::tuple(expected.colour, expected.illuminance_lx));
 }

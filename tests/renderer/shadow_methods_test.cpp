@@ -77,11 +77,11 @@ double shadow_y(double side, double x, double y, double at_x, double from_x = la
 class ShadowMethodTest : public DeviceTest {
   protected:
     Frame draw(const Scene& scene, const Moment& moment, const View& view, const ShadowSettings& shadows,
-               const char* technique = "photometric", const Wanted& wanted = {.illuminance = true}) {
+               const char* technique = "photometric", const FrameOutputs& outputs = {.illuminance = true}) {
         RendererSettings settings{.technique = technique, .shadows = shadows};
         settings.tone_mapper.l_max_cdm2 = 20.0;
         Renderer renderer(device_, scene, settings);
-        return renderer.draw(moment, view, wanted);
+        return renderer.draw(moment, view, outputs);
     }
 
     /// On the road in the row of the picture nearest to x: y where the lamp's share is one half, nearest to `about`.
@@ -269,12 +269,12 @@ TEST_F(ShadowMethodTest, PenumbraeConvergeToTheReferenceOfADisc) {
     constexpr double at = 14.0, radius = 0.06, z_post = 6.0 - lamp_x, z = at - lamp_x;
     const double about = shadow_y(0.6, post.x, post.y - post.width, at);
     const View view = strip_at(at, about, 240);
-    const Wanted wanted{.illuminance = true};
-    ReferenceSettings rays{.footprint = Footprint::centre, .target_error = 0.002, .least_samples = 1024, .lamp_radius_m = radius};
+    const FrameOutputs outputs{.illuminance = true};
+    ReferenceSettings rays{.footprint = Footprint::centre, .target_error = 0.002, .min_samples = 1024, .lamp_radius_m = radius};
     const Reference reference(scene);
-    const ReferenceImage shaded = reference.render(moment, view, wanted, rays);
+    const ReferenceImage shaded = reference.render(moment, view, outputs, rays);
     rays.shadows = false;
-    const ReferenceImage free = reference.render(moment, view, wanted, rays);
+    const ReferenceImage free = reference.render(moment, view, outputs, rays);
     std::vector<double> truth;
     for (int px = 0; px < view.width_px; ++px)
         truth.push_back(static_cast<double>(shaded.illuminance_lx.mean.at(px, 2)) /

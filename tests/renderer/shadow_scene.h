@@ -110,8 +110,8 @@ inline HiddenPixels hidden_pixels(Device& device, const Scene& scene, const Mome
     Renderer with(device, scene, settings);
     settings.shadows.method = ShadowMethod::none;
     Renderer without(device, scene, settings);
-    const Wanted wanted{.illuminance = true, .ids = true};
-    const Frame shaded = with.draw(moment, view, wanted), plain = without.draw(moment, view, wanted);
+    const FrameOutputs outputs{.illuminance = true, .ids = true};
+    const Frame shaded = with.draw(moment, view, outputs), plain = without.draw(moment, view, outputs);
     const Twin shaded_twin(scene, true), plain_twin(scene, false);
     HiddenPixels out{view.width_px, view.height_px, {}, {}};
     for (const auto& [x, y] : each_pixel(view)) {

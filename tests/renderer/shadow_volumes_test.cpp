@@ -14,10 +14,10 @@ Moment one_lamp(const glm::dvec3& at = {3.5, 0.6, 0.65}) { return {.lamps = {lam
 class ShadowVolumesTest : public DeviceTest {
   protected:
     /// No pixel wrong but within one pixel of an edge, and there is shadow to see.
-    void expect_as_rays(const Scene& scene, const Moment& moment, const View& view, const std::string& what, int least_hidden = 50) {
+    void expect_as_rays(const Scene& scene, const Moment& moment, const View& view, const std::string& what, int min_hidden = 50) {
         const HiddenPixels pixels = hidden_pixels(device_, scene, moment, view, volumes);
         EXPECT_EQ(pixels.wrong_inside(), 0) << what;
-        EXPECT_GE(pixels.count(1), least_hidden) << what;
+        EXPECT_GE(pixels.count(1), min_hidden) << what;
         EXPECT_GT(pixels.count(0), 1000) << what;
         EXPECT_LE(pixels.differ(), 2 + pixels.count(1) / 50) << what << ": edges fall on the same side of nearly all centres";
     }
@@ -256,7 +256,7 @@ TEST_F(ShadowVolumesTest, CostNothingWhereNothingStandsInABeam) {
         EXPECT_EQ(renderer.count(moment, driver_for_shadows(), all_results).passes, 1);
         renderer.draw(moment, driver_for_shadows(), all_results);
         const std::string title = method == ShadowMethod::volumes ? "shadow volumes" : "planar shadows";
-        EXPECT_TRUE(std::ranges::any_of(renderer.left_out(), [&](const LeftOut& one) { return one.what == title; }));
+        EXPECT_TRUE(std::ranges::any_of(renderer.pruned(), [&](const PrunedFeature& one) { return one.what == title; }));
     }
 }
 

@@ -60,7 +60,7 @@ TEST(TrafficLevels, MergingIsOffByNoMoreThanItsBound) {
         const TrafficBeam beam(texture);
         std::mt19937_64 random(7);
         const auto between = [&](double a, double b) { return a + (b - a) * std::uniform_real_distribution<double>()(random); };
-        double worst = 0.0, least_share = 1.0;
+        double worst = 0.0, min_share = 1.0;
         for (int i = 0; i < 200'000; ++i) {
             const double d = std::exp(between(std::log(4.0), std::log(400.0)));
             const double h = radians(between(-30.0, 30.0)), v = radians(i % 3 == 0 ? between(-12.0, 6.0) : between(-2.0, 0.5));
@@ -77,15 +77,15 @@ TEST(TrafficLevels, MergingIsOffByNoMoreThanItsBound) {
             const double off = std::abs(lx(half, 0.5) + lx(-half, 0.5) - lx({}, 1.0));
             const double near = d - glm::length(half), lx_a_cd = 1.0 / (near * near);
             const BeamWindow window{h, h, v, v};
-            // E_midway <= most_lx must hold, and does for the brightest direction between the lamps.
-            const double a = glm::length(half) / near, most = lx_a_cd * beam.most_cd({h - 1.5 * a, h + 1.5 * a, v - a, v + a});
+            // E_midway <= max_lx must hold, and does for the brightest direction between the lamps.
+            const double a = glm::length(half) / near, most = lx_a_cd * beam.max_cd({h - 1.5 * a, h + 1.5 * a, v - a, v + a});
             const double bound = beam.merging_lx(glm::length(half) / near, std::abs(half.y) / near, window, lx_a_cd, most);
             EXPECT_LE(off, bound * (1.0 + 1e-9) + 1e-12) << name << " " << d << " m, " << h << " " << v;
             worst = std::max(worst, off > 0.0 ? off / bound : 0.0);
-            least_share = std::min(least_share, most > 0.0 ? bound / most : 1.0);
+            min_share = std::min(min_share, most > 0.0 ? bound / most : 1.0);
         }
         EXPECT_GT(worst, 0.2) << "the bound is of the error's size";
-        EXPECT_LT(least_share, 0.05) << "and far lamps merge";
+        EXPECT_LT(min_share, 0.05) << "and far lamps merge";
     }
 }
 
@@ -93,14 +93,14 @@ TEST(TrafficLevels, NothingIsBrighterThanTheMostOfItsWindow) {
     const LampFile file = read_lamp(FERNLICHT_SOURCE_DIR "/scenarios/library/lamps/halogen-low.ies");
     const BeamTexture texture = make_beam_texture(file.table);
     const TrafficBeam beam(texture);
-    EXPECT_NEAR(beam.most_cd() / static_cast<double>(*std::ranges::max_element(texture.cd)), 1.0, 1e-7);
+    EXPECT_NEAR(beam.max_cd() / static_cast<double>(*std::ranges::max_element(texture.cd)), 1.0, 1e-7);
     std::mt19937_64 random(3);
     const auto between = [&](double a, double b) { return a + (b - a) * std::uniform_real_distribution<double>()(random); };
     for (int i = 0; i < 20'000; ++i) {
         const double h = radians(between(-60.0, 60.0)), v = radians(between(-20.0, 20.0)), size = radians(between(0.0, 3.0));
         const double inside_h = h + between(0.0, size), inside_v = v + between(0.0, size);
         const glm::dvec3 w(std::sin(inside_h) * std::cos(inside_v), std::sin(inside_v), std::cos(inside_h) * std::cos(inside_v));
-        EXPECT_LE(looked_up_cd(texture, w), beam.most_cd({h, h + size, v, v + size}) * (1.0 + 1e-9));
+        EXPECT_LE(looked_up_cd(texture, w), beam.max_cd({h, h + size, v, v + size}) * (1.0 + 1e-9));
     }
 }
 

@@ -23,7 +23,7 @@ TEST_F(Traffic, CastsShadowsAsTheTwinsRays) {
     Moment moment = street.at(0.5);
     moment.lamps.clear();
     std::erase_if(moment.other_lamps, [](const LitLamp& lamp) { return lamp.body == 0; });
-    moment.least_traffic_lx = 0.005;
+    moment.min_traffic_lx = 0.005;
     const View view = driver(96, 64, 24.0);
     const Frame frame = draw(street, moment, view, settings());
     const Frame bright = draw(street, moment, view, without_shadows());
@@ -37,7 +37,7 @@ TEST_F(Traffic, CastsShadowsAsTheTwinsRays) {
         bound.at(x, y) = with.bound_lx;
     }
     int compared = 0, in_shadow = 0, wrong = 0, wrong_before = 0;
-    const double allowed = (worst_traffic_error + 2.0) * moment.least_traffic_lx;
+    const double allowed = (worst_traffic_error + 2.0) * moment.min_traffic_lx;
     for (const auto& [x, y] : each_pixel(view, 2)) {
         const auto [least, most] = range_around(x, y, 2, [&](int u, int v) { return hidden.at(u, v); });
         if (least < 0.0 || most - least > 0.1)
@@ -63,7 +63,7 @@ TEST_F(Traffic, CastsShadowsOfStreetLampsAsTheReferencesRays) {
     const RoadNetwork network = read_opendrive(drive.road_file);
     const Route route(network, drive.start, drive.via);
     const Scene scene = staged_scene(drive, network, route);
-    Moment moment = moment_at({0, 2.0, distance_m(drive.speed, 2.0), 13.9}, drive, route, drive.variants[0]);
+    Moment moment = moment_at({0, 2.0, distance_m(drive.speed, 2.0), 13.9}, drive, route, drive.lamp_sets[0]);
     moment.lamps.clear();
     const View view = driver(240, 160, 40.0);
     Renderer renderer(device_, scene, settings());
@@ -110,17 +110,17 @@ TEST_F(Traffic, ShadowsStandHardPlaces) {
     const View view = driver(60, 40);
     for (const auto& [forward_m, up_m, factor] : {std::tuple(-2.0, 0.0, 1.0), std::tuple(-14.0, 0.3, 1e8), std::tuple(0.0, -0.65, 1.0),
                                                   std::tuple(0.0, -3.0, 1e8), std::tuple(-1e9, 0.0, 1e8), std::tuple(8.0, 0.0, 1e-38)})
-        for (const double least_lx : {1e-9, 0.05, 100.0}) {
+        for (const double min_lx : {1e-9, 0.05, 100.0}) {
             Moment moment = before;
-            moment.least_traffic_lx = least_lx;
+            moment.min_traffic_lx = min_lx;
             for (LitLamp& lamp : moment.other_lamps) {
                 lamp.pose.position_m += forward_m * ahead + glm::dvec3(0.0, 0.0, up_m);
                 lamp.intensity_factor *= factor;
             }
             const Frame a = pruned.draw(moment, view, all_results), b = unpruned.draw(moment, view, all_results);
-            EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << forward_m << " " << up_m << " " << least_lx;
+            EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << forward_m << " " << up_m << " " << min_lx;
             EXPECT_TRUE(std::ranges::all_of(a.illuminance_lx.pixels(), [](float lx) { return std::isfinite(lx) && lx >= 0.0F; }))
-                << forward_m << " " << up_m << " " << least_lx;
+                << forward_m << " " << up_m << " " << min_lx;
         }
 }
 
@@ -156,15 +156,15 @@ TEST_F(Traffic, TheStrongestLampsHaveMaps) {
     Renderer renderer(device_, street.scene, settings()), without(device_, street.scene, without_shadows());
     const auto maps = [&](const Moment& moment) { return renderer.count(moment, driver(), {.illuminance = true}).shadow_maps; };
     const auto shadow_lx = [&](const Moment& moment) { // most that is taken away anywhere
-        return most_difference(renderer.draw(moment, driver(), {.illuminance = true}).illuminance_lx,
-                               without.draw(moment, driver(), {.illuminance = true}).illuminance_lx);
+        return max_difference(renderer.draw(moment, driver(), {.illuminance = true}).illuminance_lx,
+                              without.draw(moment, driver(), {.illuminance = true}).illuminance_lx);
     };
     Moment moment = street.at(0.0);
     moment.lamps.clear();
     ASSERT_EQ(moment.other_lamps.size(), 24U);
     EXPECT_EQ(maps(moment), 16) << "as many as there are";
-    const std::vector<LeftOut> left_out = renderer.left_out();
-    EXPECT_TRUE(std::ranges::any_of(left_out, [](const LeftOut& l) { return l.what.starts_with("shadow maps of lamps of others"); }));
+    const std::vector<PrunedFeature> pruned = renderer.pruned();
+    EXPECT_TRUE(std::ranges::any_of(pruned, [](const PrunedFeature& l) { return l.what.starts_with("shadow maps of lamps of others"); }));
     const double all_lx = shadow_lx(moment);
     EXPECT_GT(all_lx, 1.0);
     for (std::size_t i = 6; i < moment.other_lamps.size(); ++i) // of the cars behind the third
@@ -208,7 +208,7 @@ TEST_F(Traffic, ReportsTheBoundOfMissingShadowsWhereItIsOfUse) {
         const Street street(oncoming(25.0, 12, every_m));
         Renderer renderer(device_, street.scene, settings());
         renderer.draw(street.at(0.0), driver(120, 80), {.illuminance = true});
-        for (const LeftOut& one : renderer.left_out())
+        for (const PrunedFeature& one : renderer.pruned())
             if (one.what.starts_with("shadow maps of lamps of others: those of up to"))
                 return one.why;
         return std::string("none");

@@ -30,11 +30,11 @@ struct Street {
     static Drive read(const std::string& traffic) {
         return read_drive(
             tests::written("traffic.yaml", fmt::format("fernlicht: 1\nroad: {}/scenarios/library/roads/straight.xodr\nroute: {{s_m: 20}}\n"
-                                                       "speed_mps: 20\nduration_s: 4\nvariants: {{one: {{file: {}}}}}\n{}",
+                                                       "speed_mps: 20\nduration_s: 4\nlamp_sets: {{one: {{file: {}}}}}\n{}",
                                                        FERNLICHT_SOURCE_DIR, low_beam, traffic)));
     }
     Moment at(double time_s) const {
-        return moment_at({0, time_s, distance_m(drive.speed, time_s), 20.0}, drive, route, drive.variants[0]);
+        return moment_at({0, time_s, distance_m(drive.speed, time_s), 20.0}, drive, route, drive.lamp_sets[0]);
     }
 
     Drive drive;
@@ -67,7 +67,7 @@ class Traffic : public DeviceTest {
     }
 };
 
-inline double most_difference(const Image<float>& a, const Image<float>& b) {
+inline double max_difference(const Image<float>& a, const Image<float>& b) {
     double most = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i)
         most = std::max(most, std::abs(static_cast<double>(a.pixels()[i]) - static_cast<double>(b.pixels()[i])));

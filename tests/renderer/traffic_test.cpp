@@ -14,7 +14,7 @@ TEST_F(Traffic, LightsTheSceneAsInDoublePrecision) {
     const View view = driver(48, 32);
     const Twin twin(street.scene, false);
     for (const double least : {0.05, 1e-6}) {
-        moment.least_traffic_lx = least;
+        moment.min_traffic_lx = least;
         const Frame frame = draw(street, moment, view, s);
         double brightest = 0.0;
         int others = 0;
@@ -39,7 +39,7 @@ TEST_F(Traffic, AgreesWithTheReferenceWhereNoBodyShadows) {
     const Street street(oncoming(40.0, 3, 25.0));
     Moment moment = street.at(0.5);
     moment.lamps.clear();
-    moment.least_traffic_lx = 0.01;
+    moment.min_traffic_lx = 0.01;
     const View view = driver(48, 32);
     ReferenceSettings rays{.footprint = Footprint::centre};
     const ReferenceImage truth = Reference(street.scene).render(moment, view, all_results, rays);
@@ -52,12 +52,12 @@ TEST_F(Traffic, AgreesWithTheReferenceWhereNoBodyShadows) {
             continue;
         const double rays_lx = static_cast<double>(truth.illuminance_lx.mean.at(x, y));
         if (with.illuminance_lx != without.illuminance_lx) {
-            in_shadow += without.illuminance_lx - rays_lx > moment.least_traffic_lx ? 1 : 0;
+            in_shadow += without.illuminance_lx - rays_lx > moment.min_traffic_lx ? 1 : 0;
             continue;
         }
         ++compared;
         const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - rays_lx);
-        EXPECT_LE(off, 3.0 * worst_traffic_error * moment.least_traffic_lx + 4.0 * with.bound_lx + 1e-5 * rays_lx) << x << " " << y;
+        EXPECT_LE(off, 3.0 * worst_traffic_error * moment.min_traffic_lx + 4.0 * with.bound_lx + 1e-5 * rays_lx) << x << " " << y;
     }
     EXPECT_GT(compared, 100);
     EXPECT_GT(in_shadow, 0);
@@ -67,12 +67,12 @@ TEST_F(Traffic, AgreesWithTheReferenceWhereNoBodyShadows) {
 TEST_F(Traffic, LevelsStayWithinTheirBound) {
     const Street street(oncoming(30.0, 8, 40.0));
     Moment moment = street.at(0.3);
-    moment.least_traffic_lx = 0.3;
+    moment.min_traffic_lx = 0.3;
     Renderer coarse(device_, street.scene, settings()), fine(device_, street.scene, without_levels());
     const Frame a = coarse.draw(moment, driver(), all_results), b = fine.draw(moment, driver(), all_results);
-    const double worst = most_difference(a.illuminance_lx, b.illuminance_lx);
+    const double worst = max_difference(a.illuminance_lx, b.illuminance_lx);
     EXPECT_GT(worst, 0.0) << "levels are in use";
-    EXPECT_LE(worst, worst_traffic_error * moment.least_traffic_lx * 3.0) << "of at most three units that are drawn coarsely at one place";
+    EXPECT_LE(worst, worst_traffic_error * moment.min_traffic_lx * 3.0) << "of at most three units that are drawn coarsely at one place";
     const Work coarsely = coarse.count(moment, driver(), all_results), finely = fine.count(moment, driver(), all_results);
     EXPECT_LT(coarsely.traffic_full, finely.traffic_full);
     EXPECT_GT(coarsely.traffic_merged, 0);
@@ -122,7 +122,8 @@ TEST_F(Traffic, NothingPopsOnTheShippedDrive) {
         Image<std::uint32_t> ids;
         for (int i = 0; i < 4; ++i) {
             const double time_s = from_s + 0.005 * i;
-            Moment moment = moment_at({0, time_s, distance_m(drive.speed, 0.0), 0.0}, drive, route, drive.variants[0]); // the camera stands
+            Moment moment =
+                moment_at({0, time_s, distance_m(drive.speed, 0.0), 0.0}, drive, route, drive.lamp_sets[0]); // the camera stands
             const Frame coarse = renderer.draw(moment, driver(), {.illuminance = true, .ids = true}),
                         exact = fine.draw(moment, driver(), {.illuminance = true});
             std::vector<double> apart;
@@ -138,7 +139,7 @@ TEST_F(Traffic, NothingPopsOnTheShippedDrive) {
         }
     }
     EXPECT_GT(in_use, 0);
-    EXPECT_LE(most, drive.least_traffic_lx);
+    EXPECT_LE(most, drive.min_traffic_lx);
 }
 
 /// Integral of luminance over solid angle = I / d^2, from many pixels to a hundredth of one.
@@ -183,7 +184,7 @@ TEST_F(Traffic, BodiesStandWhereTheyWouldStandAsPartOfTheWorld) {
     }
     EXPECT_GT(cars, 200U);
     EXPECT_LE(differ, 3U);
-    EXPECT_LT(most_difference(moving.depth_m, fixed.depth_m), 200.0) << "edges apart";
+    EXPECT_LT(max_difference(moving.depth_m, fixed.depth_m), 200.0) << "edges apart";
 }
 
 TEST_F(Traffic, NothingCompilesOnceItIsPrepared) {

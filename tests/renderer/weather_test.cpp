@@ -176,7 +176,7 @@ TEST_F(DrawnWeather, BeamsOfOthersAreSeenInTheFog) {
         Moment moment = in(fog);
         moment.lamps.clear();
         moment.other_lamps = others();
-        const double least = least_airlight_cdm2(moment.least_traffic_lx);
+        const double least = min_airlight_cdm2(moment.min_traffic_lx);
         const Frame frame = draw(scene, moment, "photometric", 128, nullptr, view);
         const Twin twin(scene, false);
         double sum = 0.0, off = 0.0;
@@ -202,21 +202,21 @@ TEST_F(DrawnWeather, BeamsOfOthersAreSeenInTheFog) {
 TEST_F(DrawnWeather, BeamsOfOthersPrunedAndUnprunedGiveTheSameBytes) {
     const Scene scene = road(0.1);
     for (const double extinction : {0.0, 1e-6, 0.03})
-        for (const double least_lx : {0.05, 50.0}) {
+        for (const double min_lx : {0.05, 50.0}) {
             Moment moment = in({extinction, 1.0, 0.85, 0.0}, 0.2);
             moment.daylight.sun = {radians(80.0), radians(20.0), 1.0}; // so that all of it is compiled in where nothing is pruned
             moment.other_lamps = others();
-            moment.least_traffic_lx = least_lx;
+            moment.min_traffic_lx = min_lx;
             expect_same_frames(draw(scene, moment), draw(scene, moment, "photometric-unpruned"),
-                               std::to_string(extinction) + ' ' + std::to_string(least_lx));
+                               std::to_string(extinction) + ' ' + std::to_string(min_lx));
         }
 }
 
 TEST_F(DrawnWeather, BeamsOfOthersCostNothingWithoutFogOrOutOfReach) {
     const Scene scene = road(0.1);
-    const auto counted = [&](double extinction, const glm::dvec3& place_m, double least_lx) {
+    const auto counted = [&](double extinction, const glm::dvec3& place_m, double min_lx) {
         Moment moment = in({extinction, 1.0, 0.85, 0.0});
-        moment.least_traffic_lx = least_lx;
+        moment.min_traffic_lx = min_lx;
         moment.other_lamps = {beam(place_m)};
         moment.other_lamps[0].body = -2;
         Work work;

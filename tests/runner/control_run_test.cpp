@@ -24,7 +24,7 @@ route: {{s_m: {3}}}
 speed_kmh: 72
 rate_hz: 10
 duration_s: 4
-variants:
+lamp_sets:
   still: {{source: arc, file: "{1}"}}
   moving: {{source: arc, file: "{1}", control: {2}}}
 measure: {{extent: false}}
@@ -69,12 +69,12 @@ class ControlRunTest : public testing::Test {
 TEST_F(ControlRunTest, ReportsSwivelAndWhatItIsWorth) {
     const Ran ran = run(260.0, "{bend: {law: yaw-rate, preview_s: 1.5}}");
     ASSERT_EQ(ran.signals.size(), 40U) << "one row a moment";
-    double most_rad = 0.0;
+    double max_rad = 0.0;
     for (const auto& row : ran.signals)
-        most_rad = std::max(most_rad, std::abs(std::stod(row.at("lamp.left.swivel_rad"))));
+        max_rad = std::max(max_rad, std::abs(std::stod(row.at("lamp.left.swivel_rad"))));
     // 20 m/s over 150 m for 1.5 s: 20 * 1.5 / 300 rad = 5.7 degrees.
-    EXPECT_NEAR(most_rad * 180.0 / 3.14159265, 5.7, 0.3);
-    EXPECT_NEAR(tests::reading_of(ran.out, "control_swivel_max_deg", "moving"), most_rad * 180.0 / 3.14159265, 0.2);
+    EXPECT_NEAR(max_rad * 180.0 / 3.14159265, 5.7, 0.3);
+    EXPECT_NEAR(tests::reading_of(ran.out, "control_swivel_max_deg", "moving"), max_rad * 180.0 / 3.14159265, 0.2);
     EXPECT_EQ(ran.signals.front().at("ego.speed_mps"), "20");
     EXPECT_GT(tests::reading_of(ran.out, "control_left_bends_inside_at_50m_lx", "moving"), 0.0);
     EXPECT_EQ(tests::reading_of(ran.out, "control_swivel_max_deg", "still"), 0.0);

@@ -20,10 +20,10 @@ using tests::reading_of;
 
 json report_of(const std::string& folder) { return json::parse(content_of(folder + "/report.json")); }
 
-/// Plays a drive of the library with these flags into a folder; its report. Limits may be exceeded where `most_code` is 1.
-json played(const std::string& drive, const std::string& flags, const std::string& out, int most_code = 1) {
+/// Plays a drive of the library with these flags into a folder; its report. Limits may be exceeded where `max_code` is 1.
+json played(const std::string& drive, const std::string& flags, const std::string& out, int max_code = 1) {
     const Outcome run = run_program("run " + library_file("drives/" + drive + ".yaml") + " " + flags + " --out " + out);
-    if (run.exit_code < 0 || run.exit_code > most_code)
+    if (run.exit_code < 0 || run.exit_code > max_code)
         throw std::runtime_error(run.output);
     return report_of(out);
 }
@@ -72,7 +72,7 @@ TEST(Run, WhatLiesBeyondTheGridIsABoundEverywhere) {
     EXPECT_EQ(field_of(folder / "out", "reach_1lx_target_own_m", "bound"), "at_least");
     EXPECT_EQ(reading_of(folder / "out", "reach_1lx_target_own_m"), 200.0);
     for (const json& summary : report.at("drives").at(0).at("summary"))
-        if (summary.at("plane") == "target" && summary.at("lane") == "own" && summary.at("limit_lx") == 1.0) {
+        if (summary.at("plane") == "target" && summary.at("lane") == "own" && summary.at("threshold_lx") == 1.0) {
             EXPECT_EQ(summary.at("reach_m").at("median"), bound);
             EXPECT_TRUE(summary.at("reach_m").at("mean").is_null());
         }
@@ -89,7 +89,7 @@ TEST(Run, AnIihsDriveMeasuresItsSensorsAsTheExtentDoes) {
     };
     replace("../", library_file(""));
     replace("resolution_px: [1024, 768]", "resolution_px: [32, 24]");
-    replace("extent: {limits_lx: [1, 3, 5, 10]}", "extent: false");
+    replace("extent: {thresholds_lx: [1, 3, 5, 10]}", "extent: false");
     replace("capture: {per_second: 0.5}", "capture: {per_second: 0}");
     std::ofstream(folder / "drive.yaml") << drive << "limits:\n  - {reading: sensor_right-edge_reach_5lx_m, at_least: 50}\n"
                                          << "  - {reading: glare_lane-centre_facing_max_lx, at_most: 1.4}\n";

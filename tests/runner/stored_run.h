@@ -4,7 +4,7 @@
 #include "runner/commands/run_files.h"
 #include "runner/files/picture_file.h"
 #include "runner/findings/report.h"
-#include "runner/judge/references.h"
+#include "runner/judge/baselines.h"
 
 namespace fernlicht::tests {
 
@@ -19,23 +19,23 @@ struct StoredRun {
         report.context.cpu = "Some CPU @ 2 GHz (avx2)";
         report.context.command = "fernlicht run straight.yaml";
         report.context.started_utc = "2026-01-31T22:15:00Z";
-        for (const char* variant : {"halogen", "xenon"})
-            report.played.push_back(played(variant, light));
+        for (const char* lamp_set : {"halogen", "xenon"})
+            report.played.push_back(played(lamp_set, light));
         write_report(report, folder);
     }
 
-    PlayedVariant played(const std::string& variant, double light) const {
-        PlayedVariant result;
+    PlayedCell played(const std::string& lamp_set, double light) const {
+        PlayedCell result;
         result.drive = "straight";
-        result.variant = variant;
+        result.lamp_set = lamp_set;
         result.technique = "photometric";
         result.ticks_planned = result.ticks_done = 20;
-        result.inputs = {{"drive", "hash of the drive"}, {"road", "hash of the road"}};
+        result.input_hashes = {{"drive", "hash of the drive"}, {"road", "hash of the road"}};
         result.readings = {{key_of("reach_5lx_road_own_m").value(), 60.0 * light},
                            {key_of("reach_1lx_road_own_m").value(), Value::not_measured("beyond")},
                            {key_of("frame_time_median_ms").value(), 12.5 + 100.0 * light}};
         for (const int tick : {0, 10}) {
-            const std::string exr = "frames/" + variant + "-" + std::to_string(tick) + ".exr";
+            const std::string exr = "frames/" + lamp_set + "-" + std::to_string(tick) + ".exr";
             write_frame(exr, tick, light);
             result.frames.push_back({tick, 0.1 * tick, "driver", "", exr});
         }
@@ -59,8 +59,8 @@ struct StoredRun {
         write_exr(frame, moment, view, folder / exr);
     }
 
-    std::vector<Verdict> judged(const fs::path& references) const {
-        return judge_against_references(report.played[0], report.context, folder, references, "photometric");
+    std::vector<Verdict> judged(const fs::path& baselines) const {
+        return judge_against_baselines(report.played[0], report.context, folder, baselines, "photometric");
     }
 
     fs::path folder;

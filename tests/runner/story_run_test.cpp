@@ -26,7 +26,7 @@ name: told
 storyboard: told.xosc
 rate_hz: 20
 duration_s: 3
-variants:
+lamp_sets:
   halogen: {{source: filament, file: "{0}"}}
 traffic:
   others: {{entities: all, lamps: {{left: "{0}", right: "{0}"}}}}

@@ -34,7 +34,7 @@ class Program {
 };
 
 /// WANTED of the shaders: one bit an output.
-inline int wanted_bits(const Wanted& w) {
+inline int output_bits(const FrameOutputs& w) {
     return (w.colour ? 1 : 0) | (w.illuminance ? 2 : 0) | (w.target ? 4 : 0) | (w.luminance ? 8 : 0) | (w.depth ? 16 : 0) |
            (w.ids ? 32 : 0) | (w.light ? 64 : 0);
 }

@@ -12,42 +12,42 @@ namespace {
 
 struct Format {
     const char* name;
-    bool Wanted::*wanted;
+    bool FrameOutputs::*outputs;
     GLenum internal, layout, type;
 };
-constexpr Format formats[] = {{"COLOUR", &Wanted::colour, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE},
-                              {"ILLUMINANCE", &Wanted::illuminance, GL_R32F, GL_RED, GL_FLOAT},
-                              {"TARGET", &Wanted::target, GL_R32F, GL_RED, GL_FLOAT},
-                              {"LUMINANCE", &Wanted::luminance, GL_R32F, GL_RED, GL_FLOAT},
-                              {"LIGHT", &Wanted::light, GL_RGBA32F, GL_RGBA, GL_FLOAT}, // three channels need not be drawable
-                              {"DEPTH", &Wanted::depth, GL_R32F, GL_RED, GL_FLOAT},
-                              {"IDS", &Wanted::ids, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT}};
+constexpr Format formats[] = {{"COLOUR", &FrameOutputs::colour, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE},
+                              {"ILLUMINANCE", &FrameOutputs::illuminance, GL_R32F, GL_RED, GL_FLOAT},
+                              {"TARGET", &FrameOutputs::target, GL_R32F, GL_RED, GL_FLOAT},
+                              {"LUMINANCE", &FrameOutputs::luminance, GL_R32F, GL_RED, GL_FLOAT},
+                              {"LIGHT", &FrameOutputs::light, GL_RGBA32F, GL_RGBA, GL_FLOAT}, // three channels need not be drawable
+                              {"DEPTH", &FrameOutputs::depth, GL_R32F, GL_RED, GL_FLOAT},
+                              {"IDS", &FrameOutputs::ids, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT}};
 
 } // namespace
 
-std::vector<Targets::Result> Targets::results_of(const Wanted& wanted) {
+std::vector<Targets::Result> Targets::results_of(const FrameOutputs& outputs) {
     std::vector<Result> results;
     for (int r = 0; r < result_count; ++r)
-        if (wanted.*formats[r].wanted)
+        if (outputs.*formats[r].outputs)
             results.push_back(static_cast<Result>(r));
     return results;
 }
 
-std::vector<Program::Define> Targets::defines(const Wanted& wanted) {
+std::vector<Program::Define> Targets::defines(const FrameOutputs& outputs) {
     std::vector<Program::Define> list;
     int slot = 0;
     for (const Format& format : formats) {
-        const bool is_wanted = wanted.*format.wanted;
-        list.push_back({std::string("WANT_") + format.name, is_wanted ? "1" : "0"});
+        const bool has_output = outputs.*format.outputs;
+        list.push_back({std::string("WANT_") + format.name, has_output ? "1" : "0"});
         list.push_back({std::string("OUT_") + format.name, std::to_string(slot)});
-        slot += is_wanted ? 1 : 0;
+        slot += has_output ? 1 : 0;
     }
-    list.push_back({"WANT_SEEN", wanted.seen() ? "1" : "0"});
+    list.push_back({"WANT_SEEN", outputs.seen() ? "1" : "0"});
     return list;
 }
 
-Targets::Targets(Context& context, int width, int height, const Wanted& wanted)
-    : context_(context), width_(width), height_(height), results_(results_of(wanted)), framebuffer_(make_framebuffer(context)) {
+Targets::Targets(Context& context, int width, int height, const FrameOutputs& outputs)
+    : context_(context), width_(width), height_(height), results_(results_of(outputs)), framebuffer_(make_framebuffer(context)) {
     const GladGLContext& gl = context.gl;
     std::vector<GLenum> draw_buffers;
     for (const Result result : results_) {

@@ -11,7 +11,7 @@ namespace fernlicht::gl {
 
 class Targets {
   public:
-    Targets(Context& context, int width, int height, const Wanted& wanted);
+    Targets(Context& context, int width, int height, const FrameOutputs& outputs);
 
     /// Binds, sets the viewport and clears: everything 0, colour to `background`, luminance and light to the sky's.
     void begin(const glm::vec3& background, float sky_luminance_cdm2);
@@ -28,11 +28,11 @@ class Targets {
     Frame finish_read(Reading reading);
 
     /// WANT_* and OUT_* for the fragment shader; WANT_SEEN: any of what an eye sees.
-    static std::vector<Program::Define> defines(const Wanted& wanted);
+    static std::vector<Program::Define> defines(const FrameOutputs& outputs);
 
   private:
     enum Result { colour, illuminance, target, luminance, light, depth, ids, result_count };
-    static std::vector<Result> results_of(const Wanted& wanted);
+    static std::vector<Result> results_of(const FrameOutputs& outputs);
     std::size_t bytes_of(Result result) const;
     /// glReadPixels of one result, to memory or, with a pack buffer bound, to an offset in it.
     void read_pixels(std::size_t slot, void* place);

@@ -91,12 +91,12 @@ std::vector<LitLamp> shining(const Moment& moment, bool all) {
     for (const LitLamp& lamp : moment.lamps)
         if (all || lamp.intensity_factor > 0.0)
             lamps.push_back(lamp);
-    if (lamps.size() > most_lamps)
+    if (lamps.size() > max_lamps)
         throw InputError(
             {{}, 0, 0, "lamps"},
             all ? fmt::format("{} lamps are mounted, and a technique that leaves nothing out draws those that are off, too", lamps.size())
                 : fmt::format("{} lamps are on at {} s", lamps.size(), moment.time_s),
-            fmt::format("at most {}", most_lamps));
+            fmt::format("at most {}", max_lamps));
     return lamps;
 }
 
@@ -108,7 +108,7 @@ BeamBounds::BeamBounds(const BeamTexture& beam)
     : h_first_(beam.h_first_rad), v_first_(beam.v_first_rad), h_cell_(texels_a_cell * beam.h_step_rad),
       v_cell_(texels_a_cell * beam.v_step_rad), columns_((beam.width + texels_a_cell - 1) / texels_a_cell),
       rows_((beam.height + texels_a_cell - 1) / texels_a_cell),
-      most_of_cell_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0.0F) {
+      max_of_cell_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0.0F) {
     for (int y = 0; y < beam.height; ++y)
         for (int x = 0; x < beam.width; ++x) {
             const float cd = beam.cd[static_cast<std::size_t>(y * beam.width + x)];
@@ -116,13 +116,13 @@ BeamBounds::BeamBounds(const BeamTexture& beam)
             // A sample on a border belongs to the cells on both sides.
             for (int row = std::max(0, (y - 1) / texels_a_cell); row <= y / texels_a_cell; ++row)
                 for (int column = std::max(0, (x - 1) / texels_a_cell); column <= x / texels_a_cell; ++column) {
-                    float& most = most_of_cell_[static_cast<std::size_t>(row * columns_ + column)];
+                    float& most = max_of_cell_[static_cast<std::size_t>(row * columns_ + column)];
                     most = std::max(most, cd);
                 }
         }
 }
 
-double BeamBounds::most_towards(const glm::dvec3& centre, double radius) const {
+double BeamBounds::max_towards(const glm::dvec3& centre, double radius) const {
     const double distance = glm::length(centre);
     if (distance <= radius)
         return most_;
@@ -140,7 +140,7 @@ double BeamBounds::most_towards(const glm::dvec3& centre, double radius) const {
     float most = 0.0F;
     for (int row = low; row <= high; ++row)
         for (int column = left; column <= right; ++column)
-            most = std::max(most, most_of_cell_[static_cast<std::size_t>(row * columns_ + column)]);
+            most = std::max(most, max_of_cell_[static_cast<std::size_t>(row * columns_ + column)]);
     return static_cast<double>(most);
 }
 

@@ -19,14 +19,14 @@ class BeamBounds {
     explicit BeamBounds(const BeamTexture& beam);
 
     /// No direction towards the sphere has more, in cd. `centre` in lamp space. 0 only where the beam is exactly dark.
-    double most_towards(const glm::dvec3& centre, double radius) const;
+    double max_towards(const glm::dvec3& centre, double radius) const;
 
     double most() const { return most_; } ///< cd, in any direction
 
   private:
     double h_first_ = 0.0, v_first_ = 0.0, h_cell_ = 1.0, v_cell_ = 1.0, most_ = 0.0;
     int columns_ = 0, rows_ = 0;
-    std::vector<float> most_of_cell_;
+    std::vector<float> max_of_cell_;
 };
 
 /// Tangents in lamp space that a shadow map covers.
@@ -66,9 +66,9 @@ class Beams {
     std::size_t texture_bytes_ = 0;
 };
 
-/// Lamps that shine, in the moment's order; with `all` those that are off too. Throws InputError for more than most_lamps.
+/// Lamps that shine, in the moment's order; with `all` those that are off too. Throws InputError for more than max_lamps.
 std::vector<LitLamp> shining(const Moment& moment, bool all);
-inline constexpr std::size_t most_lamps = 8;
+inline constexpr std::size_t max_lamps = 8;
 
 /// A world direction in lamp space (x right, y up, z forward).
 glm::dvec3 to_lamp_space(const LitLamp& lamp, const glm::dvec3& direction);

@@ -14,7 +14,7 @@ namespace fernlicht::gl {
 struct Shot {
     const Moment& moment;
     const View& view;
-    const Wanted& wanted; ///< only what the technique has
+    const FrameOutputs& outputs; ///< only what the technique has
     const Camera& camera;
     Targets& targets;
     glm::vec3 background; ///< the sky as it is shown
@@ -30,7 +30,7 @@ class Lighting {
     /// Compiles every variant that drawing moments with these lamps and this sky can need, and makes the driver compile it too.
     virtual void prepare(const Shot& shot) = 0;
     /// What the last drawn shot did not need.
-    virtual std::vector<LeftOut> left_out() const = 0;
+    virtual std::vector<PrunedFeature> pruned() const = 0;
     /// Of the beam as it is drawn with against its table, relative to the peak; nullopt where no beam of one lamp is drawn with.
     virtual std::optional<double> beam_error(const LampFile& lamp) const = 0;
 };

@@ -151,7 +151,7 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
                 if (fresh) {
                     const Vertex& vertex = mesh.vertices.at(corner.first);
                     vertices.push_back({vertex.position_m, vertex.normal, corner.second, vertex.uv});
-                    piece.least_up = std::min(piece.least_up, static_cast<double>(vertex.normal.z));
+                    piece.min_up = std::min(piece.min_up, static_cast<double>(vertex.normal.z));
                     low = glm::min(low, glm::dvec3(vertex.position_m));
                     high = glm::max(high, glm::dvec3(vertex.position_m));
                 }

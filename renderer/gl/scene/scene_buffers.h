@@ -44,7 +44,7 @@ struct Piece {
     Corners corners_m;                       ///< of a box round it that lies along its longest extent; relative to the origin
     int body = -1;                           ///< of its mesh
     glm::vec4 turn{0.0F, 0.0F, 0.0F, 1.0F};  ///< quaternion of its body
-    double least_up = 1.0;                   ///< ground only: the least z of its normals
+    double min_up = 1.0;                     ///< ground only: the least z of its normals
     std::vector<Corners> bodies_m;           ///< what stands on the ground: a box round each body; else the one round all
 };
 

@@ -59,8 +59,8 @@ void PlanarShadows::find_plane(const std::vector<LitLamp>& lamps, const std::vec
         const bool lit = std::ranges::any_of(lamps, [&](const LitLamp& lamp) {
             const glm::dvec3 from_lamp = piece.origin_m + piece.centre_m - lamp.pose.position_m;
             const double nearest = glm::length(from_lamp) - piece.radius_m,
-                         cd = beams[static_cast<std::size_t>(&lamp - lamps.data())]->bounds.most_towards(to_lamp_space(lamp, from_lamp),
-                                                                                                         piece.radius_m);
+                         cd = beams[static_cast<std::size_t>(&lamp - lamps.data())]->bounds.max_towards(to_lamp_space(lamp, from_lamp),
+                                                                                                        piece.radius_m);
             return lamp.intensity_factor > 0.0 && nearest < shadow_farthest_m && cd > 0.0 &&
                    (nearest <= 0.0 || lamp.intensity_factor * cd >= last_contour_lx * nearest * nearest);
         });

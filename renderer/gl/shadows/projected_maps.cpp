@@ -154,7 +154,7 @@ bool ProjectedMaps::stands(const Kept& kept, const MapPlan& plan, const LampCast
         return false;
     if (plan.to_cover.empty()
             ? !same_fit
-            : !covered_by(kept.plan, plan, settings_.width, settings_.height) || kept.plan.most_raise > shadow_kept_slack * plan.most_raise)
+            : !covered_by(kept.plan, plan, settings_.width, settings_.height) || kept.plan.max_raise > shadow_kept_slack * plan.max_raise)
         return false;
     double turned = 0.0;
     for (int axis = 0; axis < 3; ++axis)

@@ -22,7 +22,7 @@ struct MapPlan {
     std::vector<std::uint32_t> pieces;  ///< drawn; ascending
     std::vector<Caster> bodies;         ///< of these pieces, in their order
     std::vector<glm::dvec3> to_cover{}; ///< in lamp space; empty: what texture_from_lamp was made for follows from the lamp's axes alone
-    double most_raise = 0.0;            ///< over to_cover, as a tangent seen from the lamp
+    double max_raise = 0.0;             ///< over to_cover, as a tangent seen from the lamp
 };
 
 /// A map that is kept may raise what is looked up in it by so much more than the one that would be drawn.

@@ -113,8 +113,8 @@ bool faces_lamp(const SceneBuffers& scene, const Piece& piece, const glm::dvec3&
 void ShadowCasters::set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m) {
     ego_m_ = ego_m;
     lamps_.clear();
-    constexpr std::size_t most_read = 4096;
-    if (corners_.size() > most_read) // a long drive passes many
+    constexpr std::size_t max_read = 4096;
+    if (corners_.size() > max_read) // a long drive passes many
         corners_.clear();
     for (std::size_t i = 0; i < lamps.size(); ++i) {
         LampCasters found;
@@ -131,8 +131,8 @@ void ShadowCasters::set(const std::vector<LitLamp>& lamps, const std::vector<con
                 continue;
             if (!piece.casts || (piece.ground && !piece.above_ground && faces_lamp(scene_, piece, found.lamp_m, ego_m)))
                 continue;
-            const double most_cd = beams[i]->bounds.most_towards(to_lamp_space(lamps[i], from_lamp), piece.radius_m);
-            if (most_cd == 0.0 || (nearest > 0.0 && most_cd < last_contour_lx * nearest * nearest))
+            const double max_cd = beams[i]->bounds.max_towards(to_lamp_space(lamps[i], from_lamp), piece.radius_m);
+            if (max_cd == 0.0 || (nearest > 0.0 && max_cd < last_contour_lx * nearest * nearest))
                 continue;
             found.pieces.push_back(k);
         }

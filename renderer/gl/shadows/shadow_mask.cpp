@@ -10,7 +10,7 @@
 namespace fernlicht::gl {
 namespace {
 
-constexpr std::size_t most_canvases = 8;
+constexpr std::size_t max_canvases = 8;
 constexpr GLuint target_bits_from = 8;
 
 /// In maps, where parallel lines do not meet at infinity, hulls end this many times as far from the lamp as their casters: 500 m behind
@@ -104,7 +104,7 @@ const ShadowMask::Canvas& ShadowMask::canvas_for(const View& view) {
         return canvases_.front();
     }
     canvases_.push_front(make_canvas(view.width_px, view.height_px));
-    if (canvases_.size() > most_canvases)
+    if (canvases_.size() > max_canvases)
         canvases_.pop_back();
     return canvases_.front();
 }
@@ -121,7 +121,7 @@ void ShadowMask::draw_depth(const Shot& shot) {
         const double distance = glm::length(centre) - piece.radius_m;
         if ((shot.camera.is_map && !piece.ground) || distance > farthest_drawn_m || frustum.outside(centre, piece.radius_m))
             continue;
-        if (use_.pruned && !reach(piece, shot.wanted.target ? use_.target_height_m : 0.0))
+        if (use_.pruned && !reach(piece, shot.outputs.target ? use_.target_height_m : 0.0))
             continue;
         sorted[piece.ground ? 1 : 0].emplace_back(distance, i);
     }
@@ -190,7 +190,7 @@ void ShadowMask::draw(const Shot& shot) {
         gl.DepthMask(GL_FALSE);
         for (std::size_t i = 0; i < (one_for_all_lamps() ? std::min<std::size_t>(lamps_.size(), 1) : lamps_.size()); ++i)
             for (const bool raised : {false, true})
-                if (hides_any(i) && (!raised || shot.wanted.target)) {
+                if (hides_any(i) && (!raised || shot.outputs.target)) {
                     gl.StencilMask(only_on_ground() ? count_bits : 0xFFU);
                     mark_hidden(shot, i, raised ? use_.target_height_m : 0.0);
                     const GLuint bits = one_for_all_lamps() ? 0xFFU : 1U << i;

@@ -170,9 +170,9 @@ std::vector<bool> ShadowVolumes::casting_bodies(const Silhouettes& silhouettes, 
         const double radius = 0.5 * glm::length(body.high - body.low);
         const glm::dvec3 centre = piece.origin_m - ego_m() + turn * (0.5 * (body.low + body.high)), from_lamp = centre - casters.lamp_m;
         const double nearest = glm::length(from_lamp) - radius;
-        const double most_cd = beams_[lamp]->bounds.most_towards(to_lamp_space(casters.lamp, from_lamp), radius);
-        casts.push_back(nearest <= shadow_farthest_m && !frustum.outside(centre, radius) && most_cd > 0.0 &&
-                        (nearest <= 0.0 || most_cd >= last_contour_lx * nearest * nearest));
+        const double max_cd = beams_[lamp]->bounds.max_towards(to_lamp_space(casters.lamp, from_lamp), radius);
+        casts.push_back(nearest <= shadow_farthest_m && !frustum.outside(centre, radius) && max_cd > 0.0 &&
+                        (nearest <= 0.0 || max_cd >= last_contour_lx * nearest * nearest));
     }
     return casts;
 }

@@ -80,8 +80,7 @@ void UnderCarShadows::set(const std::vector<LitLamp>& lamps, const std::vector<c
             continue;
         const glm::dvec3 place = piece.origin_m - turn_of(piece) * outline.resting_m - ego_m;
         for (std::size_t i = 0; i < lamps.size(); ++i)
-            if (beams[i]->bounds.most_towards(to_lamp_space(lamps[i], place - (lamps[i].pose.position_m - ego_m)), outline.radius_m) >
-                0.0) {
+            if (beams[i]->bounds.max_towards(to_lamp_space(lamps[i], place - (lamps[i].pose.position_m - ego_m)), outline.radius_m) > 0.0) {
                 standing_.push_back({k, place});
                 break;
             }

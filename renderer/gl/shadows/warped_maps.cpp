@@ -14,7 +14,7 @@ constexpr double widest_warped_texel = 2.0; // of the plain map's
 using WarpPolygon = std::vector<glm::dvec3>;
 
 constexpr double texels_beside_seen = 4.0; // a look-up's point is raised by 1.5, weighs texels up to 1 away, and the outermost are empty
-constexpr double least_w_ratio = 1.0 / 256.0;
+constexpr double min_w_ratio = 1.0 / 256.0;
 
 double above_plane(const glm::dvec4& plane, const glm::dvec3& p) { return glm::dot(glm::dvec3(plane), p) + plane.w; }
 
@@ -79,7 +79,7 @@ std::vector<MapPlan> WarpedMaps::plan(const Shot& shot) {
     const glm::dvec3 ego_m = casters_.ego_m();
     const Camera eye = eye_ ? camera_of(shot.moment, *eye_) : shot.camera;
     std::vector<Corners> boxes; // of all that can be seen, whether it is lit or not: pruning must not change the fit
-    if (!eye.is_map && !shot.wanted.target) {
+    if (!eye.is_map && !shot.outputs.target) {
         const Frustum frustum(eye.clip_from_ego);
         for (const std::uint32_t k : scene_.near(ego_m)) {
             const Piece& piece = scene_.pieces()[k];
@@ -98,24 +98,24 @@ std::vector<MapPlan> WarpedMaps::plan(const Shot& shot) {
         const std::vector<glm::dvec3> seen = seen_in_beam(boxes, eye, lamp.lamp, lamp.lamp_m, lamp.window, shadow_slack_m);
         if (seen.empty())
             continue;
-        const double plain_raise = most_raise_tangent(plan.texture_from_lamp, plan.spread, seen);
+        const double plain_raise = max_raise_tangent(plan.texture_from_lamp, plan.spread, seen);
         const auto take = [&](const std::optional<glm::dmat3>& warp, double widest) {
             const auto fit = warp ? fitted(*warp, seen, settings_.width, settings_.height, shadow_slack_m) : std::nullopt;
             if (!fit)
                 return false;
-            const double spread = spread_of(*fit, settings_.width, settings_.height), raise = most_raise_tangent(*fit, spread, seen);
+            const double spread = spread_of(*fit, settings_.width, settings_.height), raise = max_raise_tangent(*fit, spread, seen);
             if (raise > widest * plain_raise)
                 return false;
             plan.texture_from_lamp = *fit;
             plan.spread = spread;
             plan.to_cover = seen;
-            plan.most_raise = raise;
+            plan.max_raise = raise;
             return true;
         };
         const auto warp = warp_ == Warp::perspective ? perspective_warp(seen, eye, lamp.lamp, lamp.lamp_m)
                                                      : light_space_warp(seen, eye, lamp.lamp, lamp.lamp_m);
         if (take(warp, widest_warped_texel) || take(glm::dmat3(1.0), 1.0))
-            casters_.widen(i, shadow_kept_slack * 2.0 * std::max(0.0, plan.most_raise - plain_raise));
+            casters_.widen(i, shadow_kept_slack * 2.0 * std::max(0.0, plan.max_raise - plain_raise));
     }
     return plans;
 }
@@ -248,7 +248,7 @@ std::optional<glm::dmat3> fitted(const glm::dmat3& warp, const std::vector<glm::
             y.add(q.y / q.z);
         }
     }
-    if (!(w.least > least_w_ratio * w.most) || !(x.most - x.least > 1e-9) || !(y.most - y.least > 1e-9))
+    if (!(w.least > min_w_ratio * w.most) || !(x.most - x.least > 1e-9) || !(y.most - y.least > 1e-9))
         return std::nullopt;
     const double beside_x = texels_beside_seen * (x.most - x.least) / (width - 2.0 * texels_beside_seen),
                  beside_y = texels_beside_seen * (y.most - y.least) / (height - 2.0 * texels_beside_seen);
@@ -256,7 +256,7 @@ std::optional<glm::dmat3> fitted(const glm::dmat3& warp, const std::vector<glm::
     return window_homography(window, width, height) * warp / w.least;
 }
 
-double most_raise_tangent(const glm::dmat3& texture_from_lamp, double spread, const std::vector<glm::dvec3>& seen) {
+double max_raise_tangent(const glm::dmat3& texture_from_lamp, double spread, const std::vector<glm::dvec3>& seen) {
     double most = 0.0;
     for (const glm::dvec3& p : seen)
         most = std::max(most, spread * (texture_from_lamp * p).z / p.z);

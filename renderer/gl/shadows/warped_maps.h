@@ -55,6 +55,6 @@ std::optional<glm::dmat3> perspective_warp(const std::vector<glm::dvec3>& seen, 
 std::optional<glm::dmat3> fitted(const glm::dmat3& warp, const std::vector<glm::dvec3>& seen, int width, int height, double slack_m);
 
 /// The most that a look-up is raised by, as a tangent seen from the lamp, over what is seen.
-double most_raise_tangent(const glm::dmat3& texture_from_lamp, double spread, const std::vector<glm::dvec3>& seen);
+double max_raise_tangent(const glm::dmat3& texture_from_lamp, double spread, const std::vector<glm::dvec3>& seen);
 
 } // namespace fernlicht::gl

@@ -275,7 +275,7 @@ int decode_logs(const DecodeFlags& flags) {
         if (!decoder.decode_log(log))
             return 0;
     decoder.finish();
-    return Interruption::asked() ? 1 : 0;
+    return Interruption::requested() ? 1 : 0;
 }
 
 } // namespace

@@ -179,7 +179,7 @@ int merge_logs(const MergeFlags& flags) {
             return 0;
         next->advance(out.text());
     }
-    if (!Interruption::asked())
+    if (!Interruption::requested())
         check_names_used(sources, flags);
     out.finish();
     return 0;

@@ -14,7 +14,7 @@ namespace fernlicht {
 namespace {
 
 struct RecordFlags {
-    std::string drive, variant, start = "0", out;
+    std::string drive, lamp_set, start = "0", out;
     bool force = false;
 };
 
@@ -25,7 +25,7 @@ int record_drive(const RecordFlags& flags) {
     Stage stage(read_drive(flags.drive, edits));
     std::vector<std::string> notes;
     std::vector<CanFrame> frames =
-        recorded_inputs(stage.drive, stage.route, variant_of(stage.drive, flags.variant), stage.drive.opened, notes);
+        recorded_inputs(stage.drive, stage.route, lamp_set_of(stage.drive, flags.lamp_set), stage.drive.opened, notes);
     LineOutput out(flags.out, flags.force);
     for (CanFrame& frame : frames) {
         frame.time_ns += start_ns;
@@ -45,7 +45,7 @@ void add_can_record(CLI::App& can, std::function<int()>& chosen) {
     const auto flags = std::make_shared<RecordFlags>();
     CLI::App* sub = can.add_subcommand("record", "write the candump log that a bus would carry if the drive's own script were the car");
     sub->add_option("DRIVE", flags->drive, "drive file (YAML) with `can`")->required();
-    sub->add_option("--variant", flags->variant, "lamp set whose script is recorded (default: the first)");
+    sub->add_option("--lamp-set", flags->lamp_set, "lamp set whose script is recorded (default: the first)");
     sub->add_option("--start", flags->start, "timestamp of the drive's 0 s, in s");
     sub->add_option("-o,--out", flags->out, "write to this file instead of standard output");
     sub->add_flag("--force", flags->force, "let --out replace an existing file");

@@ -19,11 +19,11 @@ std::string beyond_words(const PixelErrors& e) {
     return fmt::format("{:.1f} / {:.1f} / {:.1f}", e.percent_beyond[0], e.percent_beyond[1], e.percent_beyond[2]);
 }
 
-std::string reach_words(const ConfigurationResult& found, ExtentPlane plane) {
+std::string reach_words(const ConfigurationResult& found, Surface surface) {
     std::string text;
-    for (const double limit_lx : measured_limits_lx)
+    for (const double threshold_lx : measured_thresholds_lx)
         for (const ReachError& error : found.reach)
-            if (error.plane == plane && error.limit_lx == limit_lx)
+            if (error.surface == surface && error.threshold_lx == threshold_lx)
                 text += (text.empty() ? "" : " / ") + (error.why_not.empty() ? fmt::format("{:+.2f}", error.worst_m) : std::string("-"));
     return text;
 }
@@ -48,8 +48,8 @@ Table errors_table(const DriveAccuracy& drive) {
         cells.push_back(p95_of(found.whole, found.no_illuminance));
         cells.push_back(p95_of(found.target, found.no_target));
         cells.push_back(p95_of(found.luminance, found.no_luminance));
-        cells.emplace_back(reach_words(found, ExtentPlane::road));
-        cells.emplace_back(reach_words(found, ExtentPlane::target));
+        cells.emplace_back(reach_words(found, Surface::road));
+        cells.emplace_back(reach_words(found, Surface::target));
         const auto time = time_of(found.samples.frame_s);
         const auto work = typical_work(found.work);
         cells.push_back(time ? Cell(fmt::format("{:.2f}", 1e3 * time->value), time->value) : Cell("not measured"));
@@ -110,8 +110,8 @@ Section drive_section(const DriveAccuracy& drive) {
     Section section{drive.title, {}};
     section.blocks.emplace_back(
         fmt::format("{}, {}: {}. The reference took {:.1f} s, {:.1f} million rays, {:.0f} samples a pixel in the median, {:.0f} at most.",
-                    drive.drive, drive.variant, counted(drive.moments.size(), "moment"), drive.reference.seconds,
-                    1e-6 * static_cast<double>(drive.reference.rays), drive.reference.median_samples, drive.reference.most_samples));
+                    drive.drive, drive.lamp_set, counted(drive.moments.size(), "moment"), drive.reference.seconds,
+                    1e-6 * static_cast<double>(drive.reference.rays), drive.reference.median_samples, drive.reference.max_samples));
     if (!drive.shadow_choice.empty())
         section.blocks.emplace_back("Shadows where no method is named: " + drive.shadow_choice + ".");
     if (const auto note = point_lamps_note(drive))

@@ -35,7 +35,7 @@ JsonMembers configuration_members(ConfigurationResult& found, DriveAccuracy& dri
 }
 
 JsonMembers reference_members(ReferenceCost& cost) {
-    return {{"seconds", cost.seconds}, {"rays", cost.rays}, {"median_samples", cost.median_samples}, {"most_samples", cost.most_samples}};
+    return {{"seconds", cost.seconds}, {"rays", cost.rays}, {"median_samples", cost.median_samples}, {"max_samples", cost.max_samples}};
 }
 
 JsonMembers drive_members(DriveAccuracy& drive) {
@@ -53,7 +53,7 @@ JsonMembers drive_members(DriveAccuracy& drive) {
     };
     return {{"drive", drive.drive},
             {"title", drive.title},
-            {"variant", drive.variant},
+            {"lamp_set", drive.lamp_set},
             {"shadow_choice", or_null(drive.shadow_choice)},
             {"moments", drive.moments, moment_members},
             {"reference", drive.reference, reference_members},
@@ -106,7 +106,7 @@ JsonMembers accuracy_members(AccuracyResult& result) {
         {"context", joined(context_members(result.context), JsonMembers{{"cores", result.cores}, {"other_cores", result.others.cores}})},
         {"interrupted", or_null(result.interrupted)},
         {"missing", result.missing},
-        {"settings", {{"rounds", result.rounds}, {"target_error", result.target_error}, {"most_samples", result.most_samples}}},
+        {"settings", {{"rounds", result.rounds}, {"target_error", result.target_error}, {"max_samples", result.max_samples}}},
         {"drives", result.drives, drive_members},
         {"diagrams", result.diagrams, diagram_members}};
 }

@@ -22,7 +22,7 @@ std::string beams_text(const std::optional<BeamTexels>& beams); ///< "512x128x8"
 std::string name_of(const Configuration& configuration);        ///< "photometric", "photometric, 512x384"
 
 /// At which `accuracy` compares reach.
-inline const std::vector<double> measured_limits_lx{1.0, 5.0};
+inline const std::vector<double> measured_thresholds_lx{1.0, 5.0};
 
 struct ConfigurationResult {
     Configuration configuration;
@@ -31,7 +31,7 @@ struct ConfigurationResult {
     std::optional<PixelErrors> road, whole, target, luminance;
     std::vector<double> road_p95; ///< of each moment with lit road
     std::vector<ReachError> reach;
-    ContestSamples samples;
+    TimingSamples samples;
     std::vector<Work> work; ///< by moment
 };
 
@@ -53,11 +53,11 @@ struct TwinAgreement {
 struct ReferenceCost {
     double seconds = 0.0;
     std::uint64_t rays = 0;
-    double median_samples = 0.0, most_samples = 0.0; ///< a pixel, over all pictures
+    double median_samples = 0.0, max_samples = 0.0; ///< a pixel, over all pictures
 };
 
 struct DriveAccuracy {
-    std::string drive, title, variant;
+    std::string drive, title, lamp_set;
     std::vector<std::pair<int, double>> moments; ///< tick and time in seconds
     ReferenceCost reference;
     std::vector<ConfigurationResult> configurations;
@@ -71,8 +71,8 @@ struct DriveAccuracy {
 struct AccuracyResult : Findings {
     std::size_t cores = 0, rounds = 0;
     double target_error = 0.0;
-    int most_samples = 0;
-    OtherUse others; ///< while times were taken
+    int max_samples = 0;
+    OtherLoad others; ///< while times were taken
     std::vector<DriveAccuracy> drives;
     std::vector<WorkPrecision> diagrams;
 };
@@ -84,8 +84,8 @@ std::optional<Interval> time_of(const std::vector<double>& seconds);
 /// Where soft-map is among what was drawn: that its lamps are discs and those of the one reference points. A clause.
 std::optional<std::string> point_lamps_note(const DriveAccuracy& drive);
 
-/// All techniques at the drive's own resolution and each other at which more than two ways were measured, then what resolutions, shadow maps
-/// and shadow methods cost, where there is more than one of them.
+/// All techniques at the drive's own resolution and each other at which more than two ways were measured, then what resolutions, shadow
+/// maps and shadow methods cost, where there is more than one of them.
 std::vector<WorkPrecision> sweep_diagrams(const DriveAccuracy& drive);
 
 /// docs/accuracy.md tells how to read it.

@@ -14,20 +14,20 @@
 namespace fernlicht {
 namespace {
 
-constexpr int most_moments = 3, most_width_px = 192, most_height_px = 144, most_samples = 64, fewer_samples = 32;
+constexpr int max_moments = 3, max_width_px = 192, max_height_px = 144, max_samples = 64, fewer_samples = 32;
 
 /// In the same shape, with at most so many pixels each way.
 View small_enough(const View& view) {
     const double factor =
-        std::min({1.0, static_cast<double>(most_width_px) / view.width_px, static_cast<double>(most_height_px) / view.height_px});
+        std::min({1.0, static_cast<double>(max_width_px) / view.width_px, static_cast<double>(max_height_px) / view.height_px});
     const auto fewer = [&](int pixels) { return std::max(1, static_cast<int>(std::lround(pixels * factor))); };
     return at_size(view, fewer(view.width_px), fewer(view.height_px));
 }
 
 ReferenceSettings settings_for(const Drive& drive) {
     ReferenceSettings settings;
-    settings.most_samples = most_samples;
-    settings.shadows = drive.shadows.things_cast;
+    settings.max_samples = max_samples;
+    settings.shadows = drive.shadows.objects_cast;
     settings.lamp_radius_m = lamp_disc_radius_m(drive);
     settings.seed = drive.seed;
     if (drive.extent)
@@ -41,21 +41,21 @@ void add_target_and_luminance(const Stage& stage, const std::vector<Moment>& mom
     const Technique& technique = renderer.technique();
     error.no_target = technique.target ? "" : fmt::format("technique {} does not compute the illuminance of targets", technique.name);
     error.no_luminance = technique.luminance ? "" : fmt::format("technique {} does not compute a luminance", technique.name);
-    const Wanted wanted{.target = technique.target, .luminance = technique.luminance};
-    if (!wanted.target && !wanted.luminance)
+    const FrameOutputs outputs{.target = technique.target, .luminance = technique.luminance};
+    if (!outputs.target && !outputs.luminance)
         return;
     ReferenceSettings settings = settings_for(stage.drive);
-    settings.most_samples = fewer_samples;
+    settings.max_samples = fewer_samples;
     const std::size_t middle = moments.size() / 2;
-    Wanted drawn = wanted;
+    FrameOutputs drawn = outputs;
     drawn.depth = drawn.ids = true;
     const Frame frame = renderer.draw(moments[middle], view, drawn);
-    const ReferenceImage image = reference.render(moments[middle], view, wanted, settings);
+    const ReferenceImage image = reference.render(moments[middle], view, outputs, settings);
     const Image<float> areas = road_areas_m2(stage.scene, moments[middle], view, frame);
     PixelErrorFold target(ErrorRule{settings.floor_lx}), luminance(ErrorRule{settings.floor_cdm2});
-    if (wanted.target)
+    if (outputs.target)
         add_pixels(target, frame.target_lx, image.target_lx, &areas, static_cast<int>(middle));
-    if (wanted.luminance)
+    if (outputs.luminance)
         add_pixels(luminance, frame.luminance_cdm2, image.luminance_cdm2, nullptr, static_cast<int>(middle));
     error.target = target.finish();
     error.luminance = luminance.finish();
@@ -64,13 +64,13 @@ void add_target_and_luminance(const Stage& stage, const std::vector<Moment>& mom
 
 /// What the run measured of these moments against a map of the reference's, one ray a pixel: a lux map has no noise then, and its pixels of
 /// a quarter of a metre are their centres to some millimetres of reach. Lamps are points: discs would bring noise and 16 times the rays.
-std::vector<ReachError> errors_of_reach(const Stage& stage, const PlayedVariant& played, const std::vector<Moment>& moments,
+std::vector<ReachError> errors_of_reach(const Stage& stage, const PlayedCell& played, const std::vector<Moment>& moments,
                                         const Reference& reference, DriveError& error) {
     ReferenceSettings settings = settings_for(stage.drive);
     settings.footprint = Footprint::centre;
     settings.lamp_radius_m = 0.0;
-    const Draw draw = [&](const Moment& at, const View& view, const Wanted& wanted) {
-        ReferenceImage image = reference.render(at, view, wanted, settings);
+    const Draw draw = [&](const Moment& at, const View& view, const FrameOutputs& outputs) {
+        ReferenceImage image = reference.render(at, view, outputs, settings);
         error.rays += image.rays;
         Frame frame;
         frame.illuminance_lx = std::move(image.illuminance_lx.mean);
@@ -84,12 +84,12 @@ std::vector<ReachError> errors_of_reach(const Stage& stage, const PlayedVariant&
             tested.push_back(row->rendered);
             truth.push_back(fold.rendered(fold.draw(moment, draw)));
         }
-    return reach_errors(tested, truth, stage.drive.extent->limits_lx, played.no_road_lx, played.no_target_lx);
+    return reach_errors(tested, truth, stage.drive.extent->thresholds_lx, played.no_road_lx, played.no_target_lx);
 }
 
 } // namespace
 
-std::string no_drive_error(const Drive& drive, const PlayedVariant& played) {
+std::string no_drive_error(const Drive& drive, const PlayedCell& played) {
     if (!technique_named(drive.technique).illuminance)
         return fmt::format("technique {} does not compute an illuminance", drive.technique);
     if (!driver_view(drive))
@@ -97,19 +97,18 @@ std::string no_drive_error(const Drive& drive, const PlayedVariant& played) {
     return played.ticks_done > 0 ? "" : "nothing was played";
 }
 
-DriveError measure_drive_error(const Stage& stage, const Variant& variant, const PlayedVariant& played, int first_tick,
-                               Renderer& renderer) {
+DriveError measure_drive_error(const Stage& stage, const LampSet& lamp_set, const PlayedCell& played, int first_tick, Renderer& renderer) {
     const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
     const View view = small_enough(*driver_view(stage.drive));
     DriveError error;
     error.width_px = view.width_px;
     error.height_px = view.height_px;
     error.lamp_radius_m = lamp_disc_radius_m(stage.drive);
-    for (const int tick : ticks_over(played.ticks_done, std::min(most_moments, played.ticks_done)))
+    for (const int tick : ticks_over(played.ticks_done, std::min(max_moments, played.ticks_done)))
         error.ticks.push_back(first_tick + tick);
     const ReferenceSettings settings = settings_for(stage.drive);
     const Reference reference(stage.scene);
-    const std::vector<Moment> moments = moments_at(error.ticks, stage, variant);
+    const std::vector<Moment> moments = moments_at(error.ticks, stage, lamp_set);
     PixelErrorFold road(ErrorRule{settings.floor_lx}), whole(road);
     for (std::size_t m = 0; m < moments.size(); ++m) {
         const Frame frame = renderer.draw(moments[m], view, {.illuminance = true, .depth = true, .ids = true});

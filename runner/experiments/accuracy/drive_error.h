@@ -10,13 +10,13 @@ namespace fernlicht {
 
 /// Why the error is not measured for what was played; "" where it can be: by a technique that believes in an illuminance, from a
 /// perspective view.
-std::string no_drive_error(const Drive& drive, const PlayedVariant& played);
+std::string no_drive_error(const Drive& drive, const PlayedCell& played);
 
 /// The middles of at most three equal parts of the ticks played, from `first_tick` on, from the driver's seat with at most 192 x 144
 /// pixels, each held against 16 to 64 samples of the reference; the middle one for targets and luminance too, against 16 to 32. Reach as
 /// the run measured it in these moments, against maps of the reference's. One of two cores for about a second. The renderer is of the
 /// stage's scene. The same errors each time, by the drive's seed. Throws DeviceError.
-DriveError measure_drive_error(const Stage& stage, const Variant& variant, const PlayedVariant& played, int first_tick, Renderer& renderer);
+DriveError measure_drive_error(const Stage& stage, const LampSet& lamp_set, const PlayedCell& played, int first_tick, Renderer& renderer);
 
 /// Metres: of the discs that the drive's technique draws lamps as, by `soft-map`; 0: points, as everything else draws them. `auto` is to be
 /// chosen before.

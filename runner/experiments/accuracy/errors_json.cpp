@@ -58,10 +58,11 @@ JsonPart errors_part(std::optional<PixelErrors>& errors, const std::string& why_
 }
 
 JsonMembers reach_members(ReachError& error) {
-    return joined(
-        {{"plane", one_of(error.plane, names_of<ExtentPlane>(plane_name, 2))}, {"limit_lx", error.limit_lx}, {"moments", error.moments}},
-        when(error.why_not.empty(), {{"median_m", error.median_m}, {"worst_m", error.worst_m}}),
-        when(!error.why_not.empty(), {{"not_measured", error.why_not}}));
+    return joined({{"surface", one_of(error.surface, names_of<Surface>(surface_name, 2))},
+                   {"threshold_lx", error.threshold_lx},
+                   {"moments", error.moments}},
+                  when(error.why_not.empty(), {{"median_m", error.median_m}, {"worst_m", error.worst_m}}),
+                  when(!error.why_not.empty(), {{"not_measured", error.why_not}}));
 }
 
 } // namespace fernlicht

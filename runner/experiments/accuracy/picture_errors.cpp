@@ -61,29 +61,29 @@ void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate
         }
 }
 
-References::References(const Stage& stage, const Drive& drive, Device& device, const std::vector<Moment>& moments,
-                       const ReferenceSettings& settings)
+ReferencePictures::ReferencePictures(const Stage& stage, const Drive& drive, Device& device, const std::vector<Moment>& moments,
+                                     const ReferenceSettings& settings)
     : stage_(stage), moments_(moments), settings_(settings), reference_(stage.scene), geometry_(device, stage.scene, {}),
       fold_(drive, stage.route) {}
 
-void References::count(const ReferenceImage& image) {
+void ReferencePictures::count(const ReferenceImage& image) {
     cost_.seconds += image.seconds;
     cost_.rays += image.rays;
     std::vector<double> samples(image.samples.pixels().begin(), image.samples.pixels().end());
     if (const auto spread = spread_of(std::move(samples))) {
         samples_.push_back(spread->median);
-        cost_.most_samples = std::max(cost_.most_samples, spread->maximum);
+        cost_.max_samples = std::max(cost_.max_samples, spread->maximum);
     }
 }
 
-ReferenceCost References::cost() const {
+ReferenceCost ReferencePictures::cost() const {
     ReferenceCost cost = cost_;
     if (const auto spread = spread_of(samples_))
         cost.median_samples = spread->median;
     return cost;
 }
 
-bool References::add_driver(std::size_t moment, const View& view, const StopAsked& stop) {
+bool ReferencePictures::add_driver(std::size_t moment, const View& view, const StopAsked& stop) {
     ReferenceShot shot{view, {}, {}, {}};
     shot.reference =
         reference_.render(moments_[moment], view, {.illuminance = true, .target = true, .luminance = true}, settings_, {}, {}, stop);
@@ -96,10 +96,10 @@ bool References::add_driver(std::size_t moment, const View& view, const StopAske
     return true;
 }
 
-bool References::add_map(std::size_t moment, const StopAsked& stop) {
+bool ReferencePictures::add_map(std::size_t moment, const StopAsked& stop) {
     bool complete = true;
-    const Draw draw = [&](const Moment& at, const View& view, const Wanted& wanted) {
-        ReferenceImage image = reference_.render(at, view, wanted, settings_, {}, {}, stop);
+    const Draw draw = [&](const Moment& at, const View& view, const FrameOutputs& outputs) {
+        ReferenceImage image = reference_.render(at, view, outputs, settings_, {}, {}, stop);
         complete = complete && image.complete;
         count(image);
         Frame frame;
@@ -115,12 +115,12 @@ bool References::add_map(std::size_t moment, const StopAsked& stop) {
     return true;
 }
 
-const ReferenceShot& References::driver(std::size_t moment, const View& view) const {
+const ReferenceShot& ReferencePictures::driver(std::size_t moment, const View& view) const {
     return shots_.at({moment, view.width_px, view.height_px});
 }
 
-ConfigurationErrors::ConfigurationErrors(const References& references, const Technique& technique, const Configuration& configuration,
-                                         const View& view, double map_scale)
+ConfigurationErrors::ConfigurationErrors(const ReferencePictures& references, const Technique& technique,
+                                         const Configuration& configuration, const View& view, double map_scale)
     : references_(&references), illuminance_(technique.illuminance), target_(technique.illuminance && technique.target),
       luminance_(technique.illuminance && technique.luminance), view_(view), map_scale_(map_scale),
       road_(ErrorRule{references.settings().floor_lx}), whole_(road_), target_errors_(road_),
@@ -166,7 +166,7 @@ ConfigurationResult ConfigurationErrors::finish() const {
     result.whole = whole_.finish();
     result.target = target_errors_.finish();
     result.luminance = bright_.finish();
-    result.reach = reach_errors(rendered_, references, measured_limits_lx, result.no_illuminance, result.no_target);
+    result.reach = reach_errors(rendered_, references, measured_thresholds_lx, result.no_illuminance, result.no_target);
     return result;
 }
 
@@ -215,7 +215,7 @@ void TwinAgreementFold::add(const Moment& moment, const View& view, const Frame&
         for (int x = 0; x < view.width_px; ++x) {
             const double right = static_cast<double>(twin.illuminance_lx.mean.at(x, y)),
                          tested = static_cast<double>(frame.illuminance_lx.at(x, y));
-            if (right < least_lx_)
+            if (right < min_lx_)
                 continue;
             if (frame.ids.at(x, y) != twin.ids.at(x, y) || (edges.mixed.at(x, y) & several_surfaces) != 0) {
                 ++counts_.several_surfaces;

@@ -29,11 +29,11 @@ Image<float> road_areas_m2(const Scene& scene, const Moment& moment, const View&
 bool is_road(const Scene& scene, std::uint32_t id);
 
 /// The reference's pictures of a drive's moments: from the driver's seat at each size that is compared, and from above for reach.
-class References {
+class ReferencePictures {
   public:
     /// `drive` is the stage's with the extent that is measured. All but `settings` must outlive it.
-    References(const Stage& stage, const Drive& drive, Device& device, const std::vector<Moment>& moments,
-               const ReferenceSettings& settings);
+    ReferencePictures(const Stage& stage, const Drive& drive, Device& device, const std::vector<Moment>& moments,
+                      const ReferenceSettings& settings);
 
     /// False when it was stopped; then the picture is not there.
     bool add_driver(std::size_t moment, const View& view, const StopAsked& stop = {});
@@ -71,8 +71,8 @@ void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate
 class ConfigurationErrors {
   public:
     /// `references` must outlive it.
-    ConfigurationErrors(const References& references, const Technique& technique, const Configuration& configuration, const View& view,
-                        double map_scale);
+    ConfigurationErrors(const ReferencePictures& references, const Technique& technique, const Configuration& configuration,
+                        const View& view, double map_scale);
 
     /// The moment as `draw` draws it; its references are there.
     void add(std::size_t moment, const Draw& draw);
@@ -80,7 +80,7 @@ class ConfigurationErrors {
     ConfigurationResult finish() const;
 
   private:
-    const References* references_;
+    const ReferencePictures* references_;
     bool illuminance_, target_, luminance_;
     View view_;
     double map_scale_;
@@ -94,14 +94,14 @@ class ConfigurationErrors {
 /// depth and ids. Pixels that several surfaces share, or whose mesh differs, or without light to speak of, are left out and counted.
 class TwinAgreementFold {
   public:
-    explicit TwinAgreementFold(double least_lx) : least_lx_(least_lx) {}
+    explicit TwinAgreementFold(double min_lx) : min_lx_(min_lx) {}
 
     void add(const Moment& moment, const View& view, const Frame& frame, const ReferenceImage& twin, const ReferenceImage& edges,
              int picture);
     TwinAgreement finish() const;
 
   private:
-    double least_lx_;
+    double min_lx_;
     PixelErrorFold flat_, of_bound_; ///< of_bound_: error over what gradient and angle error allow
     TwinAgreement counts_;
     std::size_t within_ = 0;

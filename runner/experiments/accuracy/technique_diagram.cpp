@@ -45,7 +45,7 @@ WorkPrecision new_diagram(const DriveAccuracy& drive, const std::string& name, c
                           const char* error_unit, std::string note) {
     WorkPrecision diagram;
     diagram.name = name;
-    diagram.title = fmt::format("{}: {}, {}", title, drive.drive, drive.variant);
+    diagram.title = fmt::format("{}: {}, {}", title, drive.drive, drive.lamp_set);
     diagram.error_name = error_name;
     diagram.error_unit = error_unit;
     diagram.time_name = "time a frame";

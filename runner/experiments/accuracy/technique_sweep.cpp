@@ -55,12 +55,12 @@ std::vector<std::optional<BeamTexels>> beams_of(const SweepRequest& request, con
 Drive measured_drive(const Drive& drive) {
     Drive measured = drive;
     ExtentParameters extent = drive.extent.value_or(ExtentParameters{});
-    extent.limits_lx = measured_limits_lx;
+    extent.thresholds_lx = measured_thresholds_lx;
     measured.extent = extent;
     return measured;
 }
 
-struct Contestants {
+struct TimedTechniques {
     std::deque<Renderer> renderers;
     std::deque<View> views;
     std::vector<std::string> names;
@@ -70,15 +70,16 @@ struct Contestants {
 ReferenceSettings reference_settings(const Drive& drive, const SweepRequest& request) {
     ReferenceSettings settings;
     settings.target_error = request.target_error;
-    settings.most_samples = request.most_samples;
-    settings.shadows = drive.shadows.things_cast || request.shadow_methods;
+    settings.max_samples = request.max_samples;
+    settings.shadows = drive.shadows.objects_cast || request.shadow_methods;
     settings.seed = request.seed;
     settings.target_height_m = drive.extent->target_height_m;
     return settings;
 }
 
 Draw drawn_by(Renderer& renderer) {
-    return [&renderer](const Moment& moment, const View& at, const Wanted& pictures) { return renderer.submit(moment, at, pictures); };
+    return
+        [&renderer](const Moment& moment, const View& at, const FrameOutputs& pictures) { return renderer.submit(moment, at, pictures); };
 }
 
 /// Without those whose shadow method refuses the scene, which the result names.
@@ -100,15 +101,16 @@ std::vector<Configuration> drawable(std::vector<Configuration> configurations, c
     return configurations;
 }
 
-void add_contestants(Contestants& contestants, std::vector<ConfigurationErrors>& errors, const References& references, const Stage& stage,
-                     const Drive& drive, Device& device, const std::vector<Configuration>& configurations) {
+void add_timed_techniques(TimedTechniques& timed_techniques, std::vector<ConfigurationErrors>& errors, const ReferencePictures& references,
+                          const Stage& stage, const Drive& drive, Device& device, const std::vector<Configuration>& configurations) {
     const int finest_px = std::ranges::max(configurations, {}, &Configuration::width_px).width_px;
     for (const Configuration& c : configurations) {
-        Renderer& renderer = contestants.renderers.emplace_back(device, stage.scene, settings_of(drive, c));
-        contestants.views.push_back(at_size(view_to_compare(drive), c.width_px, c.height_px));
-        contestants.names.push_back(name_of(c));
-        contestants.sizes.emplace(c.width_px, c.height_px);
-        errors.emplace_back(references, renderer.technique(), c, contestants.views.back(), static_cast<double>(c.width_px) / finest_px);
+        Renderer& renderer = timed_techniques.renderers.emplace_back(device, stage.scene, settings_of(drive, c));
+        timed_techniques.views.push_back(at_size(view_to_compare(drive), c.width_px, c.height_px));
+        timed_techniques.names.push_back(name_of(c));
+        timed_techniques.sizes.emplace(c.width_px, c.height_px);
+        errors.emplace_back(references, renderer.technique(), c, timed_techniques.views.back(),
+                            static_cast<double>(c.width_px) / finest_px);
     }
 }
 
@@ -124,7 +126,7 @@ std::vector<std::string> missing_errors(std::size_t compared, std::size_t ways, 
 }
 
 /// Of photometric as the drive draws it; nullopt where it took no part.
-std::optional<TwinAgreement> twin_agreement(const References& references, const Stage& stage, Device& device,
+std::optional<TwinAgreement> twin_agreement(const ReferencePictures& references, const Stage& stage, Device& device,
                                             const std::vector<Moment>& moments, const std::vector<ConfigurationResult>& found) {
     const auto ours = std::ranges::find_if(
         found, [](const ConfigurationResult& r) { return r.configuration.technique == "photometric" && r.configuration.varied.empty(); });
@@ -144,31 +146,32 @@ std::optional<TwinAgreement> twin_agreement(const References& references, const 
 }
 
 /// Renderers with a place in the result only: all of them here, since the errors are whole.
-void take_times(Contestants& contestants, const std::vector<Moment>& moments, const SweepRequest& request,
+void take_times(TimedTechniques& timed_techniques, const std::vector<Moment>& moments, const SweepRequest& request,
                 const std::function<bool(const std::string&)>& step, const StopAsked& stop, DriveAccuracy& result) {
-    static constexpr Wanted wanted{.colour = true};
-    std::vector<Contestant> all;
-    for (std::size_t i = 0; i < contestants.renderers.size(); ++i) {
-        Renderer* const drawing = &contestants.renderers[i];
-        const View* const view = &contestants.views[i];
-        drawing->prepare(moments, *view, wanted);
-        all.push_back({[=, &moments](std::size_t moment) { drawing->render(moments[moment], *view, wanted); }, [=] { drawing->finish(); }});
+    static constexpr FrameOutputs outputs{.colour = true};
+    std::vector<TimedTechnique> all;
+    for (std::size_t i = 0; i < timed_techniques.renderers.size(); ++i) {
+        Renderer* const drawing = &timed_techniques.renderers[i];
+        const View* const view = &timed_techniques.views[i];
+        drawing->prepare(moments, *view, outputs);
+        all.push_back(
+            {[=, &moments](std::size_t moment) { drawing->render(moments[moment], *view, outputs); }, [=] { drawing->finish(); }});
         for (const Moment& moment : moments)
-            result.configurations[i].work.push_back(drawing->count(moment, *view, wanted));
+            result.configurations[i].work.push_back(drawing->count(moment, *view, outputs));
     }
-    ContestOptions options;
+    TimingOptions options;
     options.moments = moments.size();
     options.rounds = static_cast<std::size_t>(request.rounds);
     options.frame_by_frame = false;
     options.seed = request.seed;
     options.go_on = [&](std::size_t) { return step("times"); };
     options.stop = [&] { return stop && stop(); };
-    Contest contest = hold_contest(all, options, real_clocks());
-    const std::size_t rounds = contest.orders.size();
+    InterleavedTimes timing = time_interleaved(all, options, real_clocks());
+    const std::size_t rounds = timing.orders.size();
     if (rounds < options.rounds)
         result.missing.push_back(fmt::format("times: {} of {} rounds were taken", rounds, options.rounds));
     for (std::size_t i = 0; i < result.configurations.size(); ++i)
-        result.configurations[i].samples = std::move(contest.samples[i]);
+        result.configurations[i].samples = std::move(timing.samples[i]);
 }
 
 } // namespace
@@ -242,40 +245,40 @@ std::vector<Configuration> configurations_of(const SweepRequest& request, const 
 }
 
 void check_sweep(const SweepRequest& request, const Stage& stage) {
-    variant_of(stage.drive, request.variant);
+    lamp_set_of(stage.drive, request.lamp_set);
     configurations_of(request, stage.drive);
     const int moments = tick_count(stage.drive);
     if (request.moments < 1 || request.moments > moments)
-        throw InputError({stage.drive.file, 0, 0, "--moments"}, fmt::format("found {}", request.moments),
+        throw InputError({stage.drive.file, 0, 0, "--count"}, fmt::format("found {}", request.moments),
                          fmt::format("1 to {}, the drive's moments", moments));
 }
 
 DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRequest& request, const StepsDone& go_on,
                                const StopAsked& stop) {
     const Drive drive = measured_drive(stage.drive);
-    const Variant& variant = variant_of(stage.drive, request.variant);
-    const std::vector<Moment> moments = moments_at(ticks_over(tick_count(stage.drive), request.moments), stage, variant);
-    DriveAccuracy result{stage.drive.name, stage.drive.title, variant.name, {}, {}, {}, {}, {}, {}};
+    const LampSet& lamp_set = lamp_set_of(stage.drive, request.lamp_set);
+    const std::vector<Moment> moments = moments_at(ticks_over(tick_count(stage.drive), request.moments), stage, lamp_set);
+    DriveAccuracy result{stage.drive.name, stage.drive.title, lamp_set.name, {}, {}, {}, {}, {}, {}};
     for (const Moment& moment : moments)
         result.moments.emplace_back(moment.tick, moment.time_s);
-    References references(stage, drive, device, moments, reference_settings(drive, request));
-    Contestants contestants;
+    ReferencePictures references(stage, drive, device, moments, reference_settings(drive, request));
+    TimedTechniques timed_techniques;
     std::vector<ConfigurationErrors> errors;
-    add_contestants(contestants, errors, references, stage, drive, device,
-                    drawable(configurations_of(request, stage.drive), stage, drive, device, moments, result));
+    add_timed_techniques(timed_techniques, errors, references, stage, drive, device,
+                         drawable(configurations_of(request, stage.drive), stage, drive, device, moments, result));
 
-    const std::size_t pictures = contestants.sizes.size() + 1;
+    const std::size_t pictures = timed_techniques.sizes.size() + 1;
     const std::size_t steps = moments.size() * (pictures + errors.size()) + static_cast<std::size_t>(request.rounds);
     std::size_t done = 0, compared = 0;
     bool going_on = true;
     const auto step = [&](const std::string& at) { return going_on = going_on && go_on(done++, steps, at); };
     for (std::size_t m = 0; m < moments.size() && going_on; ++m) {
         going_on = step("reference from above") && references.add_map(m, stop);
-        for (const Size& size : contestants.sizes)
+        for (const Size& size : timed_techniques.sizes)
             going_on = step(fmt::format("reference {}x{}", size.first, size.second)) &&
                        references.add_driver(m, at_size(view_to_compare(drive), size.first, size.second), stop);
-        for (std::size_t i = 0; i < errors.size() && step(contestants.names[i]); ++i, ++compared)
-            errors[i].add(m, drawn_by(contestants.renderers[i]));
+        for (std::size_t i = 0; i < errors.size() && step(timed_techniques.names[i]); ++i, ++compared)
+            errors[i].add(m, drawn_by(timed_techniques.renderers[i]));
     }
     result.reference = references.cost();
     for (const ConfigurationErrors& found : errors)
@@ -288,7 +291,7 @@ DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRe
     }
     result.simplifications = price_simplifications(stage, moments);
     result.twin = twin_agreement(references, stage, device, moments, result.configurations);
-    take_times(contestants, moments, request, step, stop, result);
+    take_times(timed_techniques, moments, request, step, stop, result);
     return result;
 }
 

@@ -11,7 +11,7 @@
 namespace fernlicht {
 
 struct SweepRequest {
-    std::string variant;                          ///< "": the drive's first
+    std::string lamp_set;                         ///< "": the drive's first
     std::vector<std::string> techniques;          ///< empty: all
     std::vector<std::pair<int, int>> resolutions; ///< pixels, the first for all; empty: the drive's, and 1/2 and 1/4 of it
     std::vector<std::pair<int, int>> shadow_maps; ///< texels, the first for all; empty: 1024 x 512, twice, 1/2 and 1/4 of it
@@ -20,7 +20,7 @@ struct SweepRequest {
     bool full = false;                            ///< every technique with every resolution, shadow map and beam; else one varied at a time
     int moments = 3, rounds = 7;
     double target_error = 0.005; ///< wanted standard error of the reference, in shares
-    int most_samples = 256;      ///< of the reference, a pixel
+    int max_samples = 256;       ///< of the reference, a pixel
     std::uint64_t seed = 1;
 };
 

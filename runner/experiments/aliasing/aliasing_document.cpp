@@ -122,7 +122,7 @@ Document document(const AliasingResult& result) {
     const auto& [last, last_s] = result.moments.back();
     const auto& [shown, shown_s] = result.moments.at(result.shown);
     Document document{"Aliasing", {}};
-    Section& top = document.sections.emplace_back(Section{result.title + (result.variant.empty() ? "" : ", " + result.variant), {}});
+    Section& top = document.sections.emplace_back(Section{result.title + (result.lamp_set.empty() ? "" : ", " + result.lamp_set), {}});
     const auto add_drawing = [](Section& section, const std::string& name, std::string svg) {
         if (!svg.empty())
             section.blocks.emplace_back(Plot{name, Drawing{std::move(svg)}, {}});

@@ -123,7 +123,7 @@ JsonMembers aliasing_members(AliasingResult& result) {
             {"notes", result.notes},
             {"drive", result.drive},
             {"title", result.title},
-            {"variant", result.variant},
+            {"lamp_set", result.lamp_set},
             {"width_px", result.view.width_px},
             {"height_px", result.view.height_px},
             {"pixels_per_degree", result.pixels_per_degree},

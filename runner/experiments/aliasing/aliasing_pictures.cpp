@@ -13,7 +13,7 @@ namespace {
 using plots::Colour;
 
 constexpr int crop_px = 48;
-constexpr std::size_t most_places = 4;
+constexpr std::size_t max_places = 4;
 constexpr double half_width_px = 560.0, gap_px = 16.0, lettering_px = 12.0;
 
 /// The value that only one pixel in `one_in` exceeds; above 0.
@@ -160,7 +160,7 @@ std::string ranking_svg(const AliasingResult& result) {
         return {};
     std::vector<Crop> places; // where each way differs most from the first, in the order they were asked for
     for (const AliasingRow& row : result.rows) {
-        if (!measured_over_space(row) || &row == &first_row(result, row) || places.size() == most_places)
+        if (!measured_over_space(row) || &row == &first_row(result, row) || places.size() == max_places)
             continue;
         const Crop crop = crop_of(result, row);
         if (std::ranges::none_of(places, [&](const Crop& other) { return other.left == crop.left && other.top == crop.top; }))
@@ -208,7 +208,7 @@ std::string flow_svg(const AliasingResult& result) {
         return {};
     const FlowComparison& flow = result.flows.front();
     const double side = (2.0 * half_width_px - gap_px) / 3.0, height = side * result.view.height_px / result.view.width_px, top = 74.0;
-    const double most_motion = std::max(1.0, nearly_largest(flow.known_px, 20)), most_off = 2.0;
+    const double max_motion = std::max(1.0, nearly_largest(flow.known_px, 20)), max_off = 2.0;
     plots::Canvas canvas(3.0 * side + 4.0 * gap_px, top + height + 44.0, "Motion by optical flow");
     canvas.text(gap_px, 24.0, fmt::format("Motion by optical flow: {}, of {}", method_name(flow.method), flow.pictures),
                 {.size_px = 16.0, .bold = true});
@@ -222,9 +222,9 @@ std::string flow_svg(const AliasingResult& result) {
         return out;
     };
     const std::tuple<const char*, const Image<float>*, double> parts[] = {
-        {"Known, from depth and the car's path", &flow.known_px, most_motion},
-        {"Estimated", &flow.estimated_px, most_motion},
-        {"How far off", &flow.off_px, most_off}};
+        {"Known, from depth and the car's path", &flow.known_px, max_motion},
+        {"Estimated", &flow.estimated_px, max_motion},
+        {"How far off", &flow.off_px, max_off}};
     Image<Colour> strip(101, 1);
     for (int i = 0; i < strip.width(); ++i)
         strip.at(i, 0) = plots::sequential(i / 100.0);

@@ -61,7 +61,7 @@ struct FlowComparison {
 std::string method_name(FlowMethod method); ///< "dense inverse search", "Farneback"
 
 struct AliasingResult : Findings {
-    std::string drive, title, variant;
+    std::string drive, title, lamp_set;
     View view;
     double rate_hz = 0.0;
     std::vector<std::pair<int, double>> moments; ///< frame, time_s

@@ -24,7 +24,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr int fewest_frames = 8, most_frames = 64, most_drawn_px = 16384, least_px = 32, track_stride_px = 2;
+constexpr int fewest_frames = 8, max_frames = 64, max_drawn_px = 16384, min_px = 32, track_stride_px = 2;
 
 /// The mean of each group of n x n pixels.
 Image<float> averaged(const Image<float>& fine, int n) {
@@ -96,7 +96,7 @@ struct Session {
     float white_cdm2() const { return static_cast<float>(stage.drive.tone_mapper.l_max_cdm2); }
     bool step() {
         progress.done(done++);
-        return !Interruption::asked();
+        return !Interruption::requested();
     }
 };
 
@@ -176,7 +176,7 @@ bool compare_flows(Session& s, const std::vector<Image<float>>& drawn, const std
         known.push_back(known_flow(s.moments, s.result.view, s.shapes, m, m + 1));
     for (const bool as_drawn : {false, true})
         for (const FlowMethod method : {FlowMethod::dis, FlowMethod::farneback}) {
-            if (Interruption::asked())
+            if (Interruption::requested())
                 return false;
             const std::vector<Image<float>>& pictures = as_drawn ? drawn : ideal;
             FlowComparison compared{as_drawn ? "as drawn" : "what the display could show", method, {}, {}, {}, {}, {}, {}};
@@ -184,7 +184,7 @@ bool compare_flows(Session& s, const std::vector<Image<float>>& drawn, const std
             for (std::size_t m = 0; m < known.size(); ++m) {
                 const Flow there = optical_flow(pictures[m], pictures[m + 1], method);
                 const Flow back = optical_flow(pictures[m + 1], pictures[m], method);
-                pairs.push_back({there, found_again(there, back, most_return_px), known[m].flow, known[m].known});
+                pairs.push_back({there, found_again(there, back, max_return_px), known[m].flow, known[m].known});
             }
             compared.error = flow_error(pairs);
             if (s.result.flows.empty())
@@ -264,9 +264,9 @@ std::vector<int> ticks_of(const AliasingRequest& request) {
         return {static_cast<int>(tick)};
     }
     const auto [first, last] = *request.frames;
-    if (first < 0 || last >= count || last - first + 1 < fewest_frames || last - first + 1 > most_frames)
+    if (first < 0 || last >= count || last - first + 1 < fewest_frames || last - first + 1 > max_frames)
         throw InputError({request.drive.file, 0, 0, "--frames"}, fmt::format("found {}:{}", first, last),
-                         fmt::format("{} to {} frames in a row out of 0:{}", fewest_frames, most_frames, count - 1));
+                         fmt::format("{} to {} frames in a row out of 0:{}", fewest_frames, max_frames, count - 1));
     std::vector<int> ticks;
     for (int tick = first; tick <= last; ++tick)
         ticks.push_back(tick);
@@ -280,13 +280,13 @@ const View& checked_view(const AliasingRequest& request) {
     int finest = request.supersample;
     for (const int samples : request.samples)
         finest = std::max(finest, static_cast<int>(std::lround(std::sqrt(samples))));
-    if (std::min(view->width_px, view->height_px) < least_px)
+    if (std::min(view->width_px, view->height_px) < min_px)
         throw InputError({request.drive.file, 0, 0, "--resolution"}, fmt::format("found {}x{}", view->width_px, view->height_px),
                          "32 pixels each way at least");
-    if (finest * std::max(view->width_px, view->height_px) > most_drawn_px)
+    if (finest * std::max(view->width_px, view->height_px) > max_drawn_px)
         throw InputError({request.drive.file, 0, 0, "--supersample"},
                          fmt::format("found {} times {}x{}", finest, view->width_px, view->height_px),
-                         fmt::format("at most {} pixels each way; a smaller --resolution or --supersample", most_drawn_px));
+                         fmt::format("at most {} pixels each way; a smaller --resolution or --supersample", max_drawn_px));
     return *view;
 }
 
@@ -331,20 +331,20 @@ AliasingResult run_aliasing(const AliasingRequest& request) {
     const std::vector<AliasingConfiguration> configurations = aliasing_configurations(request);
     AliasingResult result;
     result.view = checked_view(request);
-    const Variant& variant = variant_of(request.drive, request.variant);
+    const LampSet& lamp_set = lamp_set_of(request.drive, request.lamp_set);
     Stage stage(request.drive);
-    refuse_open_tone_mapper(stage.drive);
+    refuse_unfitted_tone_mapper(stage.drive);
     Device device = open_device(request.backend);
     check_sanity(device);
     choose_shadows(stage, device, settings_for(device, false));
-    check_planar_shadows(stage, device, moments_at(ticks, stage, variant));
+    check_planar_shadows(stage, device, moments_at(ticks, stage, lamp_set));
     OutputFolder folder(request.folder);
     result.context = make_context(device.info(), request.command, request.drive.seed);
     add_inputs(result.context.inputs, stage.drive.opened);
     add_inputs(result.context.inputs, stage.network.opened);
     result.drive = stage.drive.name;
     result.title = stage.drive.title;
-    result.variant = variant.name;
+    result.lamp_set = lamp_set.name;
     result.rate_hz = 1.0 / stage.drive.step_s;
     result.supersample = request.supersample;
     result.displayed = request.displayed;
@@ -353,7 +353,7 @@ AliasingResult run_aliasing(const AliasingRequest& request) {
     const Interruption listening;
     Progress progress("aliasing of " + stage.drive.name, static_cast<int>(ticks.size() * (configurations.size() + 1)), request.quiet,
                       "pictures");
-    Session session{request, stage, device, moments_at(ticks, stage, variant), result, {}, {}, {}, progress};
+    Session session{request, stage, device, moments_at(ticks, stage, lamp_set), result, {}, {}, {}, progress};
     for (const Moment& moment : session.moments)
         result.moments.emplace_back(moment.tick, moment.time_s);
     result.shown = session.moments.size() / 2;

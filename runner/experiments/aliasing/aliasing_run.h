@@ -7,7 +7,7 @@ namespace fernlicht {
 
 struct AliasingRequest {
     Drive drive;                                  ///< with one perspective view at least
-    std::string variant;                          ///< "": the drive's first
+    std::string lamp_set;                         ///< "": the drive's first
     std::optional<double> moment_s;               ///< nullopt: the middle of the drive
     std::optional<std::pair<int, int>> frames;    ///< first and last, both included; measured over time
     std::vector<std::string> techniques;          ///< empty: the drive's

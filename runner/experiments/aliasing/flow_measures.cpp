@@ -9,7 +9,7 @@ namespace fernlicht {
 namespace {
 
 bool too_few(const FlowPaths& followed) {
-    return followed.paths.empty() || static_cast<double>(followed.paths.size()) < least_followed * static_cast<double>(followed.started);
+    return followed.paths.empty() || static_cast<double>(followed.paths.size()) < min_followed * static_cast<double>(followed.started);
 }
 
 void add_squares(AliasingPart& sum, const AliasingPart& part) {

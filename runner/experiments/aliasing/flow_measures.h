@@ -16,7 +16,7 @@ Image<float> floats_of(const Image<double>& picture);
 Image<float> display_step_cdm2(const Image<float>& displayed);
 
 /// The share of points that must be followed: flicker of fewer says nothing of the picture.
-inline constexpr double least_followed = 0.05;
+inline constexpr double min_followed = 0.05;
 
 /// Aliasing that is known of each frame, at the pixels nearest to the paths. nullopt where too few were followed.
 std::optional<TemporalAliasing> aliasing_along(const FlowPaths& followed, const std::vector<Image<double>>& aliasing,

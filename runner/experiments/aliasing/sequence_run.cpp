@@ -6,7 +6,7 @@
 #include "runner/experiments/aliasing/flow_measures.h"
 #include "runner/files/output_folder.h"
 #include "runner/files/picture_file.h"
-#include "runner/files/shown_alike.h"
+#include "runner/files/same_display.h"
 #include "runner/findings/run_context.h"
 #include "runner/play/progress.h"
 #include "runner/play/stage.h"
@@ -33,8 +33,8 @@ struct SequenceFrames {
     std::vector<std::string> notes; ///< what is not known of how PNGs were shown, one sentence
 };
 
-constexpr int fewest_sequence_frames = 8, most_sequence_frames = 64;
-constexpr int least_frame_px = 32;
+constexpr int fewest_sequence_frames = 8, max_sequence_frames = 64;
+constexpr int min_frame_px = 32;
 constexpr const char* what_is_expected = "PNG or EXR files with numbers in their names, e.g. frame-0001.png";
 
 /// The last run of digits in a name; nullopt where there is none, or it is longer than nine.
@@ -103,9 +103,9 @@ void check_numbers(const std::filesystem::path& folder, std::map<int, std::files
                                  fmt::format("every frame from {} to {}", range->first, range->second));
     }
     const auto count = static_cast<int>(files.size());
-    if (count < fewest_sequence_frames || count > most_sequence_frames)
+    if (count < fewest_sequence_frames || count > max_sequence_frames)
         throw InputError({folder, 0, 0, {}}, fmt::format("found {} numbered frames", count),
-                         fmt::format("{} to {} {}; --frames FIRST:LAST takes a part of them", fewest_sequence_frames, most_sequence_frames,
+                         fmt::format("{} to {} {}; --frames FIRST:LAST takes a part of them", fewest_sequence_frames, max_sequence_frames,
                                      what_is_expected));
     int expected = files.begin()->first;
     for (const auto& [number, path] : files) {
@@ -171,9 +171,9 @@ SequenceFrames read_sequence(const std::filesystem::path& path_or_pattern, const
         if (last.width() != first.width() || last.height() != first.height())
             throw InputError({path, 0, 0, {}}, fmt::format("has {} x {} pixels", last.width(), last.height()),
                              fmt::format("{} x {}, as the first frame", first.width(), first.height()));
-        if (std::min(last.width(), last.height()) < least_frame_px)
+        if (std::min(last.width(), last.height()) < min_frame_px)
             throw InputError({path, 0, 0, {}}, fmt::format("has {} x {} pixels", last.width(), last.height()),
-                             fmt::format("{} pixels each way at least", least_frame_px));
+                             fmt::format("{} pixels each way at least", min_frame_px));
     }
     return frames;
 }
@@ -217,7 +217,7 @@ std::optional<Measured> measured_over_space(const SequenceFrames& drawn, const S
     Measured all;
     for (std::size_t t = 0; t < drawn.numbers.size(); ++t) {
         progress.done(static_cast<int>(t));
-        if (Interruption::asked())
+        if (Interruption::requested())
             return std::nullopt;
         const BandSplit split = split_bands(fine.luminance_cdm2[t], factor);
         all.spatial.push_back(measure_spatial_aliasing(drawn.luminance_cdm2[t], split, pixels_per_degree));
@@ -285,7 +285,7 @@ AliasingResult run_sequence_aliasing(const SequenceRequest& request) {
             row.no_temporal =
                 fmt::format("optical flow follows {} of {} points through all frames, and {:.0f} % at least are needed; {} have "
                             "no contrast to tell motion by",
-                            followed.paths.size(), followed.started, 100.0 * least_followed, followed.flat);
+                            followed.paths.size(), followed.started, 100.0 * min_followed, followed.flat);
         if (measured) {
             row.ideal = measured->ideal[result.shown];
             row.spatial = over_moments(measured->spatial, result.shown);

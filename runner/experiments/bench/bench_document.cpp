@@ -138,7 +138,7 @@ Document document(const BenchResult& result) {
     const std::vector<BenchRow> rows = summarise(result);
     Document document{"Techniques against one another", {}};
     Section& section = document.sections.emplace_back();
-    section.blocks.emplace_back(fmt::format("{}, {}: {} x {}, {} x {} pixels, orders from seed {}.", result.drive, result.variant,
+    section.blocks.emplace_back(fmt::format("{}, {}: {} x {}, {} x {} pixels, orders from seed {}.", result.drive, result.lamp_set,
                                             counted(result.moments.size(), "moment"), counted(result.orders.size(), "round"),
                                             result.width_px, result.height_px, context.seed));
     section.blocks.emplace_back(fmt::format("{} through {}; {}, {} cores; load average {} before, {} after.", context.gl_renderer,
@@ -168,7 +168,7 @@ std::vector<BenchRow> summarise(const BenchResult& result) {
     const auto reference = std::ranges::find(result.techniques, reference_technique, [](const BenchedTechnique& t) { return t.row.name; });
     std::vector<BenchRow> rows;
     for (const BenchedTechnique& benched : result.techniques) {
-        const ContestSamples& samples = benched.samples;
+        const TimingSamples& samples = benched.samples;
         if (samples.frame_s.empty())
             continue;
         BenchRow row;
@@ -241,7 +241,7 @@ std::string bench_svg(const BenchResult& result) {
     canvas.text(16.0, 24.0, "Frame times by technique", {.size_px = 16.0, .colour = ink, .bold = true});
     canvas.text(16.0, 42.0,
                 fmt::format("{}, {}, {} x {}; {} moments x {} rounds; x: ratio to {}; numbers: rows of Table 6.1", result.drive,
-                            result.variant, result.width_px, result.height_px, result.moments.size(), result.orders.size(),
+                            result.lamp_set, result.width_px, result.height_px, result.moments.size(), result.orders.size(),
                             reference_technique),
                 {.size_px = 12.0, .colour = faint});
     canvas.text(16.0, 58.0, fmt::format("{}, {}", result.context.gl_renderer, result.context.cpu), {.size_px = 12.0, .colour = faint});

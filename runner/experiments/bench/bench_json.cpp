@@ -37,7 +37,7 @@ Json settings_json(const BenchResult& result) {
         moments.push_back({{"frame", tick}, {"time_s", time_s}});
     return {{"drive", result.drive},
             {"title", result.title},
-            {"variant", result.variant},
+            {"lamp_set", result.lamp_set},
             {"width_px", result.width_px},
             {"height_px", result.height_px},
             {"moments", moments},
@@ -70,7 +70,7 @@ Json work_json(const Work& work) {
 
 Json technique_json(const BenchRow& row, const BenchResult& result) {
     const Technique& technique = row.benched->row;
-    const ContestSamples& samples = row.benched->samples;
+    const TimingSamples& samples = row.benched->samples;
     Json out{{"technique", technique.name},
              {"thesis_row", technique.thesis_row > 0 ? Json(technique.thesis_row) : Json(nullptr)},
              {"thesis_fps", technique.thesis_fps.empty() ? Json(nullptr) : Json(technique.thesis_fps)},
@@ -133,7 +133,7 @@ std::string bench_csv(const BenchResult& result) {
     std::string out = "technique,round,place,frame_s,cpu_s,gpu_s,latency_median_s\r\n";
     const std::size_t moments = result.moments.size();
     for (std::size_t i = 0; i < result.techniques.size(); ++i) {
-        const ContestSamples& samples = result.techniques[i].samples;
+        const TimingSamples& samples = result.techniques[i].samples;
         for (std::size_t round = 0; round < samples.frame_s.size(); ++round) {
             const auto& order = result.orders.at(round);
             const auto first = samples.latency_s.begin() + static_cast<std::ptrdiff_t>(round * moments);

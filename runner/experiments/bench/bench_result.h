@@ -6,7 +6,7 @@
 #include "renderer/technique.h"
 #include "runner/findings/document.h"
 #include "runner/findings/report.h"
-#include "runner/play/contest.h"
+#include "runner/play/interleaved_timing.h"
 
 #include <string>
 
@@ -14,7 +14,7 @@ namespace fernlicht {
 
 struct BenchedTechnique {
     Technique row;
-    ContestSamples samples;
+    TimingSamples samples;
     std::vector<Work> work; ///< by moment
 };
 
@@ -22,8 +22,8 @@ struct BenchResult : Findings {
     std::size_t cores = 0;
     std::string gl_vendor;
     std::optional<std::array<double, 3>> load_before, load_after;
-    OtherUse others;
-    std::string drive, title, variant;
+    OtherLoad others;
+    std::string drive, title, lamp_set;
     int width_px = 0, height_px = 0;
     std::vector<std::pair<int, double>> moments; ///< tick and time in seconds
     std::size_t rounds_planned = 0, warm_up_plays = 0;

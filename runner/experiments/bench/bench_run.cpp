@@ -40,7 +40,7 @@ std::string clock_refused(Device& device) {
                : fmt::format("GL_TIME_ELAPSED says {:.2f} ms of a load that takes {:.2f} ms", 1e3 * check.query_s, 1e3 * check.finish_s);
 }
 
-BenchResult described(const BenchRequest& request, const Stage& stage, const Variant& variant, const View& view, Device& device) {
+BenchResult described(const BenchRequest& request, const Stage& stage, const LampSet& lamp_set, const View& view, Device& device) {
     BenchResult result;
     result.context = make_context(device.info(), request.command, request.seed);
     add_inputs(result.context.inputs, stage.drive.opened);
@@ -49,7 +49,7 @@ BenchResult described(const BenchRequest& request, const Stage& stage, const Var
     result.gl_vendor = device.info().gl_vendor;
     result.drive = stage.drive.name;
     result.title = stage.drive.title;
-    result.variant = variant.name;
+    result.lamp_set = lamp_set.name;
     result.width_px = view.width_px;
     result.height_px = view.height_px;
     result.rounds_planned = static_cast<std::size_t>(request.rounds);
@@ -57,28 +57,28 @@ BenchResult described(const BenchRequest& request, const Stage& stage, const Var
 }
 
 /// Each technique with a renderer of its own, compiled for all moments and its work counted.
-std::vector<Contestant> take_part(const std::vector<Technique>& rows, Device& device, const Stage& stage, const View& view,
-                                  const std::vector<Moment>& moments, std::deque<Renderer>& renderers, BenchResult& result) {
-    constexpr Wanted wanted{.colour = true};
-    std::vector<Contestant> contestants;
+std::vector<TimedTechnique> take_part(const std::vector<Technique>& rows, Device& device, const Stage& stage, const View& view,
+                                      const std::vector<Moment>& moments, std::deque<Renderer>& renderers, BenchResult& result) {
+    constexpr FrameOutputs outputs{.colour = true};
+    std::vector<TimedTechnique> timed_techniques;
     for (const Technique& row : rows) {
         RendererSettings settings = settings_for(stage.drive, {});
         settings.technique = row.name;
         Renderer* const renderer = &renderers.emplace_back(device, stage.scene, settings);
-        renderer->prepare(moments, view, wanted);
+        renderer->prepare(moments, view, outputs);
         BenchedTechnique& benched = result.techniques.emplace_back();
         benched.row = row;
         for (const Moment& moment : moments)
-            benched.work.push_back(renderer->count(moment, view, wanted));
-        contestants.push_back(
-            {[=, &moments, &view](std::size_t moment) { renderer->render(moments[moment], view, wanted); }, [=] { renderer->finish(); }});
+            benched.work.push_back(renderer->count(moment, view, outputs));
+        timed_techniques.push_back(
+            {[=, &moments, &view](std::size_t moment) { renderer->render(moments[moment], view, outputs); }, [=] { renderer->finish(); }});
     }
-    return contestants;
+    return timed_techniques;
 }
 
 /// Holds the rounds and puts their samples into the result, with who else used the machine meanwhile.
-void time_rounds(const std::vector<Contestant>& contestants, const BenchRequest& request, Device& device, BenchResult& result) {
-    ContestClocks clocks = real_clocks();
+void time_rounds(const std::vector<TimedTechnique>& timed_techniques, const BenchRequest& request, Device& device, BenchResult& result) {
+    TimingClocks clocks = real_clocks();
     GpuTimer timer(device);
     if (result.gpu_not_measured.empty()) {
         clocks.gpu_begin = [&] { timer.begin(); };
@@ -88,7 +88,7 @@ void time_rounds(const std::vector<Contestant>& contestants, const BenchRequest&
     const Interruption listening;
     std::optional<Progress> progress;
     std::optional<CpuUse> before; // the warm-up is not timed
-    ContestOptions options;
+    TimingOptions options;
     options.moments = result.moments.size();
     options.rounds = result.rounds_planned;
     options.seed = request.seed;
@@ -98,20 +98,20 @@ void time_rounds(const std::vector<Contestant>& contestants, const BenchRequest&
             progress.emplace("bench", request.rounds, request.quiet, "rounds");
         }
         progress->done(static_cast<int>(done));
-        return !Interruption::asked();
+        return !Interruption::requested();
     };
-    Contest contest = hold_contest(contestants, options, clocks);
+    InterleavedTimes timing = time_interleaved(timed_techniques, options, clocks);
     const CpuUse after = cpu_use();
-    progress->done(static_cast<int>(contest.orders.size()));
+    progress->done(static_cast<int>(timing.orders.size()));
     result.warm_up_plays = options.warm_up_plays;
     result.load_before = before->load_average;
     result.load_after = after.load_average;
-    result.others = other_use(*before, after, ::getpid());
-    result.orders = std::move(contest.orders);
+    result.others = other_load(*before, after, ::getpid());
+    result.orders = std::move(timing.orders);
     if (result.orders.size() < result.rounds_planned)
         result.interrupted = "interrupted by the user";
-    for (std::size_t i = 0; i < contestants.size(); ++i)
-        result.techniques[i].samples = std::move(contest.samples[i]);
+    for (std::size_t i = 0; i < timed_techniques.size(); ++i)
+        result.techniques[i].samples = std::move(timing.samples[i]);
 }
 
 } // namespace
@@ -141,27 +141,27 @@ std::vector<int> ticks_over(int count, int n) {
 BenchResult run_bench(const BenchRequest& request) {
     const std::vector<Technique> rows = chosen_techniques(request.techniques);
     Stage stage(request.drive);
-    const Variant& variant = variant_of(stage.drive, request.variant);
+    const LampSet& lamp_set = lamp_set_of(stage.drive, request.lamp_set);
     const View& view = view_to_time(stage.drive);
     const int ticks = tick_count(stage.drive);
     const std::vector<Moment> moments =
-        moments_at(ticks_over(ticks, request.moments.value_or(std::min(usual_bench_moments, ticks))), stage, variant);
+        moments_at(ticks_over(ticks, request.moments.value_or(std::min(default_bench_moments, ticks))), stage, lamp_set);
     Device device = open_device(request.backend);
     check_sanity(device);
     choose_shadows(stage, device, {});
     check_planar_shadows(stage, device, moments);
     OutputFolder folder(request.folder); // only now: bad input or a machine that cannot draw leaves no folder behind
-    BenchResult result = described(request, stage, variant, view, device);
+    BenchResult result = described(request, stage, lamp_set, view, device);
     for (const Moment& moment : moments)
         result.moments.emplace_back(moment.tick, moment.time_s);
     result.gpu_not_measured = clock_refused(device);
 
     std::deque<Renderer> renderers;
-    const std::vector<Contestant> contestants = take_part(rows, device, stage, view, moments, renderers, result);
-    time_rounds(contestants, request, device, result);
+    const std::vector<TimedTechnique> timed_techniques = take_part(rows, device, stage, view, moments, renderers, result);
+    time_rounds(timed_techniques, request, device, result);
     request.write(result);
     if (result.interrupted.empty()) {
-        ContactSheet sheet = new_sheet(stage, variant, moments[moments.size() / 2]);
+        ContactSheet sheet = new_sheet(stage, lamp_set, moments[moments.size() / 2]);
         for (Renderer& renderer : renderers)
             add_tile(sheet, renderer);
         write_file(request.folder / "contact-sheet.png", plots::png_of_svg(contact_sheet_svg(sheet)));

@@ -5,13 +5,13 @@
 
 namespace fernlicht {
 
-inline constexpr int usual_bench_moments = 8;
+inline constexpr int default_bench_moments = 8;
 
 struct BenchRequest {
     Drive drive;
-    std::string variant;                 ///< "": the drive's first
+    std::string lamp_set;                ///< "": the drive's first
     std::vector<std::string> techniques; ///< empty: all. The reference takes part in any case
-    std::optional<int> moments;          ///< nullopt: usual_bench_moments, or all of a drive that has fewer
+    std::optional<int> moments;          ///< nullopt: default_bench_moments, or all of a drive that has fewer
     int rounds = 21;
     std::uint64_t seed = 1;
     std::string backend = "auto";

@@ -135,11 +135,11 @@ void draw_bar(Canvas& canvas, double right, double top) {
 
 } // namespace
 
-ContactSheet new_sheet(const Stage& stage, const Variant& variant, const Moment& moment) {
+ContactSheet new_sheet(const Stage& stage, const LampSet& lamp_set, const Moment& moment) {
     ContactSheet sheet;
     sheet.drive = stage.drive.name;
     sheet.title = stage.drive.title;
-    sheet.variant = variant.name;
+    sheet.lamp_set = lamp_set.name;
     sheet.moment = moment;
     sheet.view = small(*driver_view(stage.drive));
     sheet.spot_ahead_m = ahead_m;
@@ -186,7 +186,7 @@ std::string contact_sheet_svg(const ContactSheet& sheet) {
     };
     head(0.0, "One moment in every technique",
          fmt::format("{}, {}: after {:.2f} s, {:.1f} m along the route; the same exposure for all",
-                     short_text(sheet.title.empty() ? sheet.drive : sheet.title, 80), short_text(sheet.variant, 40), sheet.moment.time_s,
+                     short_text(sheet.title.empty() ? sheet.drive : sheet.title, 80), short_text(sheet.lamp_set, 40), sheet.moment.time_s,
                      sheet.moment.distance_m));
     draw_pictures(canvas, sheet, ground);
     head(part_px, "Illuminance on the surfaces seen",

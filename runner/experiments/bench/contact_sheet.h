@@ -18,7 +18,7 @@ struct SheetTile {
 };
 
 struct ContactSheet {
-    std::string drive, title, variant;
+    std::string drive, title, lamp_set;
     Moment moment;
     View view;                         ///< the driver's, 320 pixels wide
     View spot;                         ///< a map of 3 x 3 pixels, the spot in the middle one
@@ -29,7 +29,7 @@ struct ContactSheet {
 };
 
 /// Without tiles. The spot is 20 m ahead of the bumper. The drive has a perspective view.
-ContactSheet new_sheet(const Stage& stage, const Variant& variant, const Moment& moment);
+ContactSheet new_sheet(const Stage& stage, const LampSet& lamp_set, const Moment& moment);
 
 /// Draws the sheet's moment once more, by a renderer of its stage's scene. A technique that cannot draw what is mounted leaves a tile
 /// without pictures. Throws DeviceError.

@@ -213,7 +213,7 @@ bool PictureComparison::passed() const {
 std::string why_no_flip_at(double pixels_per_degree) {
     return has_flip_at(pixels_per_degree) ? ""
                                           : fmt::format("{:.4g} pixels per degree, and FLIP is taken at {} to {}", pixels_per_degree,
-                                                        least_pixels_per_degree, most_pixels_per_degree);
+                                                        min_pixels_per_degree, max_pixels_per_degree);
 }
 
 PictureComparison compare_pictures(const PicturePair& pair, double pixels_per_degree, const StrictnessClass* strictness) {

@@ -1,7 +1,7 @@
 #include "runner/experiments/compare/picture_pair.h"
 
 #include "runner/files/picture_file.h"
-#include "runner/files/shown_alike.h"
+#include "runner/files/same_display.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>

@@ -5,12 +5,12 @@
 #include "runner/files/json_text.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
-#include "runner/judge/cell_inputs.h"
+#include "runner/judge/input_hashes.h"
+#include "runner/play/display_pipeline.h"
 #include "runner/play/live/live_drawing.h"
 #include "runner/play/live/live_loop.h"
 #include "runner/play/progress.h"
 #include "runner/play/shadows/choose_shadows.h"
-#include "runner/play/shown_picture.h"
 #include "scenarios/can/bus_mapping.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/bus_play.h"
@@ -28,17 +28,17 @@ namespace {
 
 constexpr std::int64_t ahead_ns = 50'000'000; ///< for threads to come up
 
-std::size_t live_variant(const Drive& drive, const std::string& name) {
+std::size_t live_lamp_set(const Drive& drive, const std::string& name) {
     std::string names;
-    for (const Variant& variant : drive.variants)
-        names += (names.empty() ? "" : ", ") + variant.name;
-    if (name.empty() && drive.variants.size() > 1)
-        throw InputError({drive.file, 0, 0, "--variant"}, fmt::format("found {} lamp sets", drive.variants.size()),
+    for (const LampSet& lamp_set : drive.lamp_sets)
+        names += (names.empty() ? "" : ", ") + lamp_set.name;
+    if (name.empty() && drive.lamp_sets.size() > 1)
+        throw InputError({drive.file, 0, 0, "--lamp-set"}, fmt::format("found {} lamp sets", drive.lamp_sets.size()),
                          "the name of one: " + names);
-    const auto found = name.empty() ? drive.variants.begin() : std::ranges::find(drive.variants, name, &Variant::name);
-    if (found == drive.variants.end())
-        throw InputError({drive.file, 0, 0, "--variant"}, fmt::format("found '{}'", printable(name)), "a lamp set of the drive: " + names);
-    return static_cast<std::size_t>(found - drive.variants.begin());
+    const auto found = name.empty() ? drive.lamp_sets.begin() : std::ranges::find(drive.lamp_sets, name, &LampSet::name);
+    if (found == drive.lamp_sets.end())
+        throw InputError({drive.file, 0, 0, "--lamp-set"}, fmt::format("found '{}'", printable(name)), "a lamp set of the drive: " + names);
+    return static_cast<std::size_t>(found - drive.lamp_sets.begin());
 }
 
 /// A new file in a folder that is there, or in the report's. So that nothing is made or lost for a recording that cannot be written.
@@ -71,10 +71,10 @@ template <class Change> void change_mapping(Drive& drive, const Change& change) 
 class LiveSession {
   public:
     LiveSession(Drive drive, const LiveOptions& options) : options_(options), stage_(staged(std::move(drive), options)) {
-        variant_ = live_variant(stage_.drive, options.variant);
+        lamp_set_ = live_lamp_set(stage_.drive, options.lamp_set);
         if (!options.log.empty())
             recorded_ = read_bus_recording(stage_.drive, options.log, start_ns_);
-        play_.emplace(stage_.drive, stage_.route, variant_);
+        play_.emplace(stage_.drive, stage_.route, lamp_set_);
         if (options.log.empty())
             socket_ = {options.interface, play_->identifiers(), options.receive_buffer_bytes};
     }
@@ -85,7 +85,7 @@ class LiveSession {
     static Drive staged(Drive drive, const LiveOptions& options) {
         if (!drive.can)
             throw InputError({drive.file, 0, 0, "can"}, "found none", "the key `can`, which ties signals of a bus to lamps (docs/can.md)");
-        refuse_open_shadows(drive);
+        refuse_auto_shadows(drive);
         drive.live = true;
         change_mapping(drive, [&](BusMapping& mapping) {
             mapping.scripted = false;
@@ -96,18 +96,18 @@ class LiveSession {
         return drive;
     }
 
-    const Variant& variant() const { return stage_.drive.variants[variant_]; }
+    const LampSet& lamp_set() const { return stage_.drive.lamp_sets[lamp_set_]; }
     std::string file(const char* what, const char* extension) const {
-        return fmt::format("{}-{}{}", what, file_name_of(stage_.drive.name + "-" + variant().name), extension);
+        return fmt::format("{}-{}{}", what, file_name_of(stage_.drive.name + "-" + lamp_set().name), extension);
     }
     LiveFigures new_figures() const;
     void drive_on(LiveFigures& figures);
-    PlayedVariant result(const LiveFigures& figures);
+    PlayedCell result(const LiveFigures& figures);
     void write_replay(LiveFigures& figures);
 
     const LiveOptions& options_;
     Stage stage_;
-    std::size_t variant_ = 0;
+    std::size_t lamp_set_ = 0;
     std::vector<CanFrame> recorded_;
     std::int64_t start_ns_ = 0;
     std::optional<BusDrive> play_;
@@ -141,8 +141,8 @@ void LiveSession::drive_on(LiveFigures& figures) {
     LogWriter recording(options_.folder / figures.recording, figures.start_ns);
     LogWriter sent(options_.folder / file("can", ".log"), figures.start_ns);
     LivePictures pictures;
-    LiveLoop loop({stage_.drive, *play_, bus, clock, recording, sent, drawing_ ? &pictures : nullptr, [] { return Interruption::asked(); },
-                   options_.wait, listen_ns});
+    LiveLoop loop({stage_.drive, *play_, bus, clock, recording, sent, drawing_ ? &pictures : nullptr,
+                   [] { return Interruption::requested(); }, options_.wait, listen_ns});
     std::exception_ptr undrawn;
     std::thread control([&] {
         if (options_.wait)
@@ -176,7 +176,7 @@ void LiveSession::drive_on(LiveFigures& figures) {
 /// The drive as it was, with its recording for a bus: what `fernlicht run` plays again.
 void LiveSession::write_replay(LiveFigures& figures) {
     Drive replayed = stage_.drive;
-    replayed.variants = {variant()}; // the others were not driven
+    replayed.lamp_sets = {lamp_set()}; // the others were not driven
     change_mapping(replayed, [&](BusMapping& mapping) {
         mapping.log = figures.recording; // beside the drive's file, wherever the folder goes
         mapping.start_ns = figures.start_ns;
@@ -187,14 +187,14 @@ void LiveSession::write_replay(LiveFigures& figures) {
                                    "--can-start", candump_stamp(figures.start_ns)});
 }
 
-PlayedVariant LiveSession::result(const LiveFigures& figures) {
+PlayedCell LiveSession::result(const LiveFigures& figures) {
     const Drive& drive = stage_.drive;
-    PlayedVariant played;
+    PlayedCell played;
     played.drive = drive.name;
     played.title = drive.title;
-    played.variant = variant().name;
+    played.lamp_set = lamp_set().name;
     played.technique = drive.technique;
-    for (const MountedLamp& lamp : variant().lamps)
+    for (const MountedLamp& lamp : lamp_set().lamps)
         played.lamps.emplace_back(lamp.name, lamp.file->name);
     played.ticks_planned = tick_count(drive);
     played.ticks_done = figures.moments;
@@ -204,14 +204,14 @@ PlayedVariant LiveSession::result(const LiveFigures& figures) {
             const State state = state_at(tick, drive);
             played.speed_mps.emplace_back(state.time_s, state.speed_mps);
         }
-        played.bus = bus_report(drive, variant(), 0, tick_count(drive) - 1);
-        const std::vector<std::string>& notes = variant().motion->notes;
+        played.bus = bus_report(drive, lamp_set(), 0, tick_count(drive) - 1);
+        const std::vector<std::string>& notes = lamp_set().motion->notes;
         played.notes.insert(played.notes.end(), notes.begin(), notes.end());
     }
     played.notes.emplace_back(
         "a live drive measures punctuality and loss; reach, glare and costs are measured when its recording is played");
     if (drawing_) {
-        played.drawn_by = std::make_shared<const DrawnBy>(drawn_by(drive));
+        played.rendering_settings = std::make_shared<const RenderingSettings>(rendering_settings(drive));
         drawing_->finish(played);
     }
     return played;
@@ -227,7 +227,7 @@ Report LiveSession::play() {
     }
     OutputFolder folder(options_.folder);
     if (options_.draw)
-        drawing_.emplace(stage_, variant(), *device_, options_.folder);
+        drawing_.emplace(stage_, lamp_set(), *device_, options_.folder);
     Report report;
     report.context = make_context(device_ ? device_->info() : DeviceInfo{}, options_.command, stage_.drive.seed);
     add_inputs(report.context.inputs, stage_.drive.opened);
@@ -238,9 +238,9 @@ Report LiveSession::play() {
     if (!figures->late_s.empty()) {
         play_->finish();
         write_replay(*figures);
-        if (variant().motion->control)
+        if (lamp_set().motion->control)
             write_file(options_.folder / file("signals", ".csv"),
-                       signals_csv(stage_.drive, *variant().motion->control, 0, tick_count(stage_.drive) - 1));
+                       signals_csv(stage_.drive, *lamp_set().motion->control, 0, tick_count(stage_.drive) - 1));
     }
     report.live = figures;
     if (stage_.drive.bus)

@@ -12,7 +12,7 @@ struct LiveOptions {
     std::string interface;        ///< "can0"; "" where there is a log
     std::filesystem::path log;    ///< a recording at its own pace, instead of an interface
     bool wait = true;             ///< false: of a recording, as fast as it goes, without pictures
-    std::string variant;          ///< "": the only one
+    std::string lamp_set;         ///< "": the only one
     double listen_s = 0.5;        ///< to the bus, before the drive's 0 s
     int receive_buffer_bytes = 0; ///< of the socket; 0: chosen
     std::filesystem::path record; ///< where the frames used are recorded; "": in the report's folder

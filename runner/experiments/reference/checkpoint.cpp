@@ -16,7 +16,7 @@ namespace {
 
 /// The file: this word, the inputs as text, an empty line, the hash of what follows, then the numbers as they lie in memory.
 constexpr std::string_view magic = "fernlicht reference checkpoint 2\n";
-constexpr std::size_t hash_digits = 32, most_named = 3;
+constexpr std::size_t hash_digits = 32, max_named = 3;
 const std::string content_of = "content of ";
 
 using Input = std::pair<std::string, std::string>; ///< name, value
@@ -74,13 +74,13 @@ std::size_t payload_bytes(ReferenceImage& image) {
     return bytes;
 }
 
-ReferenceImage blank(const View& view, const Wanted& wanted) {
+ReferenceImage blank(const View& view, const FrameOutputs& outputs) {
     ReferenceImage image;
     const auto sized = [&](auto& pixels) { pixels = std::decay_t<decltype(pixels)>(view.width_px, view.height_px); };
-    for (const auto& [estimate, is_wanted] :
-         {std::pair(&image.illuminance_lx, wanted.illuminance), std::pair(&image.target_lx, wanted.target),
-          std::pair(&image.luminance_cdm2, wanted.luminance)})
-        if (is_wanted) {
+    for (const auto& [estimate, has_output] :
+         {std::pair(&image.illuminance_lx, outputs.illuminance), std::pair(&image.target_lx, outputs.target),
+          std::pair(&image.luminance_cdm2, outputs.luminance)})
+        if (has_output) {
             sized(estimate->mean);
             sized(estimate->standard_error);
         }
@@ -92,25 +92,25 @@ ReferenceImage blank(const View& view, const Wanted& wanted) {
 
 } // namespace
 
-std::string deciding_inputs(const ReferenceResult& result, const Drive& drive) {
+std::string checkpoint_inputs(const ReferenceResult& result, const Drive& drive) {
     const ReferenceSettings& s = result.settings;
     const SolverSettings& v = s.solver;
     std::string text;
     const auto add = [&](const std::string& name, const auto& value) { text += fmt::format("{}\t{}\n", name, value); };
     const std::string resolved = write_drive(drive);
     add("version", FERNLICHT_VERSION);
-    add("--variant", printable(result.variant));
+    add("--lamp-set", printable(result.lamp_set));
     add("--view", printable(result.view.name));
     add("width in pixels", result.view.width_px), add("height in pixels", result.view.height_px);
     add("--moment", fmt::format("{} s", result.moment.time_s));
     add("--integrator", integrator_name(s.integrator));
-    add("--target-error", s.target_error), add("--most-samples", s.most_samples);
+    add("--target-error", s.target_error), add("--max-samples", s.max_samples);
     add("--lamp-radius", s.lamp_radius_m), add("--seed", s.seed);
-    add("--smooth-depth", s.most_smooth), add("--reach", v.reach_m), add("--patch", v.patch_m);
+    add("--smooth-depth", s.max_smooth), add("--reach", v.reach_m), add("--patch", v.patch_m);
     add("--form-factor-rays", v.form_factor_rays), add("--residual", v.residual), add("--photons", v.photons);
     add("--photon-radius", v.radius_m), add("final gathering", v.final_gather);
     add("footprint", static_cast<int>(s.footprint)), add("floor_lx", s.floor_lx), add("floor_cdm2", s.floor_cdm2);
-    add("least samples", s.least_samples), add("most bounces", s.most_bounces);
+    add("least samples", s.min_samples), add("most bounces", s.max_bounces);
     add("target height", s.target_height_m), add("shadows", s.shadows), add("tick", result.moment.tick);
     for (const FileRead& file : result.context.inputs)
         add(content_of + printable(file.path.string(), 400), file.xxh128);
@@ -133,9 +133,9 @@ std::string differing_inputs(const std::string& then, const std::string& now) {
     for (const auto& [name, value] : before)
         if (std::ranges::find(after, name, &Input::first) == after.end())
             differences.push_back(printable(name, 400) + " no more");
-    if (differences.size() > most_named) {
-        const std::size_t others = differences.size() - most_named;
-        differences.resize(most_named);
+    if (differences.size() > max_named) {
+        const std::size_t others = differences.size() - max_named;
+        differences.resize(max_named);
         differences.push_back(fmt::format("{} more", others));
     }
     return fmt::format("{}", fmt::join(differences, "; "));
@@ -153,7 +153,8 @@ void write_checkpoint(const ReferenceImage& image, const std::string& inputs, co
     rename_durably(next, checkpoint_file(folder));
 }
 
-ReferenceImage read_checkpoint(const std::string& inputs, const View& view, const Wanted& wanted, const std::filesystem::path& folder) {
+ReferenceImage read_checkpoint(const std::string& inputs, const View& view, const FrameOutputs& outputs,
+                               const std::filesystem::path& folder) {
     const std::filesystem::path path = checkpoint_file(folder);
     const auto refuse = [&](const std::string& found, const char* expected) {
         throw InputError({path, 0, 0, "--resume"}, found, expected);
@@ -172,7 +173,7 @@ ReferenceImage read_checkpoint(const std::string& inputs, const View& view, cons
         refuse("found the checkpoint of another picture: " + differing_inputs(then, inputs),
                "the same drive, files, flags and version as when it was interrupted");
     const std::string_view payload = all.substr(head);
-    ReferenceImage image = blank(view, wanted);
+    ReferenceImage image = blank(view, outputs);
     if (payload.size() != payload_bytes(image) || content_hash(payload.data(), payload.size()) != all.substr(inputs_end + 2, hash_digits))
         refuse("found a checkpoint that is damaged", "one that is whole");
     Reader reader(payload);

@@ -11,7 +11,7 @@ namespace fernlicht {
 /// Everything that decides the picture, one `name<tab>value` a line: fernlicht's version, the resolved drive, the content of each file it
 /// came from and its path, lamp set, moment, view and settings; names are those of flags where there is one. Not the number of threads,
 /// and not where results go.
-std::string deciding_inputs(const ReferenceResult& result, const Drive& drive);
+std::string checkpoint_inputs(const ReferenceResult& result, const Drive& drive);
 
 /// What two of these have different, for a sentence: "--seed 1, now 2; other content of lamps/a.ies". At most three things are named.
 std::string differing_inputs(const std::string& then, const std::string& now);
@@ -23,6 +23,7 @@ void write_checkpoint(const ReferenceImage& image, const std::string& inputs, co
 
 /// Throws InputError in one sentence: no checkpoint, a picture that is finished, one of other inputs and which they are, one that is cut
 /// short or not ours.
-ReferenceImage read_checkpoint(const std::string& inputs, const View& view, const Wanted& wanted, const std::filesystem::path& folder);
+ReferenceImage read_checkpoint(const std::string& inputs, const View& view, const FrameOutputs& outputs,
+                               const std::filesystem::path& folder);
 
 } // namespace fernlicht

@@ -40,7 +40,7 @@ std::string preparation_words(const Preparation& p) {
 }
 
 std::string place_of(const ReferenceResult& r) {
-    return fmt::format("{}, {}, after {:.3f} s", r.title.empty() ? r.drive : r.title, r.variant, r.moment.time_s);
+    return fmt::format("{}, {}, after {:.3f} s", r.title.empty() ? r.drive : r.title, r.lamp_set, r.moment.time_s);
 }
 
 } // namespace
@@ -49,18 +49,18 @@ Document document(const ReferenceResult& r) {
     Section section;
     section.blocks.emplace_back(fmt::format("{}, {} {} x {}, {}, standard error wanted {:.3g} %", place_of(r), r.view.name, r.view.width_px,
                                             r.view.height_px, integrator_name(r.settings.integrator), 100.0 * r.settings.target_error));
-    const auto tell = [&](const char* name, bool is_wanted, const std::optional<ErrorReached>& e) {
+    const auto tell = [&](const char* name, bool has_output, const std::optional<ErrorReached>& e) {
         if (e)
             section.blocks.emplace_back(fmt::format(
                 "{:<12} of the {} lit pixels half have an error of at most {:.3g} %, 95 % of at most {:.3g} %, the worst {:.3g} %; "
                 "{:.2f} % of the lit pixels reached it",
                 name, e->lit_pixels, 100.0 * e->median, 100.0 * e->p95, 100.0 * e->worst, 100.0 * e->share_reached));
-        else if (is_wanted)
+        else if (has_output)
             section.blocks.emplace_back(fmt::format("{:<12} no pixel that is drawn is lit", name));
     };
-    tell("illuminance", r.wanted.illuminance, r.illuminance());
-    tell("target", r.wanted.target, r.target());
-    tell("luminance", r.wanted.luminance, r.luminance());
+    tell("illuminance", r.outputs.illuminance, r.illuminance());
+    tell("target", r.outputs.target, r.target());
+    tell("luminance", r.outputs.luminance, r.luminance());
     if (r.image.preparation.patches > 0 || r.image.preparation.photons_stored > 0)
         section.blocks.emplace_back(preparation_words(r.image.preparation));
     const double samples = spread_of({r.image.samples.pixels().begin(), r.image.samples.pixels().end()}).value_or(Spread{}).mean;

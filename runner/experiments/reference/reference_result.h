@@ -21,10 +21,10 @@ std::optional<ErrorReached> error_reached(const Estimate& estimate, const Image<
 
 /// Its context has no device: no backend.
 struct ReferenceResult : Findings {
-    std::string drive, title, variant;
+    std::string drive, title, lamp_set;
     Moment moment;
     View view;
-    Wanted wanted;
+    FrameOutputs outputs;
     ReferenceSettings settings;
     ReferenceImage image;
     std::size_t triangles = 0;

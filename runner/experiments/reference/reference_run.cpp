@@ -42,13 +42,13 @@ const View& view_of(const Drive& drive, const std::string& name) {
 }
 
 /// The moment nearest to a time.
-Moment moment_near(const Stage& stage, const Variant& variant, double time_s) {
+Moment moment_near(const Stage& stage, const LampSet& lamp_set, double time_s) {
     const int count = tick_count(stage.drive);
     const double tick = std::round(time_s / stage.drive.step_s);
     if (!(tick >= 0.0 && tick < count))
         throw InputError({stage.drive.file, 0, 0, "--moment"}, fmt::format("found {} s", time_s),
                          fmt::format("0 to {:.3f} s, the drive's moments", (count - 1) * stage.drive.step_s));
-    return moments_at({static_cast<int>(tick)}, stage, variant).front();
+    return moments_at({static_cast<int>(tick)}, stage, lamp_set).front();
 }
 
 RunContext context_of(const ReferenceRequest& request, const Stage& stage) {
@@ -67,23 +67,24 @@ RunContext context_of(const ReferenceRequest& request, const Stage& stage) {
 
 ReferenceResult described(const ReferenceRequest& request, const Stage& stage) {
     const Drive& drive = stage.drive;
-    const Variant& variant = request.variant.empty() ? drive.variants.front() : named(drive.variants, request.variant, drive, "--variant");
+    const LampSet& lamp_set =
+        request.lamp_set.empty() ? drive.lamp_sets.front() : named(drive.lamp_sets, request.lamp_set, drive, "--lamp-set");
     ReferenceResult result;
     result.context = context_of(request, stage);
     result.drive = drive.name;
     result.title = drive.title;
-    result.variant = variant.name;
+    result.lamp_set = lamp_set.name;
     result.view = view_of(drive, request.view);
-    result.moment = moment_near(stage, variant, request.moment_s);
+    result.moment = moment_near(stage, lamp_set, request.moment_s);
     const bool is_map = result.view.projection == Projection::map;
     if (is_map && request.resolution_asked)
         throw InputError({drive.file, 0, 0, "--resolution"}, "found the map '" + printable(result.view.name) + "'",
                          "a perspective view: a map's pixels are those of the drive file");
-    result.wanted = {.illuminance = true, .target = is_map, .luminance = !is_map};
+    result.outputs = {.illuminance = true, .target = is_map, .luminance = !is_map};
     result.settings = request.settings;
-    result.settings.shadows = drive.shadows.things_cast;
-    result.settings.most_samples = reference::most_samples_used(request.settings);
-    if (!drive.shadows.things_cast &&
+    result.settings.shadows = drive.shadows.objects_cast;
+    result.settings.max_samples = reference::max_samples_used(request.settings);
+    if (!drive.shadows.objects_cast &&
         (request.settings.integrator == Integrator::radiosity || request.settings.integrator == Integrator::photon_map))
         throw InputError({drive.file, 0, 0, "--integrator"},
                          "found " + integrator_name(request.settings.integrator) + " for a drive without shadows",
@@ -95,7 +96,7 @@ ReferenceResult described(const ReferenceRequest& request, const Stage& stage) {
                          "direct, whitted or path: solved light goes through clear air between dry surfaces");
     if (drive.extent)
         result.settings.target_height_m = drive.extent->target_height_m;
-    result.inputs = deciding_inputs(result, drive);
+    result.inputs = checkpoint_inputs(result, drive);
     result.inputs_hash = content_hash(result.inputs.data(), result.inputs.size());
     return result;
 }
@@ -110,10 +111,10 @@ void draw(ReferenceResult& result, const Stage& stage, const ReferenceRequest& r
     Progress progress("reference", result.view.width_px * result.view.height_px, request.quiet, "pixels");
     auto stored = std::chrono::steady_clock::now();
     result.image = reference.render(
-        result.moment, result.view, result.wanted, result.settings,
+        result.moment, result.view, result.outputs, result.settings,
         [&](const ReferenceImage& so_far, std::size_t pixels_done) {
             progress.done(static_cast<int>(pixels_done));
-            const bool stop = Interruption::asked();
+            const bool stop = Interruption::requested();
             const auto now = std::chrono::steady_clock::now();
             if (stop || std::chrono::duration<double>(now - stored).count() > checkpoint_every_s) {
                 write_checkpoint(so_far, result.inputs, request.folder);
@@ -121,7 +122,7 @@ void draw(ReferenceResult& result, const Stage& stage, const ReferenceRequest& r
             }
             return !stop;
         },
-        std::move(from), [] { return Interruption::asked(); });
+        std::move(from), [] { return Interruption::requested(); });
     if (!result.image.complete)
         result.interrupted = "interrupted by the user";
 }
@@ -130,14 +131,14 @@ void draw(ReferenceResult& result, const Stage& stage, const ReferenceRequest& r
 
 ReferenceResult run_reference(const ReferenceRequest& request) {
     const Stage stage(request.drive);
-    refuse_open_tone_mapper(stage.drive);
+    refuse_unfitted_tone_mapper(stage.drive);
     ReferenceResult result = described(request, stage);
     ReferenceImage from;
     if (!request.resume && std::filesystem::exists(checkpoint_file(request.folder)))
         throw InputError({request.folder, 0, 0, "--out"}, "holds a reference that was interrupted",
                          "--resume to go on with it, or a new or an empty folder");
     if (request.resume)
-        from = read_checkpoint(result.inputs, result.view, result.wanted, request.folder);
+        from = read_checkpoint(result.inputs, result.view, result.outputs, request.folder);
     OutputFolder folder = request.resume ? OutputFolder::left_incomplete(request.folder) : OutputFolder(request.folder);
     draw(result, stage, request, std::move(from));
     write_reference(result, stage.drive.tone_mapper, request.folder);

@@ -9,7 +9,7 @@ namespace fernlicht {
 
 struct ReferenceRequest {
     Drive drive;
-    std::string variant, view; ///< "": the drive's first, the driver's
+    std::string lamp_set, view; ///< "": the drive's first, the driver's
     double moment_s = 0.0;
     ReferenceSettings settings;
     std::filesystem::path folder;

@@ -15,7 +15,7 @@ std::string unit_text(const std::string& unit) {
     return unit == "m2" ? "m\u00b2" : unit == "cd/m2" ? "cd/m\u00b2" : unit == "1" ? "" : unit;
 }
 
-Cell reading_cell(const PlayedVariant& played, const Reading& wanted) {
+Cell reading_cell(const PlayedCell& played, const Reading& wanted) {
     const auto own = std::ranges::find_if(played.readings, [&](const Reading& reading) { return same_reading(reading, wanted); });
     if (own == played.readings.end())
         return "not asked for";
@@ -27,9 +27,9 @@ Cell reading_cell(const PlayedVariant& played, const Reading& wanted) {
 void add_readings(const ComparedDrive& drive, Sections& sections) {
     Table table{drive.name + "-readings", "", columns_of("reading`"), {}};
     Readings distinct;
-    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-        table.columns.push_back({.head = short_text(drive.variants[i]->variant, 30), .series = i});
-        for (const Reading& reading : drive.variants[i]->readings)
+    for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
+        table.columns.push_back({.head = short_text(drive.lamp_sets[i]->lamp_set, 30), .series = i});
+        for (const Reading& reading : drive.lamp_sets[i]->readings)
             if (std::ranges::none_of(distinct, [&](const Reading& other) { return same_reading(other, reading); }))
                 distinct.push_back(reading);
     }
@@ -37,7 +37,7 @@ void add_readings(const ComparedDrive& drive, Sections& sections) {
         table.columns.push_back({.head = head, .words = true});
     for (const Reading& reading : distinct) {
         std::vector<Cell>& row = table.rows.emplace_back(std::vector<Cell>{reading.name()});
-        for (const PlayedVariant* const played : drive.variants)
+        for (const PlayedCell* const played : drive.lamp_sets)
             row.push_back(reading_cell(*played, reading));
         row.insert(row.end(),
                    {unit_text(reading.unit()), reading.where, reading.tick < 0 ? "whole drive" : fmt::format("{}", reading.tick)});
@@ -47,29 +47,29 @@ void add_readings(const ComparedDrive& drive, Sections& sections) {
 }
 
 /// Each sentence once; those that do not hold for every lamp set name theirs.
-std::vector<std::string> merged(const ComparedDrive& drive, std::vector<std::string> PlayedVariant::*sentences) {
+std::vector<std::string> merged(const ComparedDrive& drive, std::vector<std::string> PlayedCell::*sentences) {
     std::vector<std::string> distinct, out;
-    for (const PlayedVariant* const played : drive.variants)
+    for (const PlayedCell* const played : drive.lamp_sets)
         for (const std::string& sentence : played->*sentences)
             if (std::ranges::find(distinct, sentence) == distinct.end())
                 distinct.push_back(sentence);
     for (const std::string& sentence : distinct) {
         std::string names;
         std::size_t count = 0;
-        for (const PlayedVariant* const played : drive.variants)
+        for (const PlayedCell* const played : drive.lamp_sets)
             if (std::ranges::find(played->*sentences, sentence) != (played->*sentences).end()) {
-                names += (names.empty() ? "" : ", ") + short_text(played->variant, 40);
+                names += (names.empty() ? "" : ", ") + short_text(played->lamp_set, 40);
                 ++count;
             }
-        out.push_back((count == drive.variants.size() ? "" : names + ": ") + sentence);
+        out.push_back((count == drive.lamp_sets.size() ? "" : names + ": ") + sentence);
     }
     return out;
 }
 
 Table lamps_table(const ComparedDrive& drive) {
     Table table{drive.name + "-lamps", "", columns_of("lamp set<|lamps<|moments played|of"), {}};
-    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-        const PlayedVariant& played = *drive.variants[i];
+    for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
+        const PlayedCell& played = *drive.lamp_sets[i];
         std::string files;
         for (const auto& [place, file] : played.lamps)
             files += (files.empty() ? "" : "; ") + place + ": " + file;
@@ -81,7 +81,7 @@ Table lamps_table(const ComparedDrive& drive) {
 /// "shadow maps: nothing stands in a beam" in two.
 Table left_out_table(const ComparedDrive& drive) {
     Table table{drive.name + "-left-out", "", columns_of("what<|why<"), {}};
-    for (const std::string& sentence : merged(drive, &PlayedVariant::left_out)) {
+    for (const std::string& sentence : merged(drive, &PlayedCell::left_out)) {
         const std::size_t colon = sentence.rfind(": ");
         table.rows.push_back({sentence.substr(0, colon), colon == std::string::npos ? "" : sentence.substr(colon + 2)});
     }
@@ -93,7 +93,7 @@ Cell median_ms(const std::vector<double>& seconds) {
     return {figure(ms, 2), ms};
 }
 
-std::string savings_words(const Savings& savings) {
+std::string savings_words(const PruningSavings& savings) {
     const std::optional<PairedRatio> ratio = savings.ratio();
     if (!ratio)
         return "not measured: " + savings.not_measured;
@@ -113,8 +113,8 @@ void add_savings_of(const ComparedDrive& drive, Sections& sections) {
         "",
         columns_of("lamp<|drawn<|median [ms]|passes|pieces|textures read [at most]|features compiled in|triangles|fragments shaded"),
         {}};
-    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-        const Savings& savings = drive.variants[i]->savings;
+    for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
+        const PruningSavings& savings = drive.lamp_sets[i]->savings;
         if (savings.not_measured.empty() && !savings.ratio())
             continue; // the run ended before
         const Cell lamp = lamp_cell(drive, i);
@@ -142,7 +142,7 @@ void add_savings_of(const ComparedDrive& drive, Sections& sections) {
 void add_details(const ComparedDrive& drive, Sections& sections) {
     add_readings(drive, sections);
     sections.push_back({"Lamps, notes, what was left out", {lamps_table(drive)}, 3});
-    if (std::vector<std::string> notes = merged(drive, &PlayedVariant::notes); !notes.empty())
+    if (std::vector<std::string> notes = merged(drive, &PlayedCell::notes); !notes.empty())
         sections.push_back({"Notes", {Listing(notes)}, 4});
     if (Table left_out = left_out_table(drive); !left_out.rows.empty())
         sections.push_back({"Left out because the scene does not need it", {std::move(left_out)}, 4});

@@ -2,7 +2,7 @@
 
 #include "metrics/display/tone_fit.h"
 #include "runner/files/clean_text.h"
-#include "runner/play/shown_picture.h"
+#include "runner/play/display_pipeline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,9 +39,9 @@ std::string mapper_words(const ToneMapper& mapper) {
 
 } // namespace
 
-DisplaySheet display_sheet(const Stage& stage, const Variant& variant, const Moment& moment, Device& device,
+DisplaySheet display_sheet(const Stage& stage, const LampSet& lamp_set, const Moment& moment, Device& device,
                            const RendererSettings& settings) {
-    DisplaySheet sheet{stage.drive.name, stage.drive.title, variant.name, moment.time_s, moment.distance_m, {}, {}};
+    DisplaySheet sheet{stage.drive.name, stage.drive.title, lamp_set.name, moment.time_s, moment.distance_m, {}, {}};
     const View view = tile_view(*driver_view(stage.drive));
     const Frame frame = Renderer(device, stage.scene, settings).draw(moment, view, {.luminance = true, .light = true});
     if (frame.light.empty())
@@ -51,7 +51,7 @@ DisplaySheet display_sheet(const Stage& stage, const Variant& variant, const Mom
     LuminanceHistogram all, surfaces;
     all.add(frame.luminance_cdm2);
     surfaces.add(Renderer(device, stage.scene, surfaces_alone).draw(moment, view, {.luminance = true}).luminance_cdm2);
-    const double brightest = std::max(all.most_cdm2(), 1.0e-6), brightest_surface = std::max(surfaces.most_cdm2(), 1.0e-6);
+    const double brightest = std::max(all.max_cdm2(), 1.0e-6), brightest_surface = std::max(surfaces.max_cdm2(), 1.0e-6);
     const auto add = [&](const char* name, const ToneMapper& mapper) {
         sheet.mappers.push_back({name, mapper_words(mapper), shown_tile(frame.light, view, {}, mapper)});
     };
@@ -90,7 +90,7 @@ std::string display_sheet_svg(const DisplaySheet& sheet) {
     const std::string where = fmt::format(
         "{}, {}: after {:.2f} s, {:.1f} m along the route; keeps: of a small contrast at 0.1, 1 and 10 cd/m2; colours that "
         "sRGB does not hold keep their luminance, here and below",
-        short_text(sheet.title.empty() ? sheet.drive : sheet.title, 60), short_text(sheet.variant, 40), sheet.time_s, sheet.distance_m);
+        short_text(sheet.title.empty() ? sheet.drive : sheet.title, 60), short_text(sheet.lamp_set, 40), sheet.time_s, sheet.distance_m);
     return tile_sheet_svg("Contact sheet of tone mappers and eyes", {{"One moment through every tone mapper", where, sheet.mappers},
                                                                      {"Through windscreen and eye", "each stage alone", sheet.eyes}});
 }

@@ -12,14 +12,14 @@
 namespace fernlicht {
 
 struct DisplaySheet {
-    std::string drive, title, variant;
+    std::string drive, title, lamp_set;
     double time_s = 0.0, distance_m = 0.0;
     std::vector<PictureTile> mappers, eyes; ///< eyes: all by the drive's own tone mapper
 };
 
 /// Draws the moment's driver's view 320 pixels wide; white, s and histogram are fitted to this one picture. Empty where the technique
 /// computes no luminance.
-DisplaySheet display_sheet(const Stage& stage, const Variant& variant, const Moment& moment, Device& device,
+DisplaySheet display_sheet(const Stage& stage, const LampSet& lamp_set, const Moment& moment, Device& device,
                            const RendererSettings& settings);
 
 /// The same sheet gives the same bytes.

@@ -1,9 +1,9 @@
-#include "metrics/display/seen_display.h"
+#include "metrics/display/display_viewing.h"
 #include "runner/experiments/run/run_document.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/figures.h"
+#include "runner/play/display_pipeline.h"
 #include "runner/play/shadows/choose_shadows.h"
-#include "runner/play/shown_picture.h"
 #include "scenarios/display/tone_mapper.h"
 #include "scenarios/drives/keys/shadow_keys.h"
 
@@ -12,17 +12,17 @@
 namespace fernlicht {
 namespace {
 
-std::string shadows_words(const DrawnBy& drawn, const std::string& technique) {
+std::string shadows_words(const RenderingSettings& drawn, const std::string& technique) {
     std::string settings;
     for (const auto& [key, text] : used_shadow_keys(drawn.shadows))
         if (key != "redraw_texels" || drawn.shadows.redraw_texels > 0.0)
             settings += fmt::format("{}{} {}", settings.empty() ? " (" : ", ", key, text);
     settings += settings.empty() ? "" : ")";
-    if (!drawn.shadows_instead.empty())
+    if (!drawn.substitute_shadows.empty())
         return fmt::format("The drive has `{}`{}, and technique `{}` does not use it: {}.", name(drawn.shadows.method), settings, technique,
-                           drawn.shadows_instead);
+                           drawn.substitute_shadows);
     return fmt::format("Shadows by `{}`{}.{}", name(drawn.shadows.method), settings,
-                       drawn.shadows.things_cast ? "" : " `shadows: false`: nothing casts any, for the reference either.");
+                       drawn.shadows.objects_cast ? "" : " `shadows: false`: nothing casts any, for the reference either.");
 }
 
 Table tried_table(const ComparedDrive& drive, const ShadowChoice& choice) {
@@ -48,13 +48,13 @@ Table tried_table(const ComparedDrive& drive, const ShadowChoice& choice) {
 }
 
 void add_shadows(const ComparedDrive& drive, Sections& sections) {
-    const PlayedVariant& played = *drive.variants.front();
-    if (played.drawn_by)
-        sections.push_back({"How shadows are drawn", {shadows_words(*played.drawn_by, played.technique)}, 4});
+    const PlayedCell& played = *drive.lamp_sets.front();
+    if (played.rendering_settings)
+        sections.push_back({"How shadows are drawn", {shadows_words(*played.rendering_settings, played.technique)}, 4});
     const ShadowChoice* const choice = played.shadows.get();
     if (!choice)
         return;
-    Section& section = played.drawn_by ? sections.back() : sections.emplace_back(Section{"", {}, 4});
+    Section& section = played.rendering_settings ? sections.back() : sections.emplace_back(Section{"", {}, 4});
     section.blocks.emplace_back(fmt::format(
         "`shadows: auto` chose `{}`: {}. Something stands in a beam in {} of {} moments of all lamp sets; {} of them, evenly spread, are "
         "held against a ray from each pixel to each lamp in every view; between them a method may err by more.",
@@ -63,7 +63,7 @@ void add_shadows(const ComparedDrive& drive, Sections& sections) {
         section.blocks.emplace_back(tried_table(drive, *choice));
 }
 
-void add_shown_by(const DrawnBy& drawn, Sections& sections) {
+void add_shown_by(const RenderingSettings& drawn, Sections& sections) {
     const DisplayProfile display = display_of(drawn);
     const ToneMapper& mapper = drawn.tone_mapper;
     const bool has_s = mapper.kind == ToneMapperKind::rational || mapper.kind == ToneMapperKind::logarithmic;
@@ -102,8 +102,8 @@ void add_seen(const ComparedDrive& drive, const SeenDisplay& first, Sections& se
         {}};
     const auto finer = [](bool is) { return is ? "yes" : "no"; };
     const auto number = [](double value, int decimals) { return Cell(figure(value, decimals), value); };
-    for (std::size_t i = 0; i < drive.variants.size(); ++i)
-        if (const SeenDisplay* const seen = drive.variants[i]->display.get())
+    for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i)
+        if (const SeenDisplay* const seen = drive.lamp_sets[i]->display.get())
             for (const SeenView& view : seen->views) {
                 std::vector<Cell>& row = table.rows.emplace_back();
                 row = {lamp_cell(drive, i),
@@ -135,9 +135,9 @@ void add_seen(const ComparedDrive& drive, const SeenDisplay& first, Sections& se
 
 void add_drawing(const ComparedDrive& drive, Sections& sections) {
     add_shadows(drive, sections);
-    if (const DrawnBy* const drawn = drive.variants.front()->drawn_by.get())
+    if (const RenderingSettings* const drawn = drive.lamp_sets.front()->rendering_settings.get())
         add_shown_by(*drawn, sections);
-    if (const SeenDisplay* const seen = drive.variants.front()->display.get())
+    if (const SeenDisplay* const seen = drive.lamp_sets.front()->display.get())
         add_seen(drive, *seen, sections);
 }
 

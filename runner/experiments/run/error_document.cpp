@@ -30,10 +30,10 @@ void add_error_row(Table& table, const Cell& lamp, const char* where, const std:
 
 /// A row a plane, a cell a limit.
 void add_reach_rows(Table& table, const Cell& lamp, const DriveError& error) {
-    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
-        std::vector<Cell> row{lamp, plane_name(plane)};
+    for (const Surface surface : {Surface::road, Surface::target}) {
+        std::vector<Cell> row{lamp, surface_name(surface)};
         for (const ReachError& reach : error.reach)
-            if (reach.plane == plane)
+            if (reach.surface == surface)
                 row.emplace_back(reach.why_not.empty() ? signed_figure(reach.median_m, 2) + " / " + signed_figure(reach.worst_m, 2)
                                                        : reach.why_not);
         if (!error.reach.empty())
@@ -41,7 +41,7 @@ void add_reach_rows(Table& table, const Cell& lamp, const DriveError& error) {
     }
 }
 
-std::string compared_words(const PlayedVariant& played) {
+std::string compared_words(const PlayedCell& played) {
     const DriveError& error = played.error;
     if (!error.measured())
         return "not measured: " + error.not_measured;
@@ -70,8 +70,8 @@ void add_accuracy(const ComparedDrive& drive, Sections& sections) {
         "0: drawn too far",
         columns_of("lamp<|on<"),
         {}};
-    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-        const PlayedVariant& played = *drive.variants[i];
+    for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
+        const PlayedCell& played = *drive.lamp_sets[i];
         const DriveError& error = played.error;
         if (!error.measured() && error.not_measured.empty())
             continue; // the run ended before, or was told to leave it out
@@ -85,8 +85,8 @@ void add_accuracy(const ComparedDrive& drive, Sections& sections) {
         add_error_row(errors, lamp, "luminance, whole view", error.luminance, error.no_luminance);
         if (reaches.columns.size() == 2)
             for (const ReachError& reach : error.reach)
-                if (reach.plane == ExtentPlane::road)
-                    reaches.columns.push_back({fmt::format("{:g} lx", reach.limit_lx)});
+                if (reach.surface == Surface::road)
+                    reaches.columns.push_back({fmt::format("{:g} lx", reach.threshold_lx)});
         add_reach_rows(reaches, lamp, error);
     }
     if (sentences.items.empty())

@@ -16,10 +16,11 @@ Cell value_cell(const Value& value, int decimals) {
 }
 
 /// A measured figure of a lamp set, and where there are several, how far it is from the first one's: medians.
-void add_compared(std::vector<Cell>& cells, const ComparedDrive& drive, const ManyMoments& own, const ManyMoments* first, int decimals) {
+void add_compared(std::vector<Cell>& cells, const ComparedDrive& drive, const CensoredSamples& own, const CensoredSamples* first,
+                  int decimals) {
     const Value now = own.quantile(0.5);
     cells.push_back(value_cell(now, decimals));
-    if (drive.variants.size() < 2)
+    if (drive.lamp_sets.size() < 2)
         return;
     const Value change = first ? difference(now, first->quantile(0.5), "") : Value();
     cells.push_back(!first              ? Cell("")
@@ -28,7 +29,7 @@ void add_compared(std::vector<Cell>& cells, const ComparedDrive& drive, const Ma
 }
 
 void add_heads(std::vector<Column>& columns, const ComparedDrive& drive, const std::string& what, const char* unit) {
-    if (drive.variants.size() < 2) {
+    if (drive.lamp_sets.size() < 2) {
         columns.push_back({what, unit});
         return;
     }
@@ -36,15 +37,15 @@ void add_heads(std::vector<Column>& columns, const ComparedDrive& drive, const s
     columns.push_back({"difference", unit, what});
 }
 
-ManyMoments width_at(const ExtentSummary& summary, double at_m) {
+CensoredSamples width_at(const ExtentSummary& summary, double at_m) {
     const auto found = summary.widths.find(at_m);
-    return found == summary.widths.end() ? ManyMoments() : found->second;
+    return found == summary.widths.end() ? CensoredSamples() : found->second;
 }
 
 /// What all lamp sets of a drive have together: (plane, lane) in order of sight, limits and width distances ascending.
 struct Axes {
-    std::vector<std::pair<ExtentPlane, std::string>> places;
-    std::vector<double> limits_lx, widths_at_m;
+    std::vector<std::pair<Surface, std::string>> places;
+    std::vector<double> thresholds_lx, widths_at_m;
 };
 
 void insert_sorted(std::vector<double>& values, double value) {
@@ -55,12 +56,12 @@ void insert_sorted(std::vector<double>& values, double value) {
 
 Axes axes_of(const ComparedDrive& drive) {
     Axes axes;
-    for (const PlayedVariant* const played : drive.variants)
+    for (const PlayedCell* const played : drive.lamp_sets)
         for (const ExtentSummary& summary : played->extent_summaries) {
-            const std::pair place(summary.key.plane, summary.key.lane);
+            const std::pair place(summary.key.surface, summary.key.lane);
             if (std::find(axes.places.begin(), axes.places.end(), place) == axes.places.end())
                 axes.places.push_back(place);
-            insert_sorted(axes.limits_lx, summary.key.limit_lx);
+            insert_sorted(axes.thresholds_lx, summary.key.threshold_lx);
             for (const auto& [at_m, moments] : summary.widths)
                 insert_sorted(axes.widths_at_m, at_m);
         }
@@ -94,7 +95,7 @@ std::vector<Cell> extent_cells(const ComparedDrive& drive, const ExtentSummary& 
     std::vector<Cell> cells;
     add_compared(cells, drive, summary.reach, first ? &first->reach : nullptr, 1);
     for (const double at_m : axes.widths_at_m) {
-        const ManyMoments of_first = first ? width_at(*first, at_m) : ManyMoments();
+        const CensoredSamples of_first = first ? width_at(*first, at_m) : CensoredSamples();
         add_compared(cells, drive, width_at(summary, at_m), first ? &of_first : nullptr, 1);
     }
     add_compared(cells, drive, summary.area, first ? &first->area : nullptr, 0);
@@ -110,22 +111,22 @@ std::vector<Cell> extent_cells(const ComparedDrive& drive, const ExtentSummary& 
     return cells;
 }
 
-Table extent_table(const ComparedDrive& drive, const Axes& axes, ExtentPlane plane, const std::string& lane) {
+Table extent_table(const ComparedDrive& drive, const Axes& axes, Surface surface, const std::string& lane) {
     const bool own = lane == "own";
-    Table table{fmt::format("{}-extent-{}-{}", drive.name, plane_name(plane), lane),
-                lane_title(lane) + (plane == ExtentPlane::road ? ", on the road\u2019s surface" : ", on a target that faces the lamps"),
+    Table table{fmt::format("{}-extent-{}-{}", drive.name, surface_name(surface), lane),
+                lane_title(lane) + (surface == Surface::road ? ", on the road\u2019s surface" : ", on a target that faces the lamps"),
                 extent_columns(drive, axes, own),
                 {},
                 !own};
-    for (const double limit_lx : axes.limits_lx) {
+    for (const double threshold_lx : axes.thresholds_lx) {
         std::vector<ExtentSummary> summaries;
-        for (const PlayedVariant* const played : drive.variants) {
-            const auto found = std::ranges::find(played->extent_summaries, ExtentKey{plane, lane, limit_lx}, &ExtentSummary::key);
+        for (const PlayedCell* const played : drive.lamp_sets) {
+            const auto found = std::ranges::find(played->extent_summaries, ExtentKey{surface, lane, threshold_lx}, &ExtentSummary::key);
             summaries.push_back(found == played->extent_summaries.end() ? ExtentSummary() : *found);
         }
         for (std::size_t i = 0; i < summaries.size(); ++i) {
             std::vector<Cell>& row = table.rows.emplace_back();
-            row = {{fmt::format("{:g}", limit_lx), limit_lx}, lamp_cell(drive, i)};
+            row = {{fmt::format("{:g}", threshold_lx), threshold_lx}, lamp_cell(drive, i)};
             const std::vector<Cell> cells = extent_cells(drive, summaries[i], i > 0 ? &summaries.front() : nullptr, axes, own);
             row.insert(row.end(), cells.begin(), cells.end());
         }
@@ -136,17 +137,17 @@ Table extent_table(const ComparedDrive& drive, const Axes& axes, ExtentPlane pla
 /// Reach in the own lane on the road at 1 and 5 lx.
 Cards reaches_at_a_glance(const ComparedDrive& drive) {
     Cards reaches;
-    for (const double limit_lx : {1.0, 5.0}) {
+    for (const double threshold_lx : {1.0, 5.0}) {
         Value first;
-        for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-            const auto& all = drive.variants[i]->extent_summaries;
-            const auto found = std::ranges::find(all, ExtentKey{ExtentPlane::road, "own", limit_lx}, &ExtentSummary::key);
+        for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
+            const auto& all = drive.lamp_sets[i]->extent_summaries;
+            const auto found = std::ranges::find(all, ExtentKey{Surface::road, "own", threshold_lx}, &ExtentSummary::key);
             if (found == all.end() || found->reach.count() == 0)
                 continue;
             const Value reach = found->reach.quantile(0.5), by_aim = found->per_tenth_degree.quantile(0.5);
             const Value change = i == 0 ? Value() : difference(reach, first, "");
             first = i == 0 ? reach : first;
-            reaches.push_back({fmt::format("reach at {:g} lx", limit_lx), value_cell(reach, 1).text, "m",
+            reaches.push_back({fmt::format("reach at {:g} lx", threshold_lx), value_cell(reach, 1).text, "m",
                                change.measured() ? fmt::format("({} m)", with_bound(change, signed_figure(*change.figure(), 1))) : "",
                                by_aim.measured() ? fmt::format("{} m per 0.1° of aim", value_cell(by_aim, 1).text) : "",
                                lamp_cell(drive, i)});
@@ -164,11 +165,12 @@ void add_extents(const ComparedDrive& drive, Sections& sections) {
     if (Cards reaches = reaches_at_a_glance(drive); !reaches.empty())
         sections.push_back({"At a glance", {"Own lane, on the road’s surface, median over the drive.", std::move(reaches)}, 3});
     Section& section = sections.emplace_back(Section{"Reach and width", {}, 3});
-    section.blocks.emplace_back(fmt::format("Medians over the drive, from the rendered lux image. Reach runs from the bumper along the "
-                                            "lane’s centre to the farthest place with at least that illuminance{}.",
-                                            drive.variants.size() > 1 ? "; differences are from " + drive.variants.front()->variant : ""));
-    for (const auto& [plane, lane] : axes.places)
-        section.blocks.emplace_back(extent_table(drive, axes, plane, lane));
+    section.blocks.emplace_back(
+        fmt::format("Medians over the drive, from the rendered lux image. Reach runs from the bumper along the "
+                    "lane’s centre to the farthest place with at least that illuminance{}.",
+                    drive.lamp_sets.size() > 1 ? "; differences are from " + drive.lamp_sets.front()->lamp_set : ""));
+    for (const auto& [surface, lane] : axes.places)
+        section.blocks.emplace_back(extent_table(drive, axes, surface, lane));
 }
 
 } // namespace fernlicht

@@ -57,8 +57,8 @@ std::string histogram_svg(const LiveFigures& live) {
 
 /// The worst of each part of the drive; a point for each of 24000 ticks would say no more.
 std::string over_drive_svg(const LiveFigures& live) {
-    constexpr std::size_t most_points = 400;
-    const std::size_t ticks = live.late_s.size(), step = (ticks + most_points - 1) / most_points;
+    constexpr std::size_t max_points = 400;
+    const std::size_t ticks = live.late_s.size(), step = (ticks + max_points - 1) / max_points;
     plots::Series line{.name = "worst of each part", .colour = ink, .width_px = 1.2};
     for (std::size_t from = 0; from < ticks; from += step) {
         const auto part = std::ranges::subrange(live.late_s.begin() + static_cast<std::ptrdiff_t>(from),

@@ -1,4 +1,4 @@
-#include "metrics/display/seen_display.h"
+#include "metrics/display/display_viewing.h"
 #include "runner/experiments/accuracy/errors_json.h"
 #include "runner/experiments/bench/bench_result.h"
 #include "runner/experiments/run/run_report.h"
@@ -8,9 +8,9 @@
 #include "runner/findings/context_json.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/judge/verdict_json.h"
+#include "runner/play/display_pipeline.h"
 #include "runner/play/live/live_figures.h"
 #include "runner/play/shadows/choose_shadows.h"
-#include "runner/play/shown_picture.h"
 #include "scenarios/drives/keys/shadow_keys.h"
 #include "scenarios/values/errors.h"
 
@@ -67,7 +67,7 @@ JsonMembers with_reasons(const NamedValues& values, const NamedValues& others = 
 }
 
 /// null where no moment gave anything.
-JsonPart moments_part(const ManyMoments& moments) {
+JsonPart moments_part(const CensoredSamples& moments) {
     return null_unless(moments.count() > 0,
                        joined({{"count", moments.count()}}, with_reasons({{"median", moments.quantile(0.5)},
                                                                           {"p05", moments.quantile(0.05)},
@@ -80,13 +80,13 @@ JsonPart moments_part(const ManyMoments& moments) {
 
 /// Trust in the reach is told of the own lane alone.
 JsonMembers summary_members(ExtentSummary& summary) {
-    const auto width_members = [](std::pair<double, ManyMoments>& width) -> JsonMembers {
+    const auto width_members = [](std::pair<double, CensoredSamples>& width) -> JsonMembers {
         return {{"at_m", width.first}, {"width_m", moments_part(width.second)}};
     };
-    using Widths = std::vector<std::pair<double, ManyMoments>>;
-    return joined({{"plane", one_of(summary.key.plane, names_of<ExtentPlane>(plane_name, 2))},
+    using Widths = std::vector<std::pair<double, CensoredSamples>>;
+    return joined({{"surface", one_of(summary.key.surface, names_of<Surface>(surface_name, 2))},
                    {"lane", summary.key.lane},
-                   {"limit_lx", summary.key.limit_lx},
+                   {"threshold_lx", summary.key.threshold_lx},
                    {"moments", summary.reach.count()},
                    {"moments_cut_off", summary.cut_off},
                    {"reach_m", moments_part(summary.reach)},
@@ -112,7 +112,7 @@ JsonMembers tried_members(TriedShadows& tried) {
     return joined({{"method", shadow_method_part(tried.method)}},
                   when(tried.error.has_value(), {{"error", tried.error.value_or(0.0)},
                                                  {"worst_s", tried.worst_s},
-                                                 {"worst_variant", tried.worst_set},
+                                                 {"worst_lamp_set", tried.worst_set},
                                                  {"worst_view", tried.worst_view},
                                                  {"pictures", tried.pictures}}),
                   when(!tried.error, {{"refused", tried.refused}}));
@@ -129,7 +129,7 @@ JsonMembers choice_members(ShadowChoice& choice) {
 }
 
 /// Settings are numbers and lists of them, which JSON writes as YAML does.
-JsonMembers drawn_shadows_members(DrawnBy& drawn) {
+JsonMembers drawn_shadows_members(RenderingSettings& drawn) {
     const JsonPart settings(
         [&drawn] {
             Json used = Json::object();
@@ -142,12 +142,12 @@ JsonMembers drawn_shadows_members(DrawnBy& drawn) {
             return Json{{"type", "object"}};
         });
     return {{"method", shadow_method_part(drawn.shadows.method)},
-            {"things_cast", drawn.shadows.things_cast},
+            {"objects_cast", drawn.shadows.objects_cast},
             {"settings", settings},
-            {"not_used", or_null(drawn.shadows_instead)}};
+            {"not_used", or_null(drawn.substitute_shadows)}};
 }
 
-JsonMembers shown_by_members(DrawnBy& drawn) {
+JsonMembers shown_by_members(RenderingSettings& drawn) {
     const DisplayProfile display = display_of(drawn);
     const ToneMapperKind kind = drawn.tone_mapper.kind;
     const bool has_s = kind == ToneMapperKind::rational || kind == ToneMapperKind::logarithmic;
@@ -268,12 +268,12 @@ JsonMembers bus_members(BusReport& bus) {
             {"all", bus.all, stamp_members}};
 }
 
-JsonMembers played_members(PlayedVariant& played) {
+JsonMembers played_members(PlayedCell& played) {
     return joined({{"drive", played.drive},
-                   {"variant", played.variant},
+                   {"lamp_set", played.lamp_set},
                    {"technique", played.technique},
                    {"lamps", played.lamps},
-                   {"inputs", played.inputs},
+                   {"inputs", played.input_hashes},
                    {"ticks_planned", played.ticks_planned},
                    {"ticks_done", played.ticks_done},
                    {"repeats", repeats_members(played.repeats)},
@@ -284,8 +284,8 @@ JsonMembers played_members(PlayedVariant& played) {
                    {"frames", played.frames, frame_members},
                    {"contact_sheet", null_unless(!played.contact_sheet.png.empty(), sheet_members(played.contact_sheet))},
                    {"accuracy", accuracy_part(played.error)}},
-                  when(played.drawn_by != nullptr, {{"shadows", value_of(played.drawn_by), drawn_shadows_members},
-                                                    {"shown_by", value_of(played.drawn_by), shown_by_members}}),
+                  when(played.rendering_settings != nullptr, {{"shadows", value_of(played.rendering_settings), drawn_shadows_members},
+                                                              {"shown_by", value_of(played.rendering_settings), shown_by_members}}),
                   when(played.shadows != nullptr, {{"shadow_choice", value_of(played.shadows), choice_members}}),
                   when(played.display != nullptr, {{"display", value_of(played.display), seen_display_members}}),
                   when(!played.more_sheets.empty(), {{"more_sheets", played.more_sheets, titled_sheet_members}}),
@@ -326,7 +326,7 @@ JsonMembers ratio_members(PairedRatio& ratio) {
 }
 
 /// Where nothing was measured, times and counts are null.
-JsonMembers savings_members(Savings& savings) {
+JsonMembers savings_members(PruningSavings& savings) {
     return joined({{"frames", savings.ticks},
                    {"pruned", drawn_part(savings.pruned_s, savings.pruned)},
                    {"unpruned", drawn_part(savings.unpruned_s, savings.unpruned)},
@@ -335,9 +335,9 @@ JsonMembers savings_members(Savings& savings) {
 }
 
 /// What no two runs agree on.
-JsonMembers times_members(PlayedVariant& played) {
+JsonMembers times_members(PlayedCell& played) {
     return {{"drive", played.drive},
-            {"variant", played.variant},
+            {"lamp_set", played.lamp_set},
             {"warm_up_dropped", played.warm_up_dropped},
             {"passes", played.passes, pass_members},
             {"throughput", throughput_members(played.throughput)},
@@ -346,7 +346,7 @@ JsonMembers times_members(PlayedVariant& played) {
 }
 
 /// One for each of the drives, which are read before.
-JsonPart times_part(std::vector<PlayedVariant>& played) {
+JsonPart times_part(std::vector<PlayedCell>& played) {
     return {[&played] { return as_json(played, times_members); },
             [&played](const CheckedJson& json) {
                 const std::vector<CheckedJson> entries = json.items();
@@ -356,7 +356,7 @@ JsonPart times_part(std::vector<PlayedVariant>& played) {
                     JsonPart(times_members(played[i])).read(entries[i]);
             },
             [] {
-                std::vector<PlayedVariant> none;
+                std::vector<PlayedCell> none;
                 return json_part(none, times_members).schema();
             }};
 }
@@ -404,15 +404,15 @@ void take_readings(const CsvFile& csv, Report& report) {
                             : row[bound] == "at_most"  ? Value::at_most(number)
                                                        : (csv.refuse(i, bound, "at_least or at_most"), Value());
         }
-        for (PlayedVariant& played : report.played)
-            if (clean_text(played.drive) == row[drive] && clean_text(played.variant) == row[set])
+        for (PlayedCell& played : report.played)
+            if (clean_text(played.drive) == row[drive] && clean_text(played.lamp_set) == row[set])
                 played.readings.push_back(reading);
     }
 }
 
 } // namespace
 
-nlohmann::ordered_json played_json(const PlayedVariant& played) { return as_json(played, played_members); }
+nlohmann::ordered_json played_json(const PlayedCell& played) { return as_json(played, played_members); }
 
 std::string report_json(const Report& report) {
     const Json whole = as_json(report, report_members);

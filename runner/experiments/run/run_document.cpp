@@ -15,12 +15,12 @@ namespace {
 
 /// What turned a run red that failed.
 const char* failure_word(const Report& report) {
-    bool limits = false, references = false;
-    for (const PlayedVariant& played : report.played)
+    bool limits = false, baselines = false;
+    for (const PlayedCell& played : report.played)
         for (const Verdict& verdict : played.verdicts)
             if (is_red(verdict) && verdict.kind == VerdictKind::fail)
-                (verdict.name.starts_with("reference") ? references : limits) = true;
-    return limits ? "Limits exceeded" : references ? "Differs from the references" : "The list of known failures is out of date";
+                (verdict.name.starts_with("baseline") ? baselines : limits) = true;
+    return limits ? "Limits exceeded" : baselines ? "Differs from the baselines" : "The list of known failures is out of date";
 }
 
 const char* verdict_word(const Report& report) {
@@ -42,15 +42,15 @@ Cell milliseconds(double seconds) { return {figure(1e3 * seconds, 2), 1e3 * seco
 Table passes_table(const ComparedDrive& drive) {
     Table table{
         drive.name + "-times", "", columns_of("lamp<|pass<|median [ms]|5 % … 95 % [ms]|least … most [ms]|samples|warm-up dropped"), {}};
-    for (std::size_t i = 0; i < drive.variants.size(); ++i)
-        for (const PassTime& pass : drive.variants[i]->passes)
+    for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i)
+        for (const PassTime& pass : drive.lamp_sets[i]->passes)
             if (const std::optional<Spread> spread = spread_of(pass.seconds)) {
                 const bool by_picture = pass.name.starts_with("display: "); // each stored one, none of them dropped
                 table.rows.push_back({lamp_cell(drive, i), short_text(pass.name, 40), milliseconds(spread->median),
                                       milliseconds(spread->p05).text + " … " + milliseconds(spread->p95).text,
                                       milliseconds(spread->minimum).text + " … " + milliseconds(spread->maximum).text,
                                       fmt::format("{}", spread->count),
-                                      fmt::format("{}", by_picture ? 0 : drive.variants[i]->warm_up_dropped)});
+                                      fmt::format("{}", by_picture ? 0 : drive.lamp_sets[i]->warm_up_dropped)});
             }
     return table;
 }
@@ -61,8 +61,8 @@ Table throughput_table(const ComparedDrive& drive) {
                 columns_of("lamp<|moments|moments [1/s]|all drawing alone: rate [1/s]|all drawing alone: share [%]|driver’s view alone: "
                            "rate [1/s]|driver’s view alone: share [%]|peak memory [MiB]"),
                 {}};
-    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-        const Throughput& t = drive.variants[i]->throughput;
+    for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
+        const Throughput& t = drive.lamp_sets[i]->throughput;
         if (!t.moments_per_s())
             continue;
         std::vector<Cell>& row = table.rows.emplace_back(
@@ -82,10 +82,10 @@ void add_reaches(const ComparedDrive& drive, Sections& sections) {
         {"Full lines: from the rendered lux image. Thin broken lines: the independent calculation in double precision from the candela "
          "tables. Shaded: ±0.1° of aim."},
         3};
-    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target})
-        for (const double limit_lx : plotted_limits_lx(drive))
-            add_plot(section, fmt::format("{}-reach-{:g}lx-{}", drive.name, limit_lx, plane_name(plane)),
-                     reach_svg(drive, plane, limit_lx));
+    for (const Surface surface : {Surface::road, Surface::target})
+        for (const double threshold_lx : plotted_thresholds_lx(drive))
+            add_plot(section, fmt::format("{}-reach-{:g}lx-{}", drive.name, threshold_lx, surface_name(surface)),
+                     reach_svg(drive, surface, threshold_lx));
     if (section.blocks.size() == 1)
         return;
     add_plot(section, drive.name + "-speed", speed_svg(drive));
@@ -115,11 +115,11 @@ void add_costs(const ComparedDrive& drive, Sections& sections) {
 } // namespace
 
 Cell lamp_cell(const ComparedDrive& drive, std::size_t index) {
-    return Cell::of_series(short_text(drive.variants[index]->variant, 40), index);
+    return Cell::of_series(short_text(drive.lamp_sets[index]->lamp_set, 40), index);
 }
 
 Section verdict_section(const Report& report) {
-    Table failures = verdict_table("failures", "Outside limits or references", "found"),
+    Table failures = verdict_table("failures", "Outside limits or baselines", "found"),
           flakes = verdict_table("flakes", "Flaky: repeats that differ", "what differs"),
           gaps = verdict_table("not-measured", "Not measured", "why"), known = verdict_table("known-failures", "Known failures", "found"),
           passes = verdict_table("green", "What is green", "found");
@@ -135,9 +135,9 @@ Section verdict_section(const Report& report) {
         if (&table == &passes)
             table.rows.back().pop_back();
     };
-    for (const PlayedVariant& played : report.played)
+    for (const PlayedCell& played : report.played)
         for (const Verdict& verdict : played.verdicts)
-            add(verdict, played.drive + ", " + played.variant);
+            add(verdict, played.drive + ", " + played.lamp_set);
     for (const Verdict& verdict : report.listed)
         add(verdict, "list of known failures");
     Section section{verdict_word(report), {}};
@@ -145,8 +145,8 @@ Section verdict_section(const Report& report) {
         section.blocks.emplace_back("The run did not end: " + report.interrupted + ". What follows is what was done until then.");
     const VerdictCounts counts = count_verdicts(report);
     if (counts.all() > 0)
-        section.blocks.emplace_back(fmt::format(
-            "{} of {} verdicts are green: limits, and references and repeats where they were asked for.", counts.pass, counts.all()));
+        section.blocks.emplace_back(fmt::format("{} of {} verdicts are green: limits, and baselines and repeats where they were asked for.",
+                                                counts.pass, counts.all()));
     for (Table* const table : {&failures, &flakes, &gaps, &known, &passes}) {
         if (table == &passes && !report.warnings.empty())
             section.blocks.emplace_back(Listing(report.warnings));

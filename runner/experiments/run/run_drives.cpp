@@ -11,14 +11,14 @@
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
 #include "runner/findings/summary.h"
-#include "runner/judge/cell_inputs.h"
+#include "runner/judge/baselines.h"
+#include "runner/judge/input_hashes.h"
 #include "runner/judge/limits.h"
-#include "runner/judge/references.h"
 #include "runner/judge/repeats.h"
+#include "runner/play/display_pipeline.h"
 #include "runner/play/preparation.h"
 #include "runner/play/progress.h"
 #include "runner/play/shadows/choose_shadows.h"
-#include "runner/play/shown_picture.h"
 #include "runner/play/stage.h"
 #include "runner/write/plots/png.h"
 #include "scenarios/drives/play/advance.h"
@@ -40,10 +40,10 @@
 namespace fernlicht {
 namespace {
 
-std::vector<std::string> notes_for(const Stage& stage, const Variant& variant, const Renderer& renderer) {
+std::vector<std::string> notes_for(const Stage& stage, const LampSet& lamp_set, const Renderer& renderer) {
     std::vector<std::string> notes = stage.drive.notes;
-    if (variant.motion)
-        std::ranges::copy(variant.motion->notes, std::back_inserter(notes));
+    if (lamp_set.motion)
+        std::ranges::copy(lamp_set.motion->notes, std::back_inserter(notes));
     notes.insert(notes.end(), stage.network.warnings.begin(), stage.network.warnings.end());
     const Technique& technique = renderer.technique();
     if (stage.drive.beams && technique.kind != TechniqueKind::ours && technique.features.find("PROJECTED") == std::string_view::npos)
@@ -53,7 +53,7 @@ std::vector<std::string> notes_for(const Stage& stage, const Variant& variant, c
         notes.push_back(fmt::format("traffic: technique {} does not draw the light of others' lamps, and its pictures do not show them as "
                                     "sources; it draws the road users' bodies. photometric draws all three",
                                     technique.name));
-    for (const MountedLamp& lamp : variant.lamps) {
+    for (const MountedLamp& lamp : lamp_set.lamps) {
         if (lamp.photometric_distance_m > 0.0)
             notes.push_back(fmt::format("{}: nearer than {} m it is in its near field, where a point source is an approximation", lamp.name,
                                         lamp.photometric_distance_m));
@@ -67,12 +67,12 @@ std::vector<std::string> notes_for(const Stage& stage, const Variant& variant, c
 }
 
 /// Plays one lamp set and completes it with readings and verdicts.
-PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer& renderer, const RunOptions& options, Writers& writers,
-                           std::ostream* log = nullptr) {
-    prepare(renderer, stage.drive, stage.route, variant, options.ticks);
+PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& renderer, const RunOptions& options, Writers& writers,
+                         std::ostream* log = nullptr) {
+    prepare(renderer, stage.drive, stage.route, lamp_set, options.ticks);
     const int compiled = renderer.compiled_programs();
     const Renderer::ShadowMapsUsed maps_before = renderer.shadow_maps_used();
-    const std::string label = stage.drive.name + ", " + variant.name;
+    const std::string label = stage.drive.name + ", " + lamp_set.name;
     Progress progress(label, ticks_to_play(stage.drive, options.ticks), options.quiet);
     PlayOptions play_options;
     play_options.log = log;
@@ -81,27 +81,27 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
     play_options.profile = options.profile;
     play_options.go_on = [&](int done) {
         progress.done(done);
-        return !Interruption::asked();
+        return !Interruption::requested();
     };
     Renderer::ShadowMapsUsed first; // of the moments' first pictures: what stands then is an earlier moment's
     int last_seen_tick = -1;
-    const Draw draw = [&](const Moment& moment, const View& view, const Wanted& wanted) {
+    const Draw draw = [&](const Moment& moment, const View& view, const FrameOutputs& outputs) {
         const Renderer::ShadowMapsUsed before = renderer.shadow_maps_used();
-        Pending frame = renderer.submit(moment, view, wanted);
+        Pending frame = renderer.submit(moment, view, outputs);
         if (const Renderer::ShadowMapsUsed after = renderer.shadow_maps_used(); std::exchange(last_seen_tick, moment.tick) != moment.tick) {
             first.used += after.used - before.used;
             first.drawn += after.drawn - before.drawn;
         }
         return frame;
     };
-    PlayedVariant played = play(stage.drive, stage.route, variant, play_options, draw, writers);
+    PlayedCell played = play(stage.drive, stage.route, lamp_set, play_options, draw, writers);
     const int last_tick = std::min(options.ticks.last, tick_count(stage.drive) - 1);
-    played.bus = bus_report(stage.drive, variant, std::max(0, options.ticks.first), last_tick);
-    played.inputs = cell_inputs(stage.drive, variant, stage.network.opened, std::max(0, options.ticks.first), last_tick);
+    played.bus = bus_report(stage.drive, lamp_set, std::max(0, options.ticks.first), last_tick);
+    played.input_hashes = input_hashes(stage.drive, lamp_set, stage.network.opened, std::max(0, options.ticks.first), last_tick);
     if (const int late = renderer.compiled_programs() - compiled; late > 0)
         played.notes.push_back(
             fmt::format("{} shader variants were compiled during the drive: times of their first frames include that", late));
-    for (const LeftOut& left : renderer.left_out())
+    for (const PrunedFeature& left : renderer.pruned())
         played.left_out.push_back(left.what + ": " + left.why);
     const Renderer::ShadowMapsUsed maps = renderer.shadow_maps_used();
     if (const long long kept = (maps.used - maps_before.used) - (maps.drawn - maps_before.drawn); kept > 0)
@@ -114,7 +114,7 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
             fmt::format("shadows: redraw_texels {:g}: none of the {} shadow maps that the first pictures of moments looked up stood, as "
                         "edges moved by more from each moment to the next",
                         bound, first.used));
-    std::ranges::copy(notes_for(stage, variant, renderer), std::back_inserter(played.notes));
+    std::ranges::copy(notes_for(stage, lamp_set, renderer), std::back_inserter(played.notes));
     if (stage.drive.extent)
         played.extent_summaries = summarise_extents(played, *stage.drive.extent);
     std::ranges::copy(extent_readings(played), std::back_inserter(played.readings));
@@ -135,10 +135,10 @@ PlayedVariant play_variant(const Stage& stage, const Variant& variant, Renderer&
 
 /// After all is played: the renderer that leaves nothing out takes memory of its own.
 void add_savings(const Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options, Renderer& renderer,
-                 std::span<PlayedVariant> played) {
+                 std::span<PlayedCell> played) {
     std::optional<Renderer> unpruned;
-    for (std::size_t i = 0; i < played.size() && !Interruption::asked(); ++i) {
-        Savings& savings = played[i].savings;
+    for (std::size_t i = 0; i < played.size() && !Interruption::requested(); ++i) {
+        PruningSavings& savings = played[i].savings;
         savings.not_measured = options.profile ? "the run timed each pass" : no_savings(stage.drive, played[i]);
         if (!savings.not_measured.empty())
             continue;
@@ -148,7 +148,7 @@ void add_savings(const Stage& stage, Device& device, const RendererSettings& set
             unpruned.emplace(device, stage.scene, all_in);
         }
         try {
-            savings = measure_savings(stage, stage.drive.variants[i], played[i], std::max(0, options.ticks.first), renderer, *unpruned);
+            savings = measure_savings(stage, stage.drive.lamp_sets[i], played[i], std::max(0, options.ticks.first), renderer, *unpruned);
         } catch (const InputError& error) { // more than the unpruned technique can draw
             savings = {};
             savings.not_measured = error.what();
@@ -157,17 +157,17 @@ void add_savings(const Stage& stage, Device& device, const RendererSettings& set
 }
 
 /// By the renderer that played: what it drew is what is measured.
-void add_errors(const Stage& stage, const RunOptions& options, Renderer& renderer, std::span<PlayedVariant> played) {
-    for (std::size_t i = 0; i < played.size() && !Interruption::asked(); ++i) {
+void add_errors(const Stage& stage, const RunOptions& options, Renderer& renderer, std::span<PlayedCell> played) {
+    for (std::size_t i = 0; i < played.size() && !Interruption::requested(); ++i) {
         DriveError& error = played[i].error;
         error.not_measured = no_drive_error(stage.drive, played[i]);
         if (error.not_measured.empty())
-            error = measure_drive_error(stage, stage.drive.variants[i], played[i], std::max(0, options.ticks.first), renderer);
+            error = measure_drive_error(stage, stage.drive.lamp_sets[i], played[i], std::max(0, options.ticks.first), renderer);
     }
 }
 
 /// The middle one of the captured moments, else of those played.
-int middle_tick(const PlayedVariant& played, int first_tick) {
+int middle_tick(const PlayedCell& played, int first_tick) {
     std::vector<int> captured;
     for (const StoredFrame& frame : played.frames)
         if (captured.empty() || captured.back() != frame.tick)
@@ -176,21 +176,21 @@ int middle_tick(const PlayedVariant& played, int first_tick) {
 }
 
 void add_contact_sheets(const Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options,
-                        std::span<PlayedVariant> played) {
+                        std::span<PlayedCell> played) {
     std::vector<ContactSheet> sheets;
     for (std::size_t i = 0; i < played.size(); ++i) {
-        const Variant& variant = stage.drive.variants[i];
+        const LampSet& lamp_set = stage.drive.lamp_sets[i];
         const int tick = middle_tick(played[i], std::max(0, options.ticks.first));
-        sheets.push_back(new_sheet(stage, variant, moments_at({tick}, stage, variant).front()));
+        sheets.push_back(new_sheet(stage, lamp_set, moments_at({tick}, stage, lamp_set).front()));
     }
     RendererSettings plain = settings_for(stage.drive, settings);
     plain.profile = false;
     add_all_techniques(sheets, stage, device, plain);
     for (std::size_t i = 0; i < played.size(); ++i) {
         const ContactSheet& sheet = sheets[i];
-        const Variant& variant = stage.drive.variants[i];
+        const LampSet& lamp_set = stage.drive.lamp_sets[i];
         const auto stored = [&](const char* kind, const std::string& svg) {
-            const std::string file = kind + ("-" + file_name_of(sheet.drive + "-" + sheet.variant)) + ".png";
+            const std::string file = kind + ("-" + file_name_of(sheet.drive + "-" + sheet.lamp_set)) + ".png";
             write_file(options.folder / file, plots::png_of_svg(svg));
             return StoredFrame{sheet.moment.tick, sheet.moment.time_s, "driver", file, ""};
         };
@@ -210,12 +210,12 @@ void add_contact_sheets(const Stage& stage, Device& device, const RendererSettin
                 left_out(fmt::format("in technique {}", tile.row.name), tile.not_drawn);
         played[i].contact_sheet = stored("contact-sheet", contact_sheet_svg(sheet));
         add_sheet("by every tone mapper and eye", "display-sheet", [&]() -> std::string {
-            const DisplaySheet shown = display_sheet(stage, variant, sheet.moment, device, plain);
+            const DisplaySheet shown = display_sheet(stage, lamp_set, sheet.moment, device, plain);
             return shown.mappers.empty() ? "" : display_sheet_svg(shown);
         });
         if (plain.technique == "photometric")
             add_sheet("in every shadow method", "shadow-sheet",
-                      [&] { return shadow_sheet_svg(shadow_moment(stage, variant, sheet.moment, device, plain)); });
+                      [&] { return shadow_sheet_svg(shadow_moment(stage, lamp_set, sheet.moment, device, plain)); });
     }
 }
 
@@ -233,17 +233,17 @@ void run_drive(Stage& stage, Device& device, const RendererSettings& settings, c
     const std::filesystem::path log_file = options.folder / ("drive-log-" + file_name_of(stage.drive.name) + ".csv");
     std::ofstream log(log_file, std::ios::binary);
     log << drive_log_header << '\n';
-    for (const Variant& variant : stage.drive.variants) {
-        report.played.push_back(play_variant(stage, variant, renderer, options, writers, &log));
+    for (const LampSet& lamp_set : stage.drive.lamp_sets) {
+        report.played.push_back(play_lamp_set(stage, lamp_set, renderer, options, writers, &log));
         report.played.back().shadows = shadows;
-        if (variant.motion && variant.motion->control)
-            write_file(options.folder / ("signals-" + file_name_of(stage.drive.name + "-" + variant.name) + ".csv"),
-                       signals_csv(stage.drive, *variant.motion->control, options.ticks.first, options.ticks.last));
-        if (const std::string sent = sent_log(stage.drive, variant); !sent.empty())
-            write_file(options.folder / ("can-" + file_name_of(stage.drive.name + "-" + variant.name) + ".log"), sent);
+        if (lamp_set.motion && lamp_set.motion->control)
+            write_file(options.folder / ("signals-" + file_name_of(stage.drive.name + "-" + lamp_set.name) + ".csv"),
+                       signals_csv(stage.drive, *lamp_set.motion->control, options.ticks.first, options.ticks.last));
+        if (const std::string sent = output_log(stage.drive, lamp_set); !sent.empty())
+            write_file(options.folder / ("can-" + file_name_of(stage.drive.name + "-" + lamp_set.name) + ".log"), sent);
         if (!log.flush())
             throw DeviceError(log_file.string() + ": cannot be written: " + std::generic_category().message(errno));
-        if (Interruption::asked()) {
+        if (Interruption::requested()) {
             report.complete = false;
             report.interrupted = "interrupted by the user";
             return;
@@ -253,12 +253,12 @@ void run_drive(Stage& stage, Device& device, const RendererSettings& settings, c
     add_savings(stage, device, settings, options, renderer, played);
     if (options.accuracy)
         add_errors(stage, options, renderer, played);
-    if (options.contact_sheet && !Interruption::asked())
+    if (options.contact_sheet && !Interruption::requested())
         add_contact_sheets(stage, device, settings, options, played);
 }
 
 /// What the frames of a further play take: gone where they are those of the first play, kept to be looked at where they are not.
-void remove_frames(const PlayedVariant& again, const std::filesystem::path& folder) {
+void remove_frames(const PlayedCell& again, const std::filesystem::path& folder) {
     std::error_code ignored;
     for (const StoredFrame& frame : again.frames)
         for (const std::string* const path : {&frame.exr, &frame.png})
@@ -277,10 +277,10 @@ void repeat_drive(const Stage& stage, Device& device, const RendererSettings& se
                   std::span<RepeatFold> folds, bool backwards) {
     Renderer renderer(device, stage.scene, settings_for(stage.drive, settings));
     Writers writers;
-    for (std::size_t i = 0; i < folds.size() && !Interruption::asked(); ++i) {
+    for (std::size_t i = 0; i < folds.size() && !Interruption::requested(); ++i) {
         const std::size_t at = backwards ? folds.size() - 1 - i : i;
-        const PlayedVariant again = play_variant(stage, stage.drive.variants[at], renderer, options, writers);
-        if (!Interruption::asked() && folds[at].add(again, options.folder))
+        const PlayedCell again = play_lamp_set(stage, stage.drive.lamp_sets[at], renderer, options, writers);
+        if (!Interruption::requested() && folds[at].add(again, options.folder))
             remove_frames(again, options.folder);
     }
 }
@@ -288,26 +288,26 @@ void repeat_drive(const Stage& stage, Device& device, const RendererSettings& se
 /// Plays everything again, by turns backwards and forwards, and says what differs.
 void repeat(const std::deque<Stage>& stages, Device& device, const RendererSettings& settings, const RunOptions& options, Report& report) {
     std::vector<RepeatFold> folds;
-    for (const PlayedVariant& played : report.played)
+    for (const PlayedCell& played : report.played)
         folds.emplace_back(played, options.folder, played_json);
     std::vector<std::span<RepeatFold>> by_drive;
     std::size_t first = 0;
     for (const Stage& stage : stages) {
-        by_drive.push_back(std::span(folds).subspan(first, stage.drive.variants.size()));
-        first += stage.drive.variants.size();
+        by_drive.push_back(std::span(folds).subspan(first, stage.drive.lamp_sets.size()));
+        first += stage.drive.lamp_sets.size();
     }
-    for (int play = 2; play <= options.repeats && !Interruption::asked(); ++play) {
+    for (int play = 2; play <= options.repeats && !Interruption::requested(); ++play) {
         RunOptions again = options;
         again.folder = options.folder / "repeats" / fmt::format("{}", play);
         const bool backwards = play % 2 == 0;
-        for (std::size_t i = 0; i < stages.size() && !Interruption::asked(); ++i) {
+        for (std::size_t i = 0; i < stages.size() && !Interruption::requested(); ++i) {
             const std::size_t at = backwards ? stages.size() - 1 - i : i;
             repeat_drive(stages[at], device, settings, again, by_drive[at], backwards);
         }
     }
     for (std::size_t i = 0; i < folds.size(); ++i)
         folds[i].finish(report.played[i], options.repeats, report.context.command);
-    if (Interruption::asked()) {
+    if (Interruption::requested()) {
         report.complete = false;
         report.interrupted = "interrupted by the user";
     }
@@ -323,7 +323,7 @@ void add_warnings(const std::deque<Stage>& stages, const std::vector<Drive>& dri
     for (const Stage& stage : stages)
         std::ranges::copy(bus_warnings(stage.drive), std::back_inserter(report.warnings));
     for (const Drive& drive : drives) {
-        const std::string instead = shadows_instead(drive);
+        const std::string instead = substitute_shadows(drive);
         if (!instead.empty() && drive.shadows.method != ShadowMethod::map) // which nobody needs to ask for
             report.warnings.push_back(fmt::format("{}: shadows by '{}' were asked for, and technique {} does not use it: {}", drive.name,
                                                   name(drive.shadows.method), drive.technique, instead));
@@ -336,10 +336,10 @@ void add_warnings(const std::deque<Stage>& stages, const std::vector<Drive>& dri
 
 /// Verdicts that need all of the run.
 void judge(const RunOptions& options, Report& report) {
-    if (!options.references.empty())
-        for (PlayedVariant& played : report.played)
-            std::ranges::copy(judge_against_references(played, report.context, options.folder, options.references, played.technique,
-                                                       options.across_devices),
+    if (!options.baselines.empty())
+        for (PlayedCell& played : report.played)
+            std::ranges::copy(judge_against_baselines(played, report.context, options.folder, options.baselines, played.technique,
+                                                      options.across_devices),
                               std::back_inserter(played.verdicts));
     if (options.known) {
         add_inputs(report.context.inputs, options.known->opened);

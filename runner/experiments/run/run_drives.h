@@ -13,10 +13,10 @@ struct RunOptions {
     std::filesystem::path folder; ///< for the report; made when all input is read and the device is found sane
     TickRange ticks;
     bool quiet = false;
-    bool profile = false;             ///< time each pass by finishing after it; frame times are then not representative
-    std::filesystem::path references; ///< accepted results to judge against; "" for none
-    bool across_devices = false;      ///< where this class of device has none, by those of others
-    int repeats = 1;                  ///< plays of each lamp set; all must agree
+    bool profile = false;            ///< time each pass by finishing after it; frame times are then not representative
+    std::filesystem::path baselines; ///< accepted results to judge against; "" for none
+    bool across_devices = false;     ///< where this class of device has none, by those of others
+    int repeats = 1;                 ///< plays of each lamp set; all must agree
     std::optional<KnownFailures> known;
     std::string today;          ///< 2026-12-31: by which known failures expire
     bool accuracy = true;       ///< hold a few moments of each lamp set against the reference

@@ -25,7 +25,7 @@ plots::Colour darker(plots::Colour colour) {
 bool by_distance(const ComparedDrive& drive) {
     constexpr double standing_m = 1e-3; // from one moment to the next
     double farthest_m = 0.0;
-    for (const PlayedVariant* const played : drive.variants) {
+    for (const PlayedCell* const played : drive.lamp_sets) {
         if (!played->car.empty())
             return false;
         for (std::size_t i = 0; i < played->extents.size(); ++i) {
@@ -37,7 +37,7 @@ bool by_distance(const ComparedDrive& drive) {
     return farthest_m > 1.0;
 }
 
-plots::Polyline reach_line(const PlayedVariant& played, std::vector<LaneExtent> ExtentRow::*source, const ExtentKey& key, bool distance) {
+plots::Polyline reach_line(const PlayedCell& played, std::vector<LaneExtent> ExtentRow::*source, const ExtentKey& key, bool distance) {
     plots::Polyline line;
     for (const ExtentRow& row : played.extents) {
         const LaneExtent* const extent = find_extent(row.*source, key);
@@ -46,12 +46,12 @@ plots::Polyline reach_line(const PlayedVariant& played, std::vector<LaneExtent> 
     return line;
 }
 
-plots::Band aim_band(const PlayedVariant& played, const ExtentKey& key, const plots::Polyline& reach) {
+plots::Band aim_band(const PlayedCell& played, const ExtentKey& key, const plots::Polyline& reach) {
     plots::Band band;
     for (std::size_t i = 0; i < reach.size(); ++i) {
         const auto& sensitivity = played.extents[i].sensitivity;
         const auto found = std::find_if(sensitivity.begin(), sensitivity.end(), [&](const ReachSensitivity& entry) {
-            return entry.plane == key.plane && entry.limit_lx == key.limit_lx;
+            return entry.surface == key.surface && entry.threshold_lx == key.threshold_lx;
         });
         const double half_m = found == sensitivity.end() ? not_a_number : std::abs(found->metres_per_tenth_degree);
         band.x.push_back(reach[i].x);
@@ -88,9 +88,9 @@ void set_axes(plots::Figure& figure, const std::string& x_label, const std::stri
 std::string car_svg(const ComparedDrive& drive, const char* title, const char* label, const char* unit,
                     const std::function<std::optional<double>(const CarRow&)>& value) {
     plots::Figure figure;
-    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-        plots::Series series{short_text(drive.variants[i]->variant, 24), {}, plots::lamp_colour(i), 1.6, "", false};
-        for (const CarRow& row : drive.variants[i]->car)
+    for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
+        plots::Series series{short_text(drive.lamp_sets[i]->lamp_set, 24), {}, plots::lamp_colour(i), 1.6, "", false};
+        for (const CarRow& row : drive.lamp_sets[i]->car)
             if (const std::optional<double> found = value(row))
                 series.points.push_back({row.time_s, *found});
         series.markers = series.points.size() == 1;
@@ -101,7 +101,7 @@ std::string car_svg(const ComparedDrive& drive, const char* title, const char* l
         return {};
     const plots::Polyline& first = figure.series.front().points;
     const bool alike =
-        figure.series.size() == drive.variants.size() && std::ranges::all_of(figure.series, [&](const plots::Series& series) {
+        figure.series.size() == drive.lamp_sets.size() && std::ranges::all_of(figure.series, [&](const plots::Series& series) {
             return std::ranges::equal(series.points, first,
                                       [](const plots::Point& a, const plots::Point& b) { return a.x == b.x && a.y == b.y; });
         });
@@ -118,7 +118,7 @@ std::string car_svg(const ComparedDrive& drive, const char* title, const char* l
 }
 
 /// Light from far away and light that is none look alike on a page: nothing below this share of the largest value is drawn.
-constexpr double least_share = 1e-4;
+constexpr double min_share = 1e-4;
 
 plots::Polyline line_of(const SeeingSeries& series, const SeeingSeries::Column& column) {
     plots::Polyline line;
@@ -127,7 +127,7 @@ plots::Polyline line_of(const SeeingSeries& series, const SeeingSeries::Column& 
         largest = std::max(largest, value.figure().value_or(0.0));
     for (std::size_t i = 0; i < series.at_m.size(); ++i) {
         const std::optional<double> value = column.values[i].figure();
-        const bool shown = value && (!column.logarithmic || *value >= least_share * largest);
+        const bool shown = value && (!column.logarithmic || *value >= min_share * largest);
         line.push_back({series.at_m[i], shown ? *value : not_a_number});
     }
     return line;
@@ -137,9 +137,9 @@ std::string figure_of(const ComparedDrive& drive, const SeeingSeries& subject, s
     const SeeingSeries::Column& what = subject.columns[column];
     plots::Figure figure;
     std::vector<double> x, y;
-    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-        const auto series = std::ranges::find(drive.variants[i]->seeing, subject.subject, &SeeingSeries::subject);
-        if (series == drive.variants[i]->seeing.end() || column >= series->columns.size())
+    for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
+        const auto series = std::ranges::find(drive.lamp_sets[i]->seeing, subject.subject, &SeeingSeries::subject);
+        if (series == drive.lamp_sets[i]->seeing.end() || column >= series->columns.size())
             continue;
         plots::Polyline line = line_of(*series, series->columns[column]);
         for (const plots::Point& point : line)
@@ -148,7 +148,7 @@ std::string figure_of(const ComparedDrive& drive, const SeeingSeries& subject, s
                 y.push_back(point.y);
             }
         figure.series.push_back(
-            {short_text(drive.variants[i]->variant, 24), std::move(line), plots::lamp_colour(i), 2.0, "", series->at_m.size() == 1});
+            {short_text(drive.lamp_sets[i]->lamp_set, 24), std::move(line), plots::lamp_colour(i), 2.0, "", series->at_m.size() == 1});
     }
     if (y.empty())
         return {};
@@ -163,7 +163,7 @@ std::string figure_of(const ComparedDrive& drive, const SeeingSeries& subject, s
 
 std::vector<std::string> figures_of(const ComparedDrive& drive, bool control) {
     std::vector<std::string> figures;
-    for (const SeeingSeries& subject : drive.variants.front()->seeing)
+    for (const SeeingSeries& subject : drive.lamp_sets.front()->seeing)
         for (std::size_t column = 0; (subject.subject == "control") == control && column < subject.columns.size(); ++column)
             if (subject.columns[column].drawn)
                 if (std::string svg = figure_of(drive, subject, column); !svg.empty())
@@ -183,31 +183,31 @@ void add_plots(Section& section, const std::string& name, const std::vector<std:
         add_plot(section, fmt::format("{}-{}", name, i + 1), svgs[i]);
 }
 
-std::vector<double> plotted_limits_lx(const ComparedDrive& drive) {
+std::vector<double> plotted_thresholds_lx(const ComparedDrive& drive) {
     std::vector<double> limits;
-    for (const PlayedVariant* const played : drive.variants)
+    for (const PlayedCell* const played : drive.lamp_sets)
         for (const ExtentKey& key : extent_keys(*played))
             if (key.lane == "own")
-                limits.push_back(key.limit_lx);
+                limits.push_back(key.threshold_lx);
     std::sort(limits.begin(), limits.end());
     limits.erase(std::unique(limits.begin(), limits.end()), limits.end());
     std::vector<double> usual;
-    for (const double limit_lx : {1.0, 5.0})
-        if (std::binary_search(limits.begin(), limits.end(), limit_lx))
-            usual.push_back(limit_lx);
+    for (const double threshold_lx : {1.0, 5.0})
+        if (std::binary_search(limits.begin(), limits.end(), threshold_lx))
+            usual.push_back(threshold_lx);
     if (!usual.empty() || limits.size() < 2)
         return usual.empty() ? limits : usual;
     return {limits.front(), limits.back()};
 }
 
-std::string reach_svg(const ComparedDrive& drive, ExtentPlane plane, double limit_lx) {
-    const ExtentKey key{plane, "own", limit_lx};
+std::string reach_svg(const ComparedDrive& drive, Surface surface, double threshold_lx) {
+    const ExtentKey key{surface, "own", threshold_lx};
     const bool distance = by_distance(drive);
     plots::Figure figure;
     bool measured = false;
-    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-        const PlayedVariant& played = *drive.variants[i];
-        const std::string name = short_text(played.variant, 24);
+    for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
+        const PlayedCell& played = *drive.lamp_sets[i];
+        const std::string name = short_text(played.lamp_set, 24);
         plots::Polyline rendered = reach_line(played, &ExtentRow::rendered, key, distance),
                         twin = reach_line(played, &ExtentRow::twin, key, distance);
         measured = measured || has_value(rendered) || has_value(twin);
@@ -223,7 +223,7 @@ std::string reach_svg(const ComparedDrive& drive, ExtentPlane plane, double limi
     }
     if (!measured)
         return {};
-    figure.title = fmt::format("Reach at {:g} lx on {}", limit_lx, plane == ExtentPlane::road ? "the road" : "a facing target");
+    figure.title = fmt::format("Reach at {:g} lx on {}", threshold_lx, surface == Surface::road ? "the road" : "a facing target");
     figure.width_px = 640.0;
     figure.height_px = 340.0;
     set_axes(figure, distance ? "distance along the route" : "time", distance ? "m" : "s", "reach, own lane", "m");
@@ -234,7 +234,7 @@ std::string speed_svg(const ComparedDrive& drive) {
     plots::Figure figure;
     plots::Series speed;
     speed.colour = {60, 60, 60};
-    for (const auto& [time_s, mps] : drive.variants.front()->speed_mps)
+    for (const auto& [time_s, mps] : drive.lamp_sets.front()->speed_mps)
         speed.points.push_back({time_s, mps * 3.6});
     if (!has_value(speed.points))
         return {};
@@ -259,11 +259,12 @@ std::vector<std::string> car_svgs(const ComparedDrive& drive) {
 
 std::string timing_svg(const ComparedDrive& drive) {
     plots::Figure figure;
-    for (std::size_t i = 0; i < drive.variants.size(); ++i)
-        for (const PassTime& pass : drive.variants[i]->passes) {
+    for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i)
+        for (const PassTime& pass : drive.lamp_sets[i]->passes) {
             if (pass.name != "frame" || pass.seconds.empty())
                 continue;
-            plots::Series series{short_text(drive.variants[i]->variant, 24), {}, plots::lamp_colour(i), 1.3, "", pass.seconds.size() == 1};
+            plots::Series series{
+                short_text(drive.lamp_sets[i]->lamp_set, 24), {}, plots::lamp_colour(i), 1.3, "", pass.seconds.size() == 1};
             for (std::size_t k = 0; k < pass.seconds.size(); ++k)
                 series.points.push_back({static_cast<double>(k + 1), 1e3 * pass.seconds[k]});
             figure.series.push_back(std::move(series));
@@ -286,8 +287,8 @@ std::string error_svg(const ComparedDrive& drive) {
     plots::Figure figure;
     std::vector<double> times, errors;
     double floor = 0.0;
-    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-        const PlayedVariant& played = *drive.variants[i];
+    for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
+        const PlayedCell& played = *drive.lamp_sets[i];
         const auto pass = std::ranges::find(played.passes, std::string("frame"), &PassTime::name);
         if (!played.error.road || played.error.road->pixels == 0 || pass == played.passes.end())
             continue;
@@ -302,13 +303,13 @@ std::string error_svg(const ComparedDrive& drive) {
         figure.series.push_back(
             {"", {{1e3 * time->minimum, claimed}, {1e3 * time->maximum, claimed}}, plots::lamp_colour(i), 1.2, "", false});
         figure.series.push_back({"", {{x, low}, {x, high}}, plots::lamp_colour(i), 1.2, "", false});
-        figure.series.push_back({short_text(played.variant, 24), {{x, claimed}}, plots::lamp_colour(i), 1.2, "", true});
+        figure.series.push_back({short_text(played.lamp_set, 24), {{x, claimed}}, plots::lamp_colour(i), 1.2, "", true});
         times.insert(times.end(), {1e3 * time->minimum, 1e3 * time->maximum});
         errors.insert(errors.end(), {low, high});
     }
     if (figure.series.empty() || *std::ranges::max_element(errors) <= 0.0)
         return {};
-    figure.title = fmt::format("Error against run time: {}", short_text(drive.variants.front()->technique, 24));
+    figure.title = fmt::format("Error against run time: {}", short_text(drive.lamp_sets.front()->technique, 24));
     figure.width_px = 640.0;
     figure.height_px = 300.0;
     figure.x = plots::axis_around("time a frame, driver's view alone", "ms", times, plots::Scale::logarithmic);

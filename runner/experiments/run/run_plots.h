@@ -12,7 +12,7 @@ void add_plots(Section& section, const std::string& name, const std::vector<std:
 
 /// Reach in the own lane over the drive, by distance or, where the car stands still or moves on springs, by time: a line per lamp set, the
 /// twin's as a thin dashed line, the band of +-0.1 degrees of aim. "" when nothing of that plane and limit was measured.
-std::string reach_svg(const ComparedDrive& drive, ExtentPlane plane, double limit_lx);
+std::string reach_svg(const ComparedDrive& drive, Surface surface, double threshold_lx);
 
 /// What the drive asks of glare and seeing: for each subject its drawn columns over the distance, a line per lamp set.
 std::vector<std::string> seeing_svgs(const ComparedDrive& drive);
@@ -42,6 +42,6 @@ std::string error_svg(const ComparedDrive& drive);
 std::vector<std::string> live_svgs(const LiveFigures& live);
 
 /// Limits worth a figure: 1 and 5 lx where they were measured, else the lowest and the highest that were.
-std::vector<double> plotted_limits_lx(const ComparedDrive& drive);
+std::vector<double> plotted_thresholds_lx(const ComparedDrive& drive);
 
 } // namespace fernlicht

@@ -13,7 +13,7 @@ namespace fernlicht {
 std::string report_json(const Report& report);
 std::string report_json_schema();
 /// An entry of the report's `drives`: all results of one drive with one lamp set, no readings, moments and times.
-nlohmann::ordered_json played_json(const PlayedVariant& played);
+nlohmann::ordered_json played_json(const PlayedCell& played);
 
 /// A complete run as it was written, without lux maps, summaries and what moments were like; readings come from readings.csv. Throws
 /// InputError for what is no such run.

@@ -9,30 +9,30 @@
 namespace fernlicht {
 namespace {
 
-constexpr int most_moments = 4, rounds = 7;
-constexpr double most_s = 2.0;
+constexpr int max_moments = 4, rounds = 7;
+constexpr double max_s = 2.0;
 /// What a moment costs, in pruned frames: the rounds, a warm-up and a count by both; unpruned frames take about a third longer.
 constexpr double frames_a_moment = 2.3 * (rounds + 2);
 
 /// Draws the moments as the bench does. `work` takes their counts.
-Contestant contestant(Renderer& renderer, const std::vector<Moment>& moments, const View& view, Work& work) {
-    static constexpr Wanted wanted{.colour = true};
-    renderer.prepare(moments, view, wanted);
+TimedTechnique timed(Renderer& renderer, const std::vector<Moment>& moments, const View& view, Work& work) {
+    static constexpr FrameOutputs outputs{.colour = true};
+    renderer.prepare(moments, view, outputs);
     std::vector<Work> counts;
     for (const Moment& moment : moments)
-        counts.push_back(renderer.count(moment, view, wanted));
+        counts.push_back(renderer.count(moment, view, outputs));
     work = typical_work(counts).value_or(Work{});
-    return {[&](std::size_t moment) { renderer.render(moments[moment], view, wanted); }, [&] { renderer.finish(); }};
+    return {[&](std::size_t moment) { renderer.render(moments[moment], view, outputs); }, [&] { renderer.finish(); }};
 }
 
 } // namespace
 
 int affordable_moments(double frame_s) {
-    const double affordable = most_s / (frames_a_moment * frame_s);
-    return affordable >= most_moments ? most_moments : static_cast<int>(affordable);
+    const double affordable = max_s / (frames_a_moment * frame_s);
+    return affordable >= max_moments ? max_moments : static_cast<int>(affordable);
 }
 
-std::string no_savings(const Drive& drive, const PlayedVariant& played) {
+std::string no_savings(const Drive& drive, const PlayedCell& played) {
     if (drive.technique != pruned_technique)
         return fmt::format("it is measured for the technique photometric only, this is {}", drive.technique);
     if (!driver_view(drive))
@@ -44,25 +44,24 @@ std::string no_savings(const Drive& drive, const PlayedVariant& played) {
     return "";
 }
 
-Savings measure_savings(const Stage& stage, const Variant& variant, const PlayedVariant& played, int first_tick, Renderer& pruned,
-                        Renderer& unpruned) {
-    Savings savings;
+PruningSavings measure_savings(const Stage& stage, const LampSet& lamp_set, const PlayedCell& played, int first_tick, Renderer& pruned,
+                               Renderer& unpruned) {
+    PruningSavings savings;
     const int count = std::min(played.ticks_done, affordable_moments(played.throughput.view_s.value()));
     for (const int tick : ticks_over(played.ticks_done, count))
         savings.ticks.push_back(first_tick + tick);
-    const std::vector<Moment> moments = moments_at(savings.ticks, stage, variant);
+    const std::vector<Moment> moments = moments_at(savings.ticks, stage, lamp_set);
     const View& view = *driver_view(stage.drive);
-    const std::vector<Contestant> both{contestant(pruned, moments, view, savings.pruned),
-                                       contestant(unpruned, moments, view, savings.unpruned)};
-    ContestOptions options;
+    const std::vector<TimedTechnique> both{timed(pruned, moments, view, savings.pruned), timed(unpruned, moments, view, savings.unpruned)};
+    TimingOptions options;
     options.moments = moments.size();
     options.rounds = rounds;
     options.warm_up_plays = 1;
     options.frame_by_frame = false;
     options.seed = stage.drive.seed;
-    const Contest contest = hold_contest(both, options, real_clocks());
-    savings.pruned_s = contest.samples[0].frame_s;
-    savings.unpruned_s = contest.samples[1].frame_s;
+    const InterleavedTimes timing = time_interleaved(both, options, real_clocks());
+    savings.pruned_s = timing.samples[0].frame_s;
+    savings.unpruned_s = timing.samples[1].frame_s;
     return savings;
 }
 

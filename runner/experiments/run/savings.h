@@ -15,11 +15,11 @@ int affordable_moments(double frame_s);
 
 /// Why savings are not measured for what was played; "" where they can be: by the pruned technique, with a perspective view, long enough
 /// for frames to have been timed, and in two seconds.
-std::string no_savings(const Drive& drive, const PlayedVariant& played);
+std::string no_savings(const Drive& drive, const PlayedCell& played);
 
 /// The middles of equal parts of the ticks played, from `first_tick` on, in seven rounds: in each both draw all of them, in an order drawn
 /// anew from the drive's seed. Both renderers are of the stage's scene. Throws DeviceError.
-Savings measure_savings(const Stage& stage, const Variant& variant, const PlayedVariant& played, int first_tick, Renderer& pruned,
-                        Renderer& unpruned);
+PruningSavings measure_savings(const Stage& stage, const LampSet& lamp_set, const PlayedCell& played, int first_tick, Renderer& pruned,
+                               Renderer& unpruned);
 
 } // namespace fernlicht

@@ -14,7 +14,7 @@ constexpr double no_value = std::numeric_limits<double>::quiet_NaN(); // what pl
 constexpr const char* state_words[] = {"fresh", "stale", "missing", "out of range", "contradictory"};
 constexpr plots::Colour state_colours[] = {{}, {230, 159, 0}, {120, 120, 120}, {213, 94, 0}, {148, 60, 160}};
 
-const BusReport& bus_of(const ComparedDrive& drive) { return drive.variants.front()->bus; }
+const BusReport& bus_of(const ComparedDrive& drive) { return drive.lamp_sets.front()->bus; }
 
 plots::Polyline bus_line(const BusReport& bus, const std::vector<std::optional<double>>& values) {
     plots::Polyline line;
@@ -86,11 +86,11 @@ std::string signal_svg(const BusReport& bus, const BusSignalReport& signal) {
 
 /// A line for each lamp set over time. `value`: time and value of a lamp set.
 std::string figure_over_time(const ComparedDrive& drive, const std::string& title, const std::string& label, const std::string& unit,
-                             const std::function<plots::Polyline(const PlayedVariant&)>& line_of) {
+                             const std::function<plots::Polyline(const PlayedCell&)>& line_of) {
     plots::Figure figure;
     std::vector<double> all;
-    for (std::size_t i = 0; i < drive.variants.size(); ++i) {
-        plots::Polyline line = line_of(*drive.variants[i]);
+    for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
+        plots::Polyline line = line_of(*drive.lamp_sets[i]);
         bool any = false;
         for (const plots::Point& point : line)
             if (std::isfinite(point.y)) {
@@ -99,7 +99,7 @@ std::string figure_over_time(const ComparedDrive& drive, const std::string& titl
             }
         const bool lone = line.size() == 1;
         if (any)
-            figure.series.push_back({short_text(drive.variants[i]->variant, 24), std::move(line), plots::lamp_colour(i), 2.0, "", lone});
+            figure.series.push_back({short_text(drive.lamp_sets[i]->lamp_set, 24), std::move(line), plots::lamp_colour(i), 2.0, "", lone});
     }
     if (figure.series.empty())
         return {};
@@ -111,10 +111,10 @@ std::string figure_over_time(const ComparedDrive& drive, const std::string& titl
     return plots::svg_of(figure);
 }
 
-std::string reach_over_time(const ComparedDrive& drive, double limit_lx) {
-    const ExtentKey key{ExtentPlane::target, "own", limit_lx};
-    return figure_over_time(drive, fmt::format("Reach at {:g} lx on a facing target", limit_lx), "reach, own lane", "m",
-                            [&](const PlayedVariant& played) {
+std::string reach_over_time(const ComparedDrive& drive, double threshold_lx) {
+    const ExtentKey key{Surface::target, "own", threshold_lx};
+    return figure_over_time(drive, fmt::format("Reach at {:g} lx on a facing target", threshold_lx), "reach, own lane", "m",
+                            [&](const PlayedCell& played) {
                                 plots::Polyline line;
                                 for (const ExtentRow& row : played.extents) {
                                     const LaneExtent* extent = find_extent(row.rendered, key);
@@ -127,7 +127,7 @@ std::string reach_over_time(const ComparedDrive& drive, double limit_lx) {
 
 std::string glare_over_time(const ComparedDrive& drive) {
     const BusReport& bus = bus_of(drive);
-    return figure_over_time(drive, "Light in oncoming eyes, 50 m ahead", "illuminance", "lx", [&](const PlayedVariant& played) {
+    return figure_over_time(drive, "Light in oncoming eyes, 50 m ahead", "illuminance", "lx", [&](const PlayedCell& played) {
         plots::Polyline line;
         for (const SeeingSeries& series : played.seeing)
             for (const SeeingSeries::Column& column : series.columns)
@@ -179,8 +179,8 @@ void add_signals(const ComparedDrive& drive, std::vector<Section>& sections) {
     if (bus.signals.empty() || bus.time_s.empty())
         return;
     std::vector<std::string> svgs;
-    for (const double limit_lx : plotted_limits_lx(drive))
-        svgs.push_back(reach_over_time(drive, limit_lx));
+    for (const double threshold_lx : plotted_thresholds_lx(drive))
+        svgs.push_back(reach_over_time(drive, threshold_lx));
     svgs.push_back(glare_over_time(drive));
     std::erase(svgs, "");
     Section& section = sections.emplace_back(Section{"Signals", {}, 3});

@@ -2,7 +2,7 @@
 
 #include "renderer/renderer.h"
 #include "runner/experiments/shadows/scene_study.h"
-#include "runner/experiments/shadows/shown_picture.h"
+#include "runner/experiments/shadows/sheet_picture.h"
 #include "runner/play/shadows/shadow_truth.h"
 #include "runner/write/plots/tile_sheet.h"
 
@@ -10,13 +10,13 @@
 
 namespace fernlicht {
 
-ShadowSceneResult shadow_moment(const Stage& stage, const Variant& variant, const Moment& moment, Device& device,
+ShadowSceneResult shadow_moment(const Stage& stage, const LampSet& lamp_set, const Moment& moment, Device& device,
                                 const RendererSettings& settings) {
     const View& driver = *driver_view(stage.drive);
     const View view = at_size(driver, tile_px, std::max(1, driver.height_px * tile_px / driver.width_px));
     ShadowSceneResult result;
     result.name = stage.drive.name;
-    result.title = stage.drive.title + ", " + variant.name;
+    result.title = stage.drive.title + ", " + lamp_set.name;
     result.of_drive = true;
     result.moments = {{moment.tick, moment.time_s}};
     result.width_px = view.width_px;

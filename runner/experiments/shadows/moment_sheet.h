@@ -8,7 +8,7 @@ namespace fernlicht {
 
 /// The driver's view, drawn small; errors in the view, no times. A method that refuses the scene has a row that says why. Throws
 /// DeviceError. The drive has a perspective view.
-ShadowSceneResult shadow_moment(const Stage& stage, const Variant& variant, const Moment& moment, Device& device,
+ShadowSceneResult shadow_moment(const Stage& stage, const LampSet& lamp_set, const Moment& moment, Device& device,
                                 const RendererSettings& settings);
 
 } // namespace fernlicht

@@ -3,7 +3,7 @@
 #include "metrics/statistics/statistics.h"
 #include "renderer/renderer.h"
 #include "runner/experiments/accuracy/accuracy_result.h"
-#include "runner/experiments/shadows/shown_picture.h"
+#include "runner/experiments/shadows/sheet_picture.h"
 #include "runner/play/lux_map.h"
 #include "runner/play/shadows/shadow_truth.h"
 #include "runner/write/plots/tile_sheet.h"
@@ -206,32 +206,32 @@ ShadowRow row_without(ShadowMethod method, const std::string& why_not) {
 /// All methods' maps are there at once here: those that find no room beside the others are taken out of `timed`.
 void time_frames(std::vector<TimedMethod>& timed, const ShadowScene& scene, Device& device, const SceneStudyOptions& options,
                  const std::vector<Moment>& moments, const View& view, const std::function<bool()>& stop) {
-    static constexpr Wanted wanted{.colour = true};
+    static constexpr FrameOutputs outputs{.colour = true};
     std::deque<Renderer> renderers;
-    std::vector<Contestant> contestants;
+    std::vector<TimedTechnique> timed_techniques;
     for (const TimedMethod& method : timed) {
         Renderer* const renderer = &renderers.emplace_back(device, *scene.scene, method.settings);
         try {
-            renderer->prepare(moments, view, wanted);
+            renderer->prepare(moments, view, outputs);
             for (const Moment& moment : moments)
-                method.row->work.push_back(renderer->count(moment, view, wanted));
+                method.row->work.push_back(renderer->count(moment, view, outputs));
         } catch (const ShadowMemoryError& refused) {
             renderers.pop_back();
             *method.row = row_without(method.row->method, fmt::format("beside the other methods: {}", refused.what()));
             continue;
         }
-        contestants.push_back(
-            {[=, &moments, &view](std::size_t moment) { renderer->render(moments[moment], view, wanted); }, [=] { renderer->finish(); }});
+        timed_techniques.push_back(
+            {[=, &moments, &view](std::size_t moment) { renderer->render(moments[moment], view, outputs); }, [=] { renderer->finish(); }});
     }
     std::erase_if(timed, [](const TimedMethod& method) { return !measured(*method.row); });
-    ContestOptions contest;
-    contest.moments = moments.size();
-    contest.rounds = static_cast<std::size_t>(options.rounds);
-    contest.frame_by_frame = false;
-    contest.seed = options.seed;
-    contest.go_on = [&](std::size_t) { return !stop(); };
-    contest.stop = stop;
-    Contest held = hold_contest(contestants, contest, real_clocks());
+    TimingOptions timing;
+    timing.moments = moments.size();
+    timing.rounds = static_cast<std::size_t>(options.rounds);
+    timing.frame_by_frame = false;
+    timing.seed = options.seed;
+    timing.go_on = [&](std::size_t) { return !stop(); };
+    timing.stop = stop;
+    InterleavedTimes held = time_interleaved(timed_techniques, timing, real_clocks());
     for (std::size_t i = 0; i < timed.size(); ++i)
         timed[i].row->samples = std::move(held.samples[i]);
 }
@@ -239,12 +239,12 @@ void time_frames(std::vector<TimedMethod>& timed, const ShadowScene& scene, Devi
 /// Each pass finished and timed by itself, methods in an order drawn anew for each round.
 void time_passes(const std::vector<TimedMethod>& timed, const ShadowScene& scene, Device& device, const SceneStudyOptions& options,
                  const std::vector<Moment>& moments, const View& view, const std::function<bool()>& stop) {
-    static constexpr Wanted wanted{.colour = true};
+    static constexpr FrameOutputs outputs{.colour = true};
     std::deque<Renderer> renderers;
     for (const TimedMethod& method : timed) {
         RendererSettings settings = method.settings;
         settings.profile = true;
-        renderers.emplace_back(device, *scene.scene, settings).prepare(moments, view, wanted);
+        renderers.emplace_back(device, *scene.scene, settings).prepare(moments, view, outputs);
     }
     std::vector<std::map<std::string, std::vector<double>>> samples(timed.size());
     std::vector<std::vector<std::string>> order(timed.size()); // of passes, as they are drawn
@@ -253,7 +253,7 @@ void time_passes(const std::vector<TimedMethod>& timed, const ShadowScene& scene
         for (const std::size_t i : random_order(timed.size(), generator)) {
             std::map<std::string, double> frame;
             for (const Moment& moment : moments)
-                for (const auto& [name, seconds] : renderers[i].draw(moment, view, wanted).pass_s) {
+                for (const auto& [name, seconds] : renderers[i].draw(moment, view, outputs).pass_s) {
                     if (!frame.contains(name) && std::ranges::find(order[i], name) == order[i].end())
                         order[i].push_back(name);
                     frame[name] += seconds / static_cast<double>(moments.size());
@@ -271,11 +271,11 @@ void time_passes(const std::vector<TimedMethod>& timed, const ShadowScene& scene
 /// Memory beside that of the scene drawn without shadows.
 void set_texture_bytes(const ShadowScene& scene, Device& device, const std::vector<Moment>& moments, const View& view,
                        std::vector<ShadowRow>& rows) {
-    static constexpr Wanted wanted{.colour = true};
+    static constexpr FrameOutputs outputs{.colour = true};
     Renderer none(device, *scene.scene, without_shadows(scene.light));
     std::uint64_t least = 0;
     for (const Moment& moment : moments)
-        least = std::max(least, none.count(moment, view, wanted).texture_bytes);
+        least = std::max(least, none.count(moment, view, outputs).texture_bytes);
     for (ShadowRow& row : rows)
         if (!row.work.empty()) {
             const std::uint64_t most = std::ranges::max(row.work, {}, &Work::texture_bytes).texture_bytes;

@@ -33,7 +33,7 @@ struct ShadowRow {
     std::array<EdgeError, edge_distances_m.size()> edges; ///< in the light of one lamp
     std::optional<double> crawl_cm;
     std::string no_crawl; ///< why there is none
-    ContestSamples samples;
+    TimingSamples samples;
     std::vector<std::pair<std::string, Interval>> pass_s; ///< by pass of a frame: each finished and timed by itself
     std::vector<Work> work;                               ///< by moment timed
     std::optional<std::uint64_t> texture_bytes;           ///< more than without shadows
@@ -57,7 +57,7 @@ struct ShadowResult : Findings {
     std::size_t cores = 0, rounds = 0;
     int map_width = 0, map_height = 0; ///< texels of the methods that have maps
     double lamp_radius_m = 0.0, floor_lx = shadow_floor_lx;
-    OtherUse others;
+    OtherLoad others;
     std::vector<ShadowSceneResult> scenes;
 };
 

@@ -43,14 +43,14 @@ ShadowScene scene_of_drive(const std::shared_ptr<const Stage>& stage, const Shad
     if (!view)
         throw InputError({stage->drive.file, 0, 0, "views"}, "found only maps", "a perspective view");
     if (request.moments > tick_count(stage->drive))
-        throw InputError({stage->drive.file, 0, 0, "--moments"}, fmt::format("found {}", request.moments),
+        throw InputError({stage->drive.file, 0, 0, "--count"}, fmt::format("found {}", request.moments),
                          fmt::format("1 to {}, the drive's moments", tick_count(stage->drive)));
     ShadowScene scene;
     scene.name = stage->drive.name;
     scene.title = stage->drive.title;
     scene.of_drive = true;
     scene.scene = {stage, &stage->scene};
-    scene.moments = moments_at(ticks_over(tick_count(stage->drive), request.moments), *stage, variant_of(stage->drive, request.variant));
+    scene.moments = moments_at(ticks_over(tick_count(stage->drive), request.moments), *stage, lamp_set_of(stage->drive, request.lamp_set));
     scene.view = *view;
     scene.light.tone_mapper = stage->drive.tone_mapper;
     scene.light.beams = stage->drive.beams;
@@ -95,18 +95,18 @@ ShadowResult run_shadow_study(const ShadowRequest& request) {
     Progress progress("shadows", static_cast<int>(scenes.size() * steps_of(request.options)), request.quiet, "steps");
     int done = 0;
     for (const ShadowScene& scene : scenes) {
-        if (Interruption::asked()) {
+        if (Interruption::requested()) {
             result.missing.push_back(fmt::format("scene {}: not begun", scene.name));
             continue;
         }
         result.scenes.push_back(study_scene(
-            scene, device, request.options, [&] { progress.done(++done); }, Interruption::asked));
-        if (Interruption::asked())
+            scene, device, request.options, [&] { progress.done(++done); }, Interruption::requested));
+        if (Interruption::requested())
             result.missing.push_back(fmt::format("scene {}: ended after {} of {} methods, before all times were taken", scene.name,
                                                  result.scenes.back().rows.size(), request.options.methods.size()));
     }
-    result.others = other_use(before, cpu_use(), ::getpid());
-    if (Interruption::asked())
+    result.others = other_load(before, cpu_use(), ::getpid());
+    if (Interruption::requested())
         result.interrupted = "interrupted by the user";
     request.write(result);
     if (result.interrupted.empty())

@@ -7,7 +7,7 @@ namespace fernlicht {
 
 struct ShadowRequest {
     std::vector<Drive> drives;
-    std::string variant;                               ///< "": each drive's first
+    std::string lamp_set;                              ///< "": each drive's first
     std::vector<std::string> scenes;                   ///< patterns of stress scenes' names; "none" for none of them
     std::filesystem::path lamp;                        ///< the stress scenes' beam; read where there are any
     double vertical_fov_rad = View{}.vertical_fov_rad; ///< of the stress scenes' views; 0 < fov < pi

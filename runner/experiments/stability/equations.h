@@ -25,7 +25,7 @@ struct EquationInput {
 
 struct Equation {
     int number = 0; ///< in renderer/shaders/equation_calls.glsl
-    std::string function, variant;
+    std::string function, lamp_set;
     std::string domain; ///< in words
     std::vector<EquationInput> inputs;
     std::size_t outputs = 1;

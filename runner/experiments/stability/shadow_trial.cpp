@@ -29,7 +29,8 @@ RendererSettings renderer_settings(const ShadowSettings& shadows) {
 
 class Beholder {
   public:
-    Beholder(const Twin& twin, const Moment& moment, const ShadowDoubt& doubt) : twin_(twin), moment_(moment), doubt_(doubt) {}
+    Beholder(const Twin& twin, const Moment& moment, const ShadowTolerance& tolerance)
+        : twin_(twin), moment_(moment), tolerance_(tolerance) {}
 
     Seen sees(const std::vector<TwinPixel>& places, const LitLamp& lamp, const glm::dvec3& lamp_m) const {
         bool seen = false, hidden = false;
@@ -40,14 +41,15 @@ class Beholder {
                 return Seen::perhaps;
             const glm::dvec3 any = std::abs(to_lamp.z) < 0.9 * d ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
             const glm::dvec3 across = glm::normalize(glm::cross(to_lamp, any)), up = glm::cross(across, to_lamp / d);
-            const double raise = std::max(doubt_.raise_m, doubt_.raise_share * d), aside = doubt_.aside_m + doubt_.aside_share * d;
+            const double raise = std::max(tolerance_.raise_m, tolerance_.raise_share * d),
+                         aside = tolerance_.aside_m + tolerance_.aside_share * d;
             for (int height = 0; height < (raise > 0.0 ? 3 : 1); ++height)
                 for (const glm::dvec2& at : beside_it) {
                     const glm::dvec3 beside = aside * (at.x * across + at.y * up);
                     const double above_surface = (height == 0 ? 1e-4 : height * raise) + std::max(0.0, -glm::dot(beside, place.normal));
                     const glm::dvec3 from = place.point_m + beside + above_surface * place.normal;
-                    for (int k = 0; k < (doubt_.lamp_radius_m > 0.0 ? 17 : 1); ++k) { // the middle, 4 half-way, 12 on the rim
-                        const double r = k == 0 ? 0.0 : doubt_.lamp_radius_m * (k < 5 ? 0.5 : 1.0),
+                    for (int k = 0; k < (tolerance_.lamp_radius_m > 0.0 ? 17 : 1); ++k) { // the middle, 4 half-way, 12 on the rim
+                        const double r = k == 0 ? 0.0 : tolerance_.lamp_radius_m * (k < 5 ? 0.5 : 1.0),
                                      angle = 2.0 * pi * k / (k < 5 ? 4.0 : 12.0);
                         cast(from, lamp_m + r * (std::cos(angle) * lamp.pose.left() + std::sin(angle) * lamp.pose.up()), lamp, seen,
                              hidden);
@@ -63,10 +65,10 @@ class Beholder {
     void cast(const glm::dvec3& from, const glm::dvec3& to, const LitLamp& lamp, bool& seen, bool& hidden) const {
         const double d = glm::length(to - from);
         const glm::dvec3 way = (to - from) / d;
-        const double gap = doubt_.gap_m + doubt_.gap_share * d;
+        const double gap = tolerance_.gap_m + tolerance_.gap_share * d;
         // Of a map that begins so far from the lamp's plane, along this way.
         const double towards = -glm::dot(way, lamp.pose.forward()),
-                     end = doubt_.map_begins_m > 0.0 && towards > 0.0 ? std::max(0.0, d - doubt_.map_begins_m / towards) : d;
+                     end = tolerance_.map_begins_m > 0.0 && towards > 0.0 ? std::max(0.0, d - tolerance_.map_begins_m / towards) : d;
         const auto blocked = [&](double first, double last) {
             const auto blocker = twin_.cast(moment_, {from, way}, first, Twin::Met::casters);
             return blocker && blocker->distance_m < last;
@@ -79,24 +81,24 @@ class Beholder {
 
     const Twin& twin_;
     const Moment& moment_;
-    const ShadowDoubt& doubt_;
+    const ShadowTolerance& tolerance_;
 };
 
 } // namespace
 
-ShadowDoubt doubt_of_map(double texel) {
-    ShadowDoubt doubt;
-    doubt.raise_m = 0.03; // ShadowSettings::tolerance_m
-    doubt.raise_share = doubt.aside_share = 1.5 * texel;
-    doubt.map_begins_m = 0.06;
-    return doubt;
+ShadowTolerance map_shadow_tolerance(double texel) {
+    ShadowTolerance tolerance;
+    tolerance.raise_m = 0.03; // ShadowSettings::tolerance_m
+    tolerance.raise_share = tolerance.aside_share = 1.5 * texel;
+    tolerance.map_begins_m = 0.06;
+    return tolerance;
 }
 
-ShadowDoubt doubt_of_volumes() {
-    ShadowDoubt doubt;
-    doubt.gap_m = 2e-3;
-    doubt.gap_share = 2e-4;
-    return doubt;
+ShadowTolerance volume_shadow_tolerance() {
+    ShadowTolerance tolerance;
+    tolerance.gap_m = 2e-3;
+    tolerance.gap_share = 2e-4;
+    return tolerance;
 }
 
 void ShadowTally::add(const ShadowTally& other) {
@@ -118,11 +120,12 @@ std::string ShadowTally::text() const {
 ShadowTrial::ShadowTrial(StabilityBench& bench, const Scene& scene, const ShadowSettings& settings)
     : scene_(scene), renderer_(bench.device(), scene, renderer_settings(settings)), unshadowed_(bench.device(), scene, unshadowed()) {}
 
-ShadowTally ShadowTrial::tally(const Moment& moment, const View& view, const ShadowDoubt& doubt, const std::vector<glm::dvec3>& seen_from) {
+ShadowTally ShadowTrial::tally(const Moment& moment, const View& view, const ShadowTolerance& tolerance,
+                               const std::vector<glm::dvec3>& seen_from) {
     const Frame frame = renderer_.draw(moment, view, {.illuminance = true, .depth = true, .ids = true}),
                 free = unshadowed_.draw(moment, view, {.illuminance = true});
     const Twin twin(scene_, false);
-    const Beholder beholder(twin, moment, doubt);
+    const Beholder beholder(twin, moment, tolerance);
     ShadowTally tally;
     for (int y = 0; y < view.height_px; ++y)
         for (int x = 0; x < view.width_px; ++x) {
@@ -149,7 +152,7 @@ ShadowTally ShadowTrial::tally(const Moment& moment, const View& view, const Sha
                                     [&](const TwinPixel& place) { return glm::dot(place.normal, places.front().normal) > 0.999; }) &&
                 std::abs(static_cast<double>(free.illuminance_lx.at(x, y)) - places.front().illuminance_lx) <
                     of_free_light * places.front().illuminance_lx; // of two sides in one place the same
-            if (places.back().id != frame.ids.at(x, y) || !same_place || (doubt.ground_alone && !ground)) {
+            if (places.back().id != frame.ids.at(x, y) || !same_place || (tolerance.ground_alone && !ground)) {
                 ++tally.unsure;
                 continue;
             }

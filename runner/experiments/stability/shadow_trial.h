@@ -10,7 +10,7 @@ namespace fernlicht::stability {
 
 /// What a method may take for a surface's place, for a caster's and for the lamp's: pixels whose rays from all of these do not agree are in
 /// doubt and not judged. Distances d are from the lamp.
-struct ShadowDoubt {
+struct ShadowTolerance {
     double raise_m = 0.0, raise_share = 0.0; ///< looked up from up to twice max(raise_m, raise_share d) above the surface, along its normal
     double aside_m = 1e-4, aside_share = 2e-5; ///< and from so far aside as the lamp sees it: m + share d
     double gap_m = 0.0, gap_share = 0.0;       ///< a shadow may begin so far behind its caster
@@ -20,9 +20,9 @@ struct ShadowDoubt {
 };
 
 /// Of a map's look-ups: raised by three halves of a texel, which is weighed with its neighbours. `texel`: as a tangent.
-ShadowDoubt doubt_of_map(double texel);
+ShadowTolerance map_shadow_tolerance(double texel);
 /// Of hulls that are exact but for a gap behind their casters.
-ShadowDoubt doubt_of_volumes();
+ShadowTolerance volume_shadow_tolerance();
 
 struct ShadowTally {
     int lit = 0, dark = 0; ///< pixels of which rays leave no doubt; with several lamps those that all light, or some do not
@@ -43,7 +43,8 @@ class ShadowTrial {
 
     /// Draws the illuminance and judges each pixel that shows what the ray sees, lit as it sees it. `seen_from`: where rays to the lamps
     /// end instead, one a lamp.
-    ShadowTally tally(const Moment& moment, const View& view, const ShadowDoubt& doubt, const std::vector<glm::dvec3>& seen_from = {});
+    ShadowTally tally(const Moment& moment, const View& view, const ShadowTolerance& tolerance,
+                      const std::vector<glm::dvec3>& seen_from = {});
 
   private:
     const Scene& scene_;

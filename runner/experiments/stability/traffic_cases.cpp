@@ -74,16 +74,16 @@ Found hardest_places_of_others(StabilityBench& bench) {
     Renderer coarse(bench.device(), scene, unshadowed()), whole(bench.device(), scene, unpruned), each(bench.device(), scene, fine);
     Found worst;
     for (const TrafficPlace& place : hard_places)
-        for (const double least_lx : {1e-9, 0.05, 100.0}) {
+        for (const double min_lx : {1e-9, 0.05, 100.0}) {
             Moment moment;
-            moment.least_traffic_lx = least_lx;
+            moment.min_traffic_lx = min_lx;
             add_pair(moment, place.at_m, place.factor, place.yaw_rad, place.apart_m);
             const Frame a = coarse.draw(moment, eyes(), everything), b = whole.draw(moment, eyes(), everything),
                         c = each.draw(moment, eyes(), everything);
             double wrong = static_cast<double>(not_finite(a) + not_finite(b) + not_finite(c));
             for (std::size_t i = 0; i < a.illuminance_lx.size(); ++i)
                 wrong += a.illuminance_lx.pixels()[i] != b.illuminance_lx.pixels()[i] ? 1.0 : 0.0;
-            worst.add(wrong, fmt::format("{}, least {} lx", place.name, least_lx));
+            worst.add(wrong, fmt::format("{}, least {} lx", place.name, min_lx));
         }
     return worst;
 }

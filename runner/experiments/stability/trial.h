@@ -14,7 +14,8 @@ using namespace small_scenes;
 /// Without shadows, which the comparisons with twin and plane leave out; shadow_cases.cpp has them.
 RendererSettings unshadowed();
 
-inline constexpr Wanted everything{.colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
+inline constexpr FrameOutputs everything{
+    .colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 
 /// Values of the frame's pictures that are NaN or infinite.
 std::size_t not_finite(const Frame& frame);

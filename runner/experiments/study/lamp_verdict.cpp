@@ -8,7 +8,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_zones = 3; ///< that are told; lamps of two makes differ in dozens
+constexpr std::size_t max_zones = 3; ///< that are told; lamps of two makes differ in dozens
 
 /// "8.2 to 2.9 degrees left", "1.0 degrees left to 2.0 degrees right".
 std::string span(double from_deg, double to_deg, const char* less, const char* more) {
@@ -45,10 +45,10 @@ std::vector<std::string> findings(const LampDifference& d) {
                                     d.cut_off_up_deg->value < 0.0 ? "lower" : "higher"));
     if (d.level)
         found.push_back(share_text(d.level->value) + " all over");
-    for (std::size_t i = 0; i < std::min(most_zones, d.zones.size()); ++i)
+    for (std::size_t i = 0; i < std::min(max_zones, d.zones.size()); ++i)
         found.push_back(zone_text(d.zones[i]));
-    if (d.zones.size() > most_zones)
-        found.push_back(fmt::format("and {} more zones", d.zones.size() - most_zones));
+    if (d.zones.size() > max_zones)
+        found.push_back(fmt::format("and {} more zones", d.zones.size() - max_zones));
     return found;
 }
 
@@ -64,8 +64,8 @@ std::string lamp_verdict(const LampComparison& lamps) {
         text += fmt::format("{}. Nothing else differs beyond {}.", fmt::join(findings(d), "; "), noise);
     else
         text += fmt::format("the same light; no difference beyond {}.", noise);
-    if (!d.not_told.empty())
-        text += " " + d.not_told + ".";
+    if (!d.undecided.empty())
+        text += " " + d.undecided + ".";
     return text;
 }
 

@@ -81,7 +81,7 @@ bool is_in(const std::set<ReadingKey>& keys, const std::optional<ReadingKey>& ke
 /// drive need not have all.
 void judge_deciding(StudyResult& result) {
     const std::set<ReadingKey> keys = keys_in(result);
-    if (result.study.readings == usual_readings() || keys.empty()) // cells that were not played say so themselves
+    if (result.study.readings == default_readings() || keys.empty()) // cells that were not played say so themselves
         return;
     for (const std::string& name : result.study.readings) {
         const auto missing = [&](const std::string& why) {
@@ -153,7 +153,7 @@ void compare_cells(StudyResult& result) {
     for (const StudyComparison& comparison : result.study.comparisons)
         for (const auto& [tested, against] : result.pairs_of(comparison))
             for (const auto& [key, reading] : result.cells[tested].readings)
-                if (!says_how_exact(key) && !is_time(key) && result.cells[against].readings.contains(key))
+                if (!is_uncertainty(key) && !is_time(key) && result.cells[against].readings.contains(key))
                     result.changes.push_back(change_of(result, tested, against, key));
     rank(result);
     judge_deciding(result);

@@ -1,6 +1,6 @@
 #include "runner/experiments/study/study_document.h"
-#include "metrics/readings/reading_words.h"
-#include "runner/experiments/compare/lamps/lamp_against.h"
+#include "metrics/readings/reading_labels.h"
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/findings/figures.h"
@@ -24,7 +24,7 @@ std::size_t count_deciding(const StudyResult& result, std::optional<ChangeKind> 
         std::ranges::count_if(result.changes, [&](const Change& change) { return change.decides && (!kind || change.kind == *kind); }));
 }
 
-/// Whether anything was held against a limit, a reference or a repeat, or is missing.
+/// Whether anything was held against a limit, a baseline or a repeat, or is missing.
 bool was_judged(const StudyResult& result) {
     return !result.complete() || !result.verdicts.empty() ||
            std::ranges::any_of(result.cells, [](const CellResult& cell) { return !cell.verdicts.empty(); });
@@ -54,32 +54,32 @@ Cell change_cell(const Value& value) { return value.measured() ? cell_of(value, 
 Cell open_cell(const std::optional<double>& value) { return value ? Cell(fmt::format("{:.2g}", *value), *value) : Cell(""); }
 
 std::string with_unit(const Value& value, const std::string& unit) {
-    return value.measured() ? with_bound(value, fmt::format("{:.4g} {}", *value.figure(), unit_in_words(unit))) : "not measured";
+    return value.measured() ? with_bound(value, fmt::format("{:.4g} {}", *value.figure(), unit_label(unit))) : "not measured";
 }
 
 /// "reach at 5 lx ...: 40 m -> 50 m, +10.00 m (+25.0 %) ±0.57; new against old on straight-1 (night)"
 std::string change_sentence(const StudyResult& result, const Change& change) {
     const Value found = change.change();
     const CellResult& cell = result.cells[change.tested];
-    return fmt::format("{}: {} -> {}, {} {}{} ±{:.2g}; {} against {} on {} ({})", reading_in_words(change.reading),
+    return fmt::format("{}: {} -> {}, {} {}{} ±{:.2g}; {} against {} on {} ({})", reading_label(change.reading),
                        with_unit(change.old_value, change.unit()), with_unit(change.new_value, change.unit()),
-                       with_bound(found, fmt::format("{:+.2f}", found.figure().value_or(0.0))), unit_in_words(change.unit()),
+                       with_bound(found, fmt::format("{:+.2f}", found.figure().value_or(0.0))), unit_label(change.unit()),
                        change.relative() ? fmt::format(" ({:+.1f} %)", 100.0 * *change.relative()) : "", change.uncertainty.value_or(0.0),
                        result.lamp_of(change.tested), result.lamp_of(change.against), cell.drive, cell.cell.condition);
 }
 
 Card card_of(const StudyResult& result, std::size_t index) {
     const Change& change = result.changes[index];
-    const std::string unit = unit_in_words(change.unit());
+    const std::string unit = unit_label(change.unit());
     std::string detail =
         fmt::format("{} {} {} → {} {} {}; ±{} {} by calculation", result.lamp_of(change.against), two_decimals(change.old_value).text, unit,
                     result.lamp_of(change.tested), two_decimals(change.new_value).text, unit, open_cell(change.uncertainty).text, unit);
-    if (change.by_noise.value_or(0.0) > 0.0)
-        detail += fmt::format(", ±{} {} by noise", open_cell(change.by_noise).text, unit);
-    if (change.by_aim)
-        detail += fmt::format(", ±{} {} by 0.1° of aim", figure(*change.by_aim, 2), unit);
+    if (change.noise_effect.value_or(0.0) > 0.0)
+        detail += fmt::format(", ±{} {} by noise", open_cell(change.noise_effect).text, unit);
+    if (change.aim_effect)
+        detail += fmt::format(", ±{} {} by 0.1° of aim", figure(*change.aim_effect, 2), unit);
     const CellResult& cell = result.cells[change.tested];
-    return {reading_in_words(change.reading),
+    return {reading_label(change.reading),
             change_cell(change.change()).text,
             unit,
             change.relative() ? fmt::format("({} %)", signed_figure(100.0 * *change.relative(), 1)) : "",
@@ -109,11 +109,12 @@ Table readings_table(const StudyResult& result) {
         if (several_conditions)
             cells.emplace_back(cell.cell.condition);
         const std::optional<double> share = change.relative();
-        cells.insert(cells.end(), {Cell(reading_in_words(change.reading)).hinted(name_of(change.reading)), two_decimals(change.old_value),
+        cells.insert(cells.end(), {Cell(reading_label(change.reading)).hinted(name_of(change.reading)), two_decimals(change.old_value),
                                    two_decimals(change.new_value), change_cell(change.change()),
                                    share ? Cell(signed_figure(100.0 * *share, 1), 100.0 * *share) : Cell(""), open_cell(change.uncertainty),
-                                   open_cell(change.by_noise), change.by_aim ? Cell(figure(*change.by_aim, 2), *change.by_aim) : Cell(""),
-                                   unit_in_words(change.unit()), change_name(change.kind)});
+                                   open_cell(change.noise_effect),
+                                   change.aim_effect ? Cell(figure(*change.aim_effect, 2), *change.aim_effect) : Cell(""),
+                                   unit_label(change.unit()), change_name(change.kind)});
         if (change.kind != ChangeKind::real)
             table.quiet.push_back(table.rows.size() - 1);
     }
@@ -122,7 +123,7 @@ Table readings_table(const StudyResult& result) {
 
 /// What is red or known, and cells that were not played.
 Table failures_table(const StudyResult& result) {
-    Table table{"failures", "Outside limits or references, or not measured", columns_of("what<|where<|found<|repeat with`"), {}};
+    Table table{"failures", "Outside limits or baselines, or not measured", columns_of("what<|where<|found<|repeat with`"), {}};
     const auto add = [&](const std::string& where, const Verdict& verdict) {
         if (verdict.kind != VerdictKind::pass || is_red(verdict))
             table.rows.push_back(
@@ -145,15 +146,14 @@ std::string verdict_words(const StudyResult& result) {
         return "No limits were set";
     const auto exceeds = [](const std::vector<Verdict>& verdicts) {
         return std::ranges::any_of(verdicts,
-                                   [](const Verdict& one) { return one.kind == VerdictKind::fail && !one.name.starts_with("reference"); });
+                                   [](const Verdict& one) { return one.kind == VerdictKind::fail && !one.name.starts_with("baseline"); });
     };
     switch (overall(result)) {
     case VerdictKind::pass:
         return "Within limits";
     case VerdictKind::fail:
-        return exceeds(result.verdicts) || std::ranges::any_of(result.cells, exceeds, &CellResult::verdicts)
-                   ? "Limits exceeded"
-                   : "Differs from the references";
+        return exceeds(result.verdicts) || std::ranges::any_of(result.cells, exceeds, &CellResult::verdicts) ? "Limits exceeded"
+                                                                                                             : "Differs from the baselines";
     case VerdictKind::flaky:
         return "Flaky";
     case VerdictKind::not_measured:
@@ -326,11 +326,12 @@ Document study_paper(const StudyResult& result) {
     };
     for (const Change& change : result.changes)
         if (change.decides)
-            table.rows.push_back({lamps_of(result, change), result.cells[change.tested].drive, result.cells[change.tested].cell.condition,
-                                  reading_in_words(change.reading), rounded(change.old_value, false), rounded(change.new_value, false),
-                                  rounded(change.change(), true),
-                                  change.uncertainty ? Cell(fmt::format("{:.2f}", change.unsure()), change.unsure()) : Cell(""),
-                                  unit_in_words(change.unit()), change_name(change.kind)});
+            table.rows.push_back(
+                {lamps_of(result, change), result.cells[change.tested].drive, result.cells[change.tested].cell.condition,
+                 reading_label(change.reading), rounded(change.old_value, false), rounded(change.new_value, false),
+                 rounded(change.change(), true),
+                 change.uncertainty ? Cell(fmt::format("{:.2f}", change.total_uncertainty()), change.total_uncertainty()) : Cell(""),
+                 unit_label(change.unit()), change_name(change.kind)});
     Section section{"", {std::move(table)}};
     if (const std::string part = played_in_part(result); !part.empty())
         section.blocks.emplace_back(part + ".");
@@ -360,13 +361,13 @@ std::string study_csv(const StudyResult& result) {
                                               number(c.new_value.figure()),
                                               number(c.change().figure()),
                                               number(c.uncertainty),
-                                              number(c.by_aim),
-                                              number(c.by_noise),
+                                              number(c.aim_effect),
+                                              number(c.noise_effect),
                                               change_name(c.kind),
                                               c.decides ? "yes" : "no",
                                               csv_text(now.cell.name),
                                               csv_text(before.cell.name),
-                                              csv_text(c.why_not),
+                                              csv_text(c.reason_unknown),
                                               bound_name(c.old_value),
                                               bound_name(c.new_value),
                                               bound_name(c.change())};

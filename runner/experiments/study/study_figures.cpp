@@ -1,5 +1,5 @@
-#include "metrics/readings/reading_words.h"
-#include "runner/experiments/compare/lamps/lamp_against.h"
+#include "metrics/readings/reading_labels.h"
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/compare/runs/lux_ratio.h"
 #include "runner/experiments/run/run_plots.h"
 #include "runner/experiments/study/study_document.h"
@@ -96,36 +96,36 @@ struct GroupLines {
 };
 
 /// The reach plotted of what the deciding readings ask for: on a target and on the road, at the limits that they name.
-std::set<std::pair<ExtentPlane, double>> plotted_reaches(const StudyResult& result) {
-    std::set<std::pair<ExtentPlane, double>> keys;
+std::set<std::pair<Surface, double>> plotted_reaches(const StudyResult& result) {
+    std::set<std::pair<Surface, double>> keys;
     for (const CellResult& cell : result.cells)
         for (const ReachOverDrive& reach : cell.reaches) {
             if (is_named(reach.key(), result.study.readings))
-                keys.emplace(reach.plane, reach.limit_lx);
+                keys.emplace(reach.surface, reach.threshold_lx);
         }
     return keys;
 }
 
-void add_reach(const StudyResult& result, const std::vector<std::size_t>& group, ExtentPlane plane, double limit_lx,
+void add_reach(const StudyResult& result, const std::vector<std::size_t>& group, Surface surface, double threshold_lx,
                std::vector<StudyFigure>& figures) {
     GroupLines lines(result, group,
-                     fmt::format("Reach at {:g} lx {}, own lane", limit_lx, plane == ExtentPlane::road ? "on the road" : "on a target"));
+                     fmt::format("Reach at {:g} lx {}, own lane", threshold_lx, surface == Surface::road ? "on the road" : "on a target"));
     for (const std::size_t cell : group)
         for (const ReachOverDrive& reach : result.cells[cell].reaches)
-            if (reach.plane == plane && reach.limit_lx == limit_lx)
+            if (reach.surface == surface && reach.threshold_lx == threshold_lx)
                 lines.add(cell, reach.distance_m, reach.reach_m);
     if (lines.figure.series.empty())
         return;
     lines.figure.x = plots::axis_around("along the route", "m", lines.xs);
     lines.figure.y = plots::axis_around("reach", "m", lines.ys, plots::Scale::linear, true);
-    figures.push_back(small_figure(fmt::format("reach-{:g}lx-{}_{}", limit_lx, plane_name(plane), group_name(result, group)),
+    figures.push_back(small_figure(fmt::format("reach-{:g}lx-{}_{}", threshold_lx, surface_name(surface), group_name(result, group)),
                                    std::move(lines.figure), group));
 }
 
 /// A line a lamp for each eye that the drive has.
 void add_glares(const StudyResult& result, const std::vector<std::size_t>& group, std::vector<StudyFigure>& figures) {
     for (const GlareOverDrive& first : result.cells[group.front()].glares) {
-        GroupLines lines(result, group, "Glare: " + short_text(eyes_in_words(first.eye), 50));
+        GroupLines lines(result, group, "Glare: " + short_text(eye_label(first.eye), 50));
         for (const std::size_t cell : group)
             for (const GlareOverDrive& glare : result.cells[cell].glares)
                 if (glare.eye == first.eye)
@@ -222,9 +222,9 @@ std::vector<StudyFigure> study_figures(const StudyResult& result, const std::fil
     std::vector<StudyFigure> figures;
     add_lamp_differences(result, figures);
     const std::vector<std::vector<std::size_t>> groups = groups_of(result);
-    for (const auto& [plane, limit_lx] : plotted_reaches(result))
+    for (const auto& [surface, threshold_lx] : plotted_reaches(result))
         for (const std::vector<std::size_t>& group : groups)
-            add_reach(result, group, plane, limit_lx, figures);
+            add_reach(result, group, surface, threshold_lx, figures);
     for (const std::vector<std::size_t>& group : groups)
         add_glares(result, group, figures);
     for (const std::vector<std::size_t>& group : groups)
@@ -240,7 +240,7 @@ void add_map_edges(const Drive& drive, std::vector<CellResult*> cells) {
     const Stage stage(drive);
     for (CellResult* cell : cells) {
         const StoredFrame& frame = *map_frame(*cell);
-        const std::vector<Moment> moments = moments_at({frame.tick}, stage, stage.drive.variants.front());
+        const std::vector<Moment> moments = moments_at({frame.tick}, stage, stage.drive.lamp_sets.front());
         cell->map_edges = edges_on_map(moments.front(), *view_of(*cell, frame), stage.route);
         cell->map_edges.push_back(car_outline(stage.drive.bumper_m));
     }

@@ -1,4 +1,4 @@
-#include "runner/experiments/compare/lamps/lamp_against.h"
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/files/json_text.h"
 #include "runner/files/value_json.h"
@@ -52,12 +52,12 @@ Json change_json(const StudyResult& result, std::size_t index) {
              {"change", value_json(found)},
              {"size", found.measured() ? Json(change.size()) : Json(nullptr)},
              {"uncertainty", or_null(change.uncertainty)},
-             {"by_tenth_degree", or_null(change.by_aim)},
-             {"by_noise", or_null(change.by_noise)},
+             {"by_tenth_degree", or_null(change.aim_effect)},
+             {"by_noise", or_null(change.noise_effect)},
              {"kind", change_name(change.kind)},
              {"decides", change.decides}};
     if (change.kind == ChangeKind::unknown)
-        row["why_not"] = change.why_not;
+        row["why_not"] = change.reason_unknown;
     return row;
 }
 

@@ -61,7 +61,7 @@ struct StudyResult : Findings {
 /// Cells of everything but the lamp alike.
 bool is_same_place(const StudyCell& a, const StudyCell& b);
 
-/// As of a run (report.h): fail if a limit or a reference was exceeded, flaky, not_measured if anything is missing (a cell that failed,
+/// As of a run (report.h): fail if a limit or a baseline was exceeded, flaky, not_measured if anything is missing (a cell that failed,
 /// too), else pass.
 VerdictKind overall(const StudyResult& result);
 

@@ -1,6 +1,6 @@
 #include "runner/experiments/study/study_run.h"
 
-#include "runner/experiments/compare/lamps/lamp_against.h"
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/run/run_report.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/files/output_folder.h"
@@ -44,7 +44,7 @@ std::vector<Planned> plan(const Study& study, const std::vector<std::string>& on
     std::vector<Planned> planned;
     for (const StudyCell& cell : chosen_cells(study, only)) {
         planned.push_back({cell, cell_drive(study, cell)});
-        refuse_open_shadows(planned.back().drive); // each cell would choose for itself
+        refuse_auto_shadows(planned.back().drive); // each cell would choose for itself
     }
     const StudyCell* last = nullptr;
     for (const Planned& one : planned) { // roads and techniques too, once each
@@ -165,7 +165,7 @@ void read_cell_report(const fs::path& study_folder, CellResult& cell) {
     if (report.played.size() != 1)
         throw InputError({study_folder / folder / "report.json", 0, 0, "drives"}, fmt::format("found {}", report.played.size()),
                          "one drive with one lamp set");
-    const PlayedVariant& only = report.played.front();
+    const PlayedCell& only = report.played.front();
     PlayedResult played = played_result(only, read_csv(study_folder / folder / moments_file(only)), folder);
     static_cast<Steps&>(played) = cell; // the drive's, not the report's
     static_cast<PlayedResult&>(cell) = std::move(played);
@@ -236,7 +236,7 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
             if (!result.interrupted.empty()) {
                 cell.failed = "not reached";
                 result.missing.push_back("cell " + cell.cell.name);
-            } else if (!play_cell(planned[i], options, cell, result.context) || Interruption::asked())
+            } else if (!play_cell(planned[i], options, cell, result.context) || Interruption::requested())
                 result.interrupted = "interrupted by the user";
         } catch (const InputError& error) {
             if (error.where().key == "--resume")

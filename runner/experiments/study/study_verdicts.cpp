@@ -11,14 +11,14 @@ Report as_report(const StudyResult& result) {
     report.context = result.context;
     report.complete = result.complete();
     for (const CellResult& cell : result.cells) {
-        PlayedVariant played;
+        PlayedCell played;
         played.drive = cell.drive;
-        played.variant = cell.variant;
+        played.lamp_set = cell.lamp_set;
         played.technique = result.study.techniques[cell.cell.technique];
         played.verdicts = cell.verdicts;
         report.played.push_back(std::move(played));
     }
-    PlayedVariant own;
+    PlayedCell own;
     own.drive = result.study.name;
     own.verdicts = result.verdicts;
     report.played.push_back(std::move(own));
@@ -49,14 +49,14 @@ Report suites_of(const StudyResult& result) {
         const std::string moments = cell.moments < cell.moments_of_drive
                                         ? fmt::format("{} of {} moments (--frames {})", cell.moments, cell.moments_of_drive, result.frames)
                                         : "all moments";
-        PlayedVariant& suite = report.played[i];
+        PlayedCell& suite = report.played[i];
         suite.drive = cell.cell.name;
-        suite.variant = cell.cell.condition;
+        suite.lamp_set = cell.cell.condition;
         suite.verdicts.insert(suite.verdicts.begin(), cell.failed.empty()
                                                           ? Verdict{VerdictKind::pass, "played", moments, cell.command}
                                                           : Verdict{VerdictKind::not_measured, "played", cell.failed, cell.command});
     }
-    report.played.back().variant = "limits of the study";
+    report.played.back().lamp_set = "limits of the study";
     report.played.back().technique = "photometric";
     report.complete = result.interrupted.empty();
     report.interrupted = result.interrupted;

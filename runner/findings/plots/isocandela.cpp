@@ -11,13 +11,13 @@ namespace {
 /// Round step for the window's edges: a few of them across it.
 double edge_step(double width_deg) { return width_deg > 120.0 ? 10.0 : width_deg > 30.0 ? 5.0 : width_deg > 5.0 ? 2.0 : 0.5; }
 
-/// The directions with at least `least_cd` and a little room round them. It shows what lies outside the table only where the table
+/// The directions with at least `min_cd` and a little room round them. It shows what lies outside the table only where the table
 /// ends in the midst of such light.
-AngleWindow window_of(const CandelaTable& t, double least_cd) {
+AngleWindow window_of(const CandelaTable& t, double min_cd) {
     AngleWindow w{t.h_deg.back(), t.h_deg.front(), t.v_deg.back(), t.v_deg.front()};
     for (std::size_t v = 0; v < t.v_deg.size(); ++v) {
         for (std::size_t h = 0; h < t.h_deg.size(); ++h) {
-            if (t.at(v, h) < least_cd)
+            if (t.at(v, h) < min_cd)
                 continue;
             w = {std::min(w.left_deg, t.h_deg[h]), std::max(w.right_deg, t.h_deg[h]), std::min(w.bottom_deg, t.v_deg[v]),
                  std::max(w.top_deg, t.v_deg[v])};

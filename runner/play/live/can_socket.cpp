@@ -26,7 +26,7 @@ namespace fernlicht {
 namespace {
 
 constexpr std::int64_t reopen_every_ns = 20'000'000;
-constexpr std::size_t batch_frames = 64, most_waiting = 256;
+constexpr std::size_t batch_frames = 64, max_waiting = 256;
 constexpr int large_buffer_bytes = 4 << 20; ///< some 10000 frames: what comes within a second on a bus that is full
 
 std::string said(int error) { return std::generic_category().message(error); }
@@ -351,7 +351,7 @@ void CanSocket::send(const CanFrame& frame) {
     }
     flush();
     waiting_.push_back(frame);
-    if (waiting_.size() > most_waiting) {
+    if (waiting_.size() > max_waiting) {
         waiting_.pop_front();
         ++figures_.superseded;
     }

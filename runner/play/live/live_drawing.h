@@ -13,12 +13,12 @@ class LiveDrawing {
     /// To be made before the drive happens. Compiles what the drive's moments need while all lamps shine. Stage and device must outlive it.
     /// Throws DeviceError, and InputError for a tone mapper that is fitted and for white that adapts: both look at pictures that a live
     /// drive may leave out.
-    LiveDrawing(const Stage& stage, const Variant& variant, Device& device, std::filesystem::path folder);
+    LiveDrawing(const Stage& stage, const LampSet& lamp_set, Device& device, std::filesystem::path folder);
 
     /// Draws until no more come. Throws DeviceError.
     void draw_all(LivePictures& pictures);
     /// Puts frames and maps into the report, once all is drawn.
-    void finish(PlayedVariant& played);
+    void finish(PlayedCell& played);
 
     int drawn() const { return drawn_; }
     int captured() const { return captured_; }

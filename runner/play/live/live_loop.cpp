@@ -11,7 +11,7 @@ namespace fernlicht {
 namespace {
 
 constexpr std::int64_t listening_step_ns = 5'000'000;
-constexpr std::size_t most_pending = 16;
+constexpr std::size_t max_pending = 16;
 
 double seconds_of(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
@@ -61,7 +61,7 @@ void LiveLoop::offer_pictures(LiveFigures& figures) {
         const bool captured = is_captured(parts_.drive.capture, next_moment_, parts_.drive.step_s);
         ++figures.moments;
         figures.captures += captured ? 1 : 0;
-        if (parts_.pictures && pending_.size() < most_pending && parts_.pictures->wanted(captured))
+        if (parts_.pictures && pending_.size() < max_pending && parts_.pictures->wanted(captured))
             pending_.push_back({parts_.play.moment(next_moment_), captured});
     }
     while (!pending_.empty() && parts_.pictures->offer(pending_.front()))

@@ -6,7 +6,7 @@ namespace fernlicht {
 
 bool LivePictures::wanted(bool captured) {
     const std::unique_lock lock(mutex_, std::try_to_lock);
-    return lock && (captured ? captured_.size() < most_captured : !newest_);
+    return lock && (captured ? captured_.size() < max_captured : !newest_);
 }
 
 bool LivePictures::offer(LivePicture& picture) {

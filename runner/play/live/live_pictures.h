@@ -27,7 +27,7 @@ class LivePictures {
     void end();
 
   private:
-    static constexpr std::size_t most_captured = 16;
+    static constexpr std::size_t max_captured = 16;
     std::mutex mutex_;
     std::counting_semaphore<> news_{0};
     std::deque<LivePicture> captured_;

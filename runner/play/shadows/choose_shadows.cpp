@@ -18,14 +18,14 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_moments = 64, most_pictures = 256, least_moments = 8;
+constexpr std::size_t max_moments = 64, max_pictures = 256, min_moments = 8;
 constexpr int scan_width_px = 16, scan_height_px = 12, scan_texels = 16;
 constexpr double compared_px = 160.0 * 120.0;             ///< of a picture
 constexpr double deciding_lx = ErrorRule{}.relative_from; ///< what gets less without shadows decides nothing, as in accuracy sections
 
 /// Of one lamp set.
 struct ShadowedMoments {
-    const Variant* variant = nullptr;
+    const LampSet* lamp_set = nullptr;
     std::vector<Moment> moments; ///< evenly spread over all that have a caster in a beam
     int ticks = 0, shadowed = 0;
 };
@@ -41,14 +41,14 @@ template <class One> std::vector<One> evenly_spread(const std::vector<One>& all,
 
 /// Whether the moment drawn last has shadows of the own lamps or of others'; those of sun and moon are looked for where these shine.
 bool is_shadowed(const Moment& moment, const Renderer& renderer) {
-    const std::vector<LeftOut> left_out = renderer.left_out();
-    const auto needed = [&](std::string_view what) { return std::ranges::find(left_out, what, &LeftOut::what) == left_out.end(); };
+    const std::vector<PrunedFeature> pruned = renderer.pruned();
+    const auto needed = [&](std::string_view what) { return std::ranges::find(pruned, what, &PrunedFeature::what) == pruned.end(); };
     return needed("shadow maps") || (!moment.other_lamps.empty() && needed("shadow maps of lamps of others")) ||
            moment.daylight.direct() != nullptr;
 }
 
 /// Maps are drawn where anything casts: the smallest ones of the smallest picture tell.
-ShadowedMoments shadowed_moments(const Stage& stage, Device& device, const View& view, RendererSettings settings, const Variant& variant,
+ShadowedMoments shadowed_moments(const Stage& stage, Device& device, const View& view, RendererSettings settings, const LampSet& lamp_set,
                                  std::size_t most) {
     settings.shadows = {};
     settings.shadows.width = settings.shadows.height = scan_texels;
@@ -58,13 +58,13 @@ ShadowedMoments shadowed_moments(const Stage& stage, Device& device, const View&
         all[i] = static_cast<int>(i);
     const View small = at_size(view, scan_width_px, scan_height_px);
     std::vector<int> shadowed;
-    for (const Moment& moment : moments_at(all, stage, variant)) {
+    for (const Moment& moment : moments_at(all, stage, lamp_set)) {
         renderer.render(moment, small, {.illuminance = true});
         if (is_shadowed(moment, renderer))
             shadowed.push_back(moment.tick);
     }
     renderer.finish();
-    return {&variant, moments_at(evenly_spread(shadowed, most), stage, variant), static_cast<int>(all.size()),
+    return {&lamp_set, moments_at(evenly_spread(shadowed, most), stage, lamp_set), static_cast<int>(all.size()),
             static_cast<int>(shadowed.size())};
 }
 
@@ -84,7 +84,7 @@ class Trial {
             for (const View& view : stage.drive.views)
                 series_.push_back({&set, compared_view(view)});
         for (const Series& series : series_)
-            for (const std::size_t m : evenly_spread(indices(series), least_moments))
+            for (const std::size_t m : evenly_spread(indices(series), min_moments))
                 keep({&series, m});
     }
 
@@ -158,7 +158,7 @@ class Trial {
             return;
         found.error = share;
         found.worst_s = picture.series->set->moments[picture.moment].time_s;
-        found.worst_set = picture.series->set->variant->name;
+        found.worst_set = picture.series->set->lamp_set->name;
         found.worst_view = picture.series->view.name;
     }
 
@@ -282,10 +282,10 @@ std::optional<ShadowChoice> choose_shadows(Stage& stage, Device& device, const R
     RendererSettings light = settings;
     light.shadows = drive.shadows;
     light.profile = false;
-    const std::size_t most = std::clamp(most_pictures / (drive.variants.size() * drive.views.size()), least_moments, most_moments);
+    const std::size_t most = std::clamp(max_pictures / (drive.lamp_sets.size() * drive.views.size()), min_moments, max_moments);
     std::vector<ShadowedMoments> sets;
-    for (const Variant& variant : drive.variants) {
-        ShadowedMoments set = shadowed_moments(stage, device, drive.views.front(), light, variant, most);
+    for (const LampSet& lamp_set : drive.lamp_sets) {
+        ShadowedMoments set = shadowed_moments(stage, device, drive.views.front(), light, lamp_set, most);
         choice.ticks += set.ticks;
         choice.ticks_shadowed += set.shadowed;
         choice.compared += static_cast<int>(set.moments.size());
@@ -303,7 +303,7 @@ std::optional<ShadowChoice> choose_shadows(Stage& stage, Device& device, const R
     return choice;
 }
 
-void refuse_open_shadows(const Drive& drive) {
+void refuse_auto_shadows(const Drive& drive) {
     if (drive.shadows.method == ShadowMethod::automatic)
         throw InputError({drive.file, 0, 0, "shadows"}, "'auto', which is chosen on the drive's pictures, by `fernlicht run` for one",
                          "a method by its name, as the resolved drive of a run has it");
@@ -314,10 +314,10 @@ void check_planar_shadows(const Stage& stage, Device& device, TickRange ticks) {
     if (drive.shadows.method != ShadowMethod::planar)
         return;
     PlanarTrial trial(stage, device);
-    for (const Variant& variant : drive.variants)
+    for (const LampSet& lamp_set : drive.lamp_sets)
         for (State state = start(drive); state.tick <= std::min(ticks.last, tick_count(drive) - 1); state = advance(state, drive))
             if (state.tick >= ticks.first)
-                trial.draw(moment_at(state, drive, stage.route, variant), variant.name);
+                trial.draw(moment_at(state, drive, stage.route, lamp_set), lamp_set.name);
     trial.finish();
 }
 

@@ -48,7 +48,7 @@ std::vector<ShadowMethod> shadow_methods_by_cost();
 std::optional<ShadowChoice> choose_shadows(Stage& stage, Device& device, const RendererSettings& settings);
 
 /// For programs that do not know the drive beforehand. Throws InputError for `auto`.
-void refuse_open_shadows(const Drive& drive);
+void refuse_auto_shadows(const Drive& drive);
 
 /// Throws InputError, at the line of the drive's file that asks for it, where ground in the lamps' light is not one plane in one of these
 /// moments with any of the drive's lamp sets. Drives that do not draw by `planar` cost nothing.

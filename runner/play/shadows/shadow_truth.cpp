@@ -8,8 +8,8 @@ namespace {
 
 /// Where less light is drawn than there is (faint lamps of others are left out), a share of the one is no share of the other.
 bool like_light(float drawn_lx, float true_lx) {
-    constexpr float most_apart = 0.2F;
-    return std::abs(drawn_lx - true_lx) <= most_apart * std::max(drawn_lx, true_lx);
+    constexpr float max_apart = 0.2F;
+    return std::abs(drawn_lx - true_lx) <= max_apart * std::max(drawn_lx, true_lx);
 }
 
 } // namespace
@@ -43,7 +43,7 @@ const ShadowTruth::Found& ShadowTruth::of(std::size_t moment) {
     settings.footprint = Footprint::centre;
     settings.lamp_radius_m = lamp_radius_m_;
     settings.target_error = 0.01;
-    settings.most_samples = 256;
+    settings.max_samples = 256;
     const bool half_shadows = lamp_radius_m_ > 0.0; // samples go on until luminance is sure, too
     ReferenceImage shadowed = rays_.render(moments_[moment], view_, {.illuminance = true, .luminance = half_shadows}, settings);
     settings.shadows = false;

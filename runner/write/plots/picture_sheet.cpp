@@ -16,7 +16,7 @@ constexpr Colour sheet_ink{24, 24, 32}, sheet_faint{100, 100, 108};
 constexpr double edge_px = 16.0, gap_px = 12.0, caption_px = 26.0, head_px = 54.0, key_px = 22.0, legend_px = 112.0;
 /// Letters grow with wide panels: such sheets are shown smaller than they are.
 constexpr double plain_letters_px = 560.0, largest_letters = 1.8;
-constexpr int least_width_px = 320, most_width_px = 1024;
+constexpr int min_width_px = 320, max_width_px = 1024;
 constexpr double signed_decades = 3.0;
 
 Image<Colour> magnified(const Image<Colour>& pixels, int factor) {
@@ -79,9 +79,9 @@ void draw_legend(Canvas& canvas, const SheetLegend& legend, double left, double 
 
 std::string svg_of_sheet(const Sheet& sheet) {
     const Image<Colour>& first = sheet.panels.at(0).pixels;
-    const double scale = first.width() < least_width_px  ? std::ceil(static_cast<double>(least_width_px) / first.width())
-                         : first.width() > most_width_px ? static_cast<double>(most_width_px) / first.width()
-                                                         : 1.0;
+    const double scale = first.width() < min_width_px   ? std::ceil(static_cast<double>(min_width_px) / first.width())
+                         : first.width() > max_width_px ? static_cast<double>(max_width_px) / first.width()
+                                                        : 1.0;
     const double width = first.width() * scale, height = first.height() * scale;
     const double letters = std::clamp(0.5 * (width + std::max(width, height)) / plain_letters_px, 1.0, largest_letters);
     const double top = letters * (head_px + (sheet.key.empty() ? 0.0 : key_px));

@@ -10,7 +10,7 @@
 namespace fernlicht::plots {
 namespace {
 
-using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using CairoSurface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 using Handle = std::unique_ptr<RsvgHandle, decltype(&g_object_unref)>;
 
@@ -19,8 +19,8 @@ void check(cairo_status_t status, const char* doing) {
         throw std::runtime_error(fmt::format("{}: {}", doing, cairo_status_to_string(status)));
 }
 
-Surface new_surface(int width, int height) {
-    Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), &cairo_surface_destroy);
+CairoSurface new_surface(int width, int height) {
+    CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), &cairo_surface_destroy);
     check(cairo_surface_status(surface.get()), "cannot make a picture");
     return surface;
 }
@@ -46,7 +46,7 @@ std::invalid_argument invalid_svg(GError* error) {
 std::string png_of_pixels(const Image<Colour>& pixels) {
     if (pixels.empty())
         throw std::runtime_error("cannot encode a PNG of an empty image");
-    const Surface surface = new_surface(pixels.width(), pixels.height());
+    const CairoSurface surface = new_surface(pixels.width(), pixels.height());
     unsigned char* data = cairo_image_surface_get_data(surface.get());
     const std::ptrdiff_t stride = cairo_image_surface_get_stride(surface.get());
     cairo_surface_flush(surface.get());
@@ -71,7 +71,7 @@ std::string png_of_svg(const std::string& svg, double scale) {
         throw std::invalid_argument("not a drawable SVG: it has no size in pixels");
     const int columns = std::max(1, static_cast<int>(std::lround(width * scale)));
     const int rows = std::max(1, static_cast<int>(std::lround(height * scale)));
-    const Surface surface = new_surface(columns, rows);
+    const CairoSurface surface = new_surface(columns, rows);
     const Context context(cairo_create(surface.get()), &cairo_destroy);
     cairo_set_source_rgb(context.get(), 1.0, 1.0, 1.0);
     cairo_paint(context.get());

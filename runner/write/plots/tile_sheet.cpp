@@ -15,9 +15,9 @@ constexpr double sheet_edge_px = 16.0, tile_gap_px = 12.0, title_px = 17.0, word
 constexpr double words_line_px = 17.0, tile_line_px = 15.0;
 constexpr double inner_px = tiles_across * tile_px + (tiles_across - 1) * tile_gap_px;
 
-/// Broken between words, so that no line is wider than `most_px`; a word that is wider by itself is broken, too.
-std::vector<std::string> sheet_lines(const std::string& text, double size_px, double most_px) {
-    const auto fits = [&](const std::string& line) { return plots::text_width(line, size_px) <= most_px; };
+/// Broken between words, so that no line is wider than `max_px`; a word that is wider by itself is broken, too.
+std::vector<std::string> sheet_lines(const std::string& text, double size_px, double max_px) {
+    const auto fits = [&](const std::string& line) { return plots::text_width(line, size_px) <= max_px; };
     std::vector<std::string> lines;
     std::string line;
     for (std::size_t at = 0; at < text.size();) {

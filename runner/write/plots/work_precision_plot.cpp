@@ -17,7 +17,7 @@ using plots::Point;
 
 constexpr plots::Colour ink{51, 51, 51}, faint{110, 110, 110}, grid{222, 224, 228}, band{198, 203, 209};
 constexpr double left_px = 76.0, plot_width_px = 560.0, list_px = left_px + plot_width_px + 28.0, top_px = 66.0, line_px = 17.0,
-                 letter_px = 11.5, least_height_px = 430.0, bottom_px = 60.0, title_px = 24.0, radius_px = 4.5;
+                 letter_px = 11.5, min_height_px = 430.0, bottom_px = 60.0, title_px = 24.0, radius_px = 4.5;
 
 struct Box {
     double left, top, right, bottom;
@@ -236,7 +236,7 @@ double draw_list(Canvas& canvas, const WorkPrecision& diagram, const std::vector
 std::string work_precision_svg(const WorkPrecision& diagram) {
     const std::vector<Standing> standing = standings(diagram.rows);
     const double list_bottom = top_px + line_px * static_cast<double>(diagram.rows.size()) + 8.0,
-                 height = std::max(least_height_px, list_bottom - top_px), total_width = list_px + 500.0,
+                 height = std::max(min_height_px, list_bottom - top_px), total_width = list_px + 500.0,
                  total_height = top_px + height + bottom_px;
     const PlotGround ground = ground_for(diagram, height);
     Canvas canvas(total_width, total_height, diagram.title);

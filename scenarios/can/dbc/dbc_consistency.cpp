@@ -123,12 +123,12 @@ class Multiplexing {
 };
 
 void check_overlaps(DbcReading& reading, const DbcMessage& message) {
-    constexpr std::size_t most_pairs = 1'000'000, most_steps = 100'000'000; // messages of others have some thousands of pairs
+    constexpr std::size_t max_pairs = 1'000'000, max_steps = 100'000'000; // messages of others have some thousands of pairs
     Multiplexing multiplexing(message);
     std::vector<std::vector<std::size_t>> holders;                                // by bit: signals that hold it
     std::vector<std::size_t> met(message.signals.size(), message.signals.size()); // by signal: the last that it was looked at with
     std::size_t pairs = 0, overlaps = 0, line = 0;
-    const auto enough = [&] { return pairs >= most_pairs || multiplexing.steps() >= most_steps; };
+    const auto enough = [&] { return pairs >= max_pairs || multiplexing.steps() >= max_steps; };
     std::string first_pair;
     for (std::size_t i = 0; i < message.signals.size() && !enough(); ++i) {
         const CanSignal& signal = message.signals[i].signal;

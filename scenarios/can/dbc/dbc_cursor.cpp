@@ -27,7 +27,7 @@ void DbcCursor::skip() {
     }
 }
 
-void DbcCursor::taken(std::size_t end) {
+void DbcCursor::advance_to(std::size_t end) {
     at_ = end;
     taken_line_ = line_;
 }
@@ -50,7 +50,7 @@ bool DbcCursor::has(char c) { return !at_end() && text_[at_] == c; }
 bool DbcCursor::take(char c) {
     const bool there = has(c);
     if (there)
-        taken(at_ + 1);
+        advance_to(at_ + 1);
     return there;
 }
 
@@ -71,7 +71,7 @@ std::string DbcCursor::word(const char* what) {
     const std::string_view next = peek();
     if (next.empty())
         refuse(what);
-    taken(at_ + next.size());
+    advance_to(at_ + next.size());
     return std::string(next);
 }
 
@@ -90,7 +90,7 @@ std::string DbcCursor::text(const char* what) {
     }
     if (at_ == text_.size())
         refuse_at(begin_line, "a text that does not end", "a closing \"");
-    taken(at_ + 1);
+    advance_to(at_ + 1);
     return result;
 }
 
@@ -133,9 +133,9 @@ double DbcCursor::number(const char* what) {
         refuse(fmt::format("{} that a double can hold", what));
     if (error != std::errc{} || end != next.data() + next.size())
         refuse(what);
-    taken(at_ + next.size());
+    advance_to(at_ + next.size());
     if (at_ < text_.size() && text_[at_] == '#') { // as old Windows libraries write what is not a number or infinite
-        taken(at_ + peek().size());
+        advance_to(at_ + peek().size());
         return std::numeric_limits<double>::quiet_NaN();
     }
     return value;
@@ -157,7 +157,7 @@ std::uint64_t DbcCursor::whole(const char* what, std::uint64_t greatest) {
     const auto [stop, error] = std::from_chars(text_.data() + at_, text_.data() + end, value);
     if (error != std::errc{} || stop != text_.data() + end || value > greatest)
         refuse(fmt::format("{}, a whole number from 0 to {}", what, greatest));
-    taken(end);
+    advance_to(end);
     return value;
 }
 
@@ -169,7 +169,7 @@ void DbcCursor::skip_past(char c) {
         if (has_text())
             text("a text");
         else
-            taken(at_ + 1);
+            advance_to(at_ + 1);
     }
     refuse_at(begin_line, "no end of what begins here", fmt::format("'{}'", c));
 }

@@ -36,7 +36,7 @@ class DbcCursor {
 
   private:
     void skip();
-    void taken(std::size_t end);
+    void advance_to(std::size_t end);
     std::string_view number_text();
 
     const std::string& text_;

@@ -20,9 +20,9 @@ void mirror(View& view) {
 
 /// Stops of a swivel.
 void mirror(ActuatorParameters& actuator) {
-    std::swap(actuator.least_rad, actuator.greatest_rad);
-    change_sign(actuator.least_rad);
-    change_sign(actuator.greatest_rad);
+    std::swap(actuator.min_rad, actuator.max_rad);
+    change_sign(actuator.min_rad);
+    change_sign(actuator.max_rad);
 }
 
 void mirror(SeeingParameters& seeing) {
@@ -84,12 +84,12 @@ void mirror(std::vector<MountedLamp>& lamps, std::vector<LampChange>& changes, D
     }
 }
 
-void mirror(Variant& variant, Drive& drive) {
-    mirror(variant.lamps, variant.changes, drive);
-    if (variant.control)
-        variant.control = std::make_shared<const ControlParameters>(mirrored(*variant.control));
-    if (variant.swivel)
-        mirror(variant.swivel->actuator);
+void mirror(LampSet& lamp_set, Drive& drive) {
+    mirror(lamp_set.lamps, lamp_set.changes, drive);
+    if (lamp_set.control)
+        lamp_set.control = std::make_shared<const ControlParameters>(mirrored(*lamp_set.control));
+    if (lamp_set.swivel)
+        mirror(lamp_set.swivel->actuator);
 }
 
 } // namespace
@@ -129,8 +129,8 @@ void mirror_traffic(Drive& drive, bool lamps) {
     for (StreetLampRow& row : drive.street_lamps)
         change_sign(row.beside_m);
     if (lamps)
-        for (Variant& variant : drive.variants)
-            mirror(variant, drive);
+        for (LampSet& lamp_set : drive.lamp_sets)
+            mirror(lamp_set, drive);
     for (TrafficRow& row : drive.traffic_rows)
         mirror(row.lamps, row.changes, drive);
     for (Limit& limit : drive.limits)

@@ -20,7 +20,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_databases = 64, most_mapped = 1000, most_listed_values = 1000;
+constexpr std::size_t max_databases = 64, max_mapped = 1000, max_listed_values = 1000;
 constexpr double largest_factor = 1.0e12, longest_stale_s = 1.0e6, longest_cycle_s = 1000.0, shortest_cycle_s = 1.0e-4;
 
 InputError::Where place_of(const YamlEntry& entry) { return {entry.file(), entry.value().line, entry.value().column, entry.key_path()}; }
@@ -67,7 +67,7 @@ template <class Mapped> double read_signal_value(const YamlEntry& entry, const M
 }
 
 template <class Mapped> void read_values(const YamlEntry& entry, Mapped& mapped) {
-    for (const auto& [text, value] : texts_of(entry, most_listed_values))
+    for (const auto& [text, value] : texts_of(entry, max_listed_values))
         mapped.values.emplace_back(text, read_signal_value(value, mapped));
 }
 
@@ -132,7 +132,7 @@ template <BusState state> FieldOf<BusInput> policy_field(int id, std::string_vie
 
 constexpr std::string_view source_schema = R"({"type": "string", "pattern": "^[^.]+\\.[^.]+$"})";
 
-BusInput usual_input() {
+BusInput default_input() {
     BusInput input;
     input.policies.fill(BusPolicy::lost);
     return input;
@@ -163,12 +163,12 @@ const Fields<BusInput>& bus_input_fields() {
             field("default", 10, &Input::fallback, range(-largest_factor, largest_factor), "in our unit")
                 .read_by([](const YamlEntry& entry, Input& input) { input.fallback = read_signal_value(entry, input); }),
         }
-            .at_defaults(usual_input());
+            .at_defaults(default_input());
     return fields;
 }
 
 BusInput read_bus_input(const std::string& name, const YamlEntry& entry) {
-    BusInput input = usual_input();
+    BusInput input = default_input();
     input.name = name;
     input.where = place_of(entry);
     if (const SignalKind& kind = kind_named(name, entry); !may_come_from_bus(kind))
@@ -218,19 +218,19 @@ BusOutput read_bus_output(const std::string& target, const YamlEntry& entry) {
     return output;
 }
 
-void check_variant(const BusMapping& mapping, const Variant& variant) {
-    const BusWriter writer(mapping, lamp_names(variant));
-    const SignalTable table(lamp_names(variant));
+void check_lamp_set(const BusMapping& mapping, const LampSet& lamp_set) {
+    const BusWriter writer(mapping, lamp_names(lamp_set));
+    const SignalTable table(lamp_names(lamp_set));
     for (const BusOutput& output : mapping.outputs)
         try {
             table.find(output.name);
         } catch (const std::invalid_argument& error) {
-            throw InputError(output.where, fmt::format("no signal '{}' in variant '{}'", printable(output.name), variant.name),
+            throw InputError(output.where, fmt::format("no signal '{}' in lamp set '{}'", printable(output.name), lamp_set.name),
                              error.what());
         }
     for (const BusInput& input : mapping.inputs)
-        if (variant.swivel && input.name.starts_with("lamp.") && input.name.find(".swivel") != std::string::npos)
-            throw InputError(input.where, fmt::format("{} beside actuators.swivel of variant '{}'", input.name, variant.name),
+        if (lamp_set.swivel && input.name.starts_with("lamp.") && input.name.find(".swivel") != std::string::npos)
+            throw InputError(input.where, fmt::format("{} beside actuators.swivel of lamp set '{}'", input.name, lamp_set.name),
                              "one of them");
 }
 
@@ -260,7 +260,7 @@ template <std::string (*tell)(const Group&, const void*)> std::string outputs_to
 std::string mapped_schema(std::string_view names, std::string_view scalar, const Group& group) {
     return fmt::format(R"({{"type": "object", "minProperties": 1, "maxProperties": {}, "propertyNames": {},
         "additionalProperties": {{"anyOf": [{}, {}]}}}})",
-                       most_mapped, names, scalar, schema_of(group));
+                       max_mapped, names, scalar, schema_of(group));
 }
 
 } // namespace
@@ -279,7 +279,7 @@ const Fields<BusMapping>& can_fields() {
                 "start", 4, nullptr, start_text,
                 R"({"anyOf": [{"type": "number", "minimum": 0}, {"type": "string", "pattern": "^[0-9]{1,10}(\\.[0-9]{1,9})?$"}]})",
                 "stamp in the log that is the drive's 0 s; that of its first frame by default"),
-            named("inputs", 5, &BusMapping::inputs, most_mapped, bus_input_fields(),
+            named("inputs", 5, &BusMapping::inputs, max_mapped, bus_input_fields(),
                   "signals of lamp control (fernlicht signals) and where they come from")
                 .schema_by(mapped_schema(R"({"type": "string"})", source_schema, bus_input_fields())),
             own<BusMapping>("outputs", 6, nullptr, outputs_told<flow_text>, mapped_schema(source_schema, file_schema, bus_output_fields()),
@@ -322,7 +322,7 @@ void read_can(const YamlMap& keys, const DriveEdits& edits, Drive& drive) {
     BusMapping mapping;
     mapping.where = place_of(*given);
     const YamlEntry databases = of.require("databases");
-    for (const YamlEntry& database : databases.is_scalar() ? std::vector{databases} : databases.list(1, most_databases)) {
+    for (const YamlEntry& database : databases.is_scalar() ? std::vector{databases} : databases.list(1, max_databases)) {
         mapping.databases.push_back(database.path());
         check_file(mapping.databases.back(), database);
     }
@@ -343,10 +343,10 @@ void read_can(const YamlMap& keys, const DriveEdits& edits, Drive& drive) {
             start->refuse("a start without a recording", "log: FILE beside it");
     }
     if (const auto inputs = of.find("inputs"))
-        for (const auto& [name, entry] : texts_of(*inputs, most_mapped))
+        for (const auto& [name, entry] : texts_of(*inputs, max_mapped))
             mapping.inputs.push_back(read_bus_input(name, entry));
     if (const auto outputs = of.find("outputs"))
-        for (const auto& [target, entry] : texts_of(*outputs, most_mapped))
+        for (const auto& [target, entry] : texts_of(*outputs, max_mapped))
             mapping.outputs.push_back(read_bus_output(target, entry));
     if (mapping.inputs.empty() && mapping.outputs.empty())
         given->refuse("a bus without signals", "inputs, outputs or both");
@@ -362,13 +362,13 @@ void read_can(const YamlMap& keys, const DriveEdits& edits, Drive& drive) {
         mapping.start_ns = edits.can_start_ns;
     if (edits.can_channel)
         mapping.channel = *edits.can_channel;
-    const auto known = std::ranges::find_if(drive.variants, [](const Variant& variant) { return variant.control != nullptr; });
+    const auto known = std::ranges::find_if(drive.lamp_sets, [](const LampSet& lamp_set) { return lamp_set.control != nullptr; });
     ControlParameters no_laws;
-    no_laws.period_s = known == drive.variants.end() ? no_laws.period_s : (*known).control->period_s;
-    for (Variant& variant : drive.variants) {
-        check_variant(mapping, variant);
-        if (!variant.control)
-            variant.control = std::make_shared<const ControlParameters>(no_laws);
+    no_laws.period_s = known == drive.lamp_sets.end() ? no_laws.period_s : (*known).control->period_s;
+    for (LampSet& lamp_set : drive.lamp_sets) {
+        check_lamp_set(mapping, lamp_set);
+        if (!lamp_set.control)
+            lamp_set.control = std::make_shared<const ControlParameters>(no_laws);
     }
     drive.can = std::make_shared<const BusMapping>(std::move(mapping));
     bus_period_s(drive);

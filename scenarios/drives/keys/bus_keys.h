@@ -12,8 +12,8 @@ template <class Struct> struct Fields;
 
 const Fields<BusMapping>& can_fields();
 
-/// `can`, with what `edits` say of its recording, after read_variants(): lamps and signals that are named must be there in all of them.
-/// Variants without control get one that has no laws, so that switches and commands from the bus reach their lamps.
+/// `can`, with what `edits` say of its recording, after read_lamp_sets(): lamps and signals that are named must be there in all of them.
+/// Lamp sets without control get one that has no laws, so that switches and commands from the bus reach their lamps.
 void read_can(const YamlMap& keys, const DriveEdits& edits, Drive& drive);
 
 /// Whether a bus may give it: all but the laws' own signals and what follows from others. Commands, levels and measured angles of lamps

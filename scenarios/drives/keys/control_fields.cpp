@@ -12,7 +12,7 @@ namespace fernlicht {
 namespace {
 
 constexpr double shortest_period_s = 1.0e-4;
-constexpr std::size_t most_windows = 256;
+constexpr std::size_t max_windows = 256;
 
 void read_library(const YamlEntry& entry, PluginParameters& plugin) {
     plugin.library = entry.path();
@@ -31,7 +31,7 @@ FieldRule load_of(const std::string& axle) { return units({axle + "_kg", from_kg
 /// [a, b, c]: edges of two windows; {windows_deg: [[a, b], ...]}: windows that may leave gaps.
 void read_windows(const YamlEntry& given, SegmentedLamp& lamp) {
     std::vector<std::pair<double, double>>& windows = lamp.windows_deg;
-    const std::vector<YamlEntry> items = given.list(1, most_windows + 1);
+    const std::vector<YamlEntry> items = given.list(1, max_windows + 1);
     if (items.front().is_list()) {
         for (const YamlEntry& item : items) {
             const std::vector<double> edges = item.numbers(2, 2, -180.0, 180.0);
@@ -41,7 +41,7 @@ void read_windows(const YamlEntry& given, SegmentedLamp& lamp) {
         }
         return;
     }
-    const std::vector<double> edges = given.numbers(2, most_windows + 1, -180.0, 180.0);
+    const std::vector<double> edges = given.numbers(2, max_windows + 1, -180.0, 180.0);
     for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
         if (edges[i] >= edges[i + 1])
             given.refuse("edges that do not ascend", "degrees from left to right");
@@ -81,7 +81,7 @@ const Fields<std::pair<double, double>>& point_fields() {
 const Fields<ScriptedSignal>& input_fields() {
     static const Fields<ScriptedSignal> fields =
         Fields<ScriptedSignal>{
-            list("values", 1, &ScriptedSignal::values, 1, most_input_values, point_fields(), "")
+            list("values", 1, &ScriptedSignal::values, 1, max_input_values, point_fields(), "")
                 .schema_by(fmt::format(R"({{"anyOf": [{{"type": "number"}}, {{"type": "array", "minItems": 1, "items": {}}}]}})",
                                        schema_of(point_fields()))),
         }
@@ -106,7 +106,7 @@ const Fields<BendParameters>& bend_fields() {
     using Bend = BendParameters;
     static const Fields<Bend> fields{
         field("law", 1, &Bend::law, words(bend_laws), "what says where the bend leads"),
-        field("lamps", 2, &Bend::lamps, names(1, most_control_lamps), "all but those whose names have 'corner' by default"),
+        field("lamps", 2, &Bend::lamps, names(1, max_control_lamps), "all but those whose names have 'corner' by default"),
         field("preview_s", 3, &Bend::preview_s, range(0.0, 10.0), "the lamps look to where the car will be then"),
         field("gain", 4, &Bend::gain, range(0.0, 10.0), "on the angle"),
         field("filter_s", 5, &Bend::filter_s, range(0.0, 100.0), "time constant; 0: none"),
@@ -121,8 +121,8 @@ const Fields<BendParameters>& bend_fields() {
 const Fields<CorneringParameters>& cornering_fields() {
     using Cornering = CorneringParameters;
     static const Fields<Cornering> fields{
-        field("left", 1, &Cornering::left, names(1, most_control_lamps), "lamps of that side").written_off_default(),
-        field("right", 2, &Cornering::right, names(1, most_control_lamps), "lamps of that side").written_off_default(),
+        field("left", 1, &Cornering::left, names(1, max_control_lamps), "lamps of that side").written_off_default(),
+        field("right", 2, &Cornering::right, names(1, max_control_lamps), "lamps of that side").written_off_default(),
         field("until", 3, &Cornering::until_speed_mps, speed("until"), "faster: off"),
         field("again_below", 4, &Cornering::again_below_mps, speed("again_below"), "slower: on again"),
         field("on", 5, &Cornering::on_rad, in_radians("on", 60.0), "of the front wheels"),
@@ -149,7 +149,7 @@ const Fields<ModeParameters>& modes_fields() {
     using Modes = ModeParameters;
     static const Fields<Modes> fields =
         Fields<Modes>{
-            field("lamps", 10, &Modes::lamps, names(1, most_control_lamps), "all but those whose names have 'corner' or 'high' by default"),
+            field("lamps", 10, &Modes::lamps, names(1, max_control_lamps), "all but those whose names have 'corner' or 'high' by default"),
             field("c", 11, settings_of<0>, mode_fields(), "country"),
             field("v", 12, settings_of<1>, mode_fields(), "town"),
             field("e", 13, settings_of<2>, mode_fields(), "motorway"),
@@ -171,7 +171,7 @@ const Fields<ModeParameters>& modes_fields() {
 const Fields<HighBeamParameters>& high_beam_fields() {
     using High = HighBeamParameters;
     static const Fields<High> fields{
-        field("lamps", 1, &High::lamps, names(1, most_control_lamps), "those whose names have 'high' by default"),
+        field("lamps", 1, &High::lamps, names(1, max_control_lamps), "those whose names have 'high' by default"),
         field("on_above", 2, &High::on_above_mps, speed("on_above"), "faster: on"),
         field("off_below", 3, &High::off_below_mps, speed("off_below"), "slower: off"),
         field("dark_below_lx", 4, &High::dark_below_lx, range(0.0, 2.0e5), "darker: on"),
@@ -189,7 +189,7 @@ const Fields<GlareFreeParameters>& glare_free_fields() {
     using GlareFree = GlareFreeParameters;
     static const Fields<GlareFree> fields =
         Fields<GlareFree>{
-            named("windows_deg", 4, &GlareFree::lamps, most_control_lamps,
+            named("windows_deg", 4, &GlareFree::lamps, max_control_lamps,
                   Fields<SegmentedLamp>{own<SegmentedLamp>("windows", 1, read_windows, windows_text, R"({"anyOf": [
             {"type": "array", "minItems": 2, "maxItems": 257, "items": {"type": "number", "minimum": -180, "maximum": 180}},
             {"type": "array", "minItems": 1, "maxItems": 257, "items": {"type": "array", "minItems": 2, "maxItems": 2,
@@ -214,7 +214,7 @@ const Fields<PluginParameters>& plugin_fields() {
             R"({"type": "string", "minLength": 1})", "relative to the drive file")
             .required(),
         field("parameters", 2, &Plugin::parameters, any(), "handed over as it is").written_off_default(),
-        field("lamps", 3, &Plugin::lamps, names(1, most_control_lamps), "that it may move; all by default"),
+        field("lamps", 3, &Plugin::lamps, names(1, max_control_lamps), "that it may move; all by default"),
         field("period_s", 4, &Plugin::period_s, range(shortest_period_s, 100.0),
               "a whole number of control periods, or the next one after"),
         field("budget_s", 5, &Plugin::budget_s, range(1.0e-6, 100.0), "of a call; longer ones are counted"),
@@ -253,7 +253,7 @@ const Fields<ControlParameters>& law_fields() {
             field("modes", 13, &Control::modes, modes_fields(), "classes of the passing beam, by speed, light and weather"),
             field("high_beam", 8, &Control::high_beam, high_beam_fields(), "automatic").or_word("automatic"),
             field("glare_free", 9, &Control::glare_free, glare_free_fields(), "dark windows where others are"),
-            list("plugins", 10, &Control::plugins, 0, most_plugins, plugin_fields(), "laws in shared libraries").written_off_default(),
+            list("plugins", 10, &Control::plugins, 0, max_plugins, plugin_fields(), "laws in shared libraries").written_off_default(),
             field("safe_pitch", 3, &Control::safe_pitch_rad, in_radians("safe_pitch", 10.0),
                   "of lamps whose levelling has lost its signal"),
             field("stuck_swivel", 4, &Control::stuck_swivel,
@@ -266,9 +266,9 @@ const Fields<ControlParameters>& law_fields() {
                       .checked(check_stuck_swivel),
                   "when a swivel is found stuck, and what then")
                 .or_absent("none"),
-            list("failures", 11, &Control::failures, 0, most_failures, failure_fields(), "what is wrong from when to when")
+            list("failures", 11, &Control::failures, 0, max_failures, failure_fields(), "what is wrong from when to when")
                 .written_off_default(),
-            named("inputs", 12, &Control::inputs, most_inputs, input_fields(), "signals that the drive writes"),
+            named("inputs", 12, &Control::inputs, max_inputs, input_fields(), "signals that the drive writes"),
         }
             .block()
             .defined_as("control");

@@ -7,8 +7,7 @@
 
 namespace fernlicht {
 
-inline constexpr std::size_t most_control_lamps = 64, most_plugins = 16, most_failures = 1000, most_inputs = 100,
-                             most_input_values = 100'000;
+inline constexpr std::size_t max_control_lamps = 64, max_plugins = 16, max_failures = 1000, max_inputs = 100, max_input_values = 100'000;
 inline constexpr std::string_view bend_laws[] = {"steering", "yaw-rate", "route"};
 
 const Fields<ControlParameters>& law_fields();
@@ -23,8 +22,8 @@ const Fields<GlareFreeParameters>& glare_free_fields();
 const Fields<PluginParameters>& plugin_fields();
 const Fields<ControlFailure>& failure_fields();
 
-/// `control` of the variant's keys, else of the drive: the laws that move and dim the variant's lamps. `none`: nothing is controlled. Lamps
-/// and signals that are named must be there. Throws InputError (yaml_entry.h).
-void read_control(const YamlMap& drive, const YamlMap* keys, Variant& variant, LampShelf& shelf);
+/// `control` of the lamp set's keys, else of the drive: the laws that move and dim the lamp set's lamps. `none`: nothing is controlled.
+/// Lamps and signals that are named must be there. Throws InputError (yaml_entry.h).
+void read_control(const YamlMap& drive, const YamlMap* keys, LampSet& lamp_set, LampCache& cache);
 
 } // namespace fernlicht

@@ -21,26 +21,26 @@ std::string signal_name(const YamlEntry& entry, const std::string& name, const S
     return name;
 }
 
-/// Refuses names that are no lamps' of the variant.
-void check_lamps(const YamlEntry& given, std::string_view key, const Variant& variant) {
+/// Refuses names that are no lamps' of the lamp set.
+void check_lamps(const YamlEntry& given, std::string_view key, const LampSet& lamp_set) {
     for (const YamlMember& member : given.value().members)
         if (member.key == key)
             for (const YamlEntry& name :
-                 YamlEntry(member.value, given.file(), fmt::format("{}.{}", given.key_path(), key)).list(1, most_control_lamps))
-                lamp_name(name, variant);
+                 YamlEntry(member.value, given.file(), fmt::format("{}.{}", given.key_path(), key)).list(1, max_control_lamps))
+                lamp_name(name, lamp_set);
 }
 
 bool is_cornering_lamp(const std::string& name) { return name.find("corner") != std::string::npos; }
 
 /// Where none are named: those that the law is for.
-void default_lamps(std::vector<std::string>& lamps, const Variant& variant, bool (*is_for)(const std::string&)) {
+void default_lamps(std::vector<std::string>& lamps, const LampSet& lamp_set, bool (*is_for)(const std::string&)) {
     if (lamps.empty())
-        for (const std::string& name : lamp_names(variant))
+        for (const std::string& name : lamp_names(lamp_set))
             if (is_for(name))
                 lamps.push_back(name);
 }
 
-BendParameters read_bend(const YamlEntry& given, const Variant& variant) {
+BendParameters read_bend(const YamlEntry& given, const LampSet& lamp_set) {
     BendParameters bend;
     if (given.is_scalar()) {
         bend.law = static_cast<BendLaw>(given.choice(bend_laws));
@@ -48,9 +48,9 @@ BendParameters read_bend(const YamlEntry& given, const Variant& variant) {
         read_group(bend_fields(), given, &bend);
         if (bend.dead_band_rad < 0.0)
             given.refuse("a dead band below 0", "an angle of 0 or more");
-        check_lamps(given, "lamps", variant);
+        check_lamps(given, "lamps", lamp_set);
     }
-    default_lamps(bend.lamps, variant, [](const std::string& name) { return !is_cornering_lamp(name); });
+    default_lamps(bend.lamps, lamp_set, [](const std::string& name) { return !is_cornering_lamp(name); });
     return bend;
 }
 
@@ -59,12 +59,12 @@ bool gives(const YamlMap& keys, std::string_view key) {
     return std::ranges::any_of(keys.entry().value().members, [&](const YamlMember& member) { return member.key.starts_with(start); });
 }
 
-CorneringParameters read_cornering(const YamlEntry& given, const Variant& variant) {
+CorneringParameters read_cornering(const YamlEntry& given, const LampSet& lamp_set) {
     const YamlMap of = given.map(keys_of(cornering_fields()));
     CorneringParameters cornering;
     read_group(cornering_fields(), of, &cornering);
-    check_lamps(given, "left", variant);
-    check_lamps(given, "right", variant);
+    check_lamps(given, "left", lamp_set);
+    check_lamps(given, "right", lamp_set);
     if (cornering.left.empty() && cornering.right.empty())
         given.refuse("cornering light without lamps", "left, right or both: lists of lamps");
     if (!gives(of, "again_below"))
@@ -76,27 +76,27 @@ CorneringParameters read_cornering(const YamlEntry& given, const Variant& varian
     return cornering;
 }
 
-ModeParameters read_modes(const YamlEntry& given, const Variant& variant, LampShelf& shelf) {
+ModeParameters read_modes(const YamlEntry& given, const LampSet& lamp_set, LampCache& cache) {
     const YamlMap of = given.map(keys_of(modes_fields()));
     ModeParameters modes;
-    check_lamps(given, "lamps", variant);
+    check_lamps(given, "lamps", lamp_set);
     read_group(modes_fields(), of, &modes);
-    default_lamps(modes.lamps, variant, [](const std::string& name) { return !is_cornering_lamp(name) && !is_high_beam(name); });
+    default_lamps(modes.lamps, lamp_set, [](const std::string& name) { return !is_cornering_lamp(name) && !is_high_beam(name); });
     for (std::size_t i = 0; i < modes.settings.size(); ++i)
         if (const auto mode = of.find(modes_fields().fields[1 + i].key))
             if (const auto file = mode->map(keys_of(mode_fields())).find("file"))
-                modes.settings[i].file = shelf.lamp(file->path(), {}, &*file);
+                modes.settings[i].file = cache.lamp(file->path(), {}, &*file);
     return modes;
 }
 
-HighBeamParameters read_high_beam(const YamlEntry& given, const Variant& variant) {
+HighBeamParameters read_high_beam(const YamlEntry& given, const LampSet& lamp_set) {
     HighBeamParameters high;
     if (given.is_scalar()) {
         given.choice({"automatic"});
     } else {
         const YamlMap of = given.map(keys_of(high_beam_fields()));
         read_group(high_beam_fields(), of, &high);
-        check_lamps(given, "lamps", variant);
+        check_lamps(given, "lamps", lamp_set);
         if (!gives(of, "off_below"))
             high.off_below_mps = std::min(high.off_below_mps, high.on_above_mps);
         if (!of.find("lit_above_lx"))
@@ -104,34 +104,34 @@ HighBeamParameters read_high_beam(const YamlEntry& given, const Variant& variant
         if (high.off_below_mps > high.on_above_mps || high.lit_above_lx < high.dark_below_lx)
             given.refuse("a hysteresis upside down", "off_below at most on_above, and dark_below_lx at most lit_above_lx");
     }
-    default_lamps(high.lamps, variant, is_high_beam);
+    default_lamps(high.lamps, lamp_set, is_high_beam);
     if (high.lamps.empty())
-        given.refuse(fmt::format("no lamp of variant '{}' has a name with 'high'", variant.name), "high_beam.lamps");
+        given.refuse(fmt::format("no lamp of lamp set '{}' has a name with 'high'", lamp_set.name), "high_beam.lamps");
     return high;
 }
 
-GlareFreeParameters read_glare_free(const YamlEntry& given, const Variant& variant) {
+GlareFreeParameters read_glare_free(const YamlEntry& given, const LampSet& lamp_set) {
     const YamlMap of = given.map(keys_of(glare_free_fields()));
     GlareFreeParameters glare_free;
-    for (const auto& [name, entry] : of.require("windows_deg").named(most_control_lamps)) {
+    for (const auto& [name, entry] : of.require("windows_deg").named(max_control_lamps)) {
         YamlValue key = entry.value();
         key.kind = YamlValue::Kind::scalar;
         key.text = name;
-        lamp_name(YamlEntry(key, entry.file(), entry.key_path()), variant);
+        lamp_name(YamlEntry(key, entry.file(), entry.key_path()), lamp_set);
     }
     read_group(glare_free_fields(), of, &glare_free);
     return glare_free;
 }
 
-PluginParameters read_plugin(const YamlEntry& given, const Variant& variant) {
+PluginParameters read_plugin(const YamlEntry& given, const LampSet& lamp_set) {
     PluginParameters plugin;
     read_group(plugin_fields(), given, &plugin);
-    check_lamps(given, "lamps", variant);
-    default_lamps(plugin.lamps, variant, [](const std::string&) { return true; });
+    check_lamps(given, "lamps", lamp_set);
+    default_lamps(plugin.lamps, lamp_set, [](const std::string&) { return true; });
     return plugin;
 }
 
-ControlFailure read_failure(const YamlEntry& entry, const Variant& variant, const SignalTable& signals) {
+ControlFailure read_failure(const YamlEntry& entry, const LampSet& lamp_set, const SignalTable& signals) {
     using Kind = ControlFailure::Kind;
     const YamlMap keys = entry.map(keys_of(failure_fields()));
     ControlFailure failure;
@@ -144,7 +144,7 @@ ControlFailure read_failure(const YamlEntry& entry, const Variant& variant, cons
                    : what->first == "stuck_levelling" ? Kind::stuck_levelling
                                                       : Kind::lost_signal;
     failure.what =
-        failure.kind == Kind::lost_signal ? signal_name(what->second, what->second.text(), signals) : lamp_name(what->second, variant);
+        failure.kind == Kind::lost_signal ? signal_name(what->second, what->second.text(), signals) : lamp_name(what->second, lamp_set);
     return failure;
 }
 
@@ -159,7 +159,7 @@ ScriptedSignal read_input(const std::string& name, const YamlEntry& entry, const
         input.values.emplace_back(0.0, entry.number(least, greatest));
         return input;
     }
-    for (const YamlEntry& point : entry.list(1, most_input_values)) {
+    for (const YamlEntry& point : entry.list(1, max_input_values)) {
         const YamlMap keys = point.map({"at_s", "value"});
         const double at_s = keys.require("at_s").number(0.0, 1.0e6);
         if (!input.values.empty() && at_s <= input.values.back().first)
@@ -169,44 +169,44 @@ ScriptedSignal read_input(const std::string& name, const YamlEntry& entry, const
     return input;
 }
 
-ControlParameters read_laws(const YamlEntry& given, const Variant& variant, LampShelf& shelf) {
+ControlParameters read_laws(const YamlEntry& given, const LampSet& lamp_set, LampCache& cache) {
     const YamlMap keys = given.map(keys_of(law_fields()));
-    const SignalTable signals(lamp_names(variant));
+    const SignalTable signals(lamp_names(lamp_set));
     ControlParameters control;
     read_field(law_fields(), "period_s", keys, &control);
     if (const auto bend = keys.find("bend"))
-        control.bend = read_bend(*bend, variant);
+        control.bend = read_bend(*bend, lamp_set);
     if (const auto cornering = keys.find("cornering"))
-        control.cornering = read_cornering(*cornering, variant);
+        control.cornering = read_cornering(*cornering, lamp_set);
     if (const auto levelling = keys.find("levelling"))
         control.levelling = read_levelling(*levelling, false);
     read_field(law_fields(), "load", keys, &control);
     if (const auto modes = keys.find("modes"))
-        control.modes = read_modes(*modes, variant, shelf);
+        control.modes = read_modes(*modes, lamp_set, cache);
     if (const auto high_beam = keys.find("high_beam"))
-        control.high_beam = read_high_beam(*high_beam, variant);
+        control.high_beam = read_high_beam(*high_beam, lamp_set);
     if (const auto glare_free = keys.find("glare_free")) {
         if (!control.high_beam)
             glare_free->refuse("a glare-free high beam without an automatic one", "high_beam beside it, which says when it is on");
-        control.glare_free = read_glare_free(*glare_free, variant);
+        control.glare_free = read_glare_free(*glare_free, lamp_set);
     }
     if (const auto plugins = keys.find("plugins"))
-        for (const YamlEntry& plugin : plugins->list(0, most_plugins))
-            control.plugins.push_back(read_plugin(plugin, variant));
+        for (const YamlEntry& plugin : plugins->list(0, max_plugins))
+            control.plugins.push_back(read_plugin(plugin, lamp_set));
     read_field(law_fields(), "safe_pitch", keys, &control);
     read_field(law_fields(), "stuck_swivel", keys, &control);
     if (const auto failures = keys.find("failures"))
-        for (const YamlEntry& failure : failures->list(0, most_failures))
-            control.failures.push_back(read_failure(failure, variant, signals));
+        for (const YamlEntry& failure : failures->list(0, max_failures))
+            control.failures.push_back(read_failure(failure, lamp_set, signals));
     if (const auto inputs = keys.find("inputs"))
-        for (const auto& [name, entry] : inputs->named(most_inputs))
+        for (const auto& [name, entry] : inputs->named(max_inputs))
             control.inputs.push_back(read_input(name, entry, signals));
     return control;
 }
 
 } // namespace
 
-void read_control(const YamlMap& drive, const YamlMap* keys, Variant& variant, LampShelf& shelf) {
+void read_control(const YamlMap& drive, const YamlMap* keys, LampSet& lamp_set, LampCache& cache) {
     auto given = keys ? keys->find("control") : std::nullopt;
     if (!given)
         given = drive.find("control");
@@ -216,15 +216,15 @@ void read_control(const YamlMap& drive, const YamlMap* keys, Variant& variant, L
         given->choice({"none"});
         return;
     }
-    variant.control = std::make_shared<const ControlParameters>(read_laws(*given, variant, shelf));
-    for (const ControlFailure& failure : variant.control->failures)
-        if (failure.kind == ControlFailure::Kind::stuck_swivel && !variant.control->bend && !variant.swivel &&
-            variant.control->plugins.empty())
+    lamp_set.control = std::make_shared<const ControlParameters>(read_laws(*given, lamp_set, cache));
+    for (const ControlFailure& failure : lamp_set.control->failures)
+        if (failure.kind == ControlFailure::Kind::stuck_swivel && !lamp_set.control->bend && !lamp_set.swivel &&
+            lamp_set.control->plugins.empty())
             given->refuse(fmt::format("control.failures: stuck_swivel of '{}', which nothing turns", printable(failure.what)),
                           "a bend law or a plug-in beside it");
-    if (variant.control->bend && variant.swivel)
+    if (lamp_set.control->bend && lamp_set.swivel)
         given->refuse("control.bend beside actuators.swivel", "one of them");
-    if (variant.control->levelling && variant.levelling)
+    if (lamp_set.control->levelling && lamp_set.levelling)
         given->refuse("control.levelling beside actuators.levelling", "one of them");
 }
 

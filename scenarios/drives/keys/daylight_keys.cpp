@@ -14,7 +14,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_object_words = 32;
+constexpr std::size_t max_object_words = 32;
 constexpr double brightest_lx = 150'000.0, fastest_rate = 86'400.0;
 constexpr std::string_view intensities[] = {"light", "moderate", "heavy"};
 constexpr double lowest_shining_rad = radians(-1.0); ///< of a disc whose upper edge refraction still lifts over the horizon
@@ -235,7 +235,7 @@ const Fields<StreetLampRow>& street_lamp_fields() {
             field("every_m", 4, &Row::every_m, range(1.0, 1.0e6), "from one to the next").heard_if(is_row),
             field("beside_m", 5, &Row::beside_m, range(-200.0, 200.0), "of the pole from the lane's centre, left positive")
                 .heard_if(is_row),
-            field("on_objects", 6, &Row::on_objects, texts(1, most_object_words),
+            field("on_objects", 6, &Row::on_objects, texts(1, max_object_words),
                   "instead: on each object of the road's file of such a type or with this in its name")
                 .text_by(objects_text)
                 .heard_if(hangs_on_objects),
@@ -254,16 +254,16 @@ const Fields<StreetLampRow>& street_lamp_fields() {
     return fields;
 }
 
-std::vector<StreetLampRow> read_street_lamps(const YamlMap& drive, LampShelf& shelf) {
+std::vector<StreetLampRow> read_street_lamps(const YamlMap& drive, LampCache& cache) {
     std::vector<StreetLampRow> rows;
     const auto given = drive.find("street_lamps");
     if (!given)
         return rows;
-    for (const auto& [name, entry] : given->named(most_street_lamp_rows)) {
+    for (const auto& [name, entry] : given->named(max_street_lamp_rows)) {
         const YamlMap keys = entry.map(keys_of(street_lamp_fields()));
         StreetLampRow row;
         row.name = name;
-        row.file = read_lamp_keys(keys, shelf, TypeCAxis::nadir);
+        row.file = read_lamp_keys(keys, cache, TypeCAxis::nadir);
         if (!row.file)
             entry.refuse("street lamps without a file", "file");
         if (keys.find("on_objects")) {
@@ -275,7 +275,7 @@ std::vector<StreetLampRow> read_street_lamps(const YamlMap& drive, LampShelf& sh
         for (const char* key : {"on_objects", "first_m", "last_m", "every_m", "beside_m", "height_m", "arm_m", "tilt", "level"})
             read_field(street_lamp_fields(), key, keys, &row);
         const auto source = read_source(keys);
-        row.colour = source || gives_colour(keys) ? read_colour(keys, source.value_or(SourceKind::led), shelf, entry)
+        row.colour = source || gives_colour(keys) ? read_colour(keys, source.value_or(SourceKind::led), cache, entry)
                                                   : colour_of_temperature(3000.0);
         rows.push_back(row);
     }

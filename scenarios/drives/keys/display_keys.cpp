@@ -13,8 +13,8 @@
 namespace fernlicht {
 namespace {
 
-constexpr double most_s = 1.0e6, least_l_max_cdm2 = 1.0e-6, most_l_max_cdm2 = 1.0e9; // the GPU divides by it in float
-constexpr std::size_t most_knots = 10000;
+constexpr double max_s = 1.0e6, min_l_max_cdm2 = 1.0e-6, max_l_max_cdm2 = 1.0e9; // the GPU divides by it in float
+constexpr std::size_t max_knots = 10000;
 constexpr double white_apart = 0.01; // of l_max_cdm2 from the curve's last knot; a logarithm of two decimals is 0.005 off
 
 ToneMapperKind kind_of(const void* mapper) { return static_cast<const ToneMapper*>(mapper)->kind; }
@@ -36,7 +36,7 @@ void read_s(const YamlEntry& entry, ToneMapper& mapper) {
     if (mapper.fitted_s && mapper.kind != ToneMapperKind::rational)
         entry.refuse("'fitted'", "a number: only `kind: rational` has an s that is fitted");
     if (!mapper.fitted_s)
-        mapper.s = number_beside_words(entry, 1.0, most_s, "or, with `kind: rational`, `fitted`");
+        mapper.s = number_beside_words(entry, 1.0, max_s, "or, with `kind: rational`, `fitted`");
 }
 
 std::string s_text(const ToneMapper& mapper) { return mapper.fitted_s ? "fitted" : fmt::format("{}", mapper.s); }
@@ -45,7 +45,7 @@ void read_white(const YamlEntry& entry, ToneMapper& mapper) {
     if (entry.is_scalar() && (entry.value().text == "all" || entry.value().text == "surfaces"))
         mapper.white = entry.value().text == "all" ? WhitePoint::all : WhitePoint::surfaces;
     else
-        mapper.l_max_cdm2 = number_beside_words(entry, least_l_max_cdm2, most_l_max_cdm2,
+        mapper.l_max_cdm2 = number_beside_words(entry, min_l_max_cdm2, max_l_max_cdm2,
                                                 "in cd/m2, `all` (the brightest of the drive) or `surfaces` (of what does not shine)");
 }
 
@@ -57,12 +57,12 @@ std::string white_text(const ToneMapper& mapper) {
 /// with; a curve alone has its white from that knot.
 void agree_on_white(const YamlEntry& curve, const std::optional<YamlEntry>& l_max, ToneMapper& mapper) {
     ToneKnot& last = mapper.curve.back();
-    if (!(last.ln_luminance >= std::log(least_l_max_cdm2) && last.ln_luminance <= std::log(most_l_max_cdm2)))
+    if (!(last.ln_luminance >= std::log(min_l_max_cdm2) && last.ln_luminance <= std::log(max_l_max_cdm2)))
         curve.refuse(fmt::format("a last knot at exp({:g}) cd/m2", last.ln_luminance),
-                     fmt::format("white, from {:g} to {:g} cd/m2", least_l_max_cdm2, most_l_max_cdm2));
+                     fmt::format("white, from {:g} to {:g} cd/m2", min_l_max_cdm2, max_l_max_cdm2));
     const double knot_cdm2 = std::exp(last.ln_luminance);
     if (!l_max)
-        mapper.l_max_cdm2 = std::clamp(knot_cdm2, least_l_max_cdm2, most_l_max_cdm2);
+        mapper.l_max_cdm2 = std::clamp(knot_cdm2, min_l_max_cdm2, max_l_max_cdm2);
     else if (mapper.white != WhitePoint::given || !(std::abs(mapper.l_max_cdm2 - knot_cdm2) <= white_apart * knot_cdm2) ||
              !(std::log(mapper.l_max_cdm2) > mapper.curve[mapper.curve.size() - 2].ln_luminance))
         l_max->refuse(fmt::format("{} as white", l_max->is_scalar() ? l_max->value().text : "a list"),
@@ -72,7 +72,7 @@ void agree_on_white(const YamlEntry& curve, const std::optional<YamlEntry>& l_ma
 }
 
 void read_curve(const YamlEntry& entry, ToneMapper& mapper) {
-    for (const YamlEntry& knot : entry.list(2, most_knots)) {
+    for (const YamlEntry& knot : entry.list(2, max_knots)) {
         const std::vector<double> at = knot.numbers(2, 2, -1.0e3, 1.0e3);
         if (!mapper.curve.empty() && !(at[0] > mapper.curve.back().ln_luminance && at[1] > mapper.curve.back().ln_share))
             knot.refuse("a knot that does not rise", "logarithms of luminance and share above those of the knot before");

@@ -32,32 +32,32 @@ bool becomes_empty(LampChange& change) {
 void replace_lamps(Drive& drive, const std::string& side, const std::shared_ptr<const LampFile>& file, std::set<std::string>& replaced) {
     std::set<std::string> known;
     bool found = false;
-    for (Variant& variant : drive.variants) {
-        for (MountedLamp& lamp : variant.lamps) {
+    for (LampSet& lamp_set : drive.lamp_sets) {
+        for (MountedLamp& lamp : lamp_set.lamps) {
             known.insert(lamp.name);
             if (!is_meant(lamp.name, side))
                 continue;
             lamp.file = file;
-            replaced.insert(variant.name + '/' + lamp.name);
+            replaced.insert(lamp_set.name + '/' + lamp.name);
             found = true;
         }
-        std::erase_if(variant.changes, [&](LampChange& change) { return is_meant(change.lamp, side) && becomes_empty(change); });
+        std::erase_if(lamp_set.changes, [&](LampChange& change) { return is_meant(change.lamp, side) && becomes_empty(change); });
     }
     if (!found)
         throw InputError({drive.file, 0, 0, "lamp " + side}, "no lamp of this name", fmt::format("one of {}", fmt::join(known, ", ")));
 }
 
-/// When each variant had its low beams replaced by the same files, playing more than one says nothing new.
-void keep_one_variant(Drive& drive, const DriveEdits& edits, const std::set<std::string>& replaced) {
-    for (const Variant& variant : drive.variants)
-        for (const MountedLamp& lamp : variant.lamps)
-            if (!is_high_beam(lamp.name) && !replaced.contains(variant.name + '/' + lamp.name))
+/// When each lamp set had its low beams replaced by the same files, playing more than one says nothing new.
+void keep_one_lamp_set(Drive& drive, const DriveEdits& edits, const std::set<std::string>& replaced) {
+    for (const LampSet& lamp_set : drive.lamp_sets)
+        for (const MountedLamp& lamp : lamp_set.lamps)
+            if (!is_high_beam(lamp.name) && !replaced.contains(lamp_set.name + '/' + lamp.name))
                 return;
-    Variant& kept = drive.variants.front();
-    if (drive.variants.size() > 1)
+    LampSet& kept = drive.lamp_sets.front();
+    if (drive.lamp_sets.size() > 1)
         drive.notes.push_back(fmt::format("every lamp set would have the same low beams, so only the first ('{}') is played", kept.name));
-    drive.variants.resize(1);
-    drive.variants.front().name = name_from(edits.lamps.back().second);
+    drive.lamp_sets.resize(1);
+    drive.lamp_sets.front().name = name_from(edits.lamps.back().second);
 }
 
 void replace_road(Drive& drive, const std::filesystem::path& road) {
@@ -82,12 +82,12 @@ void replace_resolution(Drive& drive, const std::pair<int, int>& resolution) {
 
 } // namespace
 
-void apply_edits(Drive& drive, const DriveEdits& edits, LampShelf& shelf) {
+void apply_edits(Drive& drive, const DriveEdits& edits, LampCache& cache) {
     std::set<std::string> replaced;
     for (const auto& [side, path] : edits.lamps)
-        replace_lamps(drive, side, shelf.lamp(made_absolute(path), {}), replaced);
+        replace_lamps(drive, side, cache.lamp(made_absolute(path), {}), replaced);
     if (!replaced.empty())
-        keep_one_variant(drive, edits, replaced);
+        keep_one_lamp_set(drive, edits, replaced);
     if (edits.road)
         replace_road(drive, *edits.road);
     if (edits.technique)

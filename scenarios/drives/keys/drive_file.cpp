@@ -18,8 +18,8 @@ namespace fernlicht {
 namespace {
 
 constexpr int schema_version = 1;
-constexpr std::size_t most_bytes = std::size_t{4} << 20;
-constexpr double most_ticks = 1.0e7;
+constexpr std::size_t max_bytes = std::size_t{4} << 20;
+constexpr double max_ticks = 1.0e7;
 
 void read_time(const YamlMap& keys, Drive& drive) {
     drive.step_s = read_step_s(keys);
@@ -28,23 +28,23 @@ void read_time(const YamlMap& keys, Drive& drive) {
     drive.speed = read_speed(keys);
     const YamlEntry duration = keys.require("duration_s");
     read_field(drive_fields(), "duration_s", keys, &drive);
-    if (drive.duration_s / drive.step_s > most_ticks)
+    if (drive.duration_s / drive.step_s > max_ticks)
         duration.refuse(fmt::format("{:.0f} steps of {} s", drive.duration_s / drive.step_s, drive.step_s),
-                        fmt::format("at most {:.0f}", most_ticks));
+                        fmt::format("at most {:.0f}", max_ticks));
 }
 
 /// Libraries of plug-ins decide results as any input does: each is among what was opened, once.
 void note_plugin_libraries(Drive& drive) {
-    for (const Variant& variant : drive.variants) {
-        if (!variant.control)
+    for (const LampSet& lamp_set : drive.lamp_sets) {
+        if (!lamp_set.control)
             continue;
-        for (const PluginParameters& plugin : variant.control->plugins)
+        for (const PluginParameters& plugin : lamp_set.control->plugins)
             if (std::ranges::none_of(drive.opened, [&](const FileRead& known) { return known.path == plugin.library; }))
                 read_file(plugin.library, drive.opened);
     }
 }
 
-Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const DriveEdits& edits, LampShelf& shelf) {
+Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const DriveEdits& edits, LampCache& cache) {
     Drive drive;
     const auto read = [&](std::initializer_list<const char*> described) {
         for (const char* const key : described)
@@ -70,13 +70,13 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const Dri
         drive.storyboard->own_weather = keys.find("weather").has_value();
     }
     read({"daylight", "weather"});
-    drive.street_lamps = read_street_lamps(keys, shelf);
+    drive.street_lamps = read_street_lamps(keys, cache);
     const Car car = read_car(keys, drive);
     read({"vehicle"});
-    drive.variants = read_variants(keys, car, shelf);
+    drive.lamp_sets = read_lamp_sets(keys, car, cache);
     note_plugin_libraries(drive);
     read_can(keys, edits, drive);
-    read_traffic(keys, shelf, drive);
+    read_traffic(keys, cache, drive);
     check_entities(keys, drive);
     drive.views = read_views(keys, drive.opened);
     drive.extent = ExtentParameters{};
@@ -88,20 +88,20 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const Dri
 
 Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     FilesRead opened;
-    const std::string text = is_storyboard_file(path) ? storyboard_drive_text(path, edits) : to_utf8(read_file(path, opened, most_bytes));
+    const std::string text = is_storyboard_file(path) ? storyboard_drive_text(path, edits) : to_utf8(read_file(path, opened, max_bytes));
     const YamlValue document = parse_yaml(text, path);
     const YamlMap keys(YamlEntry(document, path, ""), keys_of(drive_fields()));
     if (keys.require("fernlicht").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht").refuse(fmt::format("{}, the version of the drive file's schema", schema_version));
-    LampShelf shelf;
-    Drive drive = read_all(keys, path, edits, shelf);
-    apply_edits(drive, edits, shelf);
-    drive.lamp_sources = shelf.sources();
+    LampCache cache;
+    Drive drive = read_all(keys, path, edits, cache);
+    apply_edits(drive, edits, cache);
+    drive.lamp_sources = cache.sources();
     if (edits.replay)
         drive.replay = std::make_shared<const DriveLog>(read_drive_log(*edits.replay, opened));
     opened.insert(opened.end(), drive.opened.begin(), drive.opened.end());
     drive.opened = std::move(opened);
-    drive.opened.insert(drive.opened.end(), shelf.opened().begin(), shelf.opened().end());
+    drive.opened.insert(drive.opened.end(), cache.opened().begin(), cache.opened().end());
     return drive;
 }
 

@@ -41,7 +41,7 @@ void check_speed_point(const YamlMap& keys, const SpeedPoint&) {
 }
 
 const Fields<BeamTexels>& beam_fields() {
-    const FieldRule sides = range(least_beam_texels, most_beam_texels);
+    const FieldRule sides = range(min_beam_texels, max_beam_texels);
     static const Fields<BeamTexels> fields{
         field("width", 1, &BeamTexels::width, sides, "texels").required(),
         field("height", 2, &BeamTexels::height, sides, "texels").required(),
@@ -124,7 +124,7 @@ std::vector<SpeedPoint> read_speed(const YamlMap& drive) {
     }
     if (given->second.is_scalar())
         given->second.refuse("a list of {at_s, speed_kmh}; one speed for all of the drive is speed_kmh or speed_mps");
-    for (const YamlEntry& entry : given->second.list(1, most_speed_points)) {
+    for (const YamlEntry& entry : given->second.list(1, max_speed_points)) {
         const SpeedPoint point = read_fields(speed_point_fields(), entry);
         if (!points.empty() && point.time_s <= points.back().time_s)
             entry.refuse(fmt::format("at_s {} after {}", point.time_s, points.back().time_s), "times that ascend");
@@ -157,7 +157,7 @@ const Fields<Drive>& drive_fields() {
             field("via", 2, &Drive::via, texts(0, 10'000), "road ids in order"),
         }
             .block(), "where the drive begins, and by which roads it goes").heard_if(has_no_storyboard),
-            list("speed", 7, &Drive::speed, 1, most_speed_points, speed_point_fields(), "or speed_kmh or speed_mps for all of the drive")
+            list("speed", 7, &Drive::speed, 1, max_speed_points, speed_point_fields(), "or speed_kmh or speed_mps for all of the drive")
                 .heard_if(has_no_storyboard),
             form<Drive>("speed_kmh", FieldKind::number, range(0.0, 540.0), "for all of the drive"),
             form<Drive>("speed_mps", FieldKind::number, range(0.0, 150.0), "for all of the drive"),
@@ -171,7 +171,7 @@ const Fields<Drive>& drive_fields() {
             field("weather", 11, &Drive::weather, weather_fields(), "clear and dry by default; fog, rain and snow by name, too")
                 .text_by(weather_text)
                 .heard_if(says_weather),
-            named("street_lamps", 12, &Drive::street_lamps, most_street_lamp_rows, street_lamp_fields(),
+            named("street_lamps", 12, &Drive::street_lamps, max_street_lamp_rows, street_lamp_fields(),
                   "rows of lamps on poles beside the route"),
             section("car", 13, car_fields(), "the own car: its size, body, lamps and their places"),
             field("vehicle", 17, &Drive::vehicle, vehicle_fields(),
@@ -179,16 +179,16 @@ const Fields<Drive>& drive_fields() {
                 .or_word("single-track"),
             form<Drive>("actuators", FieldKind::group, {}, "of all lamp sets without their own").of(actuators_fields()),
             form<Drive>("control", FieldKind::group, {}, "of all lamp sets without their own").of(law_fields()).schema_by(control_schema),
-            named("variants", 18, &Drive::variants, most_variants, variant_fields(), "lamp sets; the drive is played with each"),
-            form<Drive>("changes", FieldKind::list, names(0, most_lamp_changes), "of the lamps of all lamp sets").of(change_fields()),
+            named("lamp_sets", 18, &Drive::lamp_sets, max_lamp_sets, lamp_set_fields(), "lamp sets; the drive is played with each"),
+            form<Drive>("changes", FieldKind::list, names(0, max_lamp_changes), "of the lamps of all lamp sets").of(change_fields()),
             field("can", 19, &Drive::can, can_fields(), "signals from and to a bus; docs/can.md"),
             section("traffic_light", 20, Fields<Drive>{
-        field("least_lx", 1, &Drive::least_traffic_lx, range(1.0e-6, 1.0e3), "from one lamp; less is left out"),
+        field("min_lx", 1, &Drive::min_traffic_lx, range(1.0e-6, 1.0e3), "from one lamp; less is left out"),
     }, "of other road users").heard_if(has_traffic),
-            named("traffic", 21, &Drive::traffic_rows, most_traffic_rows, traffic_fields(), "other road users; docs/traffic.md"),
+            named("traffic", 21, &Drive::traffic_rows, max_traffic_rows, traffic_fields(), "other road users; docs/traffic.md"),
             form<Drive>("view_set", FieldKind::path, any(), "a file of views that come before these"),
-            named("views", 22, &Drive::views, most_views, view_fields(), "what is drawn; the driver's view and a map by default"),
-            list("scenery", 23, &Drive::scenery, 0, most_models, scenery_fields(), "models with their places")
+            named("views", 22, &Drive::views, max_views, view_fields(), "what is drawn; the driver's view and a map by default"),
+            list("scenery", 23, &Drive::scenery, 0, max_models, scenery_fields(), "models with their places")
                 .read_by(read_scenery)
                 .written_off_default(),
             field("capture", 28, &Drive::capture, Fields<Capture>{
@@ -207,7 +207,7 @@ const Fields<Drive>& drive_fields() {
             field("technique", 31, &Drive::technique, a_name(), "how it is drawn"),
             section("measure", 36, Fields<Drive>{
             field("extent", 1, &Drive::extent, Fields<ExtentParameters>{
-            field("limits_lx", 1, &ExtentParameters::limits_lx, numbers(1, 16, 1.0e-6, 1.0e6), "what counts as illuminated"),
+            field("thresholds_lx", 1, &ExtentParameters::thresholds_lx, numbers(1, 16, 1.0e-6, 1.0e6), "what counts as illuminated"),
             field("target_height_m", 2, &ExtentParameters::target_height_m, range(0.0, 10.0), "of the target that faces the car"),
             field("ahead_m", 3, &ExtentParameters::ahead_m, range(1.0, 2000.0), "how far is looked"),
             field("beside_m", 4, &ExtentParameters::beside_m, range(0.5, 200.0), "how far to each side"),
@@ -238,7 +238,7 @@ const Fields<Drive>& drive_fields() {
                 .text_by([](const Drive& drive) { return shadows_text(drive.shadows); })
                 .schema_by(shadows_schema())
                 .bits_by([](const Drive& drive) {
-                    return (drive.shadows.things_cast ? "" : "nothing casts\n") + field_bits(shadow_fields(), &drive.shadows);
+                    return (drive.shadows.objects_cast ? "" : "nothing casts\n") + field_bits(shadow_fields(), &drive.shadows);
                 }),
             own<Drive>("beams", 39, read_beams, beams_text, R"({"oneOf": [{"enum": ["float", "eight-bit"]}, {"type": "object",
                 "additionalProperties": false, "required": ["width", "height", "bits"], "properties": {

@@ -8,8 +8,8 @@ namespace fernlicht {
 
 template <class Struct> struct Fields;
 
-inline constexpr std::size_t most_views = 64, most_models = 10'000, most_speed_points = 10'000, most_traffic_rows = 1000,
-                             most_street_lamp_rows = 32;
+inline constexpr std::size_t max_views = 64, max_models = 10'000, max_speed_points = 10'000, max_traffic_rows = 1000,
+                             max_street_lamp_rows = 32;
 inline constexpr int largest_view_px = 16384; ///< to a side; the least that OpenGL 4.5 promises
 
 /// The drive's own keys (fields/field.h), in the order of resolved drives.
@@ -17,7 +17,7 @@ const Fields<Drive>& drive_fields();
 /// What hashes of a drive are taken over: ids and bits of what is off its defaults (fields/field_bits.h).
 std::string drive_bits(const Drive& drive);
 /// Applies what flags change, and notes what the user would not guess. Throws InputError for a side that no lamp has.
-void apply_edits(Drive& drive, const DriveEdits& edits, LampShelf& shelf);
+void apply_edits(Drive& drive, const DriveEdits& edits, LampCache& cache);
 /// A file's stem, made a name that YamlEntry::name accepts.
 std::string name_from(const std::filesystem::path& path);
 
@@ -43,20 +43,20 @@ void read_daylight(const YamlEntry& given, Drive& drive);
 Daylight known_daylight(const YamlEntry& word); ///< by such a word
 const Fields<Weather>& weather_fields();
 const Fields<StreetLampRow>& street_lamp_fields();
-std::vector<StreetLampRow> read_street_lamps(const YamlMap& drive, LampShelf& shelf);
+std::vector<StreetLampRow> read_street_lamps(const YamlMap& drive, LampCache& cache);
 
 const Fields<VehicleParameters>& vehicle_fields();
 const Fields<ActuatorParameters>& actuator_fields();
 const Fields<LevellingParameters>& levelling_fields();
-const Fields<Variant>& actuators_fields();
-/// `actuators` of the variant's keys, else of the drive: levelling and swivel. Refused in a drive without a vehicle.
-void read_actuators(const YamlMap& drive, const YamlMap* keys, Variant& variant);
+const Fields<LampSet>& actuators_fields();
+/// `actuators` of the lamp set's keys, else of the drive: levelling and swivel. Refused in a drive without a vehicle.
+void read_actuators(const YamlMap& drive, const YamlMap* keys, LampSet& lamp_set);
 /// none, static, dynamic, or a map. `own_period`: it may have a control period of its own.
 std::optional<LevellingParameters> read_levelling(const YamlEntry& given, bool own_period = true);
 
 const Fields<TrafficRow>& traffic_fields();
 /// Rows of other road users, and what light of theirs is left out.
-void read_traffic(const YamlMap& keys, LampShelf& shelf, Drive& drive);
+void read_traffic(const YamlMap& keys, LampCache& cache, Drive& drive);
 
 const Fields<View>& view_fields();
 /// `view_set`, a file of views, and named `views` that come after it or take the place of its own; a map where neither has one; a

@@ -180,7 +180,7 @@ const Fields<LampChange>& change_fields() {
         Fields<Change>{
             field("at_s", 1, &Change::time_s, range(0.0, 1.0e6), "what is not given stays as it was").required(),
             field("lamp", 2, &Change::lamp, a_name(), "whose; without it and `lamps` all of them"),
-            form<Change>("lamps", FieldKind::names, names(1, most_lamps), "several of them"),
+            form<Change>("lamps", FieldKind::names, names(1, max_lamps), "several of them"),
             field("level", 3, &Change::level, range(0.0, 1.0), "dimming, 1 = full"),
             section("aim", 4, aim_fields<Change>(), "how the lamp's own axis is turned").written_off_default(),
             inlined(5, &Change::file, lamp_file_fields()),
@@ -198,14 +198,14 @@ const Fields<LampChange>& change_fields() {
 LampsAreOf::LampsAreOf(const Drive& drive) { written = &drive; }
 LampsAreOf::~LampsAreOf() { written = nullptr; }
 
-std::shared_ptr<const LampFile> read_lamp_keys(const YamlMap& keys, LampShelf& shelf, TypeCAxis axis) {
+std::shared_ptr<const LampFile> read_lamp_keys(const YamlMap& keys, LampCache& cache, TypeCAxis axis) {
     const auto file = keys.find("file");
     if (!file)
         return nullptr;
     LampReadOptions options;
     options.type_c_axis = axis;
     read_group(option_fields(), keys, &options);
-    return shelf.lamp(file->path(), options, &*file);
+    return cache.lamp(file->path(), options, &*file);
 }
 
 std::optional<SourceKind> read_source(const YamlMap& keys) {
@@ -218,11 +218,11 @@ bool gives_colour(const YamlMap& keys) {
     return std::ranges::any_of(colour_keys, [&](std::string_view key) { return keys.find(key).has_value(); });
 }
 
-LampColour read_colour(const YamlMap& keys, SourceKind source, LampShelf& shelf, const YamlEntry& asked_by) {
+LampColour read_colour(const YamlMap& keys, SourceKind source, LampCache& cache, const YamlEntry& asked_by) {
     if (const auto given = keys.one_of({colour_keys[0], colour_keys[1], colour_keys[2]})) {
         if (given->first == "temperature_k")
             return colour_of_temperature(given->second.number(1000.0, 25'000.0));
-        return given->first == "spectrum" ? shelf.spectrum(given->second.path(), given->second)
+        return given->first == "spectrum" ? cache.spectrum(given->second.path(), given->second)
                                           : read_fields(colour_fields(), given->second);
     }
     if (source == SourceKind::led)

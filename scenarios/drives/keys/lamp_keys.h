@@ -30,11 +30,11 @@ template <class Lamp, class M> FieldOf<Lamp> source_field(int id, M Lamp::*sourc
 
 /// Named lamps, and changes of them, as they stand in lamp sets and in rows of traffic.
 template <class Set> FieldOf<Set> lamps_field(int id) {
-    return named("lamps", id, &Set::lamps, most_lamps, lamp_fields(), "by name; a plain text is the lamp's file").short_for("file");
+    return named("lamps", id, &Set::lamps, max_lamps, lamp_fields(), "by name; a plain text is the lamp's file").short_for("file");
 }
 
 template <class Set> FieldOf<Set> changes_field(int id) {
-    return list("changes", id, &Set::changes, 0, most_lamp_changes, change_fields(), "of lamps, over time");
+    return list("changes", id, &Set::changes, 0, max_lamp_changes, change_fields(), "of lamps, over time");
 }
 
 /// While it lives, files of lamps are written as `drive` had them read: a lamp does not know where its file came from.
@@ -46,14 +46,14 @@ class LampsAreOf {
 };
 
 /// `file` with the keys that say how it is read; nullptr where none is named. `axis`: of a Type C file that does not give it.
-std::shared_ptr<const LampFile> read_lamp_keys(const YamlMap& keys, LampShelf& shelf, TypeCAxis axis = TypeCAxis::automatic);
+std::shared_ptr<const LampFile> read_lamp_keys(const YamlMap& keys, LampCache& cache, TypeCAxis axis = TypeCAxis::automatic);
 
 /// Lamps of the high beam are told by their names.
 inline bool is_high_beam(const std::string& lamp) { return lamp.find("high") != std::string::npos; }
 
 std::optional<SourceKind> read_source(const YamlMap& keys);
 /// `temperature_k`, `spectrum` or `colour`; else by the source: halogen 3200 K, xenon 4300 K. An LED's must be given.
-LampColour read_colour(const YamlMap& keys, SourceKind source, LampShelf& shelf, const YamlEntry& asked_by);
+LampColour read_colour(const YamlMap& keys, SourceKind source, LampCache& cache, const YamlEntry& asked_by);
 bool gives_colour(const YamlMap& keys);
 
 } // namespace fernlicht

@@ -39,98 +39,98 @@ void read_lamp_place(const YamlMap& keys, const Car& car, const YamlEntry& asked
     lamp.mount = place.turn;
 }
 
-MountedLamp build_lamp(const std::string& name, const YamlMap& keys, const Car& car, LampShelf& shelf, const YamlEntry& asked_by) {
+MountedLamp build_lamp(const std::string& name, const YamlMap& keys, const Car& car, LampCache& cache, const YamlEntry& asked_by) {
     MountedLamp lamp;
     lamp.name = name;
     read_lamp_place(keys, car, asked_by, lamp);
-    lamp.file = read_lamp_keys(keys, shelf);
+    lamp.file = read_lamp_keys(keys, cache);
     if (!lamp.file)
-        asked_by.refuse("a lamp without a file", "file, in the lamp or in its variant");
+        asked_by.refuse("a lamp without a file", "file, in the lamp or in its lamp set");
     for (const char* const key : {"aim", "level", "voltage_v", "reference_voltage_v", "photometric_distance_m", "source"})
         read_field(lamp_fields(), key, keys, &lamp);
-    lamp.colour = read_colour(keys, lamp.source, shelf, asked_by);
+    lamp.colour = read_colour(keys, lamp.source, cache, asked_by);
     return lamp;
 }
 
 /// A lamp is a map of keys, or just the name of its file. `behind` gives what it does not.
-MountedLamp read_mounted_lamp(const std::string& name, const YamlEntry& entry, const YamlMap* behind, const Car& car, LampShelf& shelf) {
+MountedLamp read_mounted_lamp(const std::string& name, const YamlEntry& entry, const YamlMap* behind, const Car& car, LampCache& cache) {
     if (!entry.is_scalar())
-        return build_lamp(name, entry.map(keys_of(lamp_fields())).before(behind), car, shelf, entry);
+        return build_lamp(name, entry.map(keys_of(lamp_fields())).before(behind), car, cache, entry);
     YamlValue with_file = entry.value();
     with_file.kind = YamlValue::Kind::map;
     with_file.members.push_back({"file", with_file.line, with_file.column, entry.value()});
-    return read_mounted_lamp(name, YamlEntry(with_file, entry.file(), entry.key_path()), behind, car, shelf);
+    return read_mounted_lamp(name, YamlEntry(with_file, entry.file(), entry.key_path()), behind, car, cache);
 }
 
-std::vector<MountedLamp> read_lamps(const YamlEntry& entry, const YamlMap* behind, const Car& car, LampShelf& shelf) {
+std::vector<MountedLamp> read_lamps(const YamlEntry& entry, const YamlMap* behind, const Car& car, LampCache& cache) {
     std::vector<MountedLamp> lamps;
-    for (const auto& [name, lamp] : entry.named(most_lamps))
-        lamps.push_back(read_mounted_lamp(name, lamp, behind, car, shelf));
+    for (const auto& [name, lamp] : entry.named(max_lamps))
+        lamps.push_back(read_mounted_lamp(name, lamp, behind, car, cache));
     return lamps;
 }
 
 /// The lamps that a change names: `lamp`, `lamps`, or all.
-std::vector<std::string> changed_lamps(const YamlMap& change, const Variant& variant) {
+std::vector<std::string> changed_lamps(const YamlMap& change, const LampSet& lamp_set) {
     const auto given = change.one_of({"lamp", "lamps"});
     if (!given)
-        return lamp_names(variant);
+        return lamp_names(lamp_set);
     std::vector<std::string> names;
-    for (const YamlEntry& entry : given->first == "lamp" ? std::vector{given->second} : given->second.list(1, most_lamps))
-        names.push_back(lamp_name(entry, variant));
+    for (const YamlEntry& entry : given->first == "lamp" ? std::vector{given->second} : given->second.list(1, max_lamps))
+        names.push_back(lamp_name(entry, lamp_set));
     return names;
 }
 
-void read_change(const YamlEntry& entry, Variant& variant, LampShelf& shelf) {
+void read_change(const YamlEntry& entry, LampSet& lamp_set, LampCache& cache) {
     const YamlMap keys = entry.map(keys_of(change_fields()));
     LampChange change;
     for (const char* const key : {"at_s", "level", "aim"})
         read_field(change_fields(), key, keys, &change);
-    change.file = read_lamp_keys(keys, shelf);
+    change.file = read_lamp_keys(keys, cache);
     for (const std::string_view key : {"between_samples", "type_c_axis", "texture", "mirrored"})
         if (const auto option = keys.find(key); option && !change.file)
             option->refuse("a way to read a file without a file", "file beside it");
     change.source = read_source(keys);
     if (change.source || gives_colour(keys))
-        change.colour = read_colour(keys, change.source.value_or(SourceKind::filament), shelf, entry);
+        change.colour = read_colour(keys, change.source.value_or(SourceKind::filament), cache, entry);
     if (!change.level && !change.pitch_rad && !change.yaw_rad && !change.roll_rad && !change.file && !change.colour)
         entry.refuse("a change that changes nothing", "level, aim, file, source or a colour");
-    for (const std::string& name : changed_lamps(keys, variant)) {
+    for (const std::string& name : changed_lamps(keys, lamp_set)) {
         change.lamp = name;
-        variant.changes.push_back(change);
+        lamp_set.changes.push_back(change);
     }
 }
 
-/// Changes of the drive hold for every variant; the variant's own come after them. By time; at one time in the order of the file.
-void read_changes(std::initializer_list<const YamlMap*> maps, Variant& variant, LampShelf& shelf) {
+/// Changes of the drive hold for every lamp set; the lamp set's own come after them. By time; at one time in the order of the file.
+void read_changes(std::initializer_list<const YamlMap*> maps, LampSet& lamp_set, LampCache& cache) {
     for (const YamlMap* const keys : maps)
         if (const auto given = keys ? keys->find("changes") : std::nullopt)
-            for (const YamlEntry& entry : given->list(0, most_lamp_changes))
-                read_change(entry, variant, shelf);
-    std::ranges::stable_sort(variant.changes, {}, &LampChange::time_s);
+            for (const YamlEntry& entry : given->list(0, max_lamp_changes))
+                read_change(entry, lamp_set, cache);
+    std::ranges::stable_sort(lamp_set.changes, {}, &LampChange::time_s);
 }
 
-Variant read_variant(const std::string& name, const YamlMap& keys, const Car& car, LampShelf& shelf) {
-    Variant variant;
-    variant.name = name;
+LampSet read_lamps_of_set(const std::string& name, const YamlMap& keys, const Car& car, LampCache& cache) {
+    LampSet lamp_set;
+    lamp_set.name = name;
     if (const auto lamps = keys.find("lamps"))
-        variant.lamps = read_lamps(*lamps, &keys, car, shelf);
+        lamp_set.lamps = read_lamps(*lamps, &keys, car, cache);
     else
         for (const LampMount& mount : car.mounts)
             if (mount.usual)
-                variant.lamps.push_back(build_lamp(mount.name, keys, car, shelf, keys.entry()));
-    return variant;
+                lamp_set.lamps.push_back(build_lamp(mount.name, keys, car, cache, keys.entry()));
+    return lamp_set;
 }
 
-/// Of the one lamp set of a drive without variants `keys` are nullptr.
-Variant whole_variant(Variant variant, const YamlMap& drive, const YamlMap* keys, LampShelf& shelf) {
-    read_changes({&drive, keys}, variant, shelf);
-    read_actuators(drive, keys, variant);
-    read_control(drive, keys, variant, shelf);
-    return variant;
+/// Of the one lamp set of a drive without lamp sets `keys` are nullptr.
+LampSet whole_lamp_set(LampSet lamp_set, const YamlMap& drive, const YamlMap* keys, LampCache& cache) {
+    read_changes({&drive, keys}, lamp_set, cache);
+    read_actuators(drive, keys, lamp_set);
+    read_control(drive, keys, lamp_set, cache);
+    return lamp_set;
 }
 
-bool has_actuators(const void* variant) {
-    return static_cast<const Variant*>(variant)->levelling || static_cast<const Variant*>(variant)->swivel;
+bool has_actuators(const void* lamp_set) {
+    return static_cast<const LampSet*>(lamp_set)->levelling || static_cast<const LampSet*>(lamp_set)->swivel;
 }
 
 } // namespace
@@ -149,7 +149,7 @@ void check_file(const std::filesystem::path& path, const YamlEntry& asked_by) {
         asked_by.refuse(name + " cannot be read: " + std::generic_category().message(errno), "a readable file");
 }
 
-std::shared_ptr<const LampFile> LampShelf::lamp(const std::filesystem::path& path, const LampReadOptions& options,
+std::shared_ptr<const LampFile> LampCache::lamp(const std::filesystem::path& path, const LampReadOptions& options,
                                                 const YamlEntry* asked_by) {
     for (const LampSource& source : sources_)
         if (source.path == path && source.options == options)
@@ -162,46 +162,46 @@ std::shared_ptr<const LampFile> LampShelf::lamp(const std::filesystem::path& pat
     return file;
 }
 
-LampColour LampShelf::spectrum(const std::filesystem::path& path, const YamlEntry& asked_by) {
+LampColour LampCache::spectrum(const std::filesystem::path& path, const YamlEntry& asked_by) {
     if (const auto known = spectra_.find(path); known != spectra_.end())
         return known->second;
     check_file(path, asked_by);
     return spectra_.emplace(path, read_spectrum(path, opened_)).first->second;
 }
 
-std::vector<std::string> lamp_names(const Variant& variant) {
+std::vector<std::string> lamp_names(const LampSet& lamp_set) {
     std::vector<std::string> names;
-    for (const MountedLamp& lamp : variant.lamps)
+    for (const MountedLamp& lamp : lamp_set.lamps)
         names.push_back(lamp.name);
     return names;
 }
 
-std::string lamp_name(const YamlEntry& entry, const Variant& variant) {
-    const std::vector<std::string> known = lamp_names(variant);
+std::string lamp_name(const YamlEntry& entry, const LampSet& lamp_set) {
+    const std::vector<std::string> known = lamp_names(lamp_set);
     const std::string name = entry.name();
     if (std::ranges::find(known, name) == known.end())
-        entry.refuse(fmt::format("no lamp '{}' in variant '{}'", name, variant.name), one_of_names(name, known));
+        entry.refuse(fmt::format("no lamp '{}' in lamp set '{}'", name, lamp_set.name), one_of_names(name, known));
     return name;
 }
 
-const Fields<Variant>& variant_fields() {
-    static const Fields<Variant> fields =
-        Fields<Variant>{
-            lamps_field<Variant>(1),
-            forms_of<Variant>(light_fields(), "keys of a lamp, for all lamps that do not give them"),
-            changes_field<Variant>(2),
+const Fields<LampSet>& lamp_set_fields() {
+    static const Fields<LampSet> fields =
+        Fields<LampSet>{
+            lamps_field<LampSet>(1),
+            forms_of<LampSet>(light_fields(), "keys of a lamp, for all lamps that do not give them"),
+            changes_field<LampSet>(2),
             section("actuators", 3, actuators_fields(), "swivel and levelling of all lamps").heard_if(has_actuators),
-            field("control", 4, &Variant::control, law_fields(), "laws that move and dim the lamps; none: the drive's do not hold")
+            field("control", 4, &LampSet::control, law_fields(), "laws that move and dim the lamps; none: the drive's do not hold")
                 .schema_by(control_schema),
         }
             .block();
     return fields;
 }
 
-Variant read_lamp_set(const std::string& name, const YamlMap& keys, const Car& car, LampShelf& shelf) {
-    Variant variant = read_variant(name, keys, car, shelf);
-    read_changes({&keys}, variant, shelf);
-    return variant;
+LampSet read_lamp_set(const std::string& name, const YamlMap& keys, const Car& car, LampCache& cache) {
+    LampSet lamp_set = read_lamps_of_set(name, keys, car, cache);
+    read_changes({&keys}, lamp_set, cache);
+    return lamp_set;
 }
 
 const Fields<Drive>& car_fields() {
@@ -210,10 +210,10 @@ const Fields<Drive>& car_fields() {
             field("bumper_x_m", 1, &Drive::bumper_m, range(-20.0, 20.0), "of the front bumper, from which reach is measured"),
             field("wheelbase_m", 2, &Drive::wheelbase_m, range(0.5, 20.0), "from the rear axle to the front axle"),
             inlined(3, &Drive::own_car, body_fields()),
-            form<Drive>("mounts", FieldKind::named, names(1, most_lamps), "places for lamps: x, y and z, or with a turn")
+            form<Drive>("mounts", FieldKind::named, names(1, max_lamps), "places for lamps: x, y and z, or with a turn")
                 .of(mount_fields())
                 .short_list_for("position_m"),
-            form<Drive>("lamps", FieldKind::named, names(1, most_lamps), "of a drive without variants").of(lamp_fields()).short_for("file"),
+            form<Drive>("lamps", FieldKind::named, names(1, max_lamps), "of a drive without lamp sets").of(lamp_fields()).short_for("file"),
         }
             .in_schema(needs_model);
     return fields;
@@ -247,7 +247,7 @@ Car read_car(const YamlMap& drive_keys, Drive& drive) {
     if (const auto mounts = keys.find("mounts")) {
         if (!drive.own_car)
             car.mounts.clear();
-        for (const auto& [name, place] : mounts->named(most_lamps)) {
+        for (const auto& [name, place] : mounts->named(max_lamps)) {
             std::erase_if(car.mounts, [&](const LampMount& mount) { return mount.name == name; });
             LampMount& mount = car.mounts.emplace_back(LampMount{name, {}, {}});
             if (place.is_list())
@@ -259,20 +259,20 @@ Car read_car(const YamlMap& drive_keys, Drive& drive) {
     return car;
 }
 
-std::vector<Variant> read_variants(const YamlMap& drive, const Car& car, LampShelf& shelf) {
-    const auto named = drive.find("variants");
+std::vector<LampSet> read_lamp_sets(const YamlMap& drive, const Car& car, LampCache& cache) {
+    const auto named = drive.find("lamp_sets");
     if (named && car.lamps)
-        car.lamps->refuse("lamps on the car beside variants", "one of them");
+        car.lamps->refuse("lamps on the car beside lamp sets", "one of them");
     if (car.lamps)
-        return {whole_variant({"lamps", read_lamps(*car.lamps, nullptr, car, shelf), {}}, drive, nullptr, shelf)};
+        return {whole_lamp_set({"lamps", read_lamps(*car.lamps, nullptr, car, cache), {}}, drive, nullptr, cache)};
     if (!named)
-        drive.refuse_missing("variants", "named lamp sets, or car.lamps for just one");
-    std::vector<Variant> variants;
-    for (const auto& [name, entry] : named->named(most_variants)) {
-        const YamlMap keys = entry.map(keys_of(variant_fields()));
-        variants.push_back(whole_variant(read_variant(name, keys, car, shelf), drive, &keys, shelf));
+        drive.refuse_missing("lamp_sets", "named lamp sets, or car.lamps for just one");
+    std::vector<LampSet> lamp_sets;
+    for (const auto& [name, entry] : named->named(max_lamp_sets)) {
+        const YamlMap keys = entry.map(keys_of(lamp_set_fields()));
+        lamp_sets.push_back(whole_lamp_set(read_lamps_of_set(name, keys, car, cache), drive, &keys, cache));
     }
-    return variants;
+    return lamp_sets;
 }
 
 } // namespace fernlicht

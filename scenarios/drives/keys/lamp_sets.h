@@ -1,4 +1,4 @@
-// The lamps of a drive file: mounts on the car, variants, changes over time.
+// The lamps of a drive file: mounts on the car, lamp sets, changes over time.
 #pragma once
 
 #include "scenarios/drives/drive.h"
@@ -9,10 +9,10 @@
 
 namespace fernlicht {
 
-inline constexpr std::size_t most_variants = 32, most_lamps = 64, most_lamp_changes = 10'000;
+inline constexpr std::size_t max_lamp_sets = 32, max_lamps = 64, max_lamp_changes = 10'000;
 
 /// Reads lamp and spectrum files for a drive, each once, and keeps what was opened.
-class LampShelf {
+class LampCache {
   public:
     /// `asked_by` is the place in the YAML that names a missing file.
     std::shared_ptr<const LampFile> lamp(const std::filesystem::path& path, const LampReadOptions& options,
@@ -33,22 +33,22 @@ void check_file(const std::filesystem::path& path, const YamlEntry& asked_by);
 
 struct Car {
     std::vector<LampMount> mounts;  ///< of its body where `mounts` does not name them
-    std::optional<YamlEntry> lamps; ///< `car.lamps`: the one lamp set of a drive without variants
+    std::optional<YamlEntry> lamps; ///< `car.lamps`: the one lamp set of a drive without lamp sets
 };
 
-std::vector<std::string> lamp_names(const Variant& variant);
-/// A name, which a lamp of the variant must have.
-std::string lamp_name(const YamlEntry& entry, const Variant& variant);
+std::vector<std::string> lamp_names(const LampSet& lamp_set);
+/// A name, which a lamp of the lamp set must have.
+std::string lamp_name(const YamlEntry& entry, const LampSet& lamp_set);
 
 /// `lamps`, or one lamp on each mount with the `file` of `keys`; then their `changes`, sorted by time.
-Variant read_lamp_set(const std::string& name, const YamlMap& keys, const Car& car, LampShelf& shelf);
+LampSet read_lamp_set(const std::string& name, const YamlMap& keys, const Car& car, LampCache& cache);
 
 template <class Struct> struct Fields;
 const Fields<Drive>& car_fields();
-const Fields<Variant>& variant_fields();
+const Fields<LampSet>& lamp_set_fields();
 /// Bumper, wheelbase and body become the drive's own.
 Car read_car(const YamlMap& drive_keys, Drive& drive);
-/// `variants`, or `car.lamps` as the one variant; then `changes`, of the drive first and of each variant after it, sorted by time.
-std::vector<Variant> read_variants(const YamlMap& drive, const Car& car, LampShelf& shelf);
+/// `lamp_sets`, or `car.lamps` as the one lamp set; then `changes`, of the drive first and of each lamp set after it, sorted by time.
+std::vector<LampSet> read_lamp_sets(const YamlMap& drive, const Car& car, LampCache& cache);
 
 } // namespace fernlicht

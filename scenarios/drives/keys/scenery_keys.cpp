@@ -9,7 +9,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_triangles = 8'000'000;
+constexpr std::size_t max_triangles = 8'000'000;
 constexpr double farthest_place_m = 1.0e7;
 
 void read_along(const YamlEntry& entry, PlacedModel& placed) {
@@ -81,7 +81,7 @@ const Fields<PlacedModel>& scenery_fields() {
 
 void read_scenery(const YamlEntry& given, Drive& drive) {
     std::size_t triangles = 0;
-    for (const YamlEntry& entry : given.list(0, most_models)) {
+    for (const YamlEntry& entry : given.list(0, max_models)) {
         const YamlMap keys = entry.map(keys_of(scenery_fields()));
         PlacedModel placed;
         placed.model = model_of(keys.require("model"), drive);
@@ -91,8 +91,8 @@ void read_scenery(const YamlEntry& given, Drive& drive) {
         placed.along_route = place->first == "along";
         read_group(scenery_fields(), keys, &placed);
         triangles += placed.model->triangles();
-        if (triangles > most_triangles)
-            entry.refuse(fmt::format("{} triangles of scenery so far", triangles), fmt::format("at most {}", most_triangles));
+        if (triangles > max_triangles)
+            entry.refuse(fmt::format("{} triangles of scenery so far", triangles), fmt::format("at most {}", max_triangles));
         drive.scenery.push_back(std::move(placed));
     }
 }

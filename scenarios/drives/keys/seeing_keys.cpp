@@ -23,7 +23,7 @@ FieldRule distances() { return numbers(0, 16, 0.0, farthest_seen_m); }
 const Fields<SensorParameters>& sensors_fields() {
     static const Fields<SensorParameters> fields =
         Fields<SensorParameters>{
-            field("limits_lx", 1, &SensorParameters::limits_lx, illuminances(), "from how far away the sensor has so much"),
+            field("thresholds_lx", 1, &SensorParameters::thresholds_lx, illuminances(), "from how far away the sensor has so much"),
             field("distances_m", 2, &SensorParameters::distances_m, distances(), "from the front bumper, where the illuminance is told"),
             named("points", 3, &SensorParameters::points, 100,
                   Fields<Sensor>{
@@ -86,9 +86,10 @@ const Fields<GlareParameters>& glare_fields() {
             field("adaptation_cdm2", 6, &GlareParameters::adaptation_cdm2, range(1.0e-4, 1.0e5),
                   "what the eye is adapted to, for threshold increment and de Boer's rating"),
             field("distances_m", 7, &GlareParameters::distances_m, distances(), "from the front bumper"),
-            field("limits_lx", 8, &GlareParameters::limits_lx, illuminances(), "times and metres above these, facing the lamps"),
-            field("limits_percent", 9, &GlareParameters::limits_percent, numbers(0, 16, 1.0e-6, 1.0e6), "above these threshold increments"),
-            field("limits_de_boer", 10, &GlareParameters::limits_de_boer, numbers(0, 16, 1.0, 9.0), "below these ratings"),
+            field("thresholds_lx", 8, &GlareParameters::thresholds_lx, illuminances(), "times and metres above these, facing the lamps"),
+            field("thresholds_percent", 9, &GlareParameters::thresholds_percent, numbers(0, 16, 1.0e-6, 1.0e6),
+                  "above these threshold increments"),
+            field("thresholds_de_boer", 10, &GlareParameters::thresholds_de_boer, numbers(0, 16, 1.0, 9.0), "below these ratings"),
         }
             .block()
             .checked(check_glare)
@@ -124,9 +125,9 @@ const Fields<VisibilityTarget>& target_fields() {
 }
 
 VisibilityTarget read_target(const std::string& name, const YamlEntry& entry) {
-    const auto usual = std::ranges::find(usual_targets(), name, &VisibilityTarget::name);
+    const auto usual = std::ranges::find(default_targets(), name, &VisibilityTarget::name);
     const YamlMap keys = entry.map(keys_of(target_fields()));
-    if (usual != usual_targets().end())
+    if (usual != default_targets().end())
         entry.refuse("a map", "true, or a name of its own: '" + name + "' is one of the usual targets");
     VisibilityTarget target;
     target.name = name;
@@ -137,21 +138,21 @@ VisibilityTarget read_target(const std::string& name, const YamlEntry& entry) {
 /// A list of usual targets, or a map: `true` behind a usual one's name, a map behind a name of the drive's own.
 void read_targets(const YamlEntry& entry, VisibilityParameters& visibility) {
     std::vector<std::string_view> names;
-    for (const VisibilityTarget& usual : usual_targets())
+    for (const VisibilityTarget& usual : default_targets())
         names.push_back(usual.name);
     std::vector<VisibilityTarget>& targets = visibility.targets;
     targets.clear();
     if (entry.is_list()) {
         for (const YamlEntry& usual : entry.list(1, names.size()))
-            targets.push_back(usual_targets()[usual.choice(std::span<const std::string_view>(names))]);
+            targets.push_back(default_targets()[usual.choice(std::span<const std::string_view>(names))]);
     } else
         for (const auto& [name, target] : entry.named(16)) {
             if (!target.is_scalar()) {
                 targets.push_back(read_target(name, target));
                 continue;
             }
-            const auto usual = std::ranges::find(usual_targets(), name, &VisibilityTarget::name);
-            if (usual == usual_targets().end())
+            const auto usual = std::ranges::find(default_targets(), name, &VisibilityTarget::name);
+            if (usual == default_targets().end())
                 target.refuse(fmt::format("a map with reflectance and level; true stands for {} alone", fmt::join(names, ", ")));
             if (target.flag())
                 targets.push_back(*usual);
@@ -165,7 +166,7 @@ void read_targets(const YamlEntry& entry, VisibilityParameters& visibility) {
 std::string targets_text(const VisibilityParameters& visibility) {
     std::string text = visibility.targets.empty() ? "{card: false}" : "";
     for (const VisibilityTarget& target : visibility.targets) {
-        const bool usual = std::ranges::find(usual_targets(), target) != usual_targets().end();
+        const bool usual = std::ranges::find(default_targets(), target) != default_targets().end();
         text += fmt::format("\n      \"{}\": {}", target.name, usual ? "true" : "{" + flow_text(target_fields(), &target) + "}");
     }
     return text;
@@ -223,7 +224,7 @@ std::string what_text(const PlaceParameters& places) {
 
 } // namespace
 
-const std::vector<VisibilityTarget>& usual_targets() {
+const std::vector<VisibilityTarget>& default_targets() {
     static const std::vector<Across> edges{Across::right_edge, Across::left_edge};
     static const std::vector<VisibilityTarget> targets{{"card", 0.2, 1, 0.2, 7.0, {Across::own_centre}},
                                                        {"pedestrian-dark", 0.25, 7, 0.05, 10.0, edges},
@@ -240,7 +241,7 @@ const Fields<SeeingParameters>& seeing_fields() {
                 .or_flag(),
             field("homogeneity", 4, &SeeingParameters::homogeneity,
                   Fields<HomogeneityParameters>{
-                      field("least_lx", 1, &HomogeneityParameters::least_lx, range(1.0e-6, 1.0e6), "darker ground does not count"),
+                      field("min_lx", 1, &HomogeneityParameters::min_lx, range(1.0e-6, 1.0e6), "darker ground does not count"),
                       field("ahead_m", 2, &HomogeneityParameters::ahead_m, range(10.0, 500.0), "how far is looked, from the front bumper"),
                       field("patch_factor", 3, &HomogeneityParameters::patch_factor, range(1.01, 1000.0), "what counts as a patch"),
                   },

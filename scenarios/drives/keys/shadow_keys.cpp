@@ -13,7 +13,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr int least_texels = 16, most_texels = 8192;
+constexpr int min_texels = 16, max_texels = 8192;
 
 std::vector<std::string_view> words_for_methods() {
     std::vector<std::string_view> names;
@@ -37,8 +37,8 @@ bool is_to_be_chosen(const void* shadows) { return method_of(shadows) == ShadowM
 
 void read_texels(const YamlEntry& entry, ShadowSettings& shadows) {
     const std::vector<YamlEntry> sides = entry.list(2, 2);
-    shadows.width = sides[0].whole(least_texels, most_texels);
-    shadows.height = sides[1].whole(least_texels, most_texels);
+    shadows.width = sides[0].whole(min_texels, max_texels);
+    shadows.height = sides[1].whole(min_texels, max_texels);
 }
 
 std::string texels_text(const ShadowSettings& shadows) { return fmt::format("[{}, {}]", shadows.width, shadows.height); }
@@ -71,8 +71,8 @@ const Fields<ShadowSettings>& shadow_fields() {
 void read_shadows(const YamlEntry& given, ShadowSettings& shadows) {
     if (given.is_scalar()) {
         if (given.value().text == "true" || given.value().text == "false") {
-            shadows.things_cast = given.flag();
-            shadows.method = shadows.things_cast ? ShadowMethod::map : ShadowMethod::none;
+            shadows.objects_cast = given.flag();
+            shadows.method = shadows.objects_cast ? ShadowMethod::map : ShadowMethod::none;
         } else
             shadows.method = static_cast<ShadowMethod>(given.choice(words_for_methods()));
         return;
@@ -92,7 +92,7 @@ std::vector<std::pair<std::string_view, std::string>> used_shadow_keys(const Sha
 
 std::string shadows_text(const ShadowSettings& shadows) {
     if (!shadows.any())
-        return shadows.things_cast ? "none" : "false";
+        return shadows.objects_cast ? "none" : "false";
     const std::string keys = flow_text(shadow_fields(), &shadows);
     const ShadowSettings usual;
     return keys == flow_text(shadow_fields(), &usual) ? "true" : "{" + keys + "}";

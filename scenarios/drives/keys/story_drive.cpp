@@ -73,7 +73,7 @@ std::string storyboard_drive_text(const fs::path& path, const DriveEdits& edits)
                        "name: {}\n"
                        "title: {}\n"
                        "storyboard: {{file: {}, ego: {}}}\n"
-                       "variants: {{halogen: {{source: filament, file: {}}}}}\n"
+                       "lamp_sets: {{halogen: {{source: filament, file: {}}}}}\n"
                        "traffic: {{others: {{entities: all, file: {}}}}}\n",
                        quoted_text(name_from(path)), quoted_text(story.description.empty() ? path.stem().string() : story.description),
                        quoted_text(fs::absolute(path).lexically_normal().string()),

@@ -12,11 +12,11 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_folders = 32, most_parameters = 1000;
+constexpr std::size_t max_folders = 32, max_parameters = 1000;
 constexpr double fastest_day = 86'400.0;
 
 void read_folders(const YamlEntry& entry, osc::StoryboardOptions& options) {
-    for (const YamlEntry& folder : entry.list(0, most_folders))
+    for (const YamlEntry& folder : entry.list(0, max_folders))
         options.road_folders.push_back(folder.path());
 }
 
@@ -28,7 +28,7 @@ std::string folders_text(const osc::StoryboardOptions& options) {
 }
 
 void read_parameters(const YamlEntry& entry, StoryboardSource& source) {
-    for (const auto& [name, value] : entry.named(most_parameters))
+    for (const auto& [name, value] : entry.named(max_parameters))
         source.options.parameters[name] = value.text();
 }
 
@@ -95,13 +95,13 @@ void read_storyboard_keys(const YamlMap& keys, const DriveEdits& edits, Drive& d
         source.options.road_folders.push_back(std::filesystem::absolute(folder).lexically_normal());
     source.options.lenient = source.options.lenient || edits.lenient;
     if (const auto duration = keys.find("duration_s"))
-        source.most_s = duration->number_above(0.0, 1.0e4);
+        source.max_s = duration->number_above(0.0, 1.0e4);
     const osc::Storyboard story = osc::read_storyboard(source.file, source.options);
     if (std::ranges::none_of(story.entities, [&](const osc::Entity& entity) { return entity.name == source.ego; }))
         given->refuse(fmt::format("no entity '{}' in the storyboard", printable(source.ego)),
                       fmt::format("ego: the name of the entity that is the own car, one of {}", names_of(story)));
     drive.road_file = story.road_file;
-    drive.duration_s = source.most_s;
+    drive.duration_s = source.max_s;
     drive.speed = {{0.0, 0.0}}; // until the story is told
     drive.notes.insert(drive.notes.end(), story.notes.begin(), story.notes.end());
     drive.opened.insert(drive.opened.end(), story.opened.begin(), story.opened.end());
@@ -112,8 +112,8 @@ void check_entities(const YamlMap& keys, const Drive& drive) {
     if (!rows)
         return;
     std::optional<osc::Storyboard> story;
-    for (const auto& [name, row] : rows->named(most_traffic_rows)) {
-        const auto entries = row.named(most_traffic_rows);
+    for (const auto& [name, row] : rows->named(max_traffic_rows)) {
+        const auto entries = row.named(max_traffic_rows);
         const auto given = std::ranges::find(entries, "entities", &std::pair<std::string, YamlEntry>::first);
         if (given == entries.end())
             continue;
@@ -123,11 +123,11 @@ void check_entities(const YamlMap& keys, const Drive& drive) {
             continue;
         if (!story)
             story = osc::read_storyboard(drive.storyboard->file, drive.storyboard->options);
-        for (const YamlEntry& entity : given->second.list(1, most_traffic_rows)) {
+        for (const YamlEntry& entity : given->second.list(1, max_traffic_rows)) {
             const std::string wanted = entity.text();
             if (wanted == drive.storyboard->ego)
                 entity.refuse(fmt::format("'{}', the own car", printable(wanted)),
-                              "another entity; the own car's lamps stand under variants");
+                              "another entity; the own car's lamps stand under lamp sets");
             if (std::ranges::find(story->entities, wanted, &osc::Entity::name) == story->entities.end())
                 entity.refuse(fmt::format("no entity '{}' in the storyboard", printable(wanted)),
                               fmt::format("one of {}", names_of(*story)));

@@ -13,7 +13,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr int most_users = 2000;
+constexpr int max_users = 2000;
 
 template <TrafficPlace place> bool is_at(const void* row) { return static_cast<const TrafficRow*>(row)->place == place; }
 bool is_on_road(const void* row) { return !is_at<TrafficPlace::storyboard>(row); }
@@ -48,7 +48,7 @@ void read_face(const YamlEntry& entry, TrafficRow& row) {
 
 std::string face_text(const TrafficRow& row) { return fmt::format("[{}, {}]", row.face_m.x, row.face_m.y); }
 
-TrafficRow usual_row() {
+TrafficRow default_row() {
     TrafficRow row;
     row.tail_cd = 6.0, row.brake_cd = 80.0;
     return row;
@@ -69,7 +69,7 @@ void read_place(const YamlMap& keys, TrafficRow& row) {
     if (given->first == "entities") {
         row.place = TrafficPlace::storyboard;
         if (given->second.is_list())
-            for (const YamlEntry& entity : given->second.list(1, most_traffic_rows))
+            for (const YamlEntry& entity : given->second.list(1, max_traffic_rows))
                 row.entities.push_back(entity.text());
         else if (given->second.text() != "all")
             given->second.refuse("all, or a list of entities' names");
@@ -81,8 +81,8 @@ void read_place(const YamlMap& keys, TrafficRow& row) {
 
 /// Lamps of cars stand on its front corners, those of what is narrow in the middle.
 Car front_of(const TrafficRow& row) {
-    const glm::dvec3 size = row.size_m.value_or(usual_size_m(row.kind));
-    const double x = row.rear_m.value_or(usual_rear_m(row.kind) * size.x / usual_size_m(row.kind).x) + size.x +
+    const glm::dvec3 size = row.size_m.value_or(default_size_m(row.kind));
+    const double x = row.rear_m.value_or(default_rear_m(row.kind) * size.x / default_size_m(row.kind).x) + size.x +
                      0.02; // the face, before the body, which else would hide it from rays
     const double z = std::min(row.kind == RoadUserKind::truck || row.kind == RoadUserKind::bus ? 0.9 : 0.65, 0.6 * size.z);
     Car car;
@@ -96,10 +96,10 @@ Car front_of(const TrafficRow& row) {
     return car;
 }
 
-TrafficRow read_row(const std::string& name, const YamlEntry& entry, LampShelf& shelf) {
+TrafficRow read_row(const std::string& name, const YamlEntry& entry, LampCache& cache) {
     const Fields<TrafficRow>& fields = traffic_fields();
     const YamlMap keys = entry.map(keys_of(fields));
-    TrafficRow row = usual_row();
+    TrafficRow row = default_row();
     row.name = name;
     read_field(fields, "kind", keys, &row);
     read_field(fields, "size_m", keys, &row);
@@ -117,7 +117,7 @@ TrafficRow read_row(const std::string& name, const YamlEntry& entry, LampShelf& 
     if (row.place != TrafficPlace::storyboard)
         row.speed = read_speed(keys);
     if (keys.find("lamps") || keys.find("file")) {
-        Variant lamps = read_lamp_set(name, keys, front_of(row), shelf);
+        LampSet lamps = read_lamp_set(name, keys, front_of(row), cache);
         row.lamps = std::move(lamps.lamps);
         row.changes = std::move(lamps.changes);
     }
@@ -144,7 +144,7 @@ const Fields<TrafficRow>& traffic_fields() {
                 {"type": "array", "minItems": 1, "items": {"type": "string", "minLength": 1}}]})",
                      "of the storyboard: all, or those named, are lit as this row says")
                 .heard_if(is_at<TrafficPlace::storyboard>),
-            list("speed", 10, &Row::speed, 1, most_speed_points, speed_point_fields(), "linear between points, constant before and after")
+            list("speed", 10, &Row::speed, 1, max_speed_points, speed_point_fields(), "linear between points, constant before and after")
                 .heard_if(is_on_road),
             form<Row>("speed_kmh", FieldKind::number, range(0.0, 540.0), "for all of the drive"),
             form<Row>("speed_mps", FieldKind::number, range(0.0, 150.0), "for all of the drive"),
@@ -158,27 +158,27 @@ const Fields<TrafficRow>& traffic_fields() {
             field("brake_cd", 15, &Row::brake_cd, range(0.0, 1.0e4), "of each brake lamp on its axis; 0: none"),
             section("repeat", 16,
                     Fields<TrafficRow>{
-                        field("count", 1, &TrafficRow::count, range(1.0, most_users), "of them").required(),
+                        field("count", 1, &TrafficRow::count, range(1.0, max_users), "of them").required(),
                         field("every_m", 2, &TrafficRow::every_m, range(1.0, 1.0e4), "from one to the next"),
                     },
                     "a row of them, one behind the other")
                 .heard_if(is_on_road),
         }
             .block()
-            .at_defaults(usual_row())
+            .at_defaults(default_row())
             .in_schema(place_and_speed_schema());
     return fields;
 }
 
-void read_traffic(const YamlMap& keys, LampShelf& shelf, Drive& drive) {
+void read_traffic(const YamlMap& keys, LampCache& cache, Drive& drive) {
     read_field(drive_fields(), "traffic_light", keys, &drive);
     int users = 0;
     if (const auto rows = keys.find("traffic"))
-        for (const auto& [name, entry] : rows->named(most_traffic_rows)) {
-            drive.traffic_rows.push_back(read_row(name, entry, shelf));
+        for (const auto& [name, entry] : rows->named(max_traffic_rows)) {
+            drive.traffic_rows.push_back(read_row(name, entry, cache));
             users += drive.traffic_rows.back().count;
-            if (users > most_users)
-                entry.refuse(fmt::format("{} road users", users), fmt::format("at most {}", most_users));
+            if (users > max_users)
+                entry.refuse(fmt::format("{} road users", users), fmt::format("at most {}", max_users));
         }
 }
 

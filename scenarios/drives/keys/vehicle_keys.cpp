@@ -9,7 +9,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_road_steps = 10'000;
+constexpr std::size_t max_road_steps = 10'000;
 
 const Fields<AxleParameters>& axle_fields() {
     static const Fields<AxleParameters> fields{
@@ -51,7 +51,7 @@ void check_vehicle(const YamlMap& keys, const VehicleParameters& car) {
     for (std::size_t i = 1; i < car.road_steps.size(); ++i)
         if (car.road_steps[i].at_m <= car.road_steps[i - 1].at_m)
             keys.require("road_steps")
-                .list(0, most_road_steps)[i]
+                .list(0, max_road_steps)[i]
                 .refuse(fmt::format("at_m {} after {}", car.road_steps[i].at_m, car.road_steps[i - 1].at_m), "places that ascend");
     const double unsprung_kg = car.front.unsprung_mass_kg + car.rear.unsprung_mass_kg;
     if (unsprung_kg > 0.5 * car.mass_kg)
@@ -61,8 +61,8 @@ void check_vehicle(const YamlMap& keys, const VehicleParameters& car) {
 }
 
 void check_actuator(const YamlMap& keys, const ActuatorParameters& actuator) {
-    if (!(actuator.least_rad <= 0.0 && actuator.greatest_rad >= 0.0 && actuator.least_rad < actuator.greatest_rad))
-        keys.entry().refuse(fmt::format("limits of {:.4g} and {:.4g} degrees", degrees(actuator.least_rad), degrees(actuator.greatest_rad)),
+    if (!(actuator.min_rad <= 0.0 && actuator.max_rad >= 0.0 && actuator.min_rad < actuator.max_rad))
+        keys.entry().refuse(fmt::format("limits of {:.4g} and {:.4g} degrees", degrees(actuator.min_rad), degrees(actuator.max_rad)),
                             "least below greatest, and 0 not outside them");
 }
 
@@ -76,8 +76,8 @@ const Fields<ActuatorParameters>& actuator_fields() {
             field("damping", 2, &Actuator::damping, range(0.0, 1.0e6), "1: aperiodic"),
             field("rate_limit", 3, &Actuator::rate_limit_rad_s, angular_speed("rate_limit", 1.0e-4, 1.0e7, 1.0e-6, 1.0e6),
                   "how fast it turns"),
-            field("least", 4, &Actuator::least_rad, degrees_within("least", 90.0), "how far down or right"),
-            field("greatest", 5, &Actuator::greatest_rad, degrees_within("greatest", 90.0), "how far up or left"),
+            field("least", 4, &Actuator::min_rad, degrees_within("least", 90.0), "how far down or right"),
+            field("greatest", 5, &Actuator::max_rad, degrees_within("greatest", 90.0), "how far up or left"),
             field("control_period_s", 6, &Actuator::control_period_s, range(1.0e-4, 100.0), "between two commands"),
             field("dead_time_s", 7, &Actuator::dead_time_s, range(0.0, 10.0), "until a command takes effect"),
         }
@@ -113,13 +113,13 @@ std::optional<LevellingParameters> read_levelling(const YamlEntry& given, bool o
     return word ? asked(*word) : levelling;
 }
 
-const Fields<Variant>& actuators_fields() {
-    static const Fields<Variant> fields =
-        Fields<Variant>{
-            field("levelling", 1, &Variant::levelling, levelling_fields(), "against the body's pitch")
-                .read_by([](const YamlEntry& entry, Variant& variant) { variant.levelling = read_levelling(entry); })
+const Fields<LampSet>& actuators_fields() {
+    static const Fields<LampSet> fields =
+        Fields<LampSet>{
+            field("levelling", 1, &LampSet::levelling, levelling_fields(), "against the body's pitch")
+                .read_by([](const YamlEntry& entry, LampSet& lamp_set) { lamp_set.levelling = read_levelling(entry); })
                 .short_for("control"),
-            field("swivel", 2, &Variant::swivel,
+            field("swivel", 2, &LampSet::swivel,
                   Fields<SwivelParameters>{
                       field("preview_s", 1, &SwivelParameters::preview_s, range(0.0, 10.0), "to where the bend leads in this time"),
                       inlined(2, &SwivelParameters::actuator, actuator_fields()),
@@ -153,7 +153,7 @@ const Fields<VehicleParameters>& vehicle_fields() {
             field("anti_pitch", 13, &Car::anti_pitch, range(0.0, 1.0), "part of the pitching moment that the suspension's links take"),
             field("drag_area_m2", 14, &Car::drag_area_m2, range(0.0, 50.0), "cw times A"),
             field("rolling_resistance", 15, &Car::rolling_resistance, range(0.0, 0.5), "part of the weight"),
-            list("road_steps", 16, &Car::road_steps, 0, most_road_steps,
+            list("road_steps", 16, &Car::road_steps, 0, max_road_steps,
                  Fields<RoadStep>{
                      field("at_m", 1, &RoadStep::at_m, range(0.0, 1.0e6), "along the route").required(),
                      field("height_m", 2, &RoadStep::height_m, range(-0.2, 0.2), "the road goes on higher by this").required(),
@@ -167,7 +167,7 @@ const Fields<VehicleParameters>& vehicle_fields() {
     return fields;
 }
 
-void read_actuators(const YamlMap& drive, const YamlMap* keys, Variant& variant) {
+void read_actuators(const YamlMap& drive, const YamlMap* keys, LampSet& lamp_set) {
     auto given = keys ? keys->find("actuators") : std::nullopt;
     if (!given)
         given = drive.find("actuators");
@@ -175,7 +175,7 @@ void read_actuators(const YamlMap& drive, const YamlMap* keys, Variant& variant)
         return;
     if (!drive.find("vehicle"))
         given->refuse("actuators in a drive without a vehicle", "vehicle: single-track, whose pitch and steering they follow");
-    read_group(actuators_fields(), *given, &variant);
+    read_group(actuators_fields(), *given, &lamp_set);
 }
 
 } // namespace fernlicht

@@ -12,8 +12,8 @@
 namespace fernlicht {
 namespace {
 
-constexpr double map_px_per_m = 4.0, least_fov_deg = 0.01, most_fov_deg = 179.0;
-constexpr std::size_t most_set_bytes = std::size_t{1} << 20;
+constexpr double map_px_per_m = 4.0, min_fov_deg = 0.01, max_fov_deg = 179.0;
+constexpr std::size_t max_set_bytes = std::size_t{1} << 20;
 
 View driver_view() {
     View view;
@@ -44,7 +44,7 @@ View map_view() {
 }
 
 /// Camera and map at their defaults.
-View usual_view() {
+View default_view() {
     View view = driver_view();
     const View map = map_view();
     view.map_ahead_m = map.map_ahead_m, view.map_behind_m = map.map_behind_m;
@@ -81,9 +81,9 @@ void read_resolution(const YamlEntry& entry, View& view) {
 std::string resolution_text(const View& view) { return fmt::format("[{}, {}]", view.width_px, view.height_px); }
 
 FieldRule field_of_view() {
-    FieldRule rule = degrees_within("vertical_fov", most_fov_deg);
-    rule.units[0].least = least_fov_deg;
-    rule.units[1].least = radians(least_fov_deg);
+    FieldRule rule = degrees_within("vertical_fov", max_fov_deg);
+    rule.units[0].least = min_fov_deg;
+    rule.units[1].least = radians(min_fov_deg);
     return rule;
 }
 
@@ -107,11 +107,11 @@ View read_view(const std::string& name, const YamlEntry& entry) {
 std::vector<View> read_view_set(const YamlEntry& set, FilesRead& opened) {
     const std::filesystem::path path = set.path();
     check_file(path, set);
-    const YamlValue document = parse_yaml(to_utf8(read_file(path, opened, most_set_bytes)), path);
+    const YamlValue document = parse_yaml(to_utf8(read_file(path, opened, max_set_bytes)), path);
     const YamlMap keys(YamlEntry(document, path, ""), {"fernlicht_views", "views"});
     keys.require("fernlicht_views").whole(1, 1);
     std::vector<View> views;
-    for (const auto& [name, entry] : keys.require("views").named(most_views))
+    for (const auto& [name, entry] : keys.require("views").named(max_views))
         views.push_back(read_view(name, entry));
     return views;
 }
@@ -139,7 +139,7 @@ const Fields<View>& view_fields() {
                 "width, height; of a map 4 a metre by default"),
         }
             .block()
-            .at_defaults(usual_view());
+            .at_defaults(default_view());
     return fields;
 }
 
@@ -151,15 +151,15 @@ std::vector<View> read_views(const YamlMap& drive, FilesRead& opened) {
     if (set)
         views = read_view_set(*set, opened);
     if (given)
-        for (const auto& [name, entry] : given->named(most_views)) {
+        for (const auto& [name, entry] : given->named(max_views)) {
             View view = read_view(name, entry);
             const auto known = std::ranges::find(views, view.name, &View::name);
             known == views.end() ? views.push_back(std::move(view)) : void(*known = std::move(view));
         }
     if (set && std::ranges::find(views, Projection::map, &View::projection) == views.end())
         views.push_back(map_view());
-    if (views.size() > most_views)
-        set->refuse(fmt::format("{} views", views.size()), fmt::format("at most {}", most_views));
+    if (views.size() > max_views)
+        set->refuse(fmt::format("{} views", views.size()), fmt::format("at most {}", max_views));
     return views;
 }
 

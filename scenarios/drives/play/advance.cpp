@@ -1,7 +1,7 @@
 #include "scenarios/drives/play/advance.h"
 
 #include "scenarios/drives/play/bus_play.h"
-#include "scenarios/drives/play/told_story.h"
+#include "scenarios/drives/play/storyboard_timeline.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace fernlicht {
 
 State state_at(int tick, const Drive& drive) {
     const double time_s = tick * drive.step_s;
-    return {tick, time_s, way_m(drive, time_s), own_speed_mps(drive, time_s)};
+    return {tick, time_s, route_distance_m(drive, time_s), own_speed_mps(drive, time_s)};
 }
 
 State start(const Drive& drive) { return state_at(0, drive); }
@@ -41,9 +41,9 @@ double distance_m(const std::vector<SpeedPoint>& profile, double time_s) {
     return distance;
 }
 
-double way_m(const Drive& drive, double time_s) {
+double route_distance_m(const Drive& drive, double time_s) {
     const auto place = track_place(drive, time_s);
-    return place ? place->distance_m : drive.bus_motion ? drive.bus_motion->way_m(time_s) : distance_m(drive.speed, time_s);
+    return place ? place->distance_m : drive.bus_motion ? drive.bus_motion->route_distance_m(time_s) : distance_m(drive.speed, time_s);
 }
 
 double own_speed_mps(const Drive& drive, double time_s) {

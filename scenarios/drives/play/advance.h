@@ -28,9 +28,9 @@ int tick_count(const Drive& drive);
 double speed_mps(const std::vector<SpeedPoint>& profile, double time_s);
 double distance_m(const std::vector<SpeedPoint>& profile, double time_s);
 
-/// Distance along the route at `time_s`: of the own car's track where it has one that was laid on the route (told_story.h), else the
-/// integral of its speed.
-double way_m(const Drive& drive, double time_s);
+/// Distance along the route at `time_s`: of the own car's track where it has one that was laid on the route (storyboard_timeline.h), else
+/// the integral of its speed.
+double route_distance_m(const Drive& drive, double time_s);
 
 /// What the drive wants of the own car at `time_s`: its own profile, or what a bus says.
 double own_speed_mps(const Drive& drive, double time_s);
@@ -44,8 +44,8 @@ void fit_to_route(Drive& drive, const Route& route);
 /// `offset_left_m`: the rear axle's from the lane's centre.
 Pose ego_pose(const Route& route, double distance_m, double wheelbase_m, double offset_left_m = 0.0);
 
-/// Everything that the renderer and the metrics need at one state, with the variant's changes up to then applied. With a vehicle, place and
-/// speed are those of the variant's motion: simulate() comes first, else std::logic_error.
-Moment moment_at(const State& state, const Drive& drive, const Route& route, const Variant& variant);
+/// Everything that the renderer and the metrics need at one state, with the lamp set's changes up to then applied. With a vehicle, place
+/// and speed are those of the lamp set's motion: simulate() comes first, else std::logic_error.
+Moment moment_at(const State& state, const Drive& drive, const Route& route, const LampSet& lamp_set);
 
 } // namespace fernlicht

@@ -28,10 +28,10 @@ std::shared_ptr<BusMotion> live_motion(Drive& drive, const BusMover& mover) {
 
 } // namespace
 
-BusDrive::BusDrive(Drive& drive, const Route& route, std::size_t variant)
-    : drive_(drive), route_(route), variant_(variant), play_(live_play(drive)), bus_(*drive.can, play_.databases), mover_(drive),
-      motion_(live_motion(drive, mover_)), world_(drive, route, drive.vehicle ? drive.variants.at(variant).motion->car.get() : nullptr),
-      control_(drive, drive.variants.at(variant), world_, play_.databases) {}
+BusDrive::BusDrive(Drive& drive, const Route& route, std::size_t lamp_set)
+    : drive_(drive), route_(route), lamp_set_(lamp_set), play_(live_play(drive)), bus_(*drive.can, play_.databases), mover_(drive),
+      motion_(live_motion(drive, mover_)), world_(drive, route, drive.vehicle ? drive.lamp_sets.at(lamp_set).motion->car.get() : nullptr),
+      control_(drive, drive.lamp_sets.at(lamp_set), world_, play_.databases) {}
 
 void BusDrive::take(const CanFrame& frame) {
     ++play_.frames;
@@ -82,8 +82,8 @@ int BusDrive::moments() const {
 
 Moment BusDrive::moment(int tick) {
     if (finished_)
-        return moment_at(state_at(tick, drive_), drive_, route_, drive_.variants[variant_]);
-    Variant now = drive_.variants[variant_];
+        return moment_at(state_at(tick, drive_), drive_, route_, drive_.lamp_sets[lamp_set_]);
+    LampSet now = drive_.lamp_sets[lamp_set_];
     now.motion = std::make_shared<const Motion>(control_.at(tick * drive_.step_s));
     return moment_at(state_at(tick, drive_), drive_, route_, now);
 }
@@ -92,11 +92,11 @@ void BusDrive::finish() {
     if (finished_)
         return;
     drive_.duration_s = std::min(drive_.duration_s, std::max(control_.next_s(), drive_.step_s));
-    play_.read = bus_.taken();
+    play_.read = bus_.frames_used();
     play_.records = bus_.records();
     const std::vector<std::string> notes = mover_.notes();
     drive_.notes.insert(drive_.notes.end(), notes.begin(), notes.end());
-    drive_.variants[variant_].motion = std::make_shared<const Motion>(control_.finish());
+    drive_.lamp_sets[lamp_set_].motion = std::make_shared<const Motion>(control_.finish());
     drive_.bus = std::make_shared<const BusPlay>(play_);
     finished_ = done_ = true;
 }

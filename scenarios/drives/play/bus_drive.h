@@ -11,8 +11,8 @@ namespace fernlicht {
 class BusDrive {
   public:
     /// `drive`: staged with `live` set (staged_scene.h), its `can` not to be changed any more; drive and route must outlive it and stay
-    /// where they are. `variant`: which is driven. Throws InputError for what the mapping, its databases or the control lack.
-    BusDrive(Drive& drive, const Route& route, std::size_t variant = 0);
+    /// where they are. `lamp_set`: which is driven. Throws InputError for what the mapping, its databases or the control lack.
+    BusDrive(Drive& drive, const Route& route, std::size_t lamp_set = 0);
     BusDrive(const BusDrive&) = delete;
     BusDrive& operator=(const BusDrive&) = delete;
 
@@ -41,7 +41,7 @@ class BusDrive {
     Moment moment(int tick);
 
     /// After the last step, also of a drive that was ended before its time: `drive` then holds what a recording would have made of it (bus,
-    /// bus_motion, duration, the variant's motion), so that it can be measured and reported on as any other.
+    /// bus_motion, duration, the lamp set's motion), so that it can be measured and reported on as any other.
     void finish();
 
   private:
@@ -49,7 +49,7 @@ class BusDrive {
 
     Drive& drive_;
     const Route& route_;
-    std::size_t variant_;
+    std::size_t lamp_set_;
     BusPlay play_;
     BusSignals bus_;
     BusMover mover_;

@@ -16,16 +16,16 @@ std::size_t BusMotion::point_at(double time_s) const {
     return next == points_.begin() ? 0 : static_cast<std::size_t>(next - points_.begin()) - 1;
 }
 
-void BusMotion::add(double time_s, double speed_mps, std::optional<double> way_m) {
-    if (way_m) {
+void BusMotion::add(double time_s, double speed_mps, std::optional<double> route_distance_m) {
+    if (route_distance_m) {
         way_told_ = true;
-        points_.push_back({time_s, speed_mps, *way_m});
+        points_.push_back({time_s, speed_mps, *route_distance_m});
         return;
     }
     const std::size_t n = points_.size();
     if (n >= 2 && points_[n - 1].speed_mps == speed_mps && points_[n - 2].speed_mps == speed_mps)
         points_.pop_back();
-    const double before_m = points_.empty() ? 0.0 : points_.back().way_m;
+    const double before_m = points_.empty() ? 0.0 : points_.back().route_distance_m;
     const double ridden_m = points_.empty() ? 0.0 : (time_s - points_.back().time_s) * 0.5 * (points_.back().speed_mps + speed_mps);
     points_.push_back({time_s, speed_mps, before_m + ridden_m});
 }
@@ -39,15 +39,15 @@ double BusMotion::speed_mps(double time_s) const {
     return std::lerp(before.speed_mps, next.speed_mps, (time_s - before.time_s) / (next.time_s - before.time_s));
 }
 
-double BusMotion::way_m(double time_s) const {
+double BusMotion::route_distance_m(double time_s) const {
     const std::size_t at = point_at(time_s);
     const Point& before = points_[at];
     if (!way_told_)
-        return before.way_m + (time_s - before.time_s) * 0.5 * (before.speed_mps + speed_mps(time_s));
+        return before.route_distance_m + (time_s - before.time_s) * 0.5 * (before.speed_mps + speed_mps(time_s));
     if (at + 1 == points_.size())
-        return before.way_m;
+        return before.route_distance_m;
     const Point& next = points_[at + 1];
-    return std::lerp(before.way_m, next.way_m, (time_s - before.time_s) / (next.time_s - before.time_s));
+    return std::lerp(before.route_distance_m, next.route_distance_m, (time_s - before.time_s) / (next.time_s - before.time_s));
 }
 
 std::vector<SpeedPoint> BusMotion::profile() const {
@@ -63,16 +63,16 @@ constexpr double shortest_gap_s = 0.1; ///< a recording that ends so much before
 
 /// "can0 (12 frames), can1 (3 frames)"
 std::string channels_text(const std::vector<CanFrame>& frames) {
-    constexpr std::size_t most_named = 8;
+    constexpr std::size_t max_named = 8;
     std::map<std::string, std::size_t> counts;
     for (const CanFrame& frame : frames)
         ++counts[frame.channel];
     std::string text;
     std::size_t named = 0;
     for (const auto& [channel, count] : counts)
-        if (named++ < most_named)
+        if (named++ < max_named)
             text += fmt::format("{}{} ({} frame{})", text.empty() ? "" : ", ", printable(channel), count, count == 1 ? "" : "s");
-    return counts.size() > most_named ? fmt::format("{} and {} more", text, counts.size() - most_named) : text;
+    return counts.size() > max_named ? fmt::format("{} and {} more", text, counts.size() - max_named) : text;
 }
 
 /// A recording of another car, or of another bus, would leave every signal to its policy.
@@ -86,16 +86,16 @@ void refuse_foreign(const BusMapping& mapping, const std::filesystem::path& log,
     FilesRead read_twice;
     BusSignals signals(mapping, read_bus_databases(mapping, read_twice));
     for (const CanFrame& frame : frames) {
-        const std::uint64_t before = signals.taken();
+        const std::uint64_t before = signals.frames_used();
         signals.take(frame);
-        if (signals.taken() > before &&
+        if (signals.frames_used() > before &&
             std::ranges::any_of(signals.records(), [](const BusRecordOfInput& record) { return record.frames > 0; }))
             return;
     }
     throw InputError({log, 0, 0, {}},
-                     signals.taken() == 0
+                     signals.frames_used() == 0
                          ? fmt::format("found no frame with an identifier that can.inputs read, but {}", channels_text(frames))
-                         : fmt::format("found {} frames that can.inputs read, all too short for their signals", signals.taken()),
+                         : fmt::format("found {} frames that can.inputs read, all too short for their signals", signals.frames_used()),
                      "a recording of the bus that the drive's databases describe");
 }
 
@@ -117,7 +117,7 @@ std::vector<CanFrame> frames_of(Drive& drive, BusPlay& play) {
 void end_with_route(Drive& drive, const Route& route, int& tick, double until_s) {
     const double room_m = route.length_m() - drive.bumper_m;
     for (; tick * drive.step_s <= until_s && tick < tick_count(drive); ++tick) {
-        if (way_m(drive, tick * drive.step_s) <= room_m)
+        if (route_distance_m(drive, tick * drive.step_s) <= room_m)
             continue;
         drive.notes.push_back(fmt::format("can: the car comes to the end of the route, {:.1f} m: the drive ends after {:.3g} s instead of "
                                           "{:.3g} s",
@@ -179,14 +179,14 @@ const std::vector<BusValue>& BusPlay::at(double time_s) const {
 double bus_period_s(const Drive& drive) {
     double period_s = ControlParameters{}.period_s;
     bool known = false;
-    for (const Variant& variant : drive.variants) {
-        if (!variant.control)
+    for (const LampSet& lamp_set : drive.lamp_sets) {
+        if (!lamp_set.control)
             continue;
-        if (known && variant.control->period_s != period_s)
+        if (known && lamp_set.control->period_s != period_s)
             throw InputError({drive.file, 0, 0, "control.period_s"},
-                             fmt::format("found {:g} s and {:g} s", period_s, variant.control->period_s),
-                             "the same for all variants of a drive with `can`");
-        period_s = variant.control->period_s;
+                             fmt::format("found {:g} s and {:g} s", period_s, lamp_set.control->period_s),
+                             "the same for all lamp sets of a drive with `can`");
+        period_s = lamp_set.control->period_s;
         known = true;
     }
     return period_s;
@@ -230,9 +230,9 @@ void BusMover::add(double time_s, const std::vector<BusValue>& values, BusMotion
         motion.add(time_s, mps);
         return;
     }
-    const double way_m = values[*way_].value;
-    if (!std::isnan(way_m))
-        last_m_ = std::max(way_m, 0.0);
+    const double route_distance_m = values[*way_].value;
+    if (!std::isnan(route_distance_m))
+        last_m_ = std::max(route_distance_m, 0.0);
     else // goes on with its speed
         last_m_ = last_m_ ? *last_m_ + mps * bus_period_s(drive_) : distance_m(drive_.speed, time_s);
     motion.add(time_s, mps, *last_m_);
@@ -316,7 +316,7 @@ void simulate_bus(Drive& drive, const Route& route) {
         mover.add(static_cast<double>(tick) * play.period_s, play.ticks.back(), motion);
     }
     play.frames = next;
-    play.read = signals.taken();
+    play.read = signals.frames_used();
     play.records = signals.records();
     if (mover.moves()) {
         drive.bus_motion = std::make_shared<const BusMotion>(std::move(motion));

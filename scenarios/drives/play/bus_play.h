@@ -13,16 +13,16 @@ namespace fernlicht {
 class BusMotion {
   public:
     /// In order of time, the first at 0 s. `way_m`: always or never.
-    void add(double time_s, double speed_mps, std::optional<double> way_m = std::nullopt);
+    void add(double time_s, double speed_mps, std::optional<double> route_distance_m = std::nullopt);
 
     /// Constant behind the last point.
     double speed_mps(double time_s) const;
-    double way_m(double time_s) const;
+    double route_distance_m(double time_s) const;
     std::vector<SpeedPoint> profile() const;
 
   private:
     struct Point {
-        double time_s = 0.0, speed_mps = 0.0, way_m = 0.0;
+        double time_s = 0.0, speed_mps = 0.0, route_distance_m = 0.0;
     };
     std::size_t point_at(double time_s) const;
 
@@ -48,7 +48,7 @@ struct BusPlay {
 /// frames or without stamps, without a frame of the mapping's channel, and for one no frame of which gives an input a value.
 std::vector<CanFrame> read_bus_recording(Drive& drive, const std::filesystem::path& log, std::int64_t& start_ns);
 
-/// The control period of a drive with a bus: all its variants have the same. Throws InputError where they have not.
+/// The control period of a drive with a bus: all its lamp sets have the same. Throws InputError where they have not.
 double bus_period_s(const Drive& drive);
 
 /// Time of a control tick as frames are stamped.
@@ -75,7 +75,7 @@ class BusMover {
 /// The drive ends before the moment at which the bumper is beyond the route; looks at moments from `tick` on until then, and moves it on.
 void end_with_route(Drive& drive, const Route& route, int& tick, double until_s);
 
-/// Inputs by their places in the signal table of a variant's lamps.
+/// Inputs by their places in the signal table of a lamp set's lamps.
 class BusWriter {
   public:
     /// Throws InputError with the mapping's place for a lamp that is not there.

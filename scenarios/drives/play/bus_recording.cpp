@@ -14,13 +14,13 @@ namespace fernlicht {
 namespace {
 
 /// The first lamp that is not named itself stands for all where a mapping says so.
-std::string one_signal(const std::string& name, const Variant& variant, const BusMapping& mapping) {
-    if (name.find('*') == std::string::npos || variant.lamps.empty())
+std::string one_signal(const std::string& name, const LampSet& lamp_set, const BusMapping& mapping) {
+    if (name.find('*') == std::string::npos || lamp_set.lamps.empty())
         return name;
-    for (const MountedLamp& lamp : variant.lamps)
+    for (const MountedLamp& lamp : lamp_set.lamps)
         if (std::ranges::find(mapping.inputs, of_lamp(name, lamp.name), &BusInput::name) == mapping.inputs.end())
             return of_lamp(name, lamp.name);
-    return of_lamp(name, variant.lamps.front().name);
+    return of_lamp(name, lamp_set.lamps.front().name);
 }
 
 /// physical = (value - offset) / factor.
@@ -46,20 +46,20 @@ BusOutput turned_round(const BusInput& input, const BusSource& source, const std
 
 } // namespace
 
-std::vector<CanFrame> recorded_inputs(const Drive& drive, const Route& route, const Variant& variant, FilesRead& opened,
+std::vector<CanFrame> recorded_inputs(const Drive& drive, const Route& route, const LampSet& lamp_set, FilesRead& opened,
                                       std::vector<std::string>& notes) {
     if (!drive.can || drive.can->inputs.empty())
         throw InputError({drive.file, 0, 0, "can.inputs"}, "found a drive without signals from a bus", "some to be recorded");
     const std::vector<CanDatabase> databases = read_bus_databases(*drive.can, opened);
-    const ControlWorld world(drive, route, variant.motion ? variant.motion->car.get() : nullptr);
-    ControlPlay play(drive, variant, world);
+    const ControlWorld world(drive, route, lamp_set.motion ? lamp_set.motion->car.get() : nullptr);
+    ControlPlay play(drive, lamp_set, world);
     BusMapping mapping;
     mapping.channel = drive.can->channel;
     for (const BusInput& input : drive.can->inputs) {
-        const std::string name = one_signal(input.name, variant, *drive.can);
-        mapping.outputs.push_back(turned_round(input, input.source, name, variant.control->period_s, databases));
+        const std::string name = one_signal(input.name, lamp_set, *drive.can);
+        mapping.outputs.push_back(turned_round(input, input.source, name, lamp_set.control->period_s, databases));
         if (input.also)
-            mapping.outputs.push_back(turned_round(input, *input.also, name, variant.control->period_s, databases));
+            mapping.outputs.push_back(turned_round(input, *input.also, name, lamp_set.control->period_s, databases));
     }
     BusOutputs outputs(mapping, databases, play.signals());
     std::vector<CanFrame> frames;
@@ -79,11 +79,11 @@ std::vector<CanFrame> recorded_inputs(const Drive& drive, const Route& route, co
     return frames;
 }
 
-std::string sent_log(const Drive& drive, const Variant& variant) {
+std::string output_log(const Drive& drive, const LampSet& lamp_set) {
     std::string text;
-    if (!variant.motion)
+    if (!lamp_set.motion)
         return text;
-    for (CanFrame frame : variant.motion->sent) {
+    for (CanFrame frame : lamp_set.motion->sent) {
         frame.time_ns += drive.bus ? drive.bus->start_ns : 0;
         text += candump_line(frame) + '\n';
     }

@@ -56,12 +56,12 @@ BusSignalReport signal_report(const BusInput& input, const BusRecordOfInput& rec
 
 } // namespace
 
-BusReport bus_report(const Drive& drive, const Variant& variant, int first, int last) {
+BusReport bus_report(const Drive& drive, const LampSet& lamp_set, int first, int last) {
     BusReport report;
-    if (!drive.can || !variant.motion || !variant.motion->control)
+    if (!drive.can || !lamp_set.motion || !lamp_set.motion->control)
         return report;
-    const ControlRun& run = *variant.motion->control;
-    report.sent = variant.motion->sent.size();
+    const ControlRun& run = *lamp_set.motion->control;
+    report.sent = lamp_set.motion->sent.size();
     report.end_s = drive.duration_s;
     if (drive.can->log)
         report.log = drive.can->log->filename().string();

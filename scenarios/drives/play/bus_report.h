@@ -11,7 +11,7 @@
 namespace fernlicht {
 
 struct Drive;
-struct Variant;
+struct LampSet;
 
 /// An input over the drive, in degrees where the signal table has radians and km/h where it has m/s.
 struct BusSignalReport {
@@ -48,7 +48,7 @@ struct BusReport {
 };
 
 /// Of the moments first..last; empty without a bus.
-BusReport bus_report(const Drive& drive, const Variant& variant, int first, int last);
+BusReport bus_report(const Drive& drive, const LampSet& lamp_set, int first, int last);
 
 /// A sentence for each input that never came, or that was not fresh at more than a twentieth of the control ticks, with what its policies
 /// did. None without a bus.

@@ -12,7 +12,7 @@ namespace fernlicht {
 namespace {
 
 constexpr double mask_steps = 16.0; ///< levels of a file's windows are rounded to this part: each is a beam of its own
-constexpr double most_mask_bytes = 2.0 * 1024.0 * 1024.0 * 1024.0; ///< of the beams that are drawn with, in all
+constexpr double max_mask_bytes = 2.0 * 1024.0 * 1024.0 * 1024.0; ///< of the beams that are drawn with, in all
 
 /// What a beam takes when it is drawn with, here and on the GPU: a float each 0.05 degrees, or as `beams` of the drive says.
 double beam_bytes(const CandelaTable& table, const std::optional<BeamTexels>& texels) {
@@ -37,36 +37,36 @@ SolverOptions actuator_options(const Drive& drive) {
     return drive.vehicle ? SolverOptions{.solver = drive.vehicle->solver, .tolerance = drive.vehicle->tolerance} : SolverOptions{};
 }
 
-std::vector<ControlledLamp> controlled_lamps(const Variant& variant) {
+std::vector<ControlledLamp> controlled_lamps(const LampSet& lamp_set) {
     std::vector<ControlledLamp> lamps;
-    for (const MountedLamp& lamp : variant.lamps) {
+    for (const MountedLamp& lamp : lamp_set.lamps) {
         lamps.push_back({lamp.name, lamp.position_m, lamp.mount.yaw_rad + lamp.yaw_rad, {}});
-        if (variant.control->glare_free)
-            for (const SegmentedLamp& segmented : variant.control->glare_free->lamps)
+        if (lamp_set.control->glare_free)
+            for (const SegmentedLamp& segmented : lamp_set.control->glare_free->lamps)
                 if (segmented.name == lamp.name)
                     lamps.back().windows_deg = segmented.windows_deg;
     }
     return lamps;
 }
 
-std::optional<BusWriter> bus_writer(const Drive& drive, const Variant& variant) {
+std::optional<BusWriter> bus_writer(const Drive& drive, const LampSet& lamp_set) {
     if (!drive.can || drive.can->scripted)
         return std::nullopt;
     std::vector<std::string> lamps;
-    for (const MountedLamp& lamp : variant.lamps)
+    for (const MountedLamp& lamp : lamp_set.lamps)
         lamps.push_back(lamp.name);
     return BusWriter(*drive.can, lamps);
 }
 
 } // namespace
 
-BeamMasks::BeamMasks(const Drive& drive, const Variant& variant) : drive_(drive), variant_(variant) {}
+BeamMasks::BeamMasks(const Drive& drive, const LampSet& lamp_set) : drive_(drive), lamp_set_(lamp_set) {}
 
 void BeamMasks::add(ControlRun& run) {
-    if (!variant_.control || !variant_.control->glare_free)
+    if (!lamp_set_.control || !lamp_set_.control->glare_free)
         return;
     run.masks.resize(run.lamps.size());
-    for (const SegmentedLamp& segmented : variant_.control->glare_free->lamps) {
+    for (const SegmentedLamp& segmented : lamp_set_.control->glare_free->lamps) {
         const std::size_t lamp = run.lamp(segmented.name);
         for (const auto& [from_s, exact] : run.runs[lamp].segments) {
             std::vector<double> levels;
@@ -74,18 +74,18 @@ void BeamMasks::add(ControlRun& run) {
                 levels.push_back(std::round(level * mask_steps) / mask_steps);
             std::shared_ptr<const LampFile>& file = known_[{lamp, levels}];
             if (!file && std::ranges::any_of(levels, [](double level) { return level != 1.0; })) {
-                LampFile dark = *variant_.lamps[lamp].file;
+                LampFile dark = *lamp_set_.lamps[lamp].file;
                 dark.table = masked(dark.table, segmented.windows_deg, levels);
                 bytes_ += beam_bytes(dark.table, drive_.beams);
                 ++states_;
-                if (bytes_ > most_mask_bytes)
+                if (bytes_ > max_mask_bytes)
                     throw InputError(
                         {},
                         fmt::format("more than {} states of the glare-free beam's windows, {:.0f} MiB each", states_ - 1,
                                     beam_bytes(dark.table, drive_.beams) / 1048576.0),
                         fmt::format("at most {:.0f} MiB of them in all: fewer windows, or coarser beams (beams: {{width, height, "
                                     "bits}} of the drive)",
-                                    most_mask_bytes / 1048576.0));
+                                    max_mask_bytes / 1048576.0));
                 file = std::make_shared<const LampFile>(std::move(dark));
             }
             run.masks[lamp].emplace_back(from_s, file);
@@ -94,22 +94,22 @@ void BeamMasks::add(ControlRun& run) {
 }
 
 std::vector<std::string> BeamMasks::notes() const {
-    if (!variant_.control || !variant_.control->glare_free)
+    if (!lamp_set_.control || !lamp_set_.control->glare_free)
         return {};
     return {fmt::format("glare-free high beam: {} states of windows, {:.0f} MiB of beams", states_, bytes_ / 1048576.0)};
 }
 
-ControlPlay::ControlPlay(const Drive& drive, const Variant& variant, const ControlWorld& world, const std::vector<CanDatabase>& databases)
-    : drive_(drive), variant_(variant), world_(world), resting_(world.load_on_springs(variant.control->load)),
-      writer_(bus_writer(drive, variant)), runner_(*variant.control, controlled_lamps(variant), controlled_car(drive), drive.step_s,
-                                                   actuator_options(drive), writer_ ? writer_->names() : std::vector<std::string>{}),
-      masks_(drive, variant), motion_(variant.motion ? *variant.motion : Motion{}) {
+ControlPlay::ControlPlay(const Drive& drive, const LampSet& lamp_set, const ControlWorld& world, const std::vector<CanDatabase>& databases)
+    : drive_(drive), lamp_set_(lamp_set), world_(world), resting_(world.load_on_springs(lamp_set.control->load)),
+      writer_(bus_writer(drive, lamp_set)), runner_(*lamp_set.control, controlled_lamps(lamp_set), controlled_car(drive), drive.step_s,
+                                                    actuator_options(drive), writer_ ? writer_->names() : std::vector<std::string>{}),
+      masks_(drive, lamp_set), motion_(lamp_set.motion ? *lamp_set.motion : Motion{}) {
     if (drive.can && !drive.can->outputs.empty() && !databases.empty())
         outputs_.emplace(*drive.can, databases, runner_.signals());
 }
 
 void ControlPlay::step(const std::vector<BusValue>& values) {
-    ControlInputs inputs = world_.at(runner_.next_s(), *variant_.control);
+    ControlInputs inputs = world_.at(runner_.next_s(), *lamp_set_.control);
     if (writer_ && !values.empty())
         inputs.written = writer_->at(values);
     const std::int64_t now_ns = std::llround(1.0e9 * inputs.time_s);
@@ -153,25 +153,25 @@ Motion ControlPlay::finish() {
 }
 
 void simulate_control(Drive& drive, const Route& route) {
-    if (drive.live || std::ranges::none_of(drive.variants, [](const Variant& variant) { return variant.control != nullptr; }))
+    if (drive.live || std::ranges::none_of(drive.lamp_sets, [](const LampSet& lamp_set) { return lamp_set.control != nullptr; }))
         return;
-    const std::shared_ptr<const CarRun> car = drive.vehicle ? drive.variants.front().motion->car : nullptr;
+    const std::shared_ptr<const CarRun> car = drive.vehicle ? drive.lamp_sets.front().motion->car : nullptr;
     const ControlWorld world(drive, route, car.get());
     const std::vector<CanDatabase> databases = drive.bus                                  ? drive.bus->databases
                                                : drive.can && !drive.can->outputs.empty() ? read_bus_databases(*drive.can, drive.opened)
                                                                                           : std::vector<CanDatabase>{};
-    for (Variant& variant : drive.variants) {
-        if (!variant.control)
+    for (LampSet& lamp_set : drive.lamp_sets) {
+        if (!lamp_set.control)
             continue;
         try {
-            ControlPlay play(drive, variant, world, databases);
+            ControlPlay play(drive, lamp_set, world, databases);
             for (std::size_t tick = 0; play.next_s() < drive.duration_s; ++tick)
                 play.step(drive.bus ? drive.bus->ticks[tick] : std::vector<BusValue>{});
-            variant.motion = std::make_shared<const Motion>(play.finish());
+            lamp_set.motion = std::make_shared<const Motion>(play.finish());
         } catch (const InputError& error) {
             if (!error.where().file.empty())
                 throw;
-            throw InputError({drive.file, 0, 0, fmt::format("control of '{}'", variant.name)}, error.what());
+            throw InputError({drive.file, 0, 0, fmt::format("control of '{}'", lamp_set.name)}, error.what());
         }
     }
 }

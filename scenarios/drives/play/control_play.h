@@ -1,4 +1,4 @@
-// Lamp control of a variant over a drive: before the first frame, or tick by tick while the drive happens.
+// Lamp control of a lamp set over a drive: before the first frame, or tick by tick while the drive happens.
 #pragma once
 
 #include "scenarios/can/bus_outputs.h"
@@ -13,8 +13,8 @@ namespace fernlicht {
 /// Files of lamps that are cut into windows, for each state of the windows that comes.
 class BeamMasks {
   public:
-    /// Drive and variant must outlive it; without a glare-free beam there is nothing to do.
-    BeamMasks(const Drive& drive, const Variant& variant);
+    /// Drive and lamp set must outlive it; without a glare-free beam there is nothing to do.
+    BeamMasks(const Drive& drive, const LampSet& lamp_set);
 
     /// Gives `run` the masks of its segments; the same state is the same file, from call to call. Throws InputError for more than can be
     /// kept.
@@ -23,7 +23,7 @@ class BeamMasks {
 
   private:
     const Drive& drive_;
-    const Variant& variant_;
+    const LampSet& lamp_set_;
     double bytes_ = 0.0;
     std::size_t states_ = 0;
     std::map<std::pair<std::size_t, std::vector<double>>, std::shared_ptr<const LampFile>> known_;
@@ -31,9 +31,9 @@ class BeamMasks {
 
 class ControlPlay {
   public:
-    /// `variant` has control; all must outlive it. `databases`: of the drive's bus, empty without outputs to one. Throws InputError for
-    /// what the control or the mapping names and the variant lacks.
-    ControlPlay(const Drive& drive, const Variant& variant, const ControlWorld& world, const std::vector<CanDatabase>& databases = {});
+    /// `lamp_set` has control; all must outlive it. `databases`: of the drive's bus, empty without outputs to one. Throws InputError for
+    /// what the control or the mapping names and the lamp set lacks.
+    ControlPlay(const Drive& drive, const LampSet& lamp_set, const ControlWorld& world, const std::vector<CanDatabase>& databases = {});
 
     double next_s() const { return runner_.next_s(); } ///< time of the next tick
     /// The next tick; `values`: what the bus says at it, empty without one. Frames that were due until then are sent.
@@ -52,7 +52,7 @@ class ControlPlay {
 
   private:
     const Drive& drive_;
-    const Variant& variant_;
+    const LampSet& lamp_set_;
     const ControlWorld& world_;
     ControlWorld::Resting resting_;
     std::optional<BusWriter> writer_;
@@ -62,8 +62,8 @@ class ControlPlay {
     Motion motion_;
 };
 
-/// Runs the control of each variant that has one and puts it into the variant's motion, with notes: after simulate_bus(), simulate() and
-/// place_traffic(). Nothing for a drive without, or one that is live. Throws InputError for what the control names and the variant lacks.
+/// Runs the control of each lamp set that has one and puts it into the lamp set's motion, with notes: after simulate_bus(), simulate() and
+/// place_traffic(). Nothing for a drive without, or one that is live. Throws InputError for what the control names and the lamp set lacks.
 void simulate_control(Drive& drive, const Route& route);
 
 } // namespace fernlicht

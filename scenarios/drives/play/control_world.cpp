@@ -2,7 +2,7 @@
 
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/play/advance.h"
-#include "scenarios/drives/play/told_story.h"
+#include "scenarios/drives/play/storyboard_timeline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,10 +52,10 @@ struct ControlWorld::Parts {
     static double farthest_m(const Drive& drive, const Route& route) {
         if (drive.live || drive.bus_motion)
             return route.length_m();
-        if (!drive.ego_track || !drive.told)
+        if (!drive.ego_track || !drive.timeline)
             return distance_m(drive.speed, drive.duration_s);
         double farthest = 0.0;
-        for (const TrackPlace& place : drive.told->places)
+        for (const TrackPlace& place : drive.timeline->places)
             farthest = std::max(farthest, place.distance_m);
         return farthest;
     }
@@ -83,7 +83,7 @@ struct ControlWorld::Parts {
 
     /// The rear axle follows the lane's centre: it turns by the lane's curvature, and the front wheels stand as the lane's bend asks.
     void on_rails(ControlInputs& in) const {
-        in.distance_m = way_m(drive_, in.time_s);
+        in.distance_m = route_distance_m(drive_, in.time_s);
         in.speed_mps = own_speed_mps(drive_, in.time_s);
         const double k = curvature_per_m(in.distance_m);
         in.yaw_rate_rad_s = k * in.speed_mps;
@@ -103,7 +103,7 @@ struct ControlWorld::Parts {
     /// each side.
     void on_track(ControlInputs& in, const ControlParameters& control) const {
         const double t_s = in.time_s;
-        in.distance_m = way_m(drive_, t_s);
+        in.distance_m = route_distance_m(drive_, t_s);
         in.speed_mps = drive_.ego_track->at(t_s).speed_mps;
         in.yaw_rate_rad_s = track_yaw_rate_rad_s(t_s);
         in.curvature_per_m = track_curvature_per_m(t_s);

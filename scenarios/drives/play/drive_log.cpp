@@ -127,12 +127,12 @@ class Taking {
 
 } // namespace
 
-const char* const drive_log_header = "variant,tick,time_s,kind,x_m,y_m,z_m,forward_x,forward_y,forward_z,left_x,left_y,left_z,up_x,"
+const char* const drive_log_header = "lamp_set,tick,time_s,kind,x_m,y_m,z_m,forward_x,forward_y,forward_z,left_x,left_y,left_z,up_x,"
                                      "up_y,up_z,speed_mps,factor,visible,name";
 
-std::string logged_moment(const std::string& variant, const Moment& moment) {
+std::string logged_moment(const std::string& lamp_set, const Moment& moment) {
     std::string out;
-    const std::string start = fmt::format("{},{},{}", field_text(variant), moment.tick, moment.time_s);
+    const std::string start = fmt::format("{},{},{}", field_text(lamp_set), moment.tick, moment.time_s);
     log_row(start, DriveLog::Kind::ego, "ego", moment.ego, moment.speed_mps, 0.0, true, out);
     for (const LitLamp& lamp : moment.lamps)
         log_row(start, DriveLog::Kind::lamp, lamp.name, lamp.pose, 0.0, lamp.intensity_factor, true, out);
@@ -165,10 +165,10 @@ DriveLog read_drive_log(const std::filesystem::path& path, FilesRead& opened) {
     return log;
 }
 
-void replay(const DriveLog& log, const std::string& variant, Moment& moment) {
-    const auto found = log.rows.find({field_text(variant), moment.tick});
+void replay(const DriveLog& log, const std::string& lamp_set, Moment& moment) {
+    const auto found = log.rows.find({field_text(lamp_set), moment.tick});
     if (found == log.rows.end())
-        throw InputError({log.file, 0, 0, {}}, fmt::format("no tick {} of lamp set '{}'", moment.tick, printable(variant)),
+        throw InputError({log.file, 0, 0, {}}, fmt::format("no tick {} of lamp set '{}'", moment.tick, printable(lamp_set)),
                          "a log of the whole drive, or --frames as it was played");
     Taking rows(log, found->second, moment.tick);
     const DriveLog::Row& ego = rows.next(DriveLog::Kind::ego, "ego");

@@ -24,20 +24,20 @@ struct DriveLog {
         bool visible = true;
     };
     std::filesystem::path file;
-    std::map<std::pair<std::string, int>, std::vector<Row>> rows; ///< by variant and tick
+    std::map<std::pair<std::string, int>, std::vector<Row>> rows; ///< by lamp set and tick
 };
 
 /// First line of the file.
 extern const char* const drive_log_header;
 /// The rows of a moment.
-std::string logged_moment(const std::string& variant, const Moment& moment);
+std::string logged_moment(const std::string& lamp_set, const Moment& moment);
 
 /// Throws InputError with the line of what is no row.
 DriveLog read_drive_log(const std::filesystem::path& path, FilesRead& opened);
 
 /// Puts the log's poses, speeds and lamps in the place of the moment's. Throws InputError where the log has not this tick or other lamps
 /// and road users than the moment.
-void replay(const DriveLog& log, const std::string& variant, Moment& moment);
+void replay(const DriveLog& log, const std::string& lamp_set, Moment& moment);
 
 /// Columns: frame, then each signal by name; a signal that is lost is empty, a distance to nothing "inf". Behind them, of each input from a
 /// bus, NAME.state (fresh, stale, missing, out_of_range, contradictory) and NAME.age_s. Of the ticks first..last.

@@ -17,10 +17,10 @@ struct Rgb8 {
     bool operator==(const Rgb8&) const = default;
 };
 
-struct Wanted {
+struct FrameOutputs {
     bool colour = false, illuminance = false, target = false, luminance = false, light = false, depth = false, ids = false;
     bool seen() const { return colour || luminance || light; } ///< anything that an eye sees
-    bool operator==(const Wanted&) const = default;
+    bool operator==(const FrameOutputs&) const = default;
 };
 
 struct Frame {

@@ -4,7 +4,7 @@
 #include "scenarios/drives/play/drive_log.h"
 #include "scenarios/drives/play/motion.h"
 #include "scenarios/drives/play/place_street_lamps.h"
-#include "scenarios/drives/play/told_story.h"
+#include "scenarios/drives/play/storyboard_timeline.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -24,7 +24,7 @@ void add_lamps(const RoadUser& user, int body, const Pose& pose, double until_s,
 
 /// Fills the moment's bodies, and adds the lamps of those that are there and lit, from the drive's traffic at the moment's time.
 void add_traffic(const Drive& drive, Moment& moment) {
-    moment.least_traffic_lx = drive.least_traffic_lx;
+    moment.min_traffic_lx = drive.min_traffic_lx;
     for (std::size_t i = 0; i < drive.traffic.size(); ++i) {
         const RoadUser& user = drive.traffic[i];
         Body body{user.name, {}, user.visible_at(moment.time_s), 0.0};
@@ -80,9 +80,9 @@ Pose ego_pose(const Route& route, double distance_m, double wheelbase_m, double 
     return {rear.position_m, {forward, left, glm::cross(forward, left)}};
 }
 
-Moment moment_at(const State& state, const Drive& drive, const Route& route, const Variant& variant) {
-    std::vector<MountedLamp> lamps = variant.lamps;
-    for (const std::vector<LampChange>* changes : {&variant.changes, &variant.told})
+Moment moment_at(const State& state, const Drive& drive, const Route& route, const LampSet& lamp_set) {
+    std::vector<MountedLamp> lamps = lamp_set.lamps;
+    for (const std::vector<LampChange>* changes : {&lamp_set.changes, &lamp_set.storyboard_changes})
         for (const LampChange& change : *changes) {
             if (change.time_s > state.time_s + tick_tolerance * drive.step_s)
                 break; // sorted by time
@@ -101,28 +101,28 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
         moment.ego = drive.ego_track ? drive.ego_track->at(state.time_s).pose : ego_pose(route, state.distance_m, drive.wheelbase_m);
         if (drive.ego_track)
             moment.speed_mps = drive.ego_track->at(state.time_s).speed_mps;
-        if (CarPlace place; variant.motion && rest_on_load(place, *variant.motion))
+        if (CarPlace place; lamp_set.motion && rest_on_load(place, *lamp_set.motion))
             moment.ego = moved(moment.ego, place);
     } else {
-        if (!variant.motion)
+        if (!lamp_set.motion)
             throw std::logic_error("moment_at: a drive with a vehicle that was not simulated");
-        CarPlace place = variant.motion->car->at(state.time_s);
-        rest_on_load(place, *variant.motion);
+        CarPlace place = lamp_set.motion->car->at(state.time_s);
+        rest_on_load(place, *lamp_set.motion);
         moment.distance_m = std::max(place.distance_m, 0.0);
         moment.speed_mps = place.speed_mps;
         moment.ego = moved(ego_pose(route, moment.distance_m, drive.wheelbase_m, place.offset_left_m), place);
     }
-    if (variant.motion)
+    if (lamp_set.motion)
         for (MountedLamp& lamp : lamps)
-            turn(lamp, *variant.motion, state.time_s);
-    else if (variant.control)
+            turn(lamp, *lamp_set.motion, state.time_s);
+    else if (lamp_set.control)
         throw std::logic_error("moment_at: a drive with lamp control that was not simulated");
     for (const MountedLamp& lamp : lamps)
         moment.lamps.push_back(lit(lamp, moment.ego));
     add_traffic(drive, moment);
     add_street_lamps(drive, route, street_lamps_within_m, moment);
     if (drive.replay)
-        replay(*drive.replay, variant.name, moment);
+        replay(*drive.replay, lamp_set.name, moment);
     if (drive.own_car)
         moment.bodies.push_back({"own car", moment.ego, true, moment.speed_mps, true});
     return moment;

@@ -34,7 +34,7 @@ struct Moment {
     std::vector<LitLamp> lamps;       ///< of the own car
     std::vector<LitLamp> other_lamps; ///< of other road users and along the road; all shine
     std::vector<Body> bodies;         ///< other road users, as in Drive::traffic; then the own car where it has a body
-    double least_traffic_lx = 0.05;   ///< light of other_lamps fainter than this is left out (Drive)
+    double min_traffic_lx = 0.05;     ///< light of other_lamps fainter than this is left out (Drive)
     Daylight daylight;
     Weather weather;
 };

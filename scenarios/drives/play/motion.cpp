@@ -51,10 +51,10 @@ std::string strayed(const CarRun& car, const std::vector<SpeedPoint>& profile) {
 }
 
 /// Whether any lamp shines at `time_s`, changes at that very time included.
-bool shines(const Variant& variant, double time_s) {
-    return std::ranges::any_of(variant.lamps, [&](const MountedLamp& lamp) {
+bool shines(const LampSet& lamp_set, double time_s) {
+    return std::ranges::any_of(lamp_set.lamps, [&](const MountedLamp& lamp) {
         double level = lamp.level;
-        for (const LampChange& change : variant.changes)
+        for (const LampChange& change : lamp_set.changes)
             if (change.time_s <= time_s && change.lamp == lamp.name)
                 level = change.level.value_or(level);
         return level > 0.0;
@@ -62,42 +62,42 @@ bool shines(const Variant& variant, double time_s) {
 }
 
 /// When lamps may go on or off.
-std::vector<double> switches_s(const Variant& variant, double end_s) {
+std::vector<double> switches_s(const LampSet& lamp_set, double end_s) {
     std::vector<double> times_s;
-    for (const LampChange& change : variant.changes)
+    for (const LampChange& change : lamp_set.changes)
         if (change.level && change.time_s < end_s)
             times_s.push_back(change.time_s);
     return times_s;
 }
 
-ActuatorRun run_lamp_actuator(const Drive& drive, const Variant& variant, const ActuatorParameters& actuator,
+ActuatorRun run_lamp_actuator(const Drive& drive, const LampSet& lamp_set, const ActuatorParameters& actuator,
                               const std::function<double(double)>& command) {
-    return run_actuator(actuator, command, switches_s(variant, drive.duration_s), drive.duration_s,
+    return run_actuator(actuator, command, switches_s(lamp_set, drive.duration_s), drive.duration_s,
                         {.solver = drive.vehicle->solver, .tolerance = drive.vehicle->tolerance});
 }
 
-ActuatorRun run_levelling(const Drive& drive, const Variant& variant, const CarRun& car) {
+ActuatorRun run_levelling(const Drive& drive, const LampSet& lamp_set, const CarRun& car) {
     double mean_rad = car.at(0.0).spring_pitch_rad, last_s = 0.0;
     const auto command = [&](double tick_s) {
         const double pitch_rad = car.at(tick_s).spring_pitch_rad;
         mean_rad += (1.0 - std::exp((last_s - tick_s) / slow_filter_s)) * (pitch_rad - mean_rad);
         last_s = tick_s;
-        if (!shines(variant, tick_s))
+        if (!shines(lamp_set, tick_s))
             return 0.0;
-        return variant.levelling->control == LevellingControl::dynamic ? -pitch_rad : -mean_rad;
+        return lamp_set.levelling->control == LevellingControl::dynamic ? -pitch_rad : -mean_rad;
     };
-    return run_lamp_actuator(drive, variant, variant.levelling->actuator, command);
+    return run_lamp_actuator(drive, lamp_set, lamp_set.levelling->actuator, command);
 }
 
 /// The circle of curvature k that the steering drives lies at an angle of k d / 2 to the left after a way of d.
-ActuatorRun run_swivel(const Drive& drive, const Variant& variant, const CarRun& car, const CarModel& model) {
+ActuatorRun run_swivel(const Drive& drive, const LampSet& lamp_set, const CarRun& car, const CarModel& model) {
     const auto command = [&](double tick_s) {
         const CarPlace place = car.at(tick_s);
         const double v = place.speed_mps;
         const double bend_per_m = place.steering_rad / (model.wheelbase_m + model.self_steering_gradient() * v * v);
-        return shines(variant, tick_s) ? 0.5 * bend_per_m * v * variant.swivel->preview_s : 0.0;
+        return shines(lamp_set, tick_s) ? 0.5 * bend_per_m * v * lamp_set.swivel->preview_s : 0.0;
     };
-    return run_lamp_actuator(drive, variant, variant.swivel->actuator, command);
+    return run_lamp_actuator(drive, lamp_set, lamp_set.swivel->actuator, command);
 }
 
 /// fit_to_route held the plan to the route; a car that cannot brake as it was asked to comes further.
@@ -135,22 +135,22 @@ void simulate_vehicle(Drive& drive, const Route& route) {
     model.wheelbase_m = drive.wheelbase_m;
     // As far as it may come; it lags behind its plan rather than running ahead, by metres at most.
     const std::vector<SpeedPoint> speed = drive.bus_motion ? drive.bus_motion->profile() : drive.speed;
-    model.road = road_course(route, way_m(drive, drive.duration_s) + 200.0);
+    model.road = road_course(route, route_distance_m(drive, drive.duration_s) + 200.0);
     const auto car = std::make_shared<const CarRun>(run_car(model, wishes(speed), drive.duration_s));
     fit_to_route(drive, route, *car);
     check_validity(drive, *car);
     drive.notes.push_back(fmt::format("vehicle: {}; {}", solved(car->work()), strayed(*car, speed)));
-    for (Variant& variant : drive.variants) {
+    for (LampSet& lamp_set : drive.lamp_sets) {
         auto motion = std::make_shared<Motion>(Motion{car, std::nullopt, std::nullopt, std::nullopt, {}, {}});
-        if (variant.levelling) {
-            motion->levelling = run_levelling(drive, variant, *car);
+        if (lamp_set.levelling) {
+            motion->levelling = run_levelling(drive, lamp_set, *car);
             motion->notes.push_back(actuator_note("levelling", *motion->levelling));
         }
-        if (variant.swivel) {
-            motion->swivel = run_swivel(drive, variant, *car, model);
+        if (lamp_set.swivel) {
+            motion->swivel = run_swivel(drive, lamp_set, *car, model);
             motion->notes.push_back(actuator_note("swivel", *motion->swivel));
         }
-        variant.motion = std::move(motion);
+        lamp_set.motion = std::move(motion);
     }
 }
 

@@ -25,7 +25,7 @@ Pose upright(const Pose& ground) {
 Pose foot_of(const StreetLampRow& row, const Route& route, double at_m) { return upright(route.pose(at_m, row.beside_m)); }
 
 /// Whether the lamp hangs beside its pole rather than on it.
-bool has_arm(const StreetLampRow& row) { return row.arm_m > street_lamp_least_arm_m; }
+bool has_arm(const StreetLampRow& row) { return row.arm_m > street_lamp_min_arm_m; }
 
 /// From the pole towards the lane, in the foot's frame.
 double inwards(double beside_m) { return beside_m <= 0.0 ? 1.0 : -1.0; }
@@ -127,7 +127,7 @@ namespace {
 
 constexpr double pole_drawn_m = 4.0, ///< of a pole whose file says no height, as the road's mesh has it
     below_top_m = 0.1, above_top_m = 0.05;
-constexpr std::size_t most_named = 8;
+constexpr std::size_t max_named = 8;
 
 std::string without_case(std::string text) {
     for (char& c : text)
@@ -166,8 +166,8 @@ std::string what_stands_there(const RoadNetwork& network) {
     std::string list;
     std::size_t named = 0;
     for (const std::string& word : words) {
-        if (named++ == most_named)
-            return list + fmt::format(" and {} more", words.size() - most_named);
+        if (named++ == max_named)
+            return list + fmt::format(" and {} more", words.size() - max_named);
         list += (list.empty() ? "'" : ", '") + word + "'";
     }
     return list.empty() ? "a road with objects: this one has none" : "one of the road's objects: " + list;

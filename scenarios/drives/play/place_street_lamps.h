@@ -10,7 +10,7 @@ namespace fernlicht {
 /// Farther along the route than this a lamp is not part of a moment: 8 m up and 400 m away it gives 0.01 lx at most.
 inline constexpr double street_lamps_within_m = 400.0;
 /// Arms up to this are none: the lamp stands on top of its pole, which ends below it.
-inline constexpr double street_lamp_least_arm_m = 0.14;
+inline constexpr double street_lamp_min_arm_m = 0.14;
 
 /// Finds what the rows with on_objects ask for among the road's objects: StreetLampRow::found. Lamps hang 0.1 m below the top of their
 /// object, or at the row's height_m; with an arm of at most 0.14 m just above the top. Throws InputError where a row finds nothing, naming

@@ -110,8 +110,8 @@ RoadUser road_user_of(const TrafficRow& row, int number) {
     user.model = row.model;
     user.model_yaw_rad = row.model_yaw_rad;
     user.model_scale = row.model_scale;
-    user.size_m = row.size_m.value_or(usual_size_m(row.kind));
-    user.rear_m = row.rear_m.value_or(usual_rear_m(row.kind) * user.size_m.x / usual_size_m(row.kind).x);
+    user.size_m = row.size_m.value_or(default_size_m(row.kind));
+    user.rear_m = row.rear_m.value_or(default_rear_m(row.kind) * user.size_m.x / default_size_m(row.kind).x);
     for (const MountedLamp& lamp : row.lamps)
         user.lamps.push_back({lamp, function_of(lamp.name), row.face_m});
     std::vector<TrafficLamp> rear = rear_lamps(user.size_m, user.rear_m, row.tail_cd, row.brake_cd);

@@ -5,7 +5,7 @@
 #include "scenarios/drives/play/motion.h"
 #include "scenarios/drives/play/place_street_lamps.h"
 #include "scenarios/drives/play/place_traffic.h"
-#include "scenarios/drives/play/told_story.h"
+#include "scenarios/drives/play/storyboard_timeline.h"
 #include "scenarios/models/model_textures.h"
 #include "scenarios/models/placed_model.h"
 #include "scenarios/roads/mesh/mesh_terrain.h"

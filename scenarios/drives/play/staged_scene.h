@@ -8,9 +8,9 @@
 
 namespace fernlicht {
 
-/// Moves the own car, others and lamps along the drive (after tell_story(), which gives a storyboard's route), and returns the road with
-/// all that stands on it: scenery, street lamps, ground up to the horizon where there is daylight, bodies of others and of the own car.
-/// Adds to drive.opened what it reads. Throws InputError for what road or route lacks.
+/// Moves the own car, others and lamps along the drive (after apply_storyboard(), which gives a storyboard's route), and returns the road
+/// with all that stands on it: scenery, street lamps, ground up to the horizon where there is daylight, bodies of others and of the own
+/// car. Adds to drive.opened what it reads. Throws InputError for what road or route lacks.
 Scene staged_scene(Drive& drive, const RoadNetwork& network, const Route& route);
 
 /// Of the drive's own_car adds what its driver cannot look through: triangles ahead of the eye of the first perspective view that lie

@@ -1,6 +1,6 @@
 #include "scenarios/drives/story/story_environment.h"
 
-#include "scenarios/drives/play/told_story.h"
+#include "scenarios/drives/play/storyboard_timeline.h"
 #include "scenarios/openscenario/osc_judge.h"
 #include "scenarios/sky/sky_light.h"
 #include "scenarios/values/errors.h"
@@ -30,11 +30,11 @@ class EnvironmentTeller {
             if (change.time_s <= 0.0)
                 first = &change;
         if (first) {
-            const ToldSky sky = sky_of(*first);
+            const SkyChange sky = sky_of(*first);
             drive_.daylight = daylight_at(sky.daylight, 0.0);
             drive_.weather = sky.weather;
         }
-        std::vector<ToldSky> later;
+        std::vector<SkyChange> later;
         for (const osc::EnvironmentChange& change : story_.environment)
             if (change.time_s > 0.0)
                 later.push_back(sky_of(change));
@@ -42,14 +42,14 @@ class EnvironmentTeller {
             return;
         drive_.notes.push_back(fmt::format("the storyboard changes the environment {} time{} during the drive, first at {:.6g} s",
                                            later.size(), later.size() == 1 ? "" : "s", later.front().from_s));
-        ToldStory told = drive_.told ? *drive_.told : ToldStory{};
-        told.skies = std::move(later);
-        drive_.told = std::make_shared<const ToldStory>(std::move(told));
+        StoryboardTimeline timeline = drive_.timeline ? *drive_.timeline : StoryboardTimeline{};
+        timeline.skies = std::move(later);
+        drive_.timeline = std::make_shared<const StoryboardTimeline>(std::move(timeline));
     }
 
   private:
-    ToldSky sky_of(const osc::EnvironmentChange& change) {
-        ToldSky sky{change.time_s, change.clock_from_s, beginning_.daylight, beginning_.weather};
+    SkyChange sky_of(const osc::EnvironmentChange& change) {
+        SkyChange sky{change.time_s, change.clock_from_s, beginning_.daylight, beginning_.weather};
         if (drive_.storyboard->own_daylight)
             sky.clock_from_s = 0.0;
         else
@@ -163,7 +163,7 @@ class EnvironmentTeller {
     Drive& drive_;
     const osc::PlayedStory& story_;
     const RoadNetwork& network_;
-    ToldSky beginning_; ///< what the drive says, or its defaults
+    SkyChange beginning_; ///< what the drive says, or its defaults
 };
 
 } // namespace
@@ -181,7 +181,7 @@ std::optional<SkyCover> sky_cover_of(std::string_view clouds) {
     return clouds == "overcast" || clouds == "rainy" ? std::optional(SkyCover::overcast) : std::nullopt;
 }
 
-void tell_environment(Drive& drive, const osc::PlayedStory& story, const RoadNetwork& network) {
+void apply_environment(Drive& drive, const osc::PlayedStory& story, const RoadNetwork& network) {
     if (!story.environment.empty())
         EnvironmentTeller(drive, story, network).tell();
 }

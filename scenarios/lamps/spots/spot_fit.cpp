@@ -14,8 +14,8 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_directions = 5000; // closest where the light changes: about 0.1 degrees at a low beam's cut-off
-constexpr std::size_t most_axes = 1500;
+constexpr std::size_t max_directions = 5000; // closest where the light changes: about 0.1 degrees at a low beam's cut-off
+constexpr std::size_t max_axes = 1500;
 constexpr int rounds = 3, steps_a_round = 8;
 
 constexpr std::array<double, 12> cutoffs_deg{1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 17.0, 25.0, 36.0, 55.0, 90.0};
@@ -230,8 +230,8 @@ double flux_lm(const Spot& spot) {
 }
 
 SpotFit fit_spots(const CandelaTable& table, int count) {
-    if (count < 1 || count > most_spots)
-        throw std::invalid_argument(fmt::format("spot fit: {} spots, expected 1 to {}", count, most_spots));
+    if (count < 1 || count > max_spots)
+        throw std::invalid_argument(fmt::format("spot fit: {} spots, expected 1 to {}", count, max_spots));
     constexpr double worth_a_spot = 1e-9; // of the table's sum of squares: less is rounding
     SpotFit fit;
     fit.table_flux_lm = flux_lm(table);
@@ -241,7 +241,7 @@ SpotFit fit_spots(const CandelaTable& table, int count) {
     CandelaTable unit = table; // whose squares are in range
     for (double& cd : unit.cd)
         cd /= peak;
-    const SpotDirections directions = spot_directions(unit, most_directions), coarse = spot_directions(unit, most_axes);
+    const SpotDirections directions = spot_directions(unit, max_directions), coarse = spot_directions(unit, max_axes);
     if (directions.total_cd2_sr <= 0.0)
         return fit; // all its light goes backwards
     for (int k = 0; k < count; ++k) {

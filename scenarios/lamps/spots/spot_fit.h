@@ -29,7 +29,7 @@ struct SpotFit {
     double flux_lm = 0.0, table_flux_lm = 0.0; ///< all that the spots give, all that the table gives
 };
 
-constexpr int most_spots = 8; // of OpenGL 1.x
+constexpr int max_spots = 8; // of OpenGL 1.x
 
 /// Fits 1 to 8 spots to the light within H +-90 degrees, each direction weighted by its solid angle. One spot is added at a time where it
 /// gains most, then all are refined together (Levenberg-Marquardt; cut-offs by exhaustion), so more spots never fit worse. A good fit, no

@@ -236,13 +236,13 @@ Storyboard read_storyboard(const fs::path& path, const StoryboardOptions& option
 
 namespace {
 
-constexpr std::size_t most_cases = 10'000;
+constexpr std::size_t max_cases = 10'000;
 using Case = std::map<std::string, std::string>;
 
 std::vector<Case> range_of(const OscNode& node, const std::string& parameter) {
     const OscNode range = node.require("Range");
     const double step = node.number("stepWidth"), low = range.number("lowerLimit"), high = range.number("upperLimit");
-    if (!(step > 0.0) || !(high >= low) || (high - low) / step > static_cast<double>(most_cases))
+    if (!(step > 0.0) || !(high >= low) || (high - low) / step > static_cast<double>(max_cases))
         node.refuse("stepWidth", fmt::format("found steps of {} from {} to {}", step, low, high), "at most 10000 steps above 0");
     std::vector<Case> out;
     const auto steps = static_cast<int>(std::floor((high - low) / step + 1e-9));
@@ -294,7 +294,7 @@ Variations read_variations(const std::filesystem::path& path, FilesRead& opened)
     for (const OscNode& node : deterministic->children()) {
         std::vector<Case> crossed;
         const std::vector<Case> values = distribution_of(node);
-        if (out.cases.size() * values.size() > most_cases)
+        if (out.cases.size() * values.size() > max_cases)
             node.refuse("", fmt::format("makes {} cases", out.cases.size() * values.size()), "at most 10000");
         for (const Case& before : out.cases)
             for (const Case& value : values) {

@@ -44,7 +44,7 @@ struct StoryboardSource {
     std::filesystem::path file; ///< OpenSCENARIO XML
     std::string ego = "Ego";    ///< the entity that is the own car
     osc::StoryboardOptions options;
-    double most_s = 60.0;                           ///< longest time played
+    double max_s = 60.0;                            ///< longest time played
     bool own_daylight = false, own_weather = false; ///< the drive says them, so that the environment does not
     std::optional<SkySite> site;                    ///< nullopt: the road's geoReference, else a place of ours
     double day_rate = 1.0;                          ///< seconds of an animated time of day for a second of the drive

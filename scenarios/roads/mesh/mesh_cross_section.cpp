@@ -48,7 +48,7 @@ std::vector<Strip> with_kerb_faces(const std::vector<Strip>& strips) {
 constexpr double dash_of_broken_m = 4.0;
 constexpr double gap_of_broken_m = 8.0;
 constexpr double shortest_period_m = 0.2;
-constexpr double most_dashes = 20'000.0; ///< of one mark: 240 km of guide line
+constexpr double max_dashes = 20'000.0; ///< of one mark: 240 km of guide line
 constexpr double default_width_m = 0.12;
 
 using Explicit = RoadMark::Stripe;
@@ -70,7 +70,7 @@ std::vector<Explicit> stripes_by_kind(MarkKind kind, double width, bool left_sid
 Stripe placed(const Explicit& line, const RoadMark& mark, double from_s, double to_s) {
     const double width = line.width_m > 0.0 ? line.width_m : mark.width_m > 0.0 ? mark.width_m : default_width_m;
     const double period = line.gap_m > 0.0 ? line.dash_m + line.gap_m : 0.0;
-    const bool solid = period < shortest_period_m || (to_s - from_s) / period > most_dashes;
+    const bool solid = period < shortest_period_m || (to_s - from_s) / period > max_dashes;
     return {from_s, to_s, line.t_m, width, from_s + line.start_m, line.dash_m, solid ? 0.0 : period, marking_material(mark.colour)};
 }
 

@@ -16,8 +16,8 @@ constexpr double same_station_m = 0.005; ///< nearer ones (two records of one pl
 /// Long straight stretches are cut as well: terrain is fitted to its neighbours stretch by stretch.
 constexpr double longest_stretch_m = 15.0;
 /// Bounds for roads of absurd length: what is built does not grow with a number in a file.
-constexpr double most_chunks = 20'000.0;
-constexpr double most_even_stretches = 100'000.0;
+constexpr double max_chunks = 20'000.0;
+constexpr double max_even_stretches = 100'000.0;
 constexpr double kerb_ramp_m = 0.5;
 constexpr double longest_in_junction_m = 2.5;
 
@@ -99,7 +99,7 @@ void append_knots(std::vector<double>& stations, const std::vector<Cubic>& cubic
 /// Chunks of equal length, so that none is a sliver.
 std::size_t chunk_count(const Road& road, const RoadMeshOptions& options) {
     const double length = std::clamp(options.chunk_length_m, 5.0, 200.0); // above 200 m positions would leave the lattice, mesh_builder.h
-    return static_cast<std::size_t>(std::clamp(std::ceil(road.length_m / length - 0.05), 1.0, most_chunks));
+    return static_cast<std::size_t>(std::clamp(std::ceil(road.length_m / length - 0.05), 1.0, max_chunks));
 }
 
 std::vector<double> fixed_stations(const Road& road, const std::vector<SectionProfile>& profiles, std::size_t chunks) {
@@ -196,7 +196,7 @@ std::vector<RoadStretch> stretches_of(const RoadNetwork& network, const Road& ro
         return out;
     const std::size_t chunks = chunk_count(road, options);
     const std::vector<double> stations = fixed_stations(road, profiles, chunks);
-    const double longest = std::max(road.junction == "-1" ? longest_stretch_m : longest_in_junction_m, road.length_m / most_even_stretches);
+    const double longest = std::max(road.junction == "-1" ? longest_stretch_m : longest_in_junction_m, road.length_m / max_even_stretches);
     std::size_t profile = 0;
     std::vector<double> ends;
     for (std::size_t i = 0; i + 1 < stations.size(); ++i) {

@@ -258,8 +258,8 @@ class Side {
 };
 
 constexpr double far_beyond_m = 2500.0, far_below_m = 0.5;
-constexpr double far_tile_m = 500.0;     // small enough to be culled
-constexpr double most_far_tiles = 250.0; // each way; larger then
+constexpr double far_tile_m = 500.0;    // small enough to be culled
+constexpr double max_far_tiles = 250.0; // each way; larger then
 
 } // namespace
 
@@ -286,7 +286,7 @@ void add_far_ground(Scene& scene) {
     low -= far_beyond_m;
     high += far_beyond_m;
     const double z_m = low.z + far_beyond_m - far_below_m,
-                 side_m = std::max(far_tile_m, std::max(high.x - low.x, high.y - low.y) / most_far_tiles);
+                 side_m = std::max(far_tile_m, std::max(high.x - low.x, high.y - low.y) / max_far_tiles);
     const std::vector<Material> known = road_materials();
     Material ground = *std::ranges::find(known, "terrain", &Material::name);
     ground.name = "far ground";

@@ -111,14 +111,14 @@ void check_lanes(XmlFile& xml, const Meeting& m) {
                 worst = meeting.gap_m, worst_lane = lane.id;
         }
     }
-    if (worst > told_gap_m)
+    if (worst > reported_gap_m)
         xml.warn(m.node, fmt::format("lane {} jumps by {:.3f} m from {} to {}", worst_lane, worst, name_of(m.from), name_of(m.to)));
 }
 
 void check_meeting(XmlFile& xml, const Meeting& m) {
     const PlanPoint here = plan_point(m.from.road, end_s(m.from)), there = plan_point(m.to.road, end_s(m.to));
     const bool plain = m.from.road.junction == "-1" && m.to.road.junction == "-1"; // through junctions reference lines may part
-    if (const double gap = std::hypot(here.x_m - there.x_m, here.y_m - there.y_m); plain && gap > told_gap_m)
+    if (const double gap = std::hypot(here.x_m - there.x_m, here.y_m - there.y_m); plain && gap > reported_gap_m)
         xml.warn(m.node, fmt::format("{} lies {:.3f} m from {}, which it is linked to", name_of(m.from), gap, name_of(m.to)));
     const std::optional<RoadLink>& back = m.to.start ? m.to.road.predecessor : m.to.road.successor;
     const std::string& junction = m.from.road.junction;
@@ -203,7 +203,7 @@ void check_joint(XmlFile& xml, const Side& before, const Side& after, const Lane
     }
     const Span a = span_of(before, sources), b = span_of(after, targets);
     const double gap = std::max(std::abs(a.low - b.low), std::abs(a.high - b.high));
-    if (gap > told_gap_m)
+    if (gap > reported_gap_m)
         xml.warn(lane_node(before.node, lane.id),
                  fmt::format("{}: the edges of lane {} jump by {:.3f} m at s = {}", named("road", before.road.id), lane.id, gap, before.s));
 }
@@ -316,7 +316,7 @@ void check_lane_links(XmlFile& xml, const Crossing& c, const Road* incoming, con
         if (std::isfinite(meeting.gap_m) && meeting.gap_m > worst)
             worst = meeting.gap_m, worst_lane = from;
     }
-    if (worst > told_gap_m)
+    if (worst > reported_gap_m)
         xml.warn(c.node, fmt::format("{}: lane {} jumps by {:.3f} m", through(c), worst_lane, worst));
 }
 

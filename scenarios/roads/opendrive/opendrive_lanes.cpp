@@ -79,7 +79,7 @@ bool has_roll(const Road& road) {
 /// Edges in steps over the section: cubics may run away, or cross, between the values that look sane.
 void check_edges(XmlFile& xml, pugi::xml_node node, const Road& road, const LaneSection& section) {
     constexpr int samples = 20;
-    constexpr double told_overlap_m = 0.001;
+    constexpr double reported_overlap_m = 0.001;
     const std::string road_name = named("road", road.id);
     for (const Lane& lane : section.lanes) {
         double overlap = 0.0, overlap_s = 0.0;
@@ -98,7 +98,7 @@ void check_edges(XmlFile& xml, pugi::xml_node node, const Road& road, const Lane
             if (-width > overlap)
                 overlap = -width, overlap_s = s;
         }
-        if (overlap > told_overlap_m)
+        if (overlap > reported_overlap_m)
             xml.warn(node, fmt::format("{}: lane {} overlaps its inner neighbour by {:.3f} m at s = {}; it has no width there", road_name,
                                        lane.id, overlap, overlap_s));
         if (lane.id != 0 && !lane.borders.empty() && !road.lane_offset.empty())

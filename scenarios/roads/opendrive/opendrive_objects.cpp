@@ -8,7 +8,7 @@ namespace fernlicht::opendrive {
 namespace {
 
 constexpr double widest_object_m = 2000.0; ///< of one object
-constexpr double most_repeats = 100'000.0;
+constexpr double max_repeats = 100'000.0;
 constexpr double longest_piece_m = 4.0; ///< of a continuous object: 5 mm of sagitta at a radius of 400 m
 
 /// Refuses what measures too much.
@@ -94,9 +94,8 @@ void append_repeats(XmlFile& xml, pugi::xml_node repeat, const RoadObject& objec
     const Ramp size = ramp(xml, repeat, "length", object.length_m), radius = ramp(xml, repeat, "radius", object.radius_m);
     const bool continuous = distance == 0.0;
     const double steps = continuous ? std::ceil(length / longest_piece_m) : std::floor(length / distance + 1e-9) + 1.0;
-    if (steps > most_repeats)
-        xml.refuse(repeat, "distance", fmt::format("found {} over {} m", distance, length),
-                   fmt::format("at most {} objects", most_repeats));
+    if (steps > max_repeats)
+        xml.refuse(repeat, "distance", fmt::format("found {} over {} m", distance, length), fmt::format("at most {} objects", max_repeats));
     for (double i = 0.0; i < steps; i += 1.0) {
         const double along = continuous ? (i + 0.5) * length / steps : i * distance;
         const double part = length > 0.0 ? along / length : 0.0;

@@ -10,7 +10,7 @@ namespace fernlicht::opendrive {
 std::string named(std::string_view element, const std::string& id);
 
 /// Larger steps are told; smaller ones are rounding of exporters, who write positions to the centimetre.
-inline constexpr double told_gap_m = 0.01;
+inline constexpr double reported_gap_m = 0.01;
 
 /// planView: elements ascending in s, prepared, in the header's axes. Gaps are warned of.
 void read_plan(XmlFile& xml, pugi::xml_node road_node, Road& road);

@@ -10,7 +10,7 @@ namespace fernlicht::opendrive {
 namespace {
 
 /// Exporters write headings to 1e-4.
-constexpr double told_kink_rad = 0.01, told_length_m = 0.01;
+constexpr double reported_kink_rad = 0.01, reported_length_m = 0.01;
 
 /// Beyond, a number is mistyped, and everything that walks along the road would take too long.
 constexpr double longest_road_m = 1e6;
@@ -95,15 +95,15 @@ void check_parameters(XmlFile& xml, const ElementNode& read, const std::string& 
     const auto* poly = std::get_if<ParamPoly3>(&read.element.shape);
     if (!poly)
         return;
-    constexpr double told_difference_m = 0.001, told_speed = 0.05;
+    constexpr double reported_difference_m = 0.001, reported_speed = 0.05;
     const double length = read.element.length_m, drawn = drawn_length_m(read.element);
-    if (!(std::abs(drawn - length) <= told_difference_m))
+    if (!(std::abs(drawn - length) <= reported_difference_m))
         xml.warn_once(
             read.node, "paramPoly3 length",
             fmt::format("{}: the paramPoly3 at s = {} is {:.4f} m long, its length says {:.4f} m; its parameter is followed, so distances "
                         "along it are stretched",
                         road_name, read.element.s_m, drawn, length));
-    if (const auto [least, most] = speeds(read.element); !(least >= 1.0 - told_speed && most <= 1.0 + told_speed))
+    if (const auto [least, most] = speeds(read.element); !(least >= 1.0 - reported_speed && most <= 1.0 + reported_speed))
         xml.warn_once(
             read.node, "paramPoly3 speed",
             fmt::format(
@@ -122,13 +122,13 @@ double heading_difference(double a, double b) { return std::abs(std::remainder(a
 void check_join(XmlFile& xml, const ElementNode& from, const ElementNode& to, const std::string& road_name) {
     const PlanElement &a = from.element, &b = to.element;
     const double step = b.s_m - (a.s_m + a.length_m);
-    if (std::abs(step) > told_length_m)
+    if (std::abs(step) > reported_length_m)
         xml.warn(to.node, fmt::format("{}: the geometry at s = {} begins {:.3f} m {} the end of the one before", road_name, b.s_m,
                                       std::abs(step), step > 0.0 ? "after" : "before"));
     const PlanPoint end = plan_point(a, a.length_m), start = plan_point(b, 0.0);
-    if (const double gap = std::hypot(end.x_m - start.x_m, end.y_m - start.y_m); !(gap <= told_gap_m))
+    if (const double gap = std::hypot(end.x_m - start.x_m, end.y_m - start.y_m); !(gap <= reported_gap_m))
         xml.warn(to.node, fmt::format("{}: the reference line jumps by {:.3f} m at s = {}", road_name, gap, b.s_m));
-    if (const double kink = heading_difference(end.heading_rad, start.heading_rad); !(kink <= told_kink_rad))
+    if (const double kink = heading_difference(end.heading_rad, start.heading_rad); !(kink <= reported_kink_rad))
         xml.warn(to.node, fmt::format("{}: the reference line turns by {:.2f} degrees at s = {}", road_name, degrees(kink), b.s_m));
 }
 
@@ -154,11 +154,11 @@ void read_plan(XmlFile& xml, pugi::xml_node road_node, Road& road) {
             check_join(xml, read[i - 1], read[i], road_name);
         road.plan.push_back(read[i].element);
     }
-    if (road.plan.front().s_m > told_length_m)
+    if (road.plan.front().s_m > reported_length_m)
         xml.warn(read.front().node,
                  fmt::format("{}: the first geometry begins at s = {}; it is extended back to 0", road_name, road.plan.front().s_m));
     const double end = road.plan.back().s_m + road.plan.back().length_m;
-    if (std::abs(end - road.length_m) > told_length_m && road.length_m > 0.0)
+    if (std::abs(end - road.length_m) > reported_length_m && road.length_m > 0.0)
         xml.warn(road_node, fmt::format("{}: its length is given as {} m, its geometry ends at {} m; the geometry holds", road_name,
                                         road.length_m, end));
     road.length_m = end;

@@ -143,7 +143,7 @@ TEST(SpatialAliasing, ABrightSpotInTheDarkHasFullContrastAndNoMore) {
     fine.at(32 * k + k / 2, 32 * k + k / 2) = tested.at(32, 32) = 300.0F;
     const SpatialAliasing found = measure_spatial_aliasing(tested, split_bands(fine, k), ppd);
     EXPECT_GT(found.level_picture.at(32, 32), 300.0 / 40.0); // 1 / 32 of it where a block has it in the middle
-    EXPECT_EQ(found.level_picture.at(2, 2), least_seen_cdm2);
+    EXPECT_EQ(found.level_picture.at(2, 2), min_seen_cdm2);
     EXPECT_LT(found.aliasing.contrast_percent, 100.0);
     EXPECT_GT(found.aliasing.contrast_percent, 20.0);
 }

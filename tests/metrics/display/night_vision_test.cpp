@@ -1,7 +1,7 @@
 #include "metrics/display/display_colour.h"
+#include "metrics/display/display_viewing.h"
 #include "metrics/display/night_vision.h"
 #include "metrics/display/scatter.h"
-#include "metrics/display/seen_display.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -118,7 +118,7 @@ TEST(ToneFit, OfOneLuminanceAndOfAHistogramOfFourPixels) {
     Image<float> picture(2, 2);
     picture.pixels() = {0.0F, 1.0F, 100.0F, 5000.0F};
     histogram.add(picture);
-    EXPECT_EQ(std::tuple(histogram.pixels(), histogram.most_cdm2()), std::tuple(4U, 5000.0));
+    EXPECT_EQ(std::tuple(histogram.pixels(), histogram.max_cdm2()), std::tuple(4U, 5000.0));
     EXPECT_NEAR(histogram.log_mean_cdm2(), std::cbrt(500000.0), 1.0e-9);
 }
 

@@ -190,8 +190,8 @@ TEST(FlipHdr, BlackNightsAreExposedForWhatIsLit) {
 
 TEST(FlipHdr, ExtremesAreBoundedAndComparedAndTheSameIsZero) {
     const ExposureRange deep = exposures_for(grey_scene(3, 1, {1e-38F, 1e-38F, 1e30F}));
-    EXPECT_DOUBLE_EQ(deep.stop - deep.start, most_stops);
-    EXPECT_EQ(deep.count, static_cast<int>(most_stops));
+    EXPECT_DOUBLE_EQ(deep.stop - deep.start, max_stops);
+    EXPECT_EQ(deep.count, static_cast<int>(max_stops));
     const ExposureRange flat = exposures_for(grey_scene(3, 1, {2.0F}));
     EXPECT_DOUBLE_EQ(flat.start, flat.stop);
     EXPECT_EQ(flat.count, 2);

@@ -1,7 +1,7 @@
 // Names of readings: printed, parsed and printed again, each shape of each quantity, those that were accepted, and random ones.
 #include "metrics/folds/reading_names.h"
 #include "metrics/readings/reading_key.h"
-#include "metrics/readings/reading_words.h"
+#include "metrics/readings/reading_labels.h"
 #include "metrics/readings/significance.h"
 #include "metrics/readings/value.h"
 #include "scenarios/values/errors.h"
@@ -115,7 +115,7 @@ TEST(ReadingKey, EveryShapeLeadsBackToItsKeyAndNoTwoShareAName) {
 
 TEST(ReadingKey, NamesOfAcceptedResultsComeBack) {
     std::size_t readings = 0;
-    for (const auto& file : std::filesystem::recursive_directory_iterator(std::string(FERNLICHT_SOURCE_DIR) + "/references/objects")) {
+    for (const auto& file : std::filesystem::recursive_directory_iterator(std::string(FERNLICHT_SOURCE_DIR) + "/baselines/objects")) {
         if (!file.is_regular_file())
             continue;
         std::ifstream stream(file.path());
@@ -202,9 +202,9 @@ TEST(ReadingKey, EyesHaveNamesOfTheirOwnAndKindsAreTold) {
     EXPECT_FALSE(is_extent(key("sensor_a_reach_5lx_m")));
     EXPECT_TRUE(is_time(key("frame_time_median_ms")));
     EXPECT_FALSE(is_time(key("glare_a_time_above_1lx_s"))) << "the drive's time, not the machine's";
-    EXPECT_TRUE(says_how_exact(key("probe_a_twin_lx")));
-    EXPECT_FALSE(says_how_exact(key("probe_twin_lx"))) << "a probe of this name";
-    EXPECT_FALSE(says_how_exact(key("control_others_still_max_lx")));
+    EXPECT_TRUE(is_uncertainty(key("probe_a_twin_lx")));
+    EXPECT_FALSE(is_uncertainty(key("probe_twin_lx"))) << "a probe of this name";
+    EXPECT_FALSE(is_uncertainty(key("control_others_still_max_lx")));
 }
 
 // Readings in words: the usual ones word for word, of all others that nothing is left open.
@@ -232,11 +232,11 @@ TEST(ReadingWords, SayWhatANameSaysAndLeaveNothingOpen) {
         {"marking_left_at_50m_cdm2", "luminance of the left marking, 50 m ahead"},
         {"control_left_bends_reach_gain_5lx_m", "reach at 5 lx in left bends, gained by control"}};
     for (const auto& [name, words] : readings)
-        EXPECT_EQ(reading_in_words(key_of(name).value()), words);
+        EXPECT_EQ(reading_label(key_of(name).value()), words);
     for (const QuantityRow& row : quantities())
         for (const ReadingKey& key :
              shapes_of({.quantity = row.quantity, .subject = "a", .lane = "own", .threshold = {5.0}, .distance_m = 50.0}))
-            EXPECT_THAT(reading_in_words(key), testing::Not(testing::ContainsRegex("[{}_]|  |, ,|,$|^ "))) << name_of(key);
+            EXPECT_THAT(reading_label(key), testing::Not(testing::ContainsRegex("[{}_]|  |, ,|,$|^ "))) << name_of(key);
 }
 
 // docs/readings.md has the table that the program prints.
@@ -310,8 +310,8 @@ TEST(ReadingNames, WhatARunCanMeasureIsKnownAndAllElseRefused) {
 // Changes between a figure and a bound.
 
 /// Of a reach that goes on beyond the grid nothing is told of the grid's error.
-PlayedReadings reaching(const Value& reach) {
-    PlayedReadings played;
+ReadingsOfCell reaching(const Value& reach) {
+    ReadingsOfCell played;
     const auto put = [&](const char* name, const Value& value) {
         const ReadingKey key = key_of(name).value();
         played.readings[key] = {key, value};
@@ -332,12 +332,12 @@ ReadingChange change(const Value& now, const Value& before) {
 TEST(Significance, ABoundIsExactAsABound) {
     for (const auto& [now, before] : {std::pair{Value::at_least(200.0), Value(56.9)}, std::pair{Value(56.9), Value::at_least(200.0)}}) {
         const ReadingChange found = change(now, before);
-        EXPECT_EQ(found.kind, ChangeKind::real) << found.why_not;
+        EXPECT_EQ(found.kind, ChangeKind::real) << found.reason_unknown;
         EXPECT_DOUBLE_EQ(found.uncertainty.value(), 0.4) << "that of the figure alone";
         EXPECT_NEAR(found.least(), 143.1, 1e-9);
     }
     EXPECT_EQ(change(Value::at_least(200.0), 199.9).kind, ChangeKind::unknown) << "it may be much more";
-    EXPECT_EQ(change(Value::at_least(200.0), Value::at_least(200.0)).why_not, "both beyond 200 m");
+    EXPECT_EQ(change(Value::at_least(200.0), Value::at_least(200.0)).reason_unknown, "both beyond 200 m");
 }
 
 // Values that are numbers, bounds or not measured, and what they make of each other.
@@ -376,8 +376,8 @@ TEST(Value, KeepsALimitOrLeavesItOpenAndIsNeverNan) {
     }
 }
 
-TEST(ManyMoments, QuantilesRestOnBoundsWhereTheyMust) {
-    ManyMoments moments;
+TEST(CensoredSamples, QuantilesRestOnBoundsWhereTheyMust) {
+    CensoredSamples moments;
     EXPECT_EQ(moments.quantile(0.5), Value::not_measured("not there in any moment"));
     for (const Value& value : {Value(130.0), Value(140.0), Value(150.0), Value::at_least(200.0)})
         moments.add(value);
@@ -390,8 +390,8 @@ TEST(ManyMoments, QuantilesRestOnBoundsWhereTheyMust) {
     EXPECT_EQ(moments.account(), "4 moments, 1 left out: cut off");
 }
 
-TEST(ManyMoments, BoundsAmongTheNumbersRankWhereTheyMayLie) {
-    ManyMoments moments; // the first may be anything from 20 up
+TEST(CensoredSamples, BoundsAmongTheNumbersRankWhereTheyMayLie) {
+    CensoredSamples moments; // the first may be anything from 20 up
     for (const Value& value : {Value::at_least(20.0), Value(30.0), Value(40.0)})
         moments.add(value);
     EXPECT_EQ(moments.quantile(0.0), Value::at_least(20.0));
@@ -403,13 +403,13 @@ TEST(ManyMoments, BoundsAmongTheNumbersRankWhereTheyMayLie) {
     EXPECT_EQ(moments.quantile(2.0 / 3.0), Value::not_measured("between 30 and 40"));
 }
 
-TEST(ManyMoments, MeansNeedNumbers) {
-    ManyMoments moments;
+TEST(CensoredSamples, MeansNeedNumbers) {
+    CensoredSamples moments;
     for (const double value : {1.0, 2.0, 6.0})
         moments.add(value);
     EXPECT_EQ(moments.mean(), Value(3.0));
     EXPECT_NEAR(*moments.standard_deviation().number(), std::sqrt(7.0), 1e-12);
-    ManyMoments cut;
+    CensoredSamples cut;
     cut.add(Value::not_measured("cut off"));
     EXPECT_EQ(cut.quantile(0.5), Value::not_measured("cut off in every moment"));
 }

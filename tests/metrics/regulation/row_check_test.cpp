@@ -145,15 +145,15 @@ TEST(Regulations, HaveTheDigitsOfTheirTexts) {
         const Regulation& r = regulation(id);
         return *std::find_if(r.rows.begin(), r.rows.end(), [&](const RegulationRow& one) { return one.id == name; });
     };
-    for (const auto& [id, name, least_cd] :
+    for (const auto& [id, name, min_cd] :
          {std::tuple("r149-c", "75R", 12100.0), std::tuple("r112-b", "75R", 10100.0), std::tuple("r123-w", "Imax", 29530.0),
           std::tuple("r123-c-bending-left", "turn to the left", 2500.0), std::tuple("fmvss108-lb3m", "0.5D-1.5R", 8000.0),
           std::tuple("fmvss108-lb4v-vol", "2.5D-12L", 1000.0)})
-        EXPECT_EQ(row(id, name).limits.min_cd, least_cd) << id;
-    for (const auto& [id, name, most_cd] :
+        EXPECT_EQ(row(id, name).limits.min_cd, min_cd) << id;
+    for (const auto& [id, name, max_cd] :
          {std::tuple("r112-a", "zone I", 17600.0), std::tuple("r98-d", "Imax R", 43800.0), std::tuple("r123-e3", "B50L", 350.0),
           std::tuple("r123-adb-oncoming-50m", "line 1", 625.0), std::tuple("fmvss108-ub2", "4D-V", 12000.0)})
-        EXPECT_EQ(row(id, name).limits.max_cd, most_cd) << id;
+        EXPECT_EQ(row(id, name).limits.max_cd, max_cd) << id;
     EXPECT_EQ(row("r149-v", "segment 10 and below").ratio_of, "25V"); // corrected by WP.29/1166
 }
 

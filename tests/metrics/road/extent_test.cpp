@@ -23,10 +23,10 @@ struct BareLamp {
     }
     double target_lx(double ahead_m, double offset_m) const { return cd / (ahead_m * ahead_m + offset_m * offset_m + height_m * height_m); }
     /// Distance on the road at which the limit is met, along offset `b`.
-    double road_reach_m(double limit_lx, double b = 0.0) const {
-        return std::sqrt(std::pow(cd * height_m / limit_lx, 2.0 / 3.0) - height_m * height_m - b * b);
+    double road_reach_m(double threshold_lx, double b = 0.0) const {
+        return std::sqrt(std::pow(cd * height_m / threshold_lx, 2.0 / 3.0) - height_m * height_m - b * b);
     }
-    double target_reach_m(double limit_lx, double b = 0.0) const { return std::sqrt(cd / limit_lx - height_m * height_m - b * b); }
+    double target_reach_m(double threshold_lx, double b = 0.0) const { return std::sqrt(cd / threshold_lx - height_m * height_m - b * b); }
 };
 
 class BareLampOnTheRoad : public ::testing::Test {
@@ -34,7 +34,7 @@ class BareLampOnTheRoad : public ::testing::Test {
     const BareLamp lamp;
     const ExtentGrid grid = straight_grid({});
     const std::vector<double> lx = lit_by(grid, [this](double x, double y) { return lamp.road_lx(x, y); }), limits{1.0, 3.0, 5.0, 10.0};
-    const std::vector<LaneExtent> extents = measure_extent(grid, lx, ExtentPlane::road, limits, {5.0, 10.0});
+    const std::vector<LaneExtent> extents = measure_extent(grid, lx, Surface::road, limits, {5.0, 10.0});
 };
 
 // Straight in ln E over a cell c, the error of a power law x^-3 is about c^2 / (8 x): 2.5 mm at 12 m.
@@ -88,18 +88,18 @@ TEST_F(BareLampOnTheRoad, WidthIsTheChord) {
     EXPECT_DOUBLE_EQ(own.widths[1].width_m, 3.5);
 }
 
-std::vector<LaneExtent> evenly_lit(const ExtentGrid& grid, double lx, double limit_lx, const std::vector<double>& width_at_m = {}) {
-    return measure_extent(grid, std::vector<double>(grid.surface.size(), lx), ExtentPlane::road, {limit_lx}, width_at_m);
+std::vector<LaneExtent> evenly_lit(const ExtentGrid& grid, double lx, double threshold_lx, const std::vector<double>& width_at_m = {}) {
+    return measure_extent(grid, std::vector<double>(grid.surface.size(), lx), Surface::road, {threshold_lx}, width_at_m);
 }
 
 TEST(Extent, OnATargetFacingTheLamp) {
     const BareLamp lamp;
     const ExtentGrid grid = straight_grid({.ahead_m = 120.0});
     const auto extents =
-        measure_extent(grid, lit_by(grid, [&](double x, double y) { return lamp.target_lx(x, y); }), ExtentPlane::target, {1.0, 5.0}, {});
+        measure_extent(grid, lit_by(grid, [&](double x, double y) { return lamp.target_lx(x, y); }), Surface::target, {1.0, 5.0}, {});
     EXPECT_NEAR(extent_of(extents, "own", 1.0).reach_centre_m, lamp.target_reach_m(1.0), 1e-3);
     EXPECT_NEAR(extent_of(extents, "own", 5.0).reach_left_edge_m, lamp.target_reach_m(5.0, 1.75), 2e-3);
-    EXPECT_EQ(extent_of(extents, "own", 5.0).plane, ExtentPlane::target);
+    EXPECT_EQ(extent_of(extents, "own", 5.0).surface, Surface::target);
 }
 
 TEST(Extent, BeyondTheGridIsCutOffAndLanesOutsideAreLeftOut) {
@@ -138,7 +138,7 @@ TEST(Extent, UnlitIsZeroEverywhere) {
 TEST(Extent, WedgeHasItsWidthsAndArea) {
     const ExtentGrid grid = straight_grid({.ahead_m = 50.0, .beside_m = 6.0});
     const auto wedge = [](double x, double y) { return std::exp(x / 10.0 - std::abs(y)); };
-    const auto extents = measure_extent(grid, lit_by(grid, wedge), ExtentPlane::road, {1.0}, {20.0, 33.3});
+    const auto extents = measure_extent(grid, lit_by(grid, wedge), Surface::road, {1.0}, {20.0, 33.3});
     const LaneExtent all = extent_of(extents, "all", 1.0);
     EXPECT_NEAR(all.area_m2, 250.0, 1e-9);
     ASSERT_EQ(all.widths.size(), 2U);
@@ -156,7 +156,7 @@ TEST(Extent, OfADarkGapAndOfTwoPools) {
     const ExtentGrid grid = straight_grid({.ahead_m = 60.0});
     const auto extents = measure_extent(
         grid, lit_by(grid, [](double x, double) { return (x >= 10.0 && x <= 20.0) || (x >= 30.0 && x <= 40.0) ? 10.0 : 0.1; }),
-        ExtentPlane::road, {1.0}, {});
+        Surface::road, {1.0}, {});
     // Half a cell of fall-off at each of the four edges: 10 : 0.1 about 1.
     const LaneExtent own = extent_of(extents, "own", 1.0);
     EXPECT_NEAR(own.reach_centre_m, 40.25, 1e-12);
@@ -164,7 +164,7 @@ TEST(Extent, OfADarkGapAndOfTwoPools) {
     // Two separate pools of light: the edges are the outermost, the width leaves the dark between them out.
     const ExtentGrid other_grid = straight_grid({.ahead_m = 10.0, .beside_m = 4.0});
     const auto pools = [](double, double y) { return std::abs(y) >= 1.0 && std::abs(y) <= 2.0 ? 10.0 : 0.0; };
-    const auto other_extents = measure_extent(other_grid, lit_by(other_grid, pools), ExtentPlane::road, {5.0}, {5.0});
+    const auto other_extents = measure_extent(other_grid, lit_by(other_grid, pools), Surface::road, {5.0}, {5.0});
     const LaneExtent::Width width = extent_of(other_extents, "all", 5.0).widths.at(0);
     EXPECT_NEAR(width.left_m, 2.0625, 1e-12);
     EXPECT_NEAR(width.right_m, -2.0625, 1e-12);
@@ -209,16 +209,16 @@ TEST(Extent, AreaIsThatOfTheRoadNotOfTheGrid) {
 TEST(Extent, RefusesWhatCannotBeMeasured) {
     const ExtentGrid grid = straight_grid({.ahead_m = 10.0});
     std::vector<double> lx(grid.surface.size(), 1.0);
-    EXPECT_THROW(measure_extent(grid, {1.0}, ExtentPlane::road, {1.0}, {}), std::invalid_argument);
-    EXPECT_THROW(measure_extent(grid, lx, ExtentPlane::road, {0.0}, {}), std::invalid_argument);
+    EXPECT_THROW(measure_extent(grid, {1.0}, Surface::road, {1.0}, {}), std::invalid_argument);
+    EXPECT_THROW(measure_extent(grid, lx, Surface::road, {0.0}, {}), std::invalid_argument);
     lx[17] = std::nan("");
-    EXPECT_THROW(measure_extent(grid, lx, ExtentPlane::road, {1.0}, {}), std::invalid_argument);
-    EXPECT_TRUE(measure_extent({}, {}, ExtentPlane::road, {1.0}, {}).empty());
+    EXPECT_THROW(measure_extent(grid, lx, Surface::road, {1.0}, {}), std::invalid_argument);
+    EXPECT_TRUE(measure_extent({}, {}, Surface::road, {1.0}, {}).empty());
 }
 
 GridError error_on(const StraightGrid& size) {
     const ExtentGrid grid = straight_grid(size);
-    return grid_error(grid, lit_by(grid, [](double x, double y) { return BareLamp{}.road_lx(x, y); }), ExtentPlane::road, {3.0}).at(0);
+    return grid_error(grid, lit_by(grid, [](double x, double y) { return BareLamp{}.road_lx(x, y); }), Surface::road, {3.0}).at(0);
 }
 
 // The error of the reach goes as the square of the cell: E = x^-3 gives c^2 / (8 x) on top of another phase in the cell.
@@ -229,7 +229,7 @@ TEST(GridError, IsSmallForSmoothLightAndShrinksWithTheCell) {
     EXPECT_GT(coarse.area_m2, 0.0);
     EXPECT_LT(fine.reach_m.value(), 0.015);
     EXPECT_LT(fine.area_m2, 0.2 * coarse.area_m2);
-    EXPECT_EQ(fine.limit_lx, 3.0);
+    EXPECT_EQ(fine.threshold_lx, 3.0);
 }
 
 // Of every lane what grid_error tells of the own lane's reach and of the whole width's area.
@@ -238,10 +238,10 @@ TEST(LaneGridErrors, AgreeWithTheGridsErrorAndShrinkWithTheCell) {
     const auto errors_with = [&](double cell_m) {
         const ExtentGrid grid = straight_grid({.ahead_m = 60.0, .along_m = cell_m, .across_m = cell_m / 4.0});
         const std::vector<double> lx = lit_by(grid, [&](double x, double y) { return lamp.road_lx(x, y); });
-        const std::vector<LaneExtent> measured = measure_extent(grid, lx, ExtentPlane::road, {3.0}, {});
-        const std::vector<LaneGridError> errors = lane_grid_errors(grid, lx, ExtentPlane::road, {3.0}, measured);
+        const std::vector<LaneExtent> measured = measure_extent(grid, lx, Surface::road, {3.0}, {});
+        const std::vector<LaneGridError> errors = lane_grid_errors(grid, lx, Surface::road, {3.0}, measured);
         EXPECT_EQ(errors.size(), measured.size());
-        const GridError whole = grid_error(grid, lx, ExtentPlane::road, {3.0}).at(0);
+        const GridError whole = grid_error(grid, lx, Surface::road, {3.0}).at(0);
         for (const LaneGridError& error : errors) {
             EXPECT_NEAR(error.lane == "own" ? error.reach_m : whole.reach_m.value(), whole.reach_m.value(), 1e-12);
             EXPECT_NEAR(error.lane == "all" ? error.area_m2 : whole.area_m2, whole.area_m2, 1e-9);
@@ -261,11 +261,11 @@ TEST(LaneGridErrors, AgreeWithTheGridsErrorAndShrinkWithTheCell) {
 TEST(GridError, EvenNumbersOfRowsCompareTheSameGround) {
     ExtentGrid grid = straight_grid({.ahead_m = 10.5});
     ASSERT_EQ(grid.ahead_m.size() % 2, 0U);
-    const auto errors = grid_error(grid, std::vector<double>(grid.surface.size(), 7.0), ExtentPlane::target, {5.0});
+    const auto errors = grid_error(grid, std::vector<double>(grid.surface.size(), 7.0), Surface::target, {5.0});
     ASSERT_EQ(errors.size(), 1U);
     EXPECT_FALSE(errors[0].reach_m); // lit to the end of both
     EXPECT_NEAR(errors[0].area_m2, 0.0, 1e-9);
-    EXPECT_EQ(errors[0].plane, ExtentPlane::target);
+    EXPECT_EQ(errors[0].surface, Surface::target);
 }
 
 // Of two reaches that both end with the grid nothing tells how far apart they are.
@@ -319,10 +319,10 @@ TEST(ExtentGrid, WithoutRowsGivesNoExtents) {
     const LibraryRoad road;
     const Moment moment{.distance_m = road.route.length_m()};
     const ExtentGrid grid = road.grid(moment.distance_m);
-    const std::vector<double> lx = twin_illuminance_lx(grid, moment, ExtentPlane::road);
+    const std::vector<double> lx = twin_illuminance_lx(grid, moment, Surface::road);
     EXPECT_TRUE(lx.empty());
-    EXPECT_TRUE(measure_extent(grid, lx, ExtentPlane::road, {1.0}, {20.0}).empty());
-    EXPECT_TRUE(grid_error(grid, lx, ExtentPlane::road, {1.0}).empty());
+    EXPECT_TRUE(measure_extent(grid, lx, Surface::road, {1.0}, {20.0}).empty());
+    EXPECT_TRUE(grid_error(grid, lx, Surface::road, {1.0}).empty());
     EXPECT_TRUE(reach_sensitivity(grid, moment, {1.0}).empty());
 }
 

@@ -1,7 +1,7 @@
-#include "metrics/road/deciding_lx.h"
 #include "metrics/road/extent.h"
 #include "metrics/road/lane_ahead.h"
 #include "metrics/road/lit_line.h"
+#include "metrics/road/lux_near_thresholds.h"
 #include "scenarios/drives/play/advance.h"
 #include "tests/metrics/straight_grid.h"
 
@@ -43,8 +43,8 @@ TEST(LitLine, AddsUpWhatIsLitBetweenCrossings) {
          {true, 0.0, 4.0, 2.0, 0.0, true}},
         {"nothing at all", {}, 1.0, {}},
         {"one sample", {{3.0, 2.0}}, 1.0, {true, 3.0, 3.0, 0.0, 0.0, true}}};
-    for (const auto& [what, samples, limit_lx, expected] : cases) {
-        const LitLine line = lit_line(samples, limit_lx);
+    for (const auto& [what, samples, threshold_lx, expected] : cases) {
+        const LitLine line = lit_line(samples, threshold_lx);
         EXPECT_EQ(std::tuple(line.lit, line.lit_at_end), std::tuple(expected.lit, expected.lit_at_end)) << what;
         EXPECT_DOUBLE_EQ(line.first_m, expected.first_m) << what;
         EXPECT_DOUBLE_EQ(line.last_m, expected.last_m) << what;
@@ -102,8 +102,8 @@ TEST(Approach, CountsTimeAndLengthOfWhatWasMeasured) {
 const std::filesystem::path roads = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads";
 
 glm::dvec3 over(const Route& route, double at_m, double height_m) {
-    const Pose surface = route.pose(at_m);
-    return surface.position_m + height_m * surface.up();
+    const Pose pose = route.pose(at_m);
+    return pose.position_m + height_m * pose.up();
 }
 
 TEST(LaneAhead, MeetsTheRoadBehindATarget) {
@@ -136,18 +136,18 @@ TEST(LaneAhead, EndsWithTheRoute) {
     EXPECT_EQ(LaneAhead(route, route.length_m() + 10.0, 200.0, 1.0).surface().size(), 0U);
 }
 
-const std::vector<double> limits_lx{1.0, 3.0, 5.0, 10.0};
+const std::vector<double> thresholds_lx{1.0, 3.0, 5.0, 10.0};
 
 TEST(LimitSide, IsTheNumberOfLimitsThatBothBoundsReach) {
-    EXPECT_EQ(limit_side({0.0, 0.99}, limits_lx), 0);
-    EXPECT_EQ(limit_side({1.01, 2.99}, limits_lx), 1);
-    EXPECT_EQ(limit_side({5.1, 9.9}, limits_lx), 3);
-    EXPECT_EQ(limit_side({11.0, 1e6}, limits_lx), 4);
-    EXPECT_EQ(limit_side({0.99, 1.01}, limits_lx), undecided_side);
-    EXPECT_EQ(limit_side({1.0, 1.0}, limits_lx), undecided_side) << "a limit itself lies too near to tell";
-    EXPECT_EQ(limit_side({}, limits_lx), undecided_side);
-    EXPECT_EQ(limit_side({20.0, NAN}, limits_lx), undecided_side);
-    EXPECT_EQ(limit_side({NAN, 20.0}, limits_lx), undecided_side);
+    EXPECT_EQ(limit_side({0.0, 0.99}, thresholds_lx), 0);
+    EXPECT_EQ(limit_side({1.01, 2.99}, thresholds_lx), 1);
+    EXPECT_EQ(limit_side({5.1, 9.9}, thresholds_lx), 3);
+    EXPECT_EQ(limit_side({11.0, 1e6}, thresholds_lx), 4);
+    EXPECT_EQ(limit_side({0.99, 1.01}, thresholds_lx), undecided_side);
+    EXPECT_EQ(limit_side({1.0, 1.0}, thresholds_lx), undecided_side) << "a limit itself lies too near to tell";
+    EXPECT_EQ(limit_side({}, thresholds_lx), undecided_side);
+    EXPECT_EQ(limit_side({20.0, NAN}, thresholds_lx), undecided_side);
+    EXPECT_EQ(limit_side({NAN, 20.0}, thresholds_lx), undecided_side);
 }
 
 // Rows of 4 m by columns of 1 m: no lane's edge moves across columns.
@@ -193,11 +193,11 @@ struct Played {
     RoadNetwork network = read_opendrive(drive.road_file);
     Route route{network, drive.start, drive.via};
 
-    Moment at(int tick, std::size_t variant) const {
+    Moment at(int tick, std::size_t lamp_set) const {
         State state = start(drive);
         while (state.tick < tick)
             state = advance(state, drive);
-        return moment_at(state, drive, route, drive.variants.at(variant));
+        return moment_at(state, drive, route, drive.lamp_sets.at(lamp_set));
     }
     ExtentGrid grid(const Moment& moment) const { return make_extent_grid(route, moment, drive.bumper_m, *drive.extent); }
 };
@@ -209,19 +209,19 @@ TEST(DecidingTwin, GivesTheExtentsOfTheTwin) {
     for (const auto& [name, tick] : {std::pair("first-light", 0), std::pair("first-light", 200), std::pair("s-bend", 120),
                                      std::pair("village", 180), std::pair("village", 240), std::pair("motorway", 60)}) {
         const Played drive = played(name);
-        for (const std::size_t variant : {0U, 1U}) {
-            const Moment moment = drive.at(tick, variant);
+        for (const std::size_t lamp_set : {0U, 1U}) {
+            const Moment moment = drive.at(tick, lamp_set);
             const ExtentGrid grid = drive.grid(moment);
-            for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
-                const std::vector<double> exact = twin_illuminance_lx(grid, moment, plane);
-                const std::vector<double> deciding = deciding_twin_lx(grid, moment, plane, limits_lx);
+            for (const Surface surface : {Surface::road, Surface::target}) {
+                const std::vector<double> exact = twin_illuminance_lx(grid, moment, surface);
+                const std::vector<double> deciding = twin_lux_near_thresholds(grid, moment, surface, thresholds_lx);
                 const auto extents = [&](const std::vector<double>& lx) {
-                    return measure_extent(grid, lx, plane, limits_lx, {20.0, 50.0, 33.3});
+                    return measure_extent(grid, lx, surface, thresholds_lx, {20.0, 50.0, 33.3});
                 };
                 EXPECT_EQ(extents(deciding), extents(exact)) << name << " " << tick;
                 const auto lane_errors = [&](const std::vector<double>& lx) {
                     std::vector<double> all;
-                    for (const LaneGridError& error : lane_grid_errors(grid, lx, plane, limits_lx, extents(lx)))
+                    for (const LaneGridError& error : lane_grid_errors(grid, lx, surface, thresholds_lx, extents(lx)))
                         all.insert(all.end(), {error.reach_m, error.edge_m, error.unlit_m, error.area_m2});
                     return all;
                 };
@@ -231,7 +231,8 @@ TEST(DecidingTwin, GivesTheExtentsOfTheTwin) {
                 ASSERT_EQ(from_deciding.size(), from_exact.size());
                 for (std::size_t i = 0; i < from_exact.size(); ++i)
                     EXPECT_NEAR(from_deciding[i], from_exact[i], 1e-4) << name << " " << tick << " " << i;
-                EXPECT_EQ(grid_error(grid, deciding, plane, limits_lx), grid_error(grid, exact, plane, limits_lx)) << name << " " << tick;
+                EXPECT_EQ(grid_error(grid, deciding, surface, thresholds_lx), grid_error(grid, exact, surface, thresholds_lx))
+                    << name << " " << tick;
                 const std::size_t same = static_cast<std::size_t>(
                     std::inner_product(exact.begin(), exact.end(), deciding.begin(), std::ptrdiff_t{0}, std::plus<>(), std::equal_to<>()));
                 EXPECT_LT(same, exact.size() / 2) << "most points decide nothing";
@@ -250,7 +251,7 @@ TEST(DecidingTwin, IsTheTwinForATableInTheLogarithm) {
         lamp.file = file;
     }
     const ExtentGrid grid = drive.grid(moment);
-    EXPECT_EQ(deciding_twin_lx(grid, moment, ExtentPlane::target, limits_lx), twin_illuminance_lx(grid, moment, ExtentPlane::target));
+    EXPECT_EQ(twin_lux_near_thresholds(grid, moment, Surface::target, thresholds_lx), twin_illuminance_lx(grid, moment, Surface::target));
 }
 
 } // namespace

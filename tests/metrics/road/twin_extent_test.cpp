@@ -33,8 +33,8 @@ TEST(TwinIlluminance, IsTheLawOfLampAndRoad) {
     ExtentGrid grid = straight_grid({.ahead_m = 60.0, .target_height_m = 0.25});
     const Moment moment =
         moment_of({lamp_with(everywhere(10000.0), {-0.2, 0.6, 0.65}), lamp_with(everywhere(10000.0), {-0.2, -0.6, 0.65})});
-    const auto road = twin_illuminance_lx(grid, moment, ExtentPlane::road);
-    const auto target = twin_illuminance_lx(grid, moment, ExtentPlane::target);
+    const auto road = twin_illuminance_lx(grid, moment, Surface::road);
+    const auto target = twin_illuminance_lx(grid, moment, Surface::target);
     for (std::size_t row = 0; row < grid.ahead_m.size(); row += 7)
         for (std::size_t column = 0; column < grid.offset_m.size(); column += 5) {
             const double x = grid.ahead_m[row] + 0.2, y = grid.offset_m[column];
@@ -53,9 +53,9 @@ TEST(TwinIlluminance, LampsThatAreOffAddExactlyNothing) {
     const ExtentGrid grid = straight_grid({.ahead_m = 20.0});
     LitLamp on = lamp_with(everywhere(1000.0), {0.0, 0.0, 0.65}), off = on;
     off.intensity_factor = 0.0;
-    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target}) {
-        EXPECT_EQ(twin_illuminance_lx(grid, moment_of({on}), plane), twin_illuminance_lx(grid, moment_of({off, on, off}), plane));
-        for (const double lx : twin_illuminance_lx(grid, moment_of({off}), plane))
+    for (const Surface surface : {Surface::road, Surface::target}) {
+        EXPECT_EQ(twin_illuminance_lx(grid, moment_of({on}), surface), twin_illuminance_lx(grid, moment_of({off, on, off}), surface));
+        for (const double lx : twin_illuminance_lx(grid, moment_of({off}), surface))
             ASSERT_EQ(lx, 0.0);
     }
 }
@@ -64,26 +64,26 @@ TEST(TwinIlluminance, TheSkyLightsTheRoadAloneAndThreadsChangeNothing) {
     const ExtentGrid grid = straight_grid({.ahead_m = 5.0});
     Moment moment;
     moment.daylight.horizontal_illuminance_lx = 0.2;
-    EXPECT_EQ(twin_illuminance_lx(grid, moment, ExtentPlane::road).front(), 0.2);
-    EXPECT_EQ(twin_illuminance_lx(grid, moment, ExtentPlane::target).front(), 0.0);
+    EXPECT_EQ(twin_illuminance_lx(grid, moment, Surface::road).front(), 0.2);
+    EXPECT_EQ(twin_illuminance_lx(grid, moment, Surface::target).front(), 0.0);
     const ExtentGrid other_grid = straight_grid({});
     const Moment other_moment = moment_of({dipped_lamp(), lamp_with(everywhere(1234.5), {0.1, 0.6, 0.7})});
-    const auto with_all = twin_illuminance_lx(other_grid, other_moment, ExtentPlane::road);
+    const auto with_all = twin_illuminance_lx(other_grid, other_moment, Surface::road);
     const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-    EXPECT_EQ(with_all, twin_illuminance_lx(other_grid, other_moment, ExtentPlane::road));
+    EXPECT_EQ(with_all, twin_illuminance_lx(other_grid, other_moment, Surface::road));
 }
 
 TEST(TwinExtent, ReachesWhereTheLawSaysOrTheCutOffEnds) {
     const ExtentGrid grid = straight_grid({.ahead_m = 120.0, .target_height_m = 0.25});
     const Moment moment = moment_of({lamp_with(everywhere(10000.0), {0.0, 0.0, 0.65})});
-    const auto road = measure_extent(grid, twin_illuminance_lx(grid, moment, ExtentPlane::road), ExtentPlane::road, {3.0}, {});
-    const auto target = measure_extent(grid, twin_illuminance_lx(grid, moment, ExtentPlane::target), ExtentPlane::target, {1.0}, {});
+    const auto road = measure_extent(grid, twin_illuminance_lx(grid, moment, Surface::road), Surface::road, {3.0}, {});
+    const auto target = measure_extent(grid, twin_illuminance_lx(grid, moment, Surface::target), Surface::target, {1.0}, {});
     EXPECT_NEAR(extent_of(road, "own", 3.0).reach_centre_m, std::sqrt(std::pow(6500.0 / 3.0, 2.0 / 3.0) - 0.65 * 0.65), 3e-3);
     EXPECT_NEAR(extent_of(target, "own", 1.0).reach_centre_m, std::sqrt(10000.0 - 0.4 * 0.4), 1e-3);
     // At the cut-off I / 65^2 = 11.8 lx: every lower limit ends there, 65 m ahead on the road, h / tan(dip). 65 m is a row of the grid.
     const ExtentGrid other_grid = straight_grid({.ahead_m = 100.0, .across_m = 0.5});
-    const auto lx = twin_illuminance_lx(other_grid, moment_of({dipped_lamp()}), ExtentPlane::target);
-    const auto extents = measure_extent(other_grid, lx, ExtentPlane::target, {1.0, 5.0}, {});
+    const auto lx = twin_illuminance_lx(other_grid, moment_of({dipped_lamp()}), Surface::target);
+    const auto extents = measure_extent(other_grid, lx, Surface::target, {1.0, 5.0}, {});
     EXPECT_NEAR(extent_of(extents, "own", 1.0).reach_centre_m, 65.0, 0.5);
     EXPECT_NEAR(extent_of(extents, "own", 5.0).reach_centre_m, 65.0, 0.5);
     EXPECT_FALSE(extent_of(extents, "own", 1.0).reach_is_cut_off);
@@ -100,8 +100,8 @@ TEST(ReachSensitivity, CutOffAnswersToAimAndNotToFlux) {
     const double metres_per_degree = 0.65 / (std::sin(dip) * std::sin(dip)) * radians(1.0);
     ASSERT_NEAR(metres_per_degree, 113.4, 0.1);
     for (const ReachSensitivity& sensitivity : sensitivities)
-        if (sensitivity.plane == ExtentPlane::target) {
-            EXPECT_NEAR(sensitivity.metres_per_tenth_degree, central_m, 1e-5) << sensitivity.limit_lx;
+        if (sensitivity.surface == Surface::target) {
+            EXPECT_NEAR(sensitivity.metres_per_tenth_degree, central_m, 1e-5) << sensitivity.threshold_lx;
             EXPECT_NEAR(sensitivity.metres_per_tenth_degree / (0.1 * metres_per_degree), 1.0, 0.035);
             EXPECT_NEAR(sensitivity.metres_per_tenth_flux, 0.0, 1e-5);
         }
@@ -112,7 +112,7 @@ TEST(ReachSensitivity, BareLampAnswersToFluxAndNotToAim) {
     const ExtentGrid grid = straight_grid({.ahead_m = 120.0, .beside_m = 1.0, .target_height_m = 0.65});
     const auto sensitivities = reach_sensitivity(grid, moment_of({lamp_with(everywhere(10000.0), {0.0, 0.0, 0.65})}), {1.0});
     ASSERT_EQ(sensitivities.size(), 2U);
-    EXPECT_EQ(sensitivities[1].plane, ExtentPlane::target);
+    EXPECT_EQ(sensitivities[1].surface, Surface::target);
     EXPECT_NEAR(sensitivities[1].metres_per_tenth_flux, 100.0 * 0.5 * (std::sqrt(1.1) - std::sqrt(0.9)), 1e-5);
     EXPECT_NEAR(sensitivities[1].metres_per_tenth_degree, 0.0, 1e-5);
 }

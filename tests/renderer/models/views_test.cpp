@@ -40,7 +40,7 @@ std::vector<View> six() {
     const std::string library = FERNLICHT_SOURCE_DIR "/scenarios/library/";
     return read_drive(tests::written("drive.yaml", "fernlicht: 1\nroad: " + library +
                                                        "roads/straight.xodr\nspeed_mps: 10\nduration_s: 1\nview_set: " + library +
-                                                       "views/six.yaml\nvariants: {a: {source: filament, file: " + library +
+                                                       "views/six.yaml\nlamp_sets: {a: {source: filament, file: " + library +
                                                        "lamps/halogen-low.ies}}\n"))
         .views;
 }
@@ -93,10 +93,10 @@ TEST_F(Views, AMirrorExchangesLeftAndRight) {
     const Scene scene = road_with_car();
     Renderer renderer(device_, scene, {});
     View view{.position_m = {1.3, 0.35, 1.2}, .yaw_rad = 0.15, .width_px = 160, .height_px = 120};
-    const Wanted wanted{.illuminance = true, .depth = true, .ids = true};
-    const Frame plain = renderer.draw(lit(), view, wanted);
+    const FrameOutputs outputs{.illuminance = true, .depth = true, .ids = true};
+    const Frame plain = renderer.draw(lit(), view, outputs);
     view.mirrored = true;
-    const Frame mirror = renderer.draw(lit(), view, wanted);
+    const Frame mirror = renderer.draw(lit(), view, outputs);
     int differ = 0, seen = 0, changed = 0;
     for (const auto& [x, y] : each_pixel(view)) {
         const int other = view.width_px - 1 - x;
@@ -128,10 +128,10 @@ TEST_F(Views, TheLightIsTheSameInAll) {
     View back = wide;
     back.position_m = {2.0, 0.2, 1.4};
     back.yaw_rad = pi;
-    const Wanted wanted{.illuminance = true, .depth = true, .ids = true};
+    const FrameOutputs outputs{.illuminance = true, .depth = true, .ids = true};
     for (View view : views) {
         const View& reference = view.mirrored ? back : wide;
-        const Frame all = renderer.draw(moment, reference, wanted), frame = renderer.draw(moment, view, wanted);
+        const Frame all = renderer.draw(moment, reference, outputs), frame = renderer.draw(moment, view, outputs);
         const Camera camera = camera_of(moment, view), other = camera_of(moment, reference);
         int compared = 0, outside = 0;
         double worst = 0.0;

@@ -193,7 +193,7 @@ TEST(ReferenceDirect, DoesNotLeakThroughTheSeamsOfAFineMesh) {
         }
     scene.meshes.push_back(finished(ceiling, 1));
     Moment moment{.lamps = {even_lamp(1e6, looking({0, 0, 4}, 0, -90))}};
-    const ReferenceImage image = Reference(scene).render(moment, map_about({0, 0}, 8.0, 100), lux, ReferenceSettings{.least_samples = 64});
+    const ReferenceImage image = Reference(scene).render(moment, map_about({0, 0}, 8.0, 100), lux, ReferenceSettings{.min_samples = 64});
     for (const float e : image.illuminance_lx.mean.pixels())
         ASSERT_EQ(e, 0.0F);
 }
@@ -298,11 +298,11 @@ TEST(Whitted, ASlabOfGlassLetsThroughWhatStokesSays) {
         const View view = camera({0, 0, 0}, 0, 0, 1, 1);
         const Reference reference(scene);
         ReferenceSettings settings = one_ray(Integrator::whitted);
-        settings.most_smooth = 32;
+        settings.max_smooth = 32;
         EXPECT_NEAR(reference.render({}, view, everything, settings).luminance_cdm2.mean.at(0, 0), truth, 1e-6 * truth);
-        settings.most_smooth = 2; // straight through alone
+        settings.max_smooth = 2; // straight through alone
         EXPECT_NEAR(reference.render({}, view, everything, settings).luminance_cdm2.mean.at(0, 0), 100.0 * (1.0 - f) * (1.0 - f), 1e-4);
-        settings.most_smooth = 1;
+        settings.max_smooth = 1;
         EXPECT_EQ(reference.render({}, view, everything, settings).luminance_cdm2.mean.at(0, 0), 0.0F);
         const ReferenceImage path = reference.render({}, view, everything, one_ray(Integrator::path));
         expect_estimate(path.luminance_cdm2, truth);
@@ -330,7 +330,7 @@ TEST(Whitted, GlassInAnEvenRoomCannotBeSeen) {
     const Reference reference(scene);
     const View view = camera({-0.5, 0.0, 0.0}, 0, 0, 50, 8);
     ReferenceSettings settings = one_ray(Integrator::whitted);
-    settings.most_smooth = 40;
+    settings.max_smooth = 40;
     const ReferenceImage whitted = reference.render({}, view, everything, settings),
                          path = reference.render({}, view, everything, one_ray(Integrator::path));
     int through_glass = 0;

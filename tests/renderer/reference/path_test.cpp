@@ -26,7 +26,7 @@ TEST(ReferencePath, KeepsEnergyInAWhiteClosedRoom) {
         const Scene scene = closed_room(wall);
         const double truth = 3.0 / (1.0 - static_cast<double>(wall.albedo.x)); // L = Le + rho L
         ReferenceSettings settings = paths(0.005);
-        settings.most_samples = 1 << 16;
+        settings.max_samples = 1 << 16;
         const ReferenceImage image = Reference(scene).render({}, camera({0.2, 0.1, -0.3}, 20, 10, 60, 3), everything, settings);
         for (const auto& [x, y] : each_pixel(3, 3)) {
             expect_estimate(image.luminance_cdm2, truth, 1e-6, x, y);
@@ -176,7 +176,7 @@ TEST(ReferencePath, LightThatABoardSendsBackIsCountedOnce) {
     Moment moment{.lamps = {even_lamp(1000.0, looking(lamp_m, 0, 0))}};
     View view = camera({1.0, 0.25, 0.0}, 180, 0, 1, 1);
     ReferenceSettings settings = paths(0.005, Footprint::centre);
-    settings.most_samples = 1 << 16;
+    settings.max_samples = 1 << 16;
     const ReferenceImage image = Reference(scene).render(moment, view, lux, settings);
     const double rho = static_cast<double>(0.1F), k = 1.0 / static_cast<double>(0.05F);
     double truth = 0.0;

@@ -176,7 +176,7 @@ TEST(SolvedLight, RefusesSettingsThatMakeNoSense) {
     refused([](ReferenceSettings& s) { s.solver.radius_m = 0.0; });
     refused([](ReferenceSettings& s) { s.solver.photons = 0; });
     refused([](ReferenceSettings& s) { s.solver.form_factor_rays = 0; });
-    refused([](ReferenceSettings& s) { s.most_smooth = -1; });
+    refused([](ReferenceSettings& s) { s.max_smooth = -1; });
     // In the dark, and with nothing in reach, there is no light and no failure.
     ReferenceSettings settings = photons(16, 0.1, true);
     EXPECT_EQ(Reference(scene).render({}, map_about({0, 0}, 1.0, 1), lux, settings).illuminance_lx.mean.at(0, 0), 0.0F);
@@ -248,7 +248,7 @@ TEST(Radiosity, PlatesExchangeTheViewFactor) {
     // the two equations E1 = F (pi L + rho2 E2), E2 = F rho1 E1 have a solution by hand; patches of 0.25 m differ from it by 0.3 %.
     const double f12 = plates_factor;
     ReferenceSettings settings = radiosity(0.25, 4096, false);
-    settings.least_samples = 4096; // light differs from patch to patch within the one pixel
+    settings.min_samples = 4096; // light differs from patch to patch within the one pixel
     const ReferenceImage black = Reference(plates(0.0, 0.0, 100.0)).render({}, map_about({0, 0}, 0.5, 1), lux, settings);
     expect_estimate(black.illuminance_lx, pi * 100.0 * f12, 1e-4);
     EXPECT_LT(black.illuminance_lx.standard_error.at(0, 0), 0.01 * pi * 100.0 * f12);

@@ -132,7 +132,7 @@ inline void expect_estimate(const Estimate& estimate, double truth, double bias 
     EXPECT_NEAR(estimate.mean.at(x, y), truth, 5.0 * static_cast<double>(estimate.standard_error.at(x, y)) + bias * truth) << x << " " << y;
 }
 
-inline constexpr Wanted everything{.illuminance = true, .target = true, .luminance = true};
-inline constexpr Wanted lux{.illuminance = true};
+inline constexpr FrameOutputs everything{.illuminance = true, .target = true, .luminance = true};
+inline constexpr FrameOutputs lux{.illuminance = true};
 
 } // namespace fernlicht

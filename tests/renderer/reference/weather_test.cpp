@@ -12,7 +12,7 @@ namespace fernlicht {
 namespace {
 
 ReferenceSettings by(Integrator integrator, double target_error = 0.005, Footprint footprint = Footprint::pixel) {
-    return {.integrator = integrator, .footprint = footprint, .target_error = target_error, .most_samples = 1 << 14};
+    return {.integrator = integrator, .footprint = footprint, .target_error = target_error, .max_samples = 1 << 14};
 }
 
 Moment in_fog(double extinction_per_m, double albedo = 1.0, double asymmetry = 0.85) {
@@ -31,7 +31,7 @@ TEST(ReferenceFog, WhiteFogChangesNothingInAnEvenRoom) {
         expect_estimate(image.illuminance_lx, 6.0 * pi, 1e-5, 1, 0);
     }
     ReferenceSettings once = by(Integrator::path);
-    once.most_scatterings = 1;
+    once.max_scatterings = 1;
     const ReferenceImage lost = Reference(scene).render(in_fog(0.7), camera({0, 0, 0}, 20, 10, 60, 1), everything, once);
     EXPECT_LT(lost.luminance_cdm2.mean.at(0, 0), 5.0F); // of walls' own light nothing is scattered then
 }
@@ -43,7 +43,7 @@ TEST(ReferenceFog, AllLightOfALampReachesTheWallsOfABlackRoomHoweverOftenItIsSca
         Moment moment = in_fog(extinction, 1.0, 0.6);
         moment.lamps = {even_lamp(cd, looking({-0.3, 0.1, 0.2}, 15, -10))};
         ReferenceSettings settings = by(Integrator::path, 0.02);
-        settings.most_samples = 1024;
+        settings.max_samples = 1024;
         double flux_lm = 0.0, variance = 0.0, once_lm = 0.0;
         for (const auto& [yaw, pitch] : {std::pair(0.0, 0.0), {90.0, 0.0}, {180.0, 0.0}, {-90.0, 0.0}, {0.0, 90.0}, {0.0, -90.0}}) {
             const int px = 4; // 90 degrees before a wall 1 m away: all of it, each pixel the same area
@@ -55,7 +55,7 @@ TEST(ReferenceFog, AllLightOfALampReachesTheWallsOfABlackRoomHoweverOftenItIsSca
                 variance += std::pow(area * static_cast<double>(e.standard_error.pixels()[i]), 2);
             }
             ReferenceSettings once = settings;
-            once.most_scatterings = 1;
+            once.max_scatterings = 1;
             const Estimate single = Reference(scene).render(moment, view, lux, once).illuminance_lx;
             for (const float each : single.mean.pixels())
                 once_lm += area * static_cast<double>(each);
@@ -75,9 +75,9 @@ TEST(ReferenceFog, SingleScatteringByPathsIsThatOfDirectLight) {
     moment.lamps[1].colour.linear_srgb = {1.2, 0.95, 0.9};
     moment.daylight.horizontal_illuminance_lx = 2.0;
     const View view = camera({-1.0, 0.2, 1.3}, 3, -2, 24, 4);
-    const auto drawn = [&](Integrator integrator, int most_scatterings, double target_error) {
+    const auto drawn = [&](Integrator integrator, int max_scatterings, double target_error) {
         ReferenceSettings settings = by(integrator, target_error, Footprint::centre);
-        settings.most_scatterings = most_scatterings;
+        settings.max_scatterings = max_scatterings;
         return Reference(scene).render(moment, view, everything, settings);
     };
     const ReferenceImage direct = drawn(Integrator::direct, 1, 0.01), path = drawn(Integrator::path, 1, 0.01),
@@ -122,7 +122,7 @@ TEST(ReferenceFog, BouncedLightIsTakenOnBothOfItsWays) {
     Moment clear, fog = in_fog(0.06, 0.0);
     clear.lamps = fog.lamps = {even_lamp(1.0e6, looking({0, 0, 0}, 0, 0))};
     ReferenceSettings settings = by(Integrator::path, 0.02);
-    settings.least_samples = settings.most_samples = 1 << 17; // one in 200 meets the board
+    settings.min_samples = settings.max_samples = 1 << 17; // one in 200 meets the board
     settings.footprint = Footprint::centre;
     const View at_post = camera({1.0, -1.0, 0.0}, 180, 0, 1, 1);
     const ReferenceImage without = Reference(scene).render(clear, at_post, lux, settings),

@@ -65,7 +65,7 @@ class BusRun : public testing::Test {
 
 TEST_F(BusRun, TheShippedRecordingIsWhatTheToolMakesOfTheScript) {
     const std::string made = folder / "again.log";
-    EXPECT_EQ(run_program("can record " + shipped_drive() + " --variant bend-light --start 1000 --out " + made).exit_code, 0);
+    EXPECT_EQ(run_program("can record " + shipped_drive() + " --lamp-set bend-light --start 1000 --out " + made).exit_code, 0);
     EXPECT_TRUE(content_of(made) == content_of(library_file("can/s-bend.log")));
     EXPECT_LT(content_of(made).size(), 1'000'000U);
 }
@@ -207,7 +207,7 @@ TEST_F(BusRun, WhatIsWrongIsOneSentence) {
     EXPECT_THAT(refused("run " + library_file("drives/s-bend.yaml") + " --can-log " + (folder / "torn.log") + " --out " + (folder / "o")),
                 HasSubstr("found a drive without `can`"));
     EXPECT_THAT(refused("can record " + library_file("drives/s-bend.yaml")), HasSubstr("without `can`"));
-    EXPECT_THAT(refused("can record " + shipped_drive() + " --variant bend"), HasSubstr("one of straight-ahead, bend-light"));
+    EXPECT_THAT(refused("can record " + shipped_drive() + " --lamp-set bend"), HasSubstr("one of straight-ahead, bend-light"));
 }
 
 } // namespace

@@ -3,7 +3,7 @@
 #include "runner/write/document.h"
 
 #include "runner/experiments/shadows/shadow_result.h"
-#include "runner/experiments/shadows/shown_picture.h"
+#include "runner/experiments/shadows/sheet_picture.h"
 
 #include <gmock/gmock.h>
 

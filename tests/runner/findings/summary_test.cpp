@@ -8,9 +8,9 @@ namespace {
 
 using ::testing::HasSubstr;
 
-LaneExtent reaching(double reach_m, const std::string& lane = "own", double limit_lx = 5.0, bool cut_off = false) {
+LaneExtent reaching(double reach_m, const std::string& lane = "own", double threshold_lx = 5.0, bool cut_off = false) {
     LaneExtent extent;
-    extent.limit_lx = limit_lx;
+    extent.threshold_lx = threshold_lx;
     extent.lane = lane;
     extent.reach_centre_m = reach_m;
     extent.reach_left_edge_m = reach_m - 1.0;
@@ -22,25 +22,25 @@ LaneExtent reaching(double reach_m, const std::string& lane = "own", double limi
 }
 
 /// Moments with these rendered extents of the own lane; the twin reaches half a metre farther.
-PlayedVariant played(const std::vector<LaneExtent>& extents) {
-    PlayedVariant variant;
+PlayedCell played(const std::vector<LaneExtent>& extents) {
+    PlayedCell lamp_set;
     for (const LaneExtent& extent : extents) {
         ExtentRow row;
-        row.tick = static_cast<int>(variant.extents.size());
+        row.tick = static_cast<int>(lamp_set.extents.size());
         row.rendered = {extent};
         row.twin = {extent};
         row.twin[0].reach_centre_m += 0.5;
-        row.sensitivity = {{5.0, ExtentPlane::road, 7.0 + row.tick, 1.0}};
-        row.grid_errors = {{5.0, ExtentPlane::road, 0.02, 3.0}};
-        variant.extents.push_back(row);
+        row.sensitivity = {{5.0, Surface::road, 7.0 + row.tick, 1.0}};
+        row.grid_errors = {{5.0, Surface::road, 0.02, 3.0}};
+        lamp_set.extents.push_back(row);
     }
-    return variant;
+    return lamp_set;
 }
 
-/// Readings of such a variant.
-Readings summarise(PlayedVariant variant, const Drive& drive) {
-    variant.extent_summaries = summarise_extents(variant, *drive.extent);
-    return extent_readings(variant);
+/// Readings of such a lamp set.
+Readings summarise(PlayedCell lamp_set, const Drive& drive) {
+    lamp_set.extent_summaries = summarise_extents(lamp_set, *drive.extent);
+    return extent_readings(lamp_set);
 }
 
 Drive looking_200_m() {
@@ -82,7 +82,7 @@ TEST(Summary, MediansMinimaAndPercentilesOverTheMoments) {
 
 TEST(Summary, NamesSayLimitPlaneAndLane) {
     LaneExtent extent = reaching(60.0, "left 1", 0.5);
-    extent.plane = ExtentPlane::target;
+    extent.surface = Surface::target;
     const Readings readings = summarise(played({extent}), looking_200_m());
     EXPECT_DOUBLE_EQ(value(readings, "reach_0.5lx_target_left_1_m"), 60.0);
     EXPECT_THROW(find(readings, "reach_0.5lx_target_left_1_per_tenth_degree_m"), std::out_of_range);
@@ -112,7 +112,7 @@ TEST(Summary, WhatRestsOnALowerBoundIsOne) {
 }
 
 TEST(Summary, WhatTellsOfAReachThatGoesOnSaysSo) {
-    PlayedVariant beyond = played({reaching(200.0, "own", 5.0, true), reaching(200.0, "own", 5.0, true)});
+    PlayedCell beyond = played({reaching(200.0, "own", 5.0, true), reaching(200.0, "own", 5.0, true)});
     for (ExtentRow& row : beyond.extents) {
         row.sensitivity.clear();
         row.grid_errors[0].reach_m.reset();
@@ -124,7 +124,7 @@ TEST(Summary, WhatTellsOfAReachThatGoesOnSaysSo) {
         EXPECT_FALSE(find(none, name).value.measured()) << name;
         EXPECT_EQ(find(none, name).value.reason(), why) << name;
     }
-    PlayedVariant once = played({reaching(200.0, "own", 5.0, true), reaching(150.0)});
+    PlayedCell once = played({reaching(200.0, "own", 5.0, true), reaching(150.0)});
     once.extents[0].grid_errors[0].reach_m.reset();
     EXPECT_DOUBLE_EQ(value(summarise(once, looking_200_m()), "reach_5lx_road_own_grid_error_m"), 0.02) << "the other moment's";
 }
@@ -159,15 +159,15 @@ TEST(Summary, WidthsThatWereNeverLookedAtAreNotMeasured) {
 }
 
 TEST(Summary, TwinAloneIsNotTakenForRendered) {
-    PlayedVariant variant = played({reaching(60.0)});
-    variant.extents[0].rendered.clear();
-    EXPECT_FALSE(find(summarise(variant, looking_200_m()), "reach_5lx_road_own_m").value.measured());
+    PlayedCell lamp_set = played({reaching(60.0)});
+    lamp_set.extents[0].rendered.clear();
+    EXPECT_FALSE(find(summarise(lamp_set, looking_200_m()), "reach_5lx_road_own_m").value.measured());
 }
 
 TEST(Summary, TimesOfPasses) {
-    PlayedVariant variant;
-    variant.passes = {{"frame", {0.010, 0.012, 0.030}}, {"shadow", {}}};
-    const Readings readings = times(variant);
+    PlayedCell lamp_set;
+    lamp_set.passes = {{"frame", {0.010, 0.012, 0.030}}, {"shadow", {}}};
+    const Readings readings = times(lamp_set);
     EXPECT_DOUBLE_EQ(value(readings, "frame_time_median_ms"), 12.0);
     EXPECT_NEAR(value(readings, "frame_time_p95_ms"), 28.2, 1e-9);
     EXPECT_NEAR(value(readings, "frame_time_spread_ms"), 28.2 - 10.2, 1e-9);

@@ -26,14 +26,14 @@ struct OneLampStraight {
         lamp.file = tests::file_of(tests::even_table(cd));
         lamp.position_m = {drive.bumper_m, 0.0, 0.65};
         lamp.colour.sp_ratio = 1.5;
-        drive.variants.front().lamps = {lamp};
-        drive.variants.front().changes.clear();
+        drive.lamp_sets.front().lamps = {lamp};
+        drive.lamp_sets.front().changes.clear();
     }
     SeeingFold played() const {
         SeeingFold fold(drive, route);
         State state = start(drive);
         for (int tick = 0; tick < tick_count(drive); ++tick, state = advance(state, drive))
-            fold.add(moment_at(state, drive, route, drive.variants.front()), drive.variants.front());
+            fold.add(moment_at(state, drive, route, drive.lamp_sets.front()), drive.lamp_sets.front());
         return fold;
     }
 };

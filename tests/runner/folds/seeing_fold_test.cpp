@@ -49,7 +49,7 @@ TEST(Seeing, AnOncomingEyeIsDazzledAsTheRulerSays) {
     OneLampStraight straight;
     GlareParameters& glare = straight.drive.seeing.glare.emplace();
     glare.oncoming = {{"eye", 100.0, 1.1}};
-    glare.limits_lx = {1.0};
+    glare.thresholds_lx = {1.0};
     const SeeingFold fold = straight.played();
     const Readings readings = fold.readings();
     const auto series = fold.series();

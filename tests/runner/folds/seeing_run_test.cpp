@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 std::string drive_with(const std::string& measure) {
     return fmt::format("fernlicht: 1\nname: seen\nroad: {}\nroute: {{s_m: 20}}\nspeed_kmh: 36\nrate_hz: 10\nduration_s: 0.5\n"
-                       "variants:\n  even: {{source: filament, colour: {{linear_srgb: [1, 1, 1], sp_ratio: 1.4}}, file: {}}}\n"
+                       "lamp_sets:\n  even: {{source: filament, colour: {{linear_srgb: [1, 1, 1], sp_ratio: 1.4}}, file: {}}}\n"
                        "views:\n  driver: {{resolution_px: [32, 24]}}\nmeasure:\n  extent: false\n{}",
                        library_file("roads/straight.xodr"), library_file("lamps/even-0.33lx.csv"), measure);
 }
@@ -30,7 +30,7 @@ TEST(SeeingRun, FiguresByHandAtFiftyMetres) {
     const TemporaryFolder folder;
     const Outcome outcome = play(
         folder,
-        "  visibility: {targets: {own: {size_m: 0.18, reflectance: 0.5, level: 1}}, distances_m: [50]}\n  homogeneity: {least_lx: 0.001}\n"
+        "  visibility: {targets: {own: {size_m: 0.18, reflectance: 0.5, level: 1}}, distances_m: [50]}\n  homogeneity: {min_lx: 0.001}\n"
         "  places: {what: [kerb, boards, markings], distances_m: [50]}\n");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
     const auto value = [&](const std::string& name) { return tests::reading_of(folder / "out", name); };
@@ -63,7 +63,7 @@ TEST(SeeingRun, FiguresByHandAtFiftyMetres) {
 TEST(SeeingRun, AnApproachCutShortSaysSo) {
     const TemporaryFolder folder;
     const Outcome outcome =
-        play(folder, "  sensors:\n    limits_lx: [1000]\n    points:\n      far: {at_m: 200, across: right-edge, above_m: 0.25}\n"
+        play(folder, "  sensors:\n    thresholds_lx: [1000]\n    points:\n      far: {at_m: 200, across: right-edge, above_m: 0.25}\n"
                      "      passed: {at_m: 6, across: right-edge, above_m: 0.25}\n"
                      "  glare: {oncoming: {beyond: {at_m: 200, eye_height_m: 1.1}, by: {at_m: 6, eye_height_m: 1.1}}}\n");
     ASSERT_NE(outcome.exit_code, 2) << outcome.output;

@@ -74,7 +74,7 @@ TEST(Seeing, DetectionIsTheFarthestPlaceWithTheLevel) {
 // the road, the others against the dark, for an eye adapted to the road behind the feet.
 TEST(Seeing, APedestrianIsAsVisibleAsTheClearestSegment) {
     OneLampStraight straight(20000.0, 1.0);
-    straight.drive.seeing.visibility = looking_for(usual_targets()[2], {50.0});
+    straight.drive.seeing.visibility = looking_for(default_targets()[2], {50.0});
     const double eye_back = straight.drive.bumper_m - 1.3;
     double clearest = 0.0, adaptation = 0.0;
     for (int i = 0; i < 7; ++i) {

@@ -69,13 +69,13 @@ TEST(KnownFailures, PatternsMatchWholeIds) {
 class Marked : public ::testing::Test {
   protected:
     Marked() {
-        PlayedVariant played{.drive = "straight",
-                             .variant = "halogen",
-                             .technique = "photometric",
-                             .verdicts = {{VerdictKind::fail, "too_short_m", "", ""},
-                                          {VerdictKind::pass, "long_enough_m", "", ""},
-                                          {VerdictKind::flaky, "repeats", "", ""},
-                                          {VerdictKind::not_measured, "lost_m", "", ""}}};
+        PlayedCell played{.drive = "straight",
+                          .lamp_set = "halogen",
+                          .technique = "photometric",
+                          .verdicts = {{VerdictKind::fail, "too_short_m", "", ""},
+                                       {VerdictKind::pass, "long_enough_m", "", ""},
+                                       {VerdictKind::flaky, "repeats", "", ""},
+                                       {VerdictKind::not_measured, "lost_m", "", ""}}};
         report.played = {played};
     }
     void apply(const std::string& entries, const std::string& today = "2026-06-30") {

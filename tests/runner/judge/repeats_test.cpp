@@ -19,10 +19,10 @@ class RepeatedPlays : public ::testing::Test {
   protected:
     /// The verdict on the first play with one more.
     Verdict verdict() {
-        PlayedVariant& first = run.report.played[0];
+        PlayedCell& first = run.report.played[0];
         RepeatFold fold(first, run.folder, played_json);
         equal = fold.add(again.report.played[0], again.folder);
-        PlayedVariant finished = first;
+        PlayedCell finished = first;
         fold.finish(finished, 2, "fernlicht run");
         repeats = finished.repeats;
         return finished.verdicts.back();

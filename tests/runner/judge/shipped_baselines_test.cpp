@@ -1,7 +1,7 @@
 // The shipped baselines stand under the inputs of the standard study's cells. With FERNLICHT_REWRITE_BASELINES=FOLDER those whose inputs
 // were hashed over the text of lamps are written there under the hashes of today, as they were accepted (ci/rewrite-baseline-hashes).
-#include "runner/judge/cell_inputs.h"
-#include "runner/judge/reference_store.h"
+#include "runner/judge/baseline_store.h"
+#include "runner/judge/input_hashes.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/fields/field.h"
@@ -24,10 +24,10 @@ std::string hash_over_text(Drive drive, int last_tick) {
     drive.road_file.clear();
     int used = 0;
     for (LampSource& source : drive.lamp_sources)
-        if (std::ranges::any_of(drive.variants.front().lamps, [&](const MountedLamp& lamp) { return lamp.file == source.file; }) ||
-            std::ranges::any_of(drive.variants.front().changes, [&](const LampChange& change) { return change.file == source.file; }))
+        if (std::ranges::any_of(drive.lamp_sets.front().lamps, [&](const MountedLamp& lamp) { return lamp.file == source.file; }) ||
+            std::ranges::any_of(drive.lamp_sets.front().changes, [&](const LampChange& change) { return change.file == source.file; }))
             source.path = fmt::format("lamp file {}", ++used);
-    const std::string written = write_drive(drive), start = "\nvariants:";
+    const std::string written = write_drive(drive), start = "\nlamp_sets:";
     const std::size_t from = written.find(start) + start.size();
     std::size_t to = from; // where the next key at the top begins
     do
@@ -48,17 +48,17 @@ std::map<std::string, std::string> hashes_of_drives() {
     for (const StudyCell& cell : cells_of(study)) {
         const Drive drive = cell_drive(study, cell);
         for (const int last_tick : {4, tick_count(drive) - 1})
-            hashes[hash_over_text(drive, last_tick)] = cell_inputs(drive, drive.variants.front(), {}, 0, last_tick).front().second;
+            hashes[hash_over_text(drive, last_tick)] = input_hashes(drive, drive.lamp_sets.front(), {}, 0, last_tick).front().second;
     }
     return hashes;
 }
 
 TEST(ShippedBaselines, AreOfTheCellsOfTheStandardStudy) {
-    const std::filesystem::path store = FERNLICHT_SOURCE_DIR "/references";
+    const std::filesystem::path store = FERNLICHT_SOURCE_DIR "/baselines";
     const std::map<std::string, std::string> hashes = hashes_of_drives();
     const char* const rewritten = std::getenv("FERNLICHT_REWRITE_BASELINES");
-    for (const StoredReference& entry : list_references(store)) {
-        AcceptedReference baseline = load_reference(store, entry);
+    for (const StoredBaseline& entry : list_baselines(store)) {
+        Baseline baseline = load_baseline(store, entry);
         EXPECT_EQ(hash_of_inputs(baseline.producer.inputs), entry.key.inputs) << key_text(entry.key);
         const auto drive = std::ranges::find(baseline.producer.inputs, "drive", &std::pair<std::string, std::string>::first);
         ASSERT_NE(drive, baseline.producer.inputs.end());
@@ -68,7 +68,7 @@ TEST(ShippedBaselines, AreOfTheCellsOfTheStandardStudy) {
             << key_text(entry.key) << ": no cell has this drive; ci/rewrite-baseline-hashes, or ci/accept-nightly where results changed";
         baseline.key.inputs = hash_of_inputs(baseline.producer.inputs);
         if (rewritten)
-            store_references(rewritten, {baseline}, Acceptance::add, entry.note, entry.played_utc);
+            store_baselines(rewritten, {baseline}, Acceptance::add, entry.note, entry.played_utc);
     }
 }
 

@@ -3,7 +3,7 @@
 #include "metrics/display/display_colour.h"
 #include "metrics/display/night_vision.h"
 #include "runner/files/picture_file.h"
-#include "runner/play/shown_picture.h"
+#include "runner/play/display_pipeline.h"
 #include "scenarios/display/tone_mapper.h"
 #include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
@@ -107,7 +107,7 @@ TEST(DisplayRun, ReportAndPageSayHowPicturesWereShown) {
     EXPECT_EQ(drive.at("shown_by").at("gamut"), "clip");
     EXPECT_THAT(drive.at("shown_by").at("stages"), IsEmpty());
     EXPECT_NEAR(shown(drive, 0), 80.0 * 2.0 / 101.9, 1e-5);
-    EXPECT_EQ(drive.at("shadows"), json::parse(R"({"method": "map", "things_cast": true, "not_used": null,
+    EXPECT_EQ(drive.at("shadows"), json::parse(R"({"method": "map", "objects_cast": true, "not_used": null,
         "settings": {"map_texels": [1024, 512], "tolerance_m": 0.03, "redraw_texels": 0}})"));
     const std::string short_page = content_of(plain + "/report.html");
     EXPECT_THAT(short_page, HasSubstr("By <code>rational s=20 white=100 cd/m2; display srgb</code>: 0.1, 1 and 10 cd/m² as 1.57, 13.4 "
@@ -391,7 +391,7 @@ TEST(DisplayRun, AToneMapperIsNotSaidToBeFittedToTheDark) {
     const TemporaryFolder folder;
     std::ofstream(folder / "off.yaml")
         << "fernlicht: 1\nname: off\nspeed_kmh: 60\nduration_s: 0.4\nroad: " << library_file("roads/straight.xodr")
-        << "\nvariants: {off: {level: 0, file: " << library_file("lamps/halogen-low.ies")
+        << "\nlamp_sets: {off: {level: 0, file: " << library_file("lamps/halogen-low.ies")
         << "}}\nviews: {driver: {resolution_px: [32, 24]}}\nmeasure: {extent: false}\ntone_mapper: histogram\n";
     const Outcome run = run_program("run " + (folder / "off.yaml") + " --quiet --no-accuracy --backend software --out " + (folder / "out"));
     EXPECT_EQ(run.exit_code, 0) << run.output;

@@ -18,14 +18,14 @@
 namespace {
 
 /// Bytes in live blocks of at least 64 KiB: pictures and grids, none of the small rows.
-std::atomic<std::size_t> large_bytes{0}, most_large_bytes{0};
+std::atomic<std::size_t> large_bytes{0}, max_large_bytes{0};
 constexpr std::size_t large = std::size_t{64} << 10;
 
 void* counted(std::size_t bytes, const std::nothrow_t&) noexcept {
     void* const block = std::malloc(bytes > 0 ? bytes : 1);
     if (const std::size_t size = block ? malloc_usable_size(block) : 0; size >= large) {
         const std::size_t now = large_bytes += size;
-        for (std::size_t most = most_large_bytes; now > most && !most_large_bytes.compare_exchange_weak(most, now);) {
+        for (std::size_t most = max_large_bytes; now > most && !max_large_bytes.compare_exchange_weak(most, now);) {
         }
     }
     return block;
@@ -74,36 +74,36 @@ struct Played {
         for (View& view : drive.views)
             view.width_px = view.height_px = 256;
     }
-    PlayedVariant play_with(const Draw& draw, int moments, Writers& writers, const std::filesystem::path& folder = {}) const {
-        return play(drive, route, drive.variants.front(), PlayOptions{.ticks = {0, moments - 1}, .folder = folder}, draw, writers);
+    PlayedCell play_with(const Draw& draw, int moments, Writers& writers, const std::filesystem::path& folder = {}) const {
+        return play(drive, route, drive.lamp_sets.front(), PlayOptions{.ticks = {0, moments - 1}, .folder = folder}, draw, writers);
     }
 };
 
 /// Everything that is wanted, lit evenly.
-Frame even(const View& view, const Wanted& wanted, float lx) {
+Frame even(const View& view, const FrameOutputs& outputs, float lx) {
     Frame frame{.cpu_s = 0.01};
     const auto lit = [&](bool asked) { return asked ? Image<float>(view.width_px, view.height_px, lx) : Image<float>(); };
-    frame.illuminance_lx = lit(wanted.illuminance);
-    frame.target_lx = lit(wanted.target);
-    frame.luminance_cdm2 = lit(wanted.luminance);
-    frame.depth_m = lit(wanted.depth);
-    if (wanted.colour)
+    frame.illuminance_lx = lit(outputs.illuminance);
+    frame.target_lx = lit(outputs.target);
+    frame.luminance_cdm2 = lit(outputs.luminance);
+    frame.depth_m = lit(outputs.depth);
+    if (outputs.colour)
         frame.colour = Image<Rgb8>(view.width_px, view.height_px);
     return frame;
 }
 
 Draw evenly(float lx) {
-    return [lx](const Moment&, const View& view, const Wanted& wanted) -> Pending {
-        return [&view, wanted, lx] { return even(view, wanted, lx); };
+    return [lx](const Moment&, const View& view, const FrameOutputs& outputs) -> Pending {
+        return [&view, outputs, lx] { return even(view, outputs, lx); };
     };
 }
 
 /// A technique that believes in no illuminance; with `road` in that of surfaces only.
 Draw without_lux(bool road) {
-    return [road](const Moment&, const View& view, Wanted wanted) -> Pending {
-        wanted.illuminance = wanted.illuminance && road;
-        wanted.target = false;
-        return [&view, wanted] { return even(view, wanted, 20.0F); };
+    return [road](const Moment&, const View& view, FrameOutputs outputs) -> Pending {
+        outputs.illuminance = outputs.illuminance && road;
+        outputs.target = false;
+        return [&view, outputs] { return even(view, outputs, 20.0F); };
     };
 }
 
@@ -117,7 +117,7 @@ const Reading& named(const Readings& readings, const std::string& name) {
 TEST(PlayLoop, MeasuresEveryMomentInOrder) {
     const Played stage;
     Writers writers;
-    const PlayedVariant played = stage.play_with(evenly(20.0F), 25, writers);
+    const PlayedCell played = stage.play_with(evenly(20.0F), 25, writers);
     ASSERT_EQ(played.extents.size(), 25U);
     for (int tick = 0; tick < 25; ++tick) {
         const ExtentRow& row = played.extents[static_cast<std::size_t>(tick)];
@@ -135,7 +135,7 @@ TEST(PlayLoop, StopsAtTheMomentThatWasAskedForAndKeepsWhatWasMeasured) {
     const Played stage;
     Writers writers;
     PlayOptions options{.go_on = [](int done) { return done < 7; }};
-    const PlayedVariant played = play(stage.drive, stage.route, stage.drive.variants.front(), options, evenly(20.0F), writers);
+    const PlayedCell played = play(stage.drive, stage.route, stage.drive.lamp_sets.front(), options, evenly(20.0F), writers);
     EXPECT_EQ(played.ticks_done, 7);
     EXPECT_EQ(played.extents.size(), 7U);
 }
@@ -144,10 +144,10 @@ TEST(PlayLoop, ThrowsWhatMeasuringThrewElsewhere) {
     const Played stage;
     Writers writers;
     EXPECT_THROW(stage.play_with(evenly(std::numeric_limits<float>::quiet_NaN()), 4, writers), std::invalid_argument);
-    const Draw failing = [](const Moment& moment, const View& view, const Wanted& wanted) -> Pending {
+    const Draw failing = [](const Moment& moment, const View& view, const FrameOutputs& outputs) -> Pending {
         if (moment.tick == 3)
             throw std::runtime_error("device lost");
-        return [&view, wanted] { return even(view, wanted, 20.0F); };
+        return [&view, outputs] { return even(view, outputs, 20.0F); };
     };
     EXPECT_THROW(stage.play_with(failing, 9, writers), std::runtime_error);
 }
@@ -156,16 +156,16 @@ TEST(PlayLoop, HoldsAsManyPicturesForALongDriveAsForAShortOne) {
     Played stage;
     stage.drive.capture.all = stage.drive.capture.exr = true; // 256 KiB a picture and more than one picture a moment
     const TemporaryFolder folder;
-    const auto most_bytes = [&](int moments) {
+    const auto max_bytes = [&](int moments) {
         Writers writers;
         const std::size_t before = large_bytes;
-        most_large_bytes = before;
-        const PlayedVariant played = stage.play_with(evenly(20.0F), moments, writers, folder.path());
+        max_large_bytes = before;
+        const PlayedCell played = stage.play_with(evenly(20.0F), moments, writers, folder.path());
         EXPECT_EQ(played.frames.size(), static_cast<std::size_t>(moments) * stage.drive.views.size());
-        EXPECT_EQ(played.maps.size(), most_pictured_moments);
-        return most_large_bytes - before;
+        EXPECT_EQ(played.maps.size(), max_pictured_moments);
+        return max_large_bytes - before;
     };
-    const std::size_t few = most_bytes(40), many = most_bytes(160);
+    const std::size_t few = max_bytes(40), many = max_bytes(160);
     EXPECT_GT(few, std::size_t{3} << 20) << "twelve maps at least";
     // A map each of 120 more moments would be 30 MiB. What is waiting to be written or measured differs by a few pictures.
     EXPECT_LT(many, few + (std::size_t{15} << 20));
@@ -184,7 +184,7 @@ TEST(PlayLoop, KeepsTheMapsThatThePageShowsAndOthersInCaseOfAnInterruption) {
     EXPECT_EQ(ticks, (std::vector<int>{0, 9, 18, 27, 36, 45, 54, 63, 72, 81, 90, 99})); // i * 99 / 11
     const std::vector<LuxMap> interrupted = some.finish(false);
     EXPECT_GE(interrupted.size(), 10U);
-    EXPECT_LE(interrupted.size(), 2 * most_pictured_moments);
+    EXPECT_LE(interrupted.size(), 2 * max_pictured_moments);
 }
 
 TEST(FrameTimes, ComeFromMomentsThatWereDrawnAlone) {
@@ -201,7 +201,7 @@ TEST(FrameTimes, ComeFromMomentsThatWereDrawnAlone) {
         times.end_moment();
     }
     EXPECT_EQ(alone, (std::vector<int>{3, 6, 13, 18, 23}));
-    PlayedVariant played;
+    PlayedCell played;
     times.finish(played);
     ASSERT_EQ(played.passes.size(), 2U);
     EXPECT_EQ(played.passes[0].seconds, (std::vector<double>{0.1, 0.1, 0.1}));
@@ -216,7 +216,7 @@ TEST(FrameTimes, OfTooFewMomentsAreNotMeasured) {
     FrameTimes times(3, false);
     times.begin_moment("frame");
     times.end_moment();
-    PlayedVariant played;
+    PlayedCell played;
     times.finish(played);
     EXPECT_EQ(played.warm_up_dropped, 1);
     EXPECT_FALSE(played.throughput.view_s || played.throughput.drawing_s || played.throughput.moments_per_s());
@@ -227,7 +227,7 @@ TEST(TechniqueWithoutIlluminance, LeavesEveryReadingFromItNotMeasured) {
     stage.drive.technique = "merged-beams";
     stage.drive.limits = {{"reach_1lx_road_own_m", 10.0, {}}, {"probe_near_lx", {}, 1000.0}, {"probe_near_twin_lx", {}, 1000.0}};
     Writers writers;
-    PlayedVariant played = stage.play_with(without_lux(false), 5, writers);
+    PlayedCell played = stage.play_with(without_lux(false), 5, writers);
     const std::string why = "technique merged-beams does not compute an illuminance";
     EXPECT_TRUE(played.maps.empty());
     ASSERT_EQ(played.extents.size(), 5U);
@@ -261,7 +261,7 @@ TEST(TechniqueWithoutIlluminance, LeavesEveryReadingFromItNotMeasured) {
 TEST(TechniqueWithoutIlluminance, MayKnowTheSurfaceAndNotTargets) {
     const Played stage;
     Writers writers;
-    PlayedVariant played = stage.play_with(without_lux(true), 4, writers);
+    PlayedCell played = stage.play_with(without_lux(true), 4, writers);
     played.extent_summaries = summarise_extents(played, *stage.drive.extent);
     const Readings readings = extent_readings(played);
     EXPECT_TRUE(named(readings, "area_1lx_road_own_m2").value.measured() ||
@@ -269,7 +269,7 @@ TEST(TechniqueWithoutIlluminance, MayKnowTheSurfaceAndNotTargets) {
     EXPECT_NE(named(readings, "area_1lx_target_own_m2").value.reason().find("does not compute the illuminance of targets"),
               std::string::npos);
     for (const LaneExtent& extent : played.extents[0].rendered)
-        EXPECT_EQ(extent.plane, ExtentPlane::road);
+        EXPECT_EQ(extent.surface, Surface::road);
 }
 
 } // namespace

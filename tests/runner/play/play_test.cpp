@@ -78,11 +78,11 @@ Stage stage_of(const char* name) {
 
 TEST(Preparation, AMomentForEachSetOfLampsThatShine) {
     const Stage stage = stage_of("first-light.yaml"); // high beam from 5 s to 8 s
-    const std::vector<Moment> moments = distinct_moments(stage.drive, stage.route, stage.drive.variants[0], {});
+    const std::vector<Moment> moments = distinct_moments(stage.drive, stage.route, stage.drive.lamp_sets[0], {});
     ASSERT_EQ(moments.size(), 2U);
     EXPECT_EQ(moments[0].tick, 0);
     EXPECT_NEAR(moments[1].time_s, 5.0, stage.drive.step_s);
-    EXPECT_EQ(distinct_moments(stage.drive, stage.route, stage.drive.variants[0], {0, 30}).size(), 1U);
+    EXPECT_EQ(distinct_moments(stage.drive, stage.route, stage.drive.lamp_sets[0], {0, 30}).size(), 1U);
 }
 
 TEST(Preparation, NothingCompilesWhileADriveIsPlayed) {
@@ -92,20 +92,20 @@ TEST(Preparation, NothingCompilesWhileADriveIsPlayed) {
         RendererSettings settings{.technique = technique};
         settings.shadows.width = settings.shadows.height = 64;
         Renderer renderer(device, stage.scene, settings);
-        for (const Variant& variant : stage.drive.variants) {
-            prepare(renderer, stage.drive, stage.route, variant, {});
+        for (const LampSet& lamp_set : stage.drive.lamp_sets) {
+            prepare(renderer, stage.drive, stage.route, lamp_set, {});
             const int compiled = renderer.compiled_programs();
             EXPECT_GT(compiled, 0);
             State state = start(stage.drive);
             for (int tick = 0; tick < tick_count(stage.drive); ++tick, state = advance(state, stage.drive)) {
                 if (tick % 40 != 0)
                     continue;
-                const Moment moment = moment_at(state, stage.drive, stage.route, variant);
-                for (const auto& [view, wanted] : pictures_of(stage.drive))
-                    renderer.render(moment, view, wanted);
+                const Moment moment = moment_at(state, stage.drive, stage.route, lamp_set);
+                for (const auto& [view, outputs] : pictures_of(stage.drive))
+                    renderer.render(moment, view, outputs);
             }
             renderer.finish();
-            EXPECT_EQ(renderer.compiled_programs(), compiled) << technique << ", " << variant.name;
+            EXPECT_EQ(renderer.compiled_programs(), compiled) << technique << ", " << lamp_set.name;
         }
     }
 }

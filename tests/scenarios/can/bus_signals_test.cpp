@@ -60,7 +60,7 @@ TEST(BusSignals, AFreshSignalHasItsValueAgeAndLastChange) {
     EXPECT_FALSE(value.policy_acted);
     EXPECT_EQ(bus.records().front().frames, 4U);
     EXPECT_EQ(bus.records().front().changes, 2U);
-    EXPECT_EQ(bus.taken(), 4U);
+    EXPECT_EQ(bus.frames_used(), 4U);
 }
 
 TEST(BusSignals, OthersFramesAreLeftOut) {
@@ -78,7 +78,7 @@ TEST(BusSignals, OthersFramesAreLeftOut) {
     other.remote = false;
     other.error = true;
     bus.take(other);
-    EXPECT_EQ(bus.taken(), 0U);
+    EXPECT_EQ(bus.frames_used(), 0U);
     bus.take(frame(0, 0x100, {0x10})); // too short for the signal
     EXPECT_EQ(bus.at(0).front().state, BusState::missing);
     EXPECT_TRUE(std::isinf(bus.at(0).front().age_s));

@@ -43,7 +43,7 @@ TEST_F(ControlDrive, ShippedBendLightLooksIntoTheBend) {
 
 const std::string everything = R"(    control:
       period_s: 0.01
-      bend: {law: route, lamps: [left], gain: 0.9, dead_band_deg: 0.2, outer_share: 0.5, least_deg: -10, greatest_deg: 8, dead_time_s: 0.1}
+      bend: {law: route, lamps: [left], gain: 0.9, dead_band_deg: 0.2, outer_share: 0.5, min_deg: -10, max_deg: 8, dead_time_s: 0.1}
       cornering: {left: [right], until_kmh: 41, on_deg: 3}
       levelling: {control: static, natural_frequency_hz: 2}
       load: {front_kg: 10, rear_n: 2000}
@@ -57,13 +57,13 @@ const std::string everything = R"(    control:
 
 TEST_F(ControlDrive, ResolvedDrivesReadBackToTheSame) {
     const std::string with =
-        "fernlicht: 1\nroad: road.xodr\nspeed_kmh: 72\nduration_s: 3\nvariants:\n  one:\n    file: low.ies\n" + everything;
+        "fernlicht: 1\nroad: road.xodr\nspeed_kmh: 72\nduration_s: 3\nlamp_sets:\n  one:\n    file: low.ies\n" + everything;
     const Drive drive = read(with);
-    ASSERT_NE(drive.variants[0].control, nullptr);
+    ASSERT_NE(drive.lamp_sets[0].control, nullptr);
     const std::string written = write_drive(drive);
     const Drive again = read(written);
     EXPECT_EQ(write_drive(again), written);
-    ControlParameters a = *drive.variants[0].control, b = *again.variants[0].control;
+    ControlParameters a = *drive.lamp_sets[0].control, b = *again.lamp_sets[0].control;
     EXPECT_NE(a.modes->settings[2].file, nullptr);
     a.modes->settings[2].file = b.modes->settings[2].file = nullptr; // read once by each
     a.bend->actuator.control_period_s = b.bend->actuator.control_period_s;
@@ -77,13 +77,13 @@ TEST_F(ControlDrive, WhatIsWrongIsRefusedWithTheNearest) {
     EXPECT_EQ(with("{}"), "not refused");
     EXPECT_THAT(with("{bend: yaw}"), HasSubstr("one of steering, yaw-rate, route"));
     EXPECT_THAT(with("{bend: {lamps: [lift]}}"),
-                HasSubstr("no lamp 'lift' in variant 'one', expected one of left, right (nearest: 'left')"));
+                HasSubstr("no lamp 'lift' in lamp set 'one', expected one of left, right (nearest: 'left')"));
     EXPECT_THAT(with("{bends: route}"), HasSubstr("'bend', the nearest known key"));
     EXPECT_THAT(with("{inputs: {ego.sped_mps: 3}}"), HasSubstr("no signal 'ego.sped_mps', expected 'ego.speed_mps', the nearest signal"));
     EXPECT_THAT(with("{inputs: {control.mode: 1}}"), HasSubstr("which the laws write"));
     EXPECT_THAT(with("{inputs: {ego.indicator: 2}}"), HasSubstr("a number from -1 to 1"));
     EXPECT_THAT(with("{failures: [{at_s: 1}]}"), HasSubstr("stuck_swivel, stuck_levelling (a lamp) or lost_signal (a signal)"));
-    EXPECT_THAT(with("{high_beam: automatic}"), HasSubstr("no lamp of variant 'one' has a name with 'high'"));
+    EXPECT_THAT(with("{high_beam: automatic}"), HasSubstr("no lamp of lamp set 'one' has a name with 'high'"));
     EXPECT_THAT(with("{glare_free: {windows_deg: {left: [0, 1]}}}"), HasSubstr("high_beam beside it"));
     EXPECT_THAT(with("{high_beam: {lamps: [left]}, glare_free: {windows_deg: {left: [2, 1]}}}"), HasSubstr("edges that do not ascend"));
     EXPECT_THAT(with("{plugins: [{library: law.so}]}"), HasSubstr("there is no file"));
@@ -95,12 +95,12 @@ TEST_F(ControlDrive, WhatIsWrongIsRefusedWithTheNearest) {
     EXPECT_THAT(refusal(minimal + "vehicle: single-track\nactuators: {swivel: true}\ncontrol: {bend: route}\n"), HasSubstr("one of them"));
 }
 
-Drive straight(const std::string& variants, const std::string& more = "") {
+Drive straight(const std::string& lamp_sets, const std::string& more = "") {
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "control-drive.yaml";
     std::ofstream(file) << "fernlicht: 1\nroad: " << (library.parent_path() / "roads/straight.xodr").string()
                         << "\nroute: {s_m: 20}\nspeed_kmh: 80\nduration_s: 6\nrate_hz: 10\n"
-                        << more << "variants:\n"
-                        << variants;
+                        << more << "lamp_sets:\n"
+                        << lamp_sets;
     return read_drive(file);
 }
 const std::string xenon_high = "file: " + (library.parent_path() / "lamps/xenon-high.ies").string();
@@ -131,11 +131,11 @@ TEST(ControlTraffic, OncomingCarsDipTheBeamOrDarkenItsWindows) {
                             ", control: {high_beam: automatic, glare_free: {windows_deg: {high-left: [-8, -3, -1, 0, 1, 8]}}}}\n"),
                  with_files("traffic: {other: {oncoming: {gap_m: 500}, speed_kmh: 80, file: LOW, source: arc}}\n"));
     const StagedDrive played(std::move(drive));
-    const auto high = [&](double t, std::size_t variant) { return played.at(t, variant).lamps[1]; };
+    const auto high = [&](double t, std::size_t lamp_set) { return played.at(t, lamp_set).lamps[1]; };
     EXPECT_EQ(high(0.5, 0).intensity_factor, 1.0);
     EXPECT_EQ(high(4.0, 0).intensity_factor, 0.0) << "dipped";
     EXPECT_EQ(high(4.0, 1).intensity_factor, 1.0) << "masked instead";
-    EXPECT_EQ(high(0.5, 1).file, played.drive.variants[1].lamps[1].file) << "nobody there: the file itself";
+    EXPECT_EQ(high(0.5, 1).file, played.drive.lamp_sets[1].lamps[1].file) << "nobody there: the file itself";
     const CandelaTable& dark = high(4.0, 1).file->table;
     const CandelaTable& whole = high(0.5, 1).file->table;
     int dark_windows = 0;

@@ -40,7 +40,7 @@ class DriveFixture : public testing::Test {
     }
 
     const std::filesystem::path folder = tests::new_folder();
-    const std::string minimal = "fernlicht: 1\nroad: road.xodr\nspeed_kmh: 72\nduration_s: 3\nvariants:\n  one: {file: low.ies}\n";
+    const std::string minimal = "fernlicht: 1\nroad: road.xodr\nspeed_kmh: 72\nduration_s: 3\nlamp_sets:\n  one: {file: low.ies}\n";
 };
 
 } // namespace fernlicht

@@ -17,13 +17,13 @@ class Shipped : public testing::TestWithParam<std::string> {};
 TEST_P(Shipped, ReadsAndFitsItsRoad) {
     Drive drive = read_drive(library / (GetParam() + ".yaml"));
     EXPECT_EQ(drive.name, GetParam() + "-1");
-    ASSERT_EQ(drive.variants.size(), 2U);
-    EXPECT_EQ(drive.variants[0].name, "halogen");
-    EXPECT_EQ(drive.variants[1].name, "xenon");
-    EXPECT_EQ(drive.variants[1].lamps[0].source, SourceKind::arc);
+    ASSERT_EQ(drive.lamp_sets.size(), 2U);
+    EXPECT_EQ(drive.lamp_sets[0].name, "halogen");
+    EXPECT_EQ(drive.lamp_sets[1].name, "xenon");
+    EXPECT_EQ(drive.lamp_sets[1].lamps[0].source, SourceKind::arc);
     EXPECT_EQ(std::tuple(drive.views[0].width_px, drive.views[0].height_px), std::tuple(1024, 768));
     ASSERT_TRUE(drive.extent);
-    EXPECT_THAT(drive.extent->limits_lx, testing::ElementsAre(1.0, 3.0, 5.0, 10.0));
+    EXPECT_THAT(drive.extent->thresholds_lx, testing::ElementsAre(1.0, 3.0, 5.0, 10.0));
 
     const RoadNetwork network = read_opendrive(drive.road_file);
     const Route route(network, drive.start, drive.via);
@@ -31,7 +31,7 @@ TEST_P(Shipped, ReadsAndFitsItsRoad) {
     EXPECT_LE(end_m + drive.bumper_m + drive.extent->ahead_m, route.length_m()) << "the last moment must see as far as the first";
     fit_to_route(drive, route);
     EXPECT_TRUE(drive.notes.empty());
-    const Moment moment = moment_at(start(drive), drive, route, drive.variants[0]);
+    const Moment moment = moment_at(start(drive), drive, route, drive.lamp_sets[0]);
     EXPECT_GT(moment.lamps[0].intensity_factor, 0.0);
 }
 
@@ -65,7 +65,7 @@ TEST(ShippedDrives, TheIihsSensorsStandInTheBend) {
         const Route route(network, drive.start, drive.via);
         ASSERT_TRUE(drive.seeing.sensors && drive.seeing.glare);
         ASSERT_EQ(drive.seeing.sensors->points.size(), 2U);
-        EXPECT_EQ(drive.seeing.sensors->limits_lx, std::vector<double>{5.0});
+        EXPECT_EQ(drive.seeing.sensors->thresholds_lx, std::vector<double>{5.0});
         const double at_m = drive.seeing.glare->oncoming.at(0).at_m;
         EXPECT_EQ(drive.seeing.glare->oncoming[0].eye_height_m, 1.1);
         for (const Sensor& sensor : drive.seeing.sensors->points) {
@@ -88,11 +88,11 @@ TEST(ShippedDrives, FirstLightDipsAfterThreeSecondsOfHighBeam) {
     const Route route(network, drive.start, drive.via);
     State state = start(drive);
     for (int tick = 0; tick < 360; ++tick, state = advance(state, drive))
-        for (const Variant& variant : drive.variants)
-            for (const LitLamp& lamp : moment_at(state, drive, route, variant).lamps) {
+        for (const LampSet& lamp_set : drive.lamp_sets)
+            for (const LitLamp& lamp : moment_at(state, drive, route, lamp_set).lamps) {
                 const bool high = lamp.name.starts_with("high");
                 EXPECT_EQ(lamp.intensity_factor, high && (tick < 150 || tick >= 240) ? 0.0 : 1.0)
-                    << variant.name << ' ' << lamp.name << ' ' << tick;
+                    << lamp_set.name << ' ' << lamp.name << ' ' << tick;
             }
 }
 
@@ -100,10 +100,10 @@ TEST(DriveExample, EveryKeyIsRead) {
     const std::filesystem::path file = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/drive.example.yaml";
     const Drive drive = read_drive(file);
     EXPECT_EQ(drive.name, "example-1");
-    ASSERT_EQ(drive.variants.size(), 2U);
-    EXPECT_EQ(drive.variants[0].lamps.size(), 4U);
-    EXPECT_EQ(drive.variants[0].changes.size(), 4U);
-    EXPECT_EQ(drive.variants[1].changes.size(), 5U);
+    ASSERT_EQ(drive.lamp_sets.size(), 2U);
+    EXPECT_EQ(drive.lamp_sets[0].lamps.size(), 4U);
+    EXPECT_EQ(drive.lamp_sets[0].changes.size(), 4U);
+    EXPECT_EQ(drive.lamp_sets[1].changes.size(), 5U);
     EXPECT_EQ(drive.views.size(), 3U);
     EXPECT_EQ(drive.speed.size(), 3U);
     EXPECT_EQ(drive.probes.size(), 1U);

@@ -88,23 +88,23 @@ TEST_F(Schema, AgreesWithTheReader) {
                "{l_max_cdm2: 0}|{l_max_cdm2: 1.0e-42}"},
               {"technique", "a/b|photometric"},
               {"measure",
-               "{extent: true}|{extent: 3}|{extent: {cell_m: 0.5}}|{extent: {cell_m: 0}}|{extent: {limits_lx: []}}|"
+               "{extent: true}|{extent: 3}|{extent: {cell_m: 0.5}}|{extent: {cell_m: 0}}|{extent: {thresholds_lx: []}}|"
                "{probes: {a: {left_m: 3}}}|{probes: {a: {ahead_m: 3}}}|{visibility: true}|{visibility: false}|{visibility: 1}|"
                "{visibility: {size_m: 0.2}}|{visibility: {targets: [card, pedestrian-dark], age_years: 23}}|"
                "{visibility: {targets: []}}|{visibility: {targets: [carton]}}|"
                "{visibility: {targets: {card: true, own: {reflectance: 0.1, level: 7, squares: 3}}}}|"
                "{visibility: {targets: {card: {reflectance: 0.1, level: 7}}}}|{visibility: {targets: {own: {reflectance: 0.1}}}}|"
                "{visibility: {targets: {own: {reflectance: 0.1, level: 7, squares: 0.5}}}}|{visibility: {age_years: 22}}|"
-               "{homogeneity: true}|{homogeneity: {patch_factor: 1}}|{homogeneity: {least_lx: 2}}|{places: [kerb]}|{places: []}|"
+               "{homogeneity: true}|{homogeneity: {patch_factor: 1}}|{homogeneity: {min_lx: 2}}|{places: [kerb]}|{places: []}|"
                "{places: [kerbs]}|{places: {what: [boards, markings], distances_m: [30]}}|{places: {distances_m: [30]}}|"
                "{places: {what: [boards], distances_m: []}}|{sensors: {}}|{sensors: {points: {}}}|"
                "{sensors: {points: {a: {at_m: 3}}}}|{sensors: {points: {a: {at_m: 3, across: kerb}}}}|"
-               "{sensors: {points: {a: {at_m: 3, across: left-edge, above_m: 51}}}}|{sensors: {points: {a: {}}, limits_lx: []}}|"
-               "{sensors: {points: {a: {at_m: 1}}, limits_lx: [0]}}|{glare: {}}|{glare: {mirrors: true}}|{glare: {mirrors: false}}|"
+               "{sensors: {points: {a: {at_m: 3, across: left-edge, above_m: 51}}}}|{sensors: {points: {a: {}}, thresholds_lx: []}}|"
+               "{sensors: {points: {a: {at_m: 1}}, thresholds_lx: [0]}}|{glare: {}}|{glare: {mirrors: true}}|{glare: {mirrors: false}}|"
                "{glare: {mirrors: {gaps_m: []}}}|{glare: {mirrors: {places: {m: [1, 2, 3]}}}}|"
                "{glare: {oncoming: {a: {at_m: 1}}, mirrors: false}}|{glare: {oncoming: {}}}|"
                "{glare: {oncoming: {a: {eye_height_m: 1}}}}|{glare: {mirrors: true, equation: cie-general, age_years: 101}}|"
-               "{glare: {mirrors: true, limits_de_boer: [10]}}|{glare: {mirrors: true, pigmentation: 1.2, adaptation_cdm2: 0}}"},
+               "{glare: {mirrors: true, thresholds_de_boer: [10]}}|{glare: {mirrors: true, pigmentation: 1.2, adaptation_cdm2: 0}}"},
               {"can", "{databases: bus.dbc, inputs: {ego.speed_mps: A.B}}|{databases: [bus.dbc, bus.dbc], outputs: {A.B: ego.speed_mps}}|"
                       "{databases: bus.dbc}|{inputs: {ego.speed_mps: A.B}}|{databases: bus.dbc, inputs: {}}|"
                       "{databases: bus.dbc, inputs: {ego.speed_mps: A}}|{databases: bus.dbc, inputs: {ego.speed_mps: A.B.C}}|"
@@ -151,7 +151,7 @@ TEST_F(Schema, AgreesWithTheReader) {
                                                    {"lamps", "{left: low.ies}|{left: {mount: right}}|{left: {pos: 3}}|[]"},
                                                    {"", "changes: []"}})) {
         const std::string yaml =
-            fmt::format("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\nvariants: {{a: {{file: low.ies, {}}}}}\n", lamp);
+            fmt::format("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\nlamp_sets: {{a: {{file: low.ies, {}}}}}\n", lamp);
         const std::string by_reader = refusal(yaml), by_schema = violation(yaml);
         EXPECT_EQ(by_reader == "not refused", by_schema.empty()) << lamp << "\n reader: " << by_reader << "\n schema: " << by_schema;
     }

@@ -151,8 +151,8 @@ TEST_F(DriveRefusal, UnknownKeysNameTheNearestAtEveryLevel) {
                 HasSubstr("measure.probes.p.ahead: unknown key, expected 'ahead_m'"));
     EXPECT_THAT(refusal(minimal + "changes: [{at: 3}]\n"), HasSubstr("changes[0].at: unknown key, expected 'at_s'"));
     EXPECT_THAT(refusal(minimal + "car: {mount: 3}\n"), HasSubstr("car.mount: unknown key, expected 'mounts'"));
-    EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\nspeed_kmh: 1\nduration_s: 1\nvariants: {a: {lamps: {left: {flie: low.ies}}}}\n"),
-                HasSubstr("drive.yaml:5:31: variants.a.lamps.left.flie: unknown key, expected 'file'"));
+    EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\nspeed_kmh: 1\nduration_s: 1\nlamp_sets: {a: {lamps: {left: {flie: low.ies}}}}\n"),
+                HasSubstr("drive.yaml:5:32: lamp_sets.a.lamps.left.flie: unknown key, expected 'file'"));
     for (const char* value : {"null", "[map]"})
         EXPECT_THAT(refusal(minimal + "shadows: " + value + "\n"), AllOf(HasSubstr("shadows: found"), HasSubstr("one of none, under-car"),
                                                                          HasSubstr("auto, or a map with keys such as method")));
@@ -163,8 +163,8 @@ TEST_F(DriveRefusal, MissingKeysAndOtherVersions) {
     EXPECT_THAT(refusal("fernlicht: 1\n"), HasSubstr("road: missing"));
     EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\n"), HasSubstr("speed_kmh: missing"));
     EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\n"), HasSubstr("duration_s: missing"));
-    EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\n"), HasSubstr("variants: missing"));
-    EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\nvariants: {a: {source: arc}}\n"),
+    EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\n"), HasSubstr("lamp_sets: missing"));
+    EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\nlamp_sets: {a: {source: arc}}\n"),
                 HasSubstr("a lamp without a file"));
     EXPECT_EQ(refusal("fernlicht: 1\nroad: road.xodr\nspeed: 60\n"),
               "drive.yaml:3:8: speed: found '60', expected a list of {at_s, speed_kmh}; one speed for all of the drive is speed_kmh or "
@@ -176,11 +176,11 @@ TEST_F(DriveRefusal, MissingFilesAreNamedWithTheLineThatAsks) {
     EXPECT_EQ(refusal("fernlicht: 1\nroad: none.xodr\n"),
               "drive.yaml:2:7: road: there is no file none.xodr, expected a file (relative paths start at this file's folder)");
     EXPECT_THAT(refusal("fernlicht: 1\nroad: .\n"), HasSubstr("is not a regular file"));
-    EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\nvariants:\n  a: {lamps: {left: none.ies}}\n"),
-                StartsWith("drive.yaml:6:21: variants.a.lamps.left.file: there is no file none.ies"));
+    EXPECT_THAT(refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\nlamp_sets:\n  a: {lamps: {left: none.ies}}\n"),
+                StartsWith("drive.yaml:6:21: lamp_sets.a.lamps.left.file: there is no file none.ies"));
     EXPECT_THAT(
-        refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\nvariants:\n  a: {file: low.ies, spectrum: none.csv}\n"),
-        StartsWith("drive.yaml:6:32: variants.a.spectrum: there is no file none.csv"));
+        refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\nlamp_sets:\n  a: {file: low.ies, spectrum: none.csv}\n"),
+        StartsWith("drive.yaml:6:32: lamp_sets.a.spectrum: there is no file none.csv"));
     EXPECT_THAT(refusal(minimal + "changes: [{at_s: 1, file: none.ies}]\n"), HasSubstr("changes[0].file: there is no file none.ies"));
 }
 
@@ -192,7 +192,7 @@ TEST_F(DriveRefusal, FieldsOfViewHaveOneRange) {
 
 TEST_F(DriveRefusal, NumbersOutOfRange) {
     const auto with_duration = [&](const std::string& keys) {
-        return refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nvariants: {a: {file: low.ies}}\n" + keys);
+        return refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nlamp_sets: {a: {file: low.ies}}\n" + keys);
     };
     for (const char* bad : {"0", "-1", "nan", ".inf", "1e7", "'3'", "three", "3 s", "[3]", "~"})
         EXPECT_THAT(with_duration(fmt::format("duration_s: {}\n", bad)), StartsWith("drive.yaml:5:13: duration_s: found")) << bad;
@@ -202,7 +202,7 @@ TEST_F(DriveRefusal, NumbersOutOfRange) {
     for (const char* good :
          {"duration_s: 10\nstep_s: 1.0e-6\n", "duration_s: 10\nstep_s: 10\n", "duration_s: 1.0e-300\nstep_s: 1.0e-300\n"})
         EXPECT_EQ(with_duration(good), "not refused") << good;
-    EXPECT_NE(refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1.0e+9\nduration_s: 1\nvariants: {a: {file: low.ies}}\n"), "not refused");
+    EXPECT_NE(refusal("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1.0e+9\nduration_s: 1\nlamp_sets: {a: {file: low.ies}}\n"), "not refused");
     for (const std::string& good : tests::each_of({{"tone_mapper", "{s: 1.0e+6}|{s: 1}|{l_max_cdm2: 1.0e-6}|{l_max_cdm2: 1.0e+9}"},
                                                    {"views", "{v: {resolution_px: [1, 1]}}|{v: {resolution_px: [16384, 16]}}|"
                                                              "{v: {vertical_fov_deg: 0.1}}|{v: {vertical_fov_deg: 179}}"}}))
@@ -237,7 +237,8 @@ TEST_F(DriveRefusal, NumbersOutOfRange) {
                               "{kind: histogram, curve: [[-4.6, -5.3], [30.0, 0]]}|"
                               "{kind: histogram, l_max_cdm2: 19.95, curve: [[2.995, -1.6], [3.0, 0]]}|square|[linear]"},
               {"", "capture: {per_second: -1}"},
-              {"measure", "{extent: {limits_lx: []}}|{extent: {limits_lx: [0]}}|{extent: {cell_m: 0.02, ahead_m: 2000, beside_m: 200}}"},
+              {"measure",
+               "{extent: {thresholds_lx: []}}|{extent: {thresholds_lx: [0]}}|{extent: {cell_m: 0.02, ahead_m: 2000, beside_m: 200}}"},
               {"limits", "[{reading: x}]|[{reading: x, at_least: 2, at_most: 1}]"},
               {"changes", "[{at_s: -1, level: 1}]|[{at_s: 1}]|[{at_s: 1, level: 1.5}]|[{at_s: 1, level: 1, between_samples: log_cd}]"},
               {"", "name: ../up"},
@@ -254,7 +255,7 @@ TEST_F(DriveRefusal, LampKeysOutOfRange) {
           "lamps: {left: {mount: left, position_m: [1, 1, 1]}}", "lamps: {}", "lamps: [low.ies]",
           "colour: {linear_srgb: [1, 1], sp_ratio: 1}"})
         EXPECT_THAT(refusal(fmt::format(
-                        "fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\nvariants:\n  a: {{file: low.ies, {}}}\n", bad)),
+                        "fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\nlamp_sets:\n  a: {{file: low.ies, {}}}\n", bad)),
                     StartsWith("drive.yaml:6:"))
             << bad;
 }
@@ -263,8 +264,8 @@ TEST_F(DriveRefusal, NamesGivenTwiceOrUnknownAndSpeedProfiles) {
     EXPECT_THAT(refusal(minimal + "views:\n  a: {}\n  a: {}\n"), HasSubstr("drive.yaml:9:3: found the key 'a' a second time"));
     EXPECT_THAT(refusal(minimal + "  one: {file: low.ies}\n"), HasSubstr("'one' a second time"));
     EXPECT_THAT(refusal(minimal + "changes: [{at_s: 1, lamp: lift, level: 1}]\n"),
-                AllOf(StartsWith("drive.yaml:7:27: changes[0].lamp: no lamp 'lift' in variant 'one'"), HasSubstr("nearest: 'left'")));
-    const std::string head = "fernlicht: 1\nroad: road.xodr\nduration_s: 1\nvariants: {a: {file: low.ies}}\n";
+                AllOf(StartsWith("drive.yaml:7:27: changes[0].lamp: no lamp 'lift' in lamp set 'one'"), HasSubstr("nearest: 'left'")));
+    const std::string head = "fernlicht: 1\nroad: road.xodr\nduration_s: 1\nlamp_sets: {a: {file: low.ies}}\n";
     for (const char* bad : {"speed: []", "speed: [{at_s: 0}]", "speed: [{at_s: 0, speed_kmh: 1, speed_mps: 1}]",
                             "speed: [{at_s: 1, speed_kmh: 1}, {at_s: 1, speed_kmh: 2}]", "speed: [{speed_kmh: 1}]", "speed: 80",
                             "speed_kmh: -1", "speed_kmh: 541", "speed_mps: 1\nspeed_kmh: 1"})

@@ -2,7 +2,7 @@
 #include "scenarios/lamps/mounted_lamp.h"
 #include "scenarios/light/fog_light.h"
 #include "scenarios/light/light.h"
-#include "scenarios/light/quick_light.h"
+#include "scenarios/light/light_bounds.h"
 #include "scenarios/photometry.h"
 #include "scenarios/values/scene.h"
 #include "tests/lamps.h"
@@ -191,9 +191,9 @@ Moment two_lamps(const CandelaTable& table) {
     return moment;
 }
 
-TEST(QuickLight, BoundsHoldTheIlluminanceAndAreNarrow) {
+TEST(LightBounds, BoundsHoldTheIlluminanceAndAreNarrow) {
     const Moment moment = two_lamps(steep_table());
-    const QuickLight light(moment);
+    const LightBounds light(moment);
     std::mt19937_64 chance(7);
     std::uniform_real_distribution<double> along(-5.0, 120.0), across(-40.0, 40.0), above(-3.0, 4.0), tilt(-0.3, 0.3);
     int unknown = 0;
@@ -218,9 +218,9 @@ TEST(QuickLight, BoundsHoldTheIlluminanceAndAreNarrow) {
 }
 
 // The far right lane of a cut-off: from a degree below it to a degree above, in steps that lie within the angles' error as well.
-TEST(QuickLight, BoundsHoldAcrossACutOff) {
+TEST(LightBounds, BoundsHoldAcrossACutOff) {
     const Moment moment = two_lamps(steep_table());
-    const QuickLight light(moment);
+    const LightBounds light(moment);
     for (const double step : {1e-3, 1e-7})
         for (int i = -1000; i <= 1000; ++i) {
             const glm::dvec3 point{60.0, 0.3, 0.65 - 57.0 * std::tan(0.01 + radians(0.55)) + step * i};
@@ -231,15 +231,15 @@ TEST(QuickLight, BoundsHoldAcrossACutOff) {
         }
 }
 
-TEST(QuickLight, KnowsTheDarkAndWhatItDoesNotKnow) {
+TEST(LightBounds, KnowsTheDarkAndWhatItDoesNotKnow) {
     Moment moment = two_lamps(steep_table());
     moment.daylight.horizontal_illuminance_lx = 0.0;
-    const LuxBounds behind = QuickLight(moment).target_lx({-10.0, 0.0, 0.5}), beside = QuickLight(moment).target_lx({13.0, 30.0, 0.5});
+    const LuxBounds behind = LightBounds(moment).target_lx({-10.0, 0.0, 0.5}), beside = LightBounds(moment).target_lx({13.0, 30.0, 0.5});
     EXPECT_EQ(behind.high_lx, 0.0);
     EXPECT_EQ(beside.high_lx, 0.0) << "outside the table there is no light";
-    EXPECT_FALSE(std::isfinite(QuickLight(moment).target_lx({3.2, 0.6, 0.0}).high_lx)) << "steeper than 30 degrees";
-    EXPECT_FALSE(std::isfinite(QuickLight(moment).target_lx(moment.lamps[0].pose.position_m).high_lx)) << "in the lamp";
-    const LuxBounds far = QuickLight(moment).surface_lx({63.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 1.0);
+    EXPECT_FALSE(std::isfinite(LightBounds(moment).target_lx({3.2, 0.6, 0.0}).high_lx)) << "steeper than 30 degrees";
+    EXPECT_FALSE(std::isfinite(LightBounds(moment).target_lx(moment.lamps[0].pose.position_m).high_lx)) << "in the lamp";
+    const LuxBounds far = LightBounds(moment).surface_lx({63.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 1.0);
     EXPECT_EQ(far.low_lx, 0.0);
     EXPECT_LT(far.high_lx, 1.0) << "13 000 cd x 0.7 x 2 lamps x 0.65 / 60^3 = 0.055 lx at most";
 
@@ -247,7 +247,7 @@ TEST(QuickLight, KnowsTheDarkAndWhatItDoesNotKnow) {
     logarithmic.rule = BetweenSamples::log_cd;
     with_gap.gaps.assign((with_gap.h_deg.size() - 1) * (with_gap.v_deg.size() - 1), 0);
     for (const CandelaTable& table : {logarithmic, with_gap})
-        EXPECT_FALSE(std::isfinite(QuickLight(two_lamps(table)).target_lx({23.0, 0.0, 0.5}).high_lx));
+        EXPECT_FALSE(std::isfinite(LightBounds(two_lamps(table)).target_lx({23.0, 0.0, 0.5}).high_lx));
 }
 
 // At the lamp's own place there is no direction and no distance: 0 / 0 in every term, and no light in the end.

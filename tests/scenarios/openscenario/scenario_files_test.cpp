@@ -86,7 +86,7 @@ TEST(ScenarioFiles, ArePlayedToTheirEndOrRefusedWithFileAndLine) {
             const std::string road = story.road_file.string();
             if (!road.empty() && !roads.contains(road))
                 roads[road] = read_opendrive(road);
-            const PlayedStory played = play_story(story, road.empty() ? none : roads[road], {.step_s = 0.05, .most_s = 30.0});
+            const PlayedStory played = play_story(story, road.empty() ? none : roads[road], {.step_s = 0.05, .max_s = 30.0});
             ++counts.played;
             for (const PlayedEntity& entity : played.entities)
                 for (const EntitySample& at : entity.samples)
@@ -153,7 +153,7 @@ TEST(EsminiPositions, AgreeWithinFiveCentimetresOverTheDrive) {
     for (const auto& [scenario, places] : esmini_positions()) {
         const Storyboard story =
             read_storyboard(folder / scenario, {.lenient = true, .road_folders = {fs::path(FERNLICHT_SHARED_DATA) / "roads"}});
-        const PlayedStory played = play_story(story, read_opendrive(story.road_file), {.step_s = 0.01, .most_s = 30.0});
+        const PlayedStory played = play_story(story, read_opendrive(story.road_file), {.step_s = 0.01, .max_s = 30.0});
         const double apart = largest_difference_m(played, places);
         if (std::getenv("FERNLICHT_STORY_TABLE"))
             std::printf("%-75s %6.1f s %8.4f m\n", scenario.c_str(), static_cast<double>(played.ticks() - 1) * 0.01, apart);

@@ -66,9 +66,9 @@ inline std::string story(const std::string& events, const std::string& actor = "
 }
 inline std::string stop_at(double time) { return "<StopTrigger>" + at_time(time) + "</StopTrigger>"; }
 
-inline PlayedStory play_text(const std::string& text, double most_s = 20.0) {
+inline PlayedStory play_text(const std::string& text, double max_s = 20.0) {
     const Storyboard storyboard = read_storyboard(story_file(text));
-    return play_story(storyboard, read_opendrive(storyboard.road_file), {.step_s = 0.01, .most_s = most_s});
+    return play_story(storyboard, read_opendrive(storyboard.road_file), {.step_s = 0.01, .max_s = max_s});
 }
 
 } // namespace fernlicht::osc

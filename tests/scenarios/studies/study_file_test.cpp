@@ -49,10 +49,10 @@ TEST_F(StudyFile, WhatIsNotGivenIsNightAtRegulationAim) {
     ASSERT_EQ(study.comparisons.size(), 1U) << "all with the first";
     EXPECT_EQ(study.comparisons[0].tested, "b");
     const Drive drive = cell_drive(study, cells[1]);
-    ASSERT_EQ(drive.variants.size(), 1U);
-    EXPECT_EQ(drive.variants[0].name, "b");
+    ASSERT_EQ(drive.lamp_sets.size(), 1U);
+    EXPECT_EQ(drive.lamp_sets[0].name, "b");
     EXPECT_EQ(drive.daylight.horizontal_illuminance_lx, 0.0);
-    for (const MountedLamp& lamp : drive.variants[0].lamps) {
+    for (const MountedLamp& lamp : drive.lamp_sets[0].lamps) {
         EXPECT_EQ(lamp.pitch_rad, 0.0) << "the file has its own dip";
         EXPECT_EQ(lamp.source, SourceKind::arc);
         EXPECT_EQ(lamp.file->name, lamp.name == "left" ? "xenon low beam (model)" : "halogen low beam (model)");
@@ -67,7 +67,7 @@ TEST_F(StudyFile, ConditionsReachTheDrive) {
     EXPECT_EQ(cells[15].name, "straight_b_twilight_aim-1.5_13.2V");
     const Drive drive = cell_drive(study, cells[12]); // twilight, -1.5 %, 12 V, a
     EXPECT_EQ(drive.daylight.horizontal_illuminance_lx, 3.4);
-    for (const MountedLamp& lamp : drive.variants[0].lamps) {
+    for (const MountedLamp& lamp : drive.lamp_sets[0].lamps) {
         EXPECT_DOUBLE_EQ(lamp.pitch_rad, std::atan(-0.015) + std::atan(0.01));
         EXPECT_EQ(lamp.voltage_v, 12.0);
     }
@@ -99,7 +99,7 @@ TEST_F(StudyFile, MirroredCellsHaveTheRoadInAMirror) {
     EXPECT_FALSE(plain.mirrored_road);
     EXPECT_TRUE(mirrored.mirrored_road);
     // b has a xenon lamp on the left and a halogen lamp on the right.
-    for (const MountedLamp& lamp : mirrored.variants[0].lamps)
+    for (const MountedLamp& lamp : mirrored.lamp_sets[0].lamps)
         EXPECT_EQ(lamp.file->name, lamp.name == "right" ? "xenon low beam (model)" : "halogen low beam (model)") << lamp.name;
 }
 

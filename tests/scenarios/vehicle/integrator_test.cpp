@@ -189,7 +189,7 @@ TEST(OdeIntegrator, GivesUpWithASentence) {
     problem.derivative = [](double, const double* x, double* dxdt) { dxdt[0] = x[0] * x[0]; }; // 1 / (1 - t): ends at t = 1
     problem.scale = {1.0};
     for (const Solver solver : {Solver::automatic, Solver::dormand_prince, Solver::rosenbrock}) {
-        OdeIntegrator integrator(problem, {.solver = solver, .most_steps = 20'000});
+        OdeIntegrator integrator(problem, {.solver = solver, .max_steps = 20'000});
         std::vector<double> x{1.0};
         EXPECT_THAT(tests::refusal_of([&] { integrator.integrate(0.0, 2.0, x); }), HasSubstr("step")) << "goes through a pole";
     }
@@ -266,7 +266,7 @@ TEST(Actuator, StopsHoldAndLetGo) {
     // Under-damped, it would swing beyond; the stop takes its speed, and a command inwards frees it at once.
     ActuatorParameters swinging = unlimited;
     swinging.damping = 0.1;
-    swinging.greatest_rad = 0.05;
+    swinging.max_rad = 0.05;
     const auto command = [](double tick_s) { return tick_s < 0.005 ? 0.0 : tick_s < 0.495 ? 0.2 : -0.02; };
     const ActuatorRun run = run_actuator(swinging, command, {}, 2.0, {.tolerance = 1e-9});
     EXPECT_GE(run.at_stop, 1U);

@@ -36,9 +36,9 @@ void add_sweep(const AccuracyRequest& request, const Stage& stage, const std::op
             if (!progress)
                 progress.emplace("accuracy of " + stage.drive.name, steps, request.quiet, "steps");
             progress->done(static_cast<int>(done));
-            return !Interruption::asked();
+            return !Interruption::requested();
         },
-        Interruption::asked));
+        Interruption::requested));
     if (result.drives.back().missing.empty())
         progress->done(steps);
     if (choice)
@@ -48,9 +48,9 @@ void add_sweep(const AccuracyRequest& request, const Stage& stage, const std::op
 
 /// Each on the middle or some moments of the drive.
 void add_studies(const AccuracyRequest& request, const Stage& stage, Device& device, AccuracyResult& result) {
-    const Variant& variant = variant_of(stage.drive, request.sweep.variant);
+    const LampSet& lamp_set = lamp_set_of(stage.drive, request.sweep.lamp_set);
     bool ended = false; // whether the study at hand was told to end
-    const StudyGoesOn go_on = [&ended] { return !(ended = Interruption::asked()); };
+    const StudyGoesOn go_on = [&ended] { return !(ended = Interruption::requested()); };
     const auto add_all = [&](const char* name, auto study) {
         if (!asked_for(request, name))
             return;
@@ -62,25 +62,25 @@ void add_studies(const AccuracyRequest& request, const Stage& stage, Device& dev
                 fmt::format("diagram {} of {}: {}", name, stage.drive.name, begun ? "ended before its last row" : "not begun"));
     };
     const auto add = [&](const char* name, auto study) { add_all(name, [&] { return std::vector<WorkPrecision>{study()}; }); };
-    add_all("reference", [&] { return reference_study(stage, variant, request.sweep.seed, go_on); });
+    add_all("reference", [&] { return reference_study(stage, lamp_set, request.sweep.seed, go_on); });
     add("classical", [&] {
-        const Moment moment = moments_at({tick_count(stage.drive) / 2}, stage, variant).front();
+        const Moment moment = moments_at({tick_count(stage.drive) / 2}, stage, lamp_set).front();
         ClassicalStudy study;
         study.seed = request.sweep.seed;
         WorkPrecision diagram = classical_study(stage.scene, moment, at_size(*driver_view(stage.drive), 64, 48), study, go_on);
         diagram.name += "-" + stage.drive.name;
-        diagram.title += fmt::format(": {}, {}", stage.drive.name, variant.name);
+        diagram.title += fmt::format(": {}, {}", stage.drive.name, lamp_set.name);
         return diagram;
     });
-    add("extent", [&] { return extent_study(stage, variant, go_on); });
-    add("beam", [&] { return beam_study(stage, variant, go_on); });
-    add_all("weather", [&] { return weather_study(stage, variant, device, go_on); });
-    add("metrics", [&] { return metrics_study(stage, variant, device, go_on); });
+    add("extent", [&] { return extent_study(stage, lamp_set, go_on); });
+    add("beam", [&] { return beam_study(stage, lamp_set, go_on); });
+    add_all("weather", [&] { return weather_study(stage, lamp_set, device, go_on); });
+    add("metrics", [&] { return metrics_study(stage, lamp_set, device, go_on); });
     if (!stage.drive.traffic.empty())
-        add("traffic", [&] { return traffic_study(stage, variant, device, go_on); });
+        add("traffic", [&] { return traffic_study(stage, lamp_set, device, go_on); });
     if ((!stage.drive.traffic.empty() || !stage.drive.street_lamps.empty()) && stage.drive.shadows.any())
-        add("traffic", [&] { return traffic_shadow_study(stage, variant, device, go_on); });
-    add("step", [&] { return step_study(stage, variant, go_on); });
+        add("traffic", [&] { return traffic_shadow_study(stage, lamp_set, device, go_on); });
+    add("step", [&] { return step_study(stage, lamp_set, go_on); });
 }
 
 } // namespace
@@ -106,7 +106,7 @@ AccuracyResult run_accuracy(const AccuracyRequest& request) {
     result.cores = std::thread::hardware_concurrency();
     result.rounds = static_cast<std::size_t>(request.sweep.rounds);
     result.target_error = request.sweep.target_error;
-    result.most_samples = request.sweep.most_samples;
+    result.max_samples = request.sweep.max_samples;
     const Interruption listening;
     const CpuUse before = cpu_use();
     for (Stage& stage : stages) {
@@ -114,7 +114,7 @@ AccuracyResult run_accuracy(const AccuracyRequest& request) {
         add_inputs(result.context.inputs, stage.drive.opened);
         add_inputs(result.context.inputs, stage.network.opened);
         if (asked_for(request, "techniques") || asked_for(request, "shadows")) {
-            if (!Interruption::asked())
+            if (!Interruption::requested())
                 add_sweep(request, stage, choice, device, result);
             else
                 result.missing.push_back(fmt::format("drive {}: not begun", stage.drive.name));
@@ -122,21 +122,21 @@ AccuracyResult run_accuracy(const AccuracyRequest& request) {
         add_studies(request, stage, device, result);
     }
     if (asked_for(request, "solvers")) {
-        if (!Interruption::asked())
+        if (!Interruption::requested())
             std::ranges::move(solver_diagrams(study_solvers()), std::back_inserter(result.diagrams));
         else
             result.missing.emplace_back("diagram solvers: not begun");
     }
     if (asked_for(request, "control")) {
-        result.diagrams.push_back(control_study([] { return !Interruption::asked(); }));
-        if (Interruption::asked())
+        result.diagrams.push_back(control_study([] { return !Interruption::requested(); }));
+        if (Interruption::requested())
             result.missing.emplace_back("diagram control: ended before its last row");
     }
     for (const DriveAccuracy& drive : result.drives)
         for (const std::string& missing : drive.missing)
             result.missing.push_back(fmt::format("drive {}: {}", drive.drive, missing));
-    result.others = other_use(before, cpu_use(), ::getpid());
-    if (Interruption::asked())
+    result.others = other_load(before, cpu_use(), ::getpid());
+    if (Interruption::requested())
         result.interrupted = "interrupted by the user";
     request.write(result);
     if (result.interrupted.empty())

@@ -12,7 +12,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr double least_of_peak = 0.01;
+constexpr double min_of_peak = 0.01;
 
 struct Direction {
     double h_deg, v_deg, cd;
@@ -24,7 +24,7 @@ std::vector<Direction> bright_directions(const CandelaTable& table) {
     constexpr int count = 200'000;
     const double h_from = std::max(table.h_deg.front(), -54.0), h_to = std::min(table.h_deg.back(), 54.0);
     const double v_from = std::max(table.v_deg.front(), -24.0), v_to = std::min(table.v_deg.back(), 19.0),
-                 least = least_of_peak * peak_of(table).cd;
+                 least = min_of_peak * peak_of(table).cd;
     std::vector<Direction> directions;
     for (int i = 0; i < count; ++i) {
         const double a = std::fmod(0.5 + i / g, 1.0), b = std::fmod(0.5 + i / (g * g), 1.0);
@@ -72,16 +72,16 @@ WorkPrecisionRow row_of(const std::string& label, const std::vector<Direction>& 
 
 } // namespace
 
-WorkPrecision beam_study(const Stage& stage, const Variant& variant, const StudyGoesOn& go_on) {
+WorkPrecision beam_study(const Stage& stage, const LampSet& lamp_set, const StudyGoesOn& go_on) {
     WorkPrecision diagram{"beam-" + stage.drive.name,
-                          fmt::format("Beam textures: {}, {}", stage.drive.name, variant.name),
+                          fmt::format("Beam textures: {}, {}", stage.drive.name, lamp_set.name),
                           "error of intensity, 95 % of the directions",
                           "%",
                           "time to make it",
                           "",
                           {},
                           {}};
-    const CandelaTable& table = variant.lamps.front().file->table;
+    const CandelaTable& table = lamp_set.lamps.front().file->table;
     const std::vector<Direction> directions = bright_directions(table);
     diagram.notes = {
         fmt::format("{} directions with at least 1 % of the peak; bars from the median to 99 %. Over angles: as photometric looks "

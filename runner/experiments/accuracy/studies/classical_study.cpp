@@ -22,7 +22,7 @@ ReferenceSettings drawn_by(const ClassicalStudy& study, Integrator integrator, i
     ReferenceSettings settings;
     settings.integrator = integrator;
     settings.target_error = never_met;
-    settings.least_samples = settings.most_samples = samples;
+    settings.min_samples = settings.max_samples = samples;
     settings.solver = study.solver;
     settings.seed = study.seed;
     return settings;

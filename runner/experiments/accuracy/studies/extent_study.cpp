@@ -1,5 +1,5 @@
-#include "metrics/road/deciding_lx.h"
 #include "metrics/road/extent.h"
+#include "metrics/road/lux_near_thresholds.h"
 #include "metrics/statistics/statistics.h"
 #include "runner/experiments/accuracy/studies/studies.h"
 #include "runner/experiments/bench/bench_run.h"
@@ -13,19 +13,19 @@
 namespace fernlicht {
 namespace {
 
-constexpr ExtentPlane planes[] = {ExtentPlane::road, ExtentPlane::target};
+constexpr Surface surfaces[] = {Surface::road, Surface::target};
 
 /// Reach on the own lane's centre by plane and limit; without those that are cut off.
-using Reaches = std::map<std::pair<ExtentPlane, double>, double>;
+using Reaches = std::map<std::pair<Surface, double>, double>;
 
 Reaches reaches_of(const Stage& stage, const Moment& moment, const ExtentParameters& parameters) {
     const ExtentGrid grid = make_extent_grid(stage.route, moment, stage.drive.bumper_m, parameters);
     Reaches reaches;
-    for (const ExtentPlane plane : planes)
-        for (const LaneExtent& extent : measure_extent(grid, deciding_twin_lx(grid, moment, plane, parameters.limits_lx), plane,
-                                                       parameters.limits_lx, parameters.width_at_m))
+    for (const Surface surface : surfaces)
+        for (const LaneExtent& extent : measure_extent(grid, twin_lux_near_thresholds(grid, moment, surface, parameters.thresholds_lx),
+                                                       surface, parameters.thresholds_lx, parameters.width_at_m))
             if (extent.lane == "own" && !extent.reach_is_cut_off)
-                reaches[{plane, extent.limit_lx}] = extent.reach_centre_m;
+                reaches[{surface, extent.threshold_lx}] = extent.reach_centre_m;
     return reaches;
 }
 
@@ -44,16 +44,16 @@ std::vector<double> differences(const Reaches& tested, const Reaches& truth) {
 }
 
 /// 5 %, 50 % and 95 % of each reach over the drive at this step.
-std::map<std::pair<std::pair<ExtentPlane, double>, int>, double> statistics_of(const Stage& stage, const Variant& variant, double step_s) {
+std::map<std::pair<std::pair<Surface, double>, int>, double> statistics_of(const Stage& stage, const LampSet& lamp_set, double step_s) {
     Drive drive = stage.drive;
     drive.step_s = step_s;
-    std::map<std::pair<ExtentPlane, double>, std::vector<double>> over_drive;
+    std::map<std::pair<Surface, double>, std::vector<double>> over_drive;
     const ExtentParameters parameters = parameters_of(drive, 1.0);
     State state = start(drive);
     for (int tick = 0; tick < tick_count(drive); ++tick, state = advance(state, drive))
-        for (const auto& [key, reach_m] : reaches_of(stage, moment_at(state, drive, stage.route, variant), parameters))
+        for (const auto& [key, reach_m] : reaches_of(stage, moment_at(state, drive, stage.route, lamp_set), parameters))
             over_drive[key].push_back(reach_m);
-    std::map<std::pair<std::pair<ExtentPlane, double>, int>, double> statistics;
+    std::map<std::pair<std::pair<Surface, double>, int>, double> statistics;
     for (const auto& [key, samples] : over_drive)
         if (const auto spread = spread_of(samples))
             for (const auto& [share, value] : {std::pair(5, spread->p05), std::pair(50, spread->median), std::pair(95, spread->p95)})
@@ -75,11 +75,11 @@ void set_error(WorkPrecisionRow& row, const std::vector<double>& errors) {
 
 } // namespace
 
-WorkPrecision extent_study(const Stage& stage, const Variant& variant, const StudyGoesOn& go_on) {
+WorkPrecision extent_study(const Stage& stage, const LampSet& lamp_set, const StudyGoesOn& go_on) {
     constexpr double finest_m = 0.0625, beside_m = 4.0;
     WorkPrecision diagram{
         "extent-" + stage.drive.name,
-        fmt::format("Extent grid: {}, {}", stage.drive.name, variant.name),
+        fmt::format("Extent grid: {}, {}", stage.drive.name, lamp_set.name),
         "error of reach, 95 % of the reaches",
         "m",
         "time a moment",
@@ -88,7 +88,7 @@ WorkPrecision extent_study(const Stage& stage, const Variant& variant, const Stu
          "moments, against cells of 1/16 m; bars from the median to the largest; on a grid as wide as the drive's"},
         {}};
     const int ticks = tick_count(stage.drive);
-    const std::vector<Moment> moments = moments_at(ticks_over(ticks, std::min(3, ticks)), stage, variant);
+    const std::vector<Moment> moments = moments_at(ticks_over(ticks, std::min(3, ticks)), stage, lamp_set);
     std::vector<Reaches> truth;
     for (const Moment& moment : moments) {
         ExtentParameters fine = parameters_of(stage.drive, finest_m);
@@ -113,11 +113,11 @@ WorkPrecision extent_study(const Stage& stage, const Variant& variant, const Stu
     return diagram;
 }
 
-WorkPrecision step_study(const Stage& stage, const Variant& variant, const StudyGoesOn& go_on) {
+WorkPrecision step_study(const Stage& stage, const LampSet& lamp_set, const StudyGoesOn& go_on) {
     constexpr int finest = 256;
     WorkPrecision diagram{
         "step-" + stage.drive.name,
-        fmt::format("Time step: {}, {}", stage.drive.name, variant.name),
+        fmt::format("Time step: {}, {}", stage.drive.name, lamp_set.name),
         "error of reach over the drive, 95 % of its figures",
         "m",
         "time for the drive",
@@ -126,7 +126,7 @@ WorkPrecision step_study(const Stage& stage, const Variant& variant, const Study
                      "{} moments; the drive itself has {}",
                      finest, tick_count(stage.drive))},
         {}};
-    const auto truth = statistics_of(stage, variant, stage.drive.duration_s / finest);
+    const auto truth = statistics_of(stage, lamp_set, stage.drive.duration_s / finest);
     for (const int moments : {4, 8, 16, 32, 64, 128}) {
         if (!go_on())
             break;
@@ -135,12 +135,12 @@ WorkPrecision step_study(const Stage& stage, const Variant& variant, const Study
         row.label = fmt::format("{} moments, every {:.3f} s", moments, step_s);
         row.parameters = {{"step_s", fmt::format("{}", step_s)}};
         std::vector<double> errors;
-        const auto tested = statistics_of(stage, variant, step_s);
+        const auto tested = statistics_of(stage, lamp_set, step_s);
         for (const auto& [key, value] : truth)
             if (const auto found = tested.find(key); found != tested.end())
                 errors.push_back(std::abs(found->second - value));
         set_error(row, errors);
-        row.seconds = timed([&] { statistics_of(stage, variant, step_s); });
+        row.seconds = timed([&] { statistics_of(stage, lamp_set, step_s); });
         diagram.rows.push_back(std::move(row));
     }
     return diagram;

@@ -29,10 +29,10 @@ ImageDifference compared(const Image<float>& a, const Image<float>& b, int acros
 
 } // namespace
 
-WorkPrecision metrics_study(const Stage& stage, const Variant& variant, Device& device, const StudyGoesOn& go_on) {
+WorkPrecision metrics_study(const Stage& stage, const LampSet& lamp_set, Device& device, const StudyGoesOn& go_on) {
     WorkPrecision diagram{
         "metrics-" + stage.drive.name,
-        fmt::format("Comparing pictures: {}, {}", stage.drive.name, variant.name),
+        fmt::format("Comparing pictures: {}, {}", stage.drive.name, lamp_set.name),
         "error of root mean square and of the share beyond 1 %",
         "%",
         "time of a comparison",
@@ -40,7 +40,7 @@ WorkPrecision metrics_study(const Stage& stage, const Variant& variant, Device& 
         {"lux images of light-map-2d against photometric in the driver's view; the larger of both errors, in shares of what all "
          "pixels give, bars from the smaller"},
         {}};
-    const Moment moment = moments_at({tick_count(stage.drive) / 2}, stage, variant).front();
+    const Moment moment = moments_at({tick_count(stage.drive) / 2}, stage, lamp_set).front();
     std::vector<Image<float>> pictures;
     for (const char* technique : {"light-map-2d", "photometric"}) {
         RendererSettings settings;

@@ -18,7 +18,7 @@ WorkPrecisionRow row_of(const SolverRow& found) {
     if (!found.not_measured.empty())
         return row;
     row.error = Interval{found.error, found.error, found.error};
-    row.seconds = Interval{found.seconds, found.least_seconds, found.most_seconds, found.repetitions};
+    row.seconds = Interval{found.seconds, found.min_seconds, found.max_seconds, found.repetitions};
     row.floor = found.floor;
     for (const auto& [what, number] : {std::pair("steps", found.steps), std::pair("rejected", found.rejected),
                                        std::pair("evaluations", found.derivatives), std::pair("Jacobians", found.jacobians)})

@@ -19,11 +19,11 @@ constexpr double never = 1e-9; // a target that no pixel meets: each gets all sa
 struct Deviation {
     double error = 0.0, floor = 0.0;
 };
-Deviation deviation(const ReferenceImage& tested, const ReferenceImage& truth, double least_lx) {
+Deviation deviation(const ReferenceImage& tested, const ReferenceImage& truth, double min_lx) {
     double squares = 0.0, noise = 0.0, count = 0.0;
     for (std::size_t i = 0; i < truth.illuminance_lx.mean.size(); ++i) {
         const auto right = static_cast<double>(truth.illuminance_lx.mean.pixels()[i]);
-        if (right < least_lx)
+        if (right < min_lx)
             continue;
         const double error = (static_cast<double>(tested.illuminance_lx.mean.pixels()[i]) - right) / right,
                      own = static_cast<double>(truth.illuminance_lx.standard_error.pixels()[i]) / right;
@@ -36,17 +36,17 @@ Deviation deviation(const ReferenceImage& tested, const ReferenceImage& truth, d
 
 } // namespace
 
-std::vector<WorkPrecision> reference_study(const Stage& stage, const Variant& variant, std::uint64_t seed, const StudyGoesOn& go_on) {
+std::vector<WorkPrecision> reference_study(const Stage& stage, const LampSet& lamp_set, std::uint64_t seed, const StudyGoesOn& go_on) {
     const int ticks = tick_count(stage.drive);
-    const Moment moment = moments_at({ticks / 2}, stage, variant).front();
+    const Moment moment = moments_at({ticks / 2}, stage, lamp_set).front();
     const View view = at_size(*driver_view(stage.drive), width_px, height_px);
     const Reference reference(stage.scene);
     const auto draw = [&](Integrator integrator, int samples, std::uint64_t from_seed) {
         ReferenceSettings settings;
         settings.integrator = integrator;
         settings.target_error = never;
-        settings.least_samples = settings.most_samples = samples;
-        settings.shadows = stage.drive.shadows.things_cast;
+        settings.min_samples = settings.max_samples = samples;
+        settings.shadows = stage.drive.shadows.objects_cast;
         settings.seed = from_seed;
         return reference.render(moment, view, {.illuminance = true}, settings);
     };
@@ -57,7 +57,7 @@ std::vector<WorkPrecision> reference_study(const Stage& stage, const Variant& va
             return diagrams;
         WorkPrecision diagram{
             fmt::format("reference-{}-{}", name, stage.drive.name),
-            fmt::format("The reference, {}: {}, {}", name, stage.drive.name, variant.name),
+            fmt::format("The reference, {}: {}, {}", name, stage.drive.name, lamp_set.name),
             "error of a pixel's illuminance, root mean square",
             "%",
             "time of a picture",

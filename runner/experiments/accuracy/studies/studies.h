@@ -17,20 +17,20 @@ namespace fernlicht {
 using StudyGoesOn = std::function<bool()>;
 
 /// Size and depth of a texture of the lamp set's first lamp: error of the intensity against the candela table, over the time to make it.
-WorkPrecision beam_study(const Stage& stage, const Variant& variant, const StudyGoesOn& go_on);
+WorkPrecision beam_study(const Stage& stage, const LampSet& lamp_set, const StudyGoesOn& go_on);
 
 /// Cell of the extent grid: error of reach on the own lane's centre against cells of 1/16 m, over the time a moment, by the twin.
-WorkPrecision extent_study(const Stage& stage, const Variant& variant, const StudyGoesOn& go_on);
+WorkPrecision extent_study(const Stage& stage, const LampSet& lamp_set, const StudyGoesOn& go_on);
 
 /// Time step of the drive: error of the median, 5 % and 95 % of reach over the drive against 256 moments, over the time for the drive.
-WorkPrecision step_study(const Stage& stage, const Variant& variant, const StudyGoesOn& go_on);
+WorkPrecision step_study(const Stage& stage, const LampSet& lamp_set, const StudyGoesOn& go_on);
 
 /// Samples of the reference, direct and path traced: error of a pixel's mean against many more samples of another seed, over the time of a
 /// picture of 64 x 48 pixels, a diagram each. The slope over the samples stands in the notes.
-std::vector<WorkPrecision> reference_study(const Stage& stage, const Variant& variant, std::uint64_t seed, const StudyGoesOn& go_on);
+std::vector<WorkPrecision> reference_study(const Stage& stage, const LampSet& lamp_set, std::uint64_t seed, const StudyGoesOn& go_on);
 
 /// Comparing pictures on every n-th pixel: error of root mean square and of the share of pixels beyond 1 %, over the time.
-WorkPrecision metrics_study(const Stage& stage, const Variant& variant, Device& device, const StudyGoesOn& go_on);
+WorkPrecision metrics_study(const Stage& stage, const LampSet& lamp_set, Device& device, const StudyGoesOn& go_on);
 
 /// Period of lamp control: error of the swivel against a period of 0.25 ms, over the time of the run. Of no drive.
 WorkPrecision control_study(const StudyGoesOn& go_on);
@@ -41,13 +41,13 @@ Interval timed(const std::function<void()>& work);
 /// Least lux of others' light: worst and 95 % error of illuminance in the driver's view against every lamp with its own beam and nothing
 /// left out, over the time of a frame in colour; and every lamp with its own beam at the drive's least lux. The drive's middle moment. No
 /// rows without lamps of others.
-WorkPrecision traffic_study(const Stage& stage, const Variant& variant, Device& device, const StudyGoesOn& go_on);
+WorkPrecision traffic_study(const Stage& stage, const LampSet& lamp_set, Device& device, const StudyGoesOn& go_on);
 
 /// One diagram for each of fog, wet road, sun or moon and lamps beside the road that the middle moment has; none where it has none. Error
 /// of luminance, 95 % of the pixels with at least 0.001 cd/m2, against the reference's direct light by the ray through each pixel's centre,
 /// surfaces without their textures and other road users' lamps switched off, so that nothing but this light is compared; over the
 /// time of a frame. Throws DeviceError.
-std::vector<WorkPrecision> weather_study(const Stage& stage, const Variant& variant, Device& device, const StudyGoesOn& go_on);
+std::vector<WorkPrecision> weather_study(const Stage& stage, const LampSet& lamp_set, Device& device, const StudyGoesOn& go_on);
 
 /// The classical global methods, direct light and path tracing: how far from the whole light each is, and what it costs.
 struct ClassicalStudy {
@@ -72,7 +72,7 @@ std::vector<WorkPrecision> solver_diagrams(const std::vector<SolverRow>& rows);
 /// Without them, and with maps of some sizes: the share of the driver's view, lit by others, that is wrongly lit or dark against a ray from
 /// each pixel to each lamp, over the time of a frame in colour with all lamps. Error: of five moments evenly spread over the drive
 /// together; time: of the middle one and the one before it, in turn. No rows without lamps of others, and for drives without shadows.
-WorkPrecision traffic_shadow_study(const Stage& stage, const Variant& variant, Device& device, const StudyGoesOn& go_on);
+WorkPrecision traffic_shadow_study(const Stage& stage, const LampSet& lamp_set, Device& device, const StudyGoesOn& go_on);
 
 struct AccuracyRequest {
     std::vector<Drive> drives;

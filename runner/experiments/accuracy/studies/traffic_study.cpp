@@ -26,19 +26,19 @@ std::vector<double> traffic_differences(const Image<float>& tested, const Image<
 constexpr int compared_moments = 5;
 constexpr double fully_shadowed = 4.0; ///< light of a unit, in least lux, from which on its shadow is drawn in full (docs/traffic.md)
 
-std::vector<Moment> traffic_shadow_moments(const Stage& stage, const Variant& variant) {
+std::vector<Moment> traffic_shadow_moments(const Stage& stage, const LampSet& lamp_set) {
     std::vector<int> ticks;
     for (int i = 0; i < compared_moments; ++i)
         ticks.push_back((2 * i + 1) * tick_count(stage.drive) / (2 * compared_moments));
-    return moments_at(ticks, stage, variant);
+    return moments_at(ticks, stage, lamp_set);
 }
 
 } // namespace
 
-WorkPrecision traffic_study(const Stage& stage, const Variant& variant, Device& device, const StudyGoesOn& go_on) {
+WorkPrecision traffic_study(const Stage& stage, const LampSet& lamp_set, Device& device, const StudyGoesOn& go_on) {
     WorkPrecision diagram{
         "traffic-" + stage.drive.name,
-        fmt::format("Lamps of others, by the least lux that is drawn: {}, {}", stage.drive.name, variant.name),
+        fmt::format("Lamps of others, by the least lux that is drawn: {}, {}", stage.drive.name, lamp_set.name),
         "illuminance in the driver's view, worst pixel",
         "lx",
         "time of a frame",
@@ -48,7 +48,7 @@ WorkPrecision traffic_study(const Stage& stage, const Variant& variant, Device& 
             "{:g} times the least lux. Shadows that road users cast in the light of others are in neither",
             nothing_left_out_lx, worst_traffic_error)},
         {}};
-    Moment moment = moments_at({tick_count(stage.drive) / 2}, stage, variant).front();
+    Moment moment = moments_at({tick_count(stage.drive) / 2}, stage, lamp_set).front();
     const View* const view = driver_view(stage.drive);
     if (moment.other_lamps.empty() || view == nullptr)
         return diagram;
@@ -60,11 +60,11 @@ WorkPrecision traffic_study(const Stage& stage, const Variant& variant, Device& 
     RendererSettings one_by_one = settings;
     one_by_one.traffic_levels = false;
     Renderer coarse(device, stage.scene, settings), fine(device, stage.scene, one_by_one);
-    const double own_lx = moment.least_traffic_lx;
-    moment.least_traffic_lx = nothing_left_out_lx;
+    const double own_lx = moment.min_traffic_lx;
+    moment.min_traffic_lx = nothing_left_out_lx;
     const Image<float> truth = fine.draw(moment, *view, {.illuminance = true}).illuminance_lx;
-    const auto add = [&](Renderer& renderer, double least_lx, std::string label, std::string note) {
-        moment.least_traffic_lx = least_lx;
+    const auto add = [&](Renderer& renderer, double min_lx, std::string label, std::string note) {
+        moment.min_traffic_lx = min_lx;
         const std::vector<double> errors = traffic_differences(renderer.draw(moment, *view, {.illuminance = true}).illuminance_lx, truth);
         const Work work = renderer.count(moment, *view, {.colour = true});
         WorkPrecisionRow row;
@@ -74,7 +74,7 @@ WorkPrecision traffic_study(const Stage& stage, const Variant& variant, Device& 
                         "{} by vertex, {} as points",
                         note, note.empty() ? "" : "; ", errors[errors.size() * 95 / 100], work.traffic_full, work.traffic_merged,
                         work.traffic_by_vertex, work.traffic_point);
-        row.parameters = {{"least_lx", fmt::format("{:g}", least_lx)}, {"levels", &renderer == &coarse ? "yes" : "no"}};
+        row.parameters = {{"min_lx", fmt::format("{:g}", min_lx)}, {"levels", &renderer == &coarse ? "yes" : "no"}};
         row.error = Interval{errors.back(), errors.back(), errors.back()};
         row.seconds = timed([&] {
             renderer.render(moment, *view, {.colour = true});
@@ -82,19 +82,19 @@ WorkPrecision traffic_study(const Stage& stage, const Variant& variant, Device& 
         });
         diagram.rows.push_back(std::move(row));
     };
-    for (const double least_lx : {1.0, 0.3, 0.1, 0.05, 0.02, 0.005}) {
+    for (const double min_lx : {1.0, 0.3, 0.1, 0.05, 0.02, 0.005}) {
         if (!go_on())
             return diagram;
-        add(coarse, least_lx, fmt::format("least {:g} lx", least_lx), least_lx == own_lx ? "the drive's own" : "");
+        add(coarse, min_lx, fmt::format("least {:g} lx", min_lx), min_lx == own_lx ? "the drive's own" : "");
     }
     if (go_on())
         add(fine, own_lx, fmt::format("each lamp with its own beam, least {:g} lx", own_lx), "");
     return diagram;
 }
 
-WorkPrecision traffic_shadow_study(const Stage& stage, const Variant& variant, Device& device, const StudyGoesOn& go_on) {
+WorkPrecision traffic_shadow_study(const Stage& stage, const LampSet& lamp_set, Device& device, const StudyGoesOn& go_on) {
     WorkPrecision diagram{"traffic-shadows-" + stage.drive.name,
-                          fmt::format("Shadows in the light of others: {}, {}", stage.drive.name, variant.name),
+                          fmt::format("Shadows in the light of others: {}, {}", stage.drive.name, lamp_set.name),
                           "wrongly lit or dark of what others light in the driver's view",
                           "%",
                           "time of a frame",
@@ -102,7 +102,7 @@ WorkPrecision traffic_shadow_study(const Stage& stage, const Variant& variant, D
                           {},
                           {}};
     const View* const view = driver_view(stage.drive);
-    const std::vector<Moment> all = traffic_shadow_moments(stage, variant);
+    const std::vector<Moment> all = traffic_shadow_moments(stage, lamp_set);
     if (view == nullptr || !stage.drive.shadows.any() ||
         std::ranges::all_of(all, [](const Moment& moment) { return moment.other_lamps.empty(); }))
         return diagram;
@@ -117,8 +117,8 @@ WorkPrecision traffic_shadow_study(const Stage& stage, const Variant& variant, D
     ShadowTruth truth(rays, unshadowed, others,
                       at_size(*view, shadow_error_width_px, std::max(1, view->height_px * shadow_error_width_px / view->width_px)));
     const int middle = tick_count(stage.drive) / 2;
-    const std::vector<Moment> timed_moments = moments_at({std::max(0, middle - 1), middle}, stage, variant); // in turn: all maps are drawn
-    const double floor_lx = std::max(shadow_floor_lx, all.front().least_traffic_lx);
+    const std::vector<Moment> timed_moments = moments_at({std::max(0, middle - 1), middle}, stage, lamp_set); // in turn: all maps are drawn
+    const double floor_lx = std::max(shadow_floor_lx, all.front().min_traffic_lx);
     ShadowArea area;
     std::string bright; // errors where shadows are drawn in full
     const auto add = [&](const RendererSettings& own, std::string label) {

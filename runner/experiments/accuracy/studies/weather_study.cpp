@@ -12,7 +12,7 @@ namespace fernlicht {
 namespace {
 
 constexpr int compared_width = 40, compared_height = 30, timed_width = 256, timed_height = 192;
-constexpr double least_cdm2 = 0.001;
+constexpr double min_cdm2 = 0.001;
 constexpr int beside_the_road = -2; ///< LitLamp::body of what is fixed in the world
 
 bool stands_beside(const LitLamp& lamp) { return lamp.body == beside_the_road; }
@@ -45,7 +45,7 @@ class MediaBench {
           timed_(at_size(*driver_view(stage.drive), timed_width, timed_height)) {
         ReferenceSettings settings;
         settings.footprint = Footprint::centre;
-        settings.shadows = stage.drive.shadows.things_cast;
+        settings.shadows = stage.drive.shadows.objects_cast;
         truth_ = Reference(scene_).render(moment, compared_, {.luminance = true}, settings);
     }
 
@@ -55,7 +55,7 @@ class MediaBench {
         row.note = way.note;
         Renderer renderer(device_, scene_, way.settings);
         const Frame frame = renderer.draw(way.moment, compared_, {.luminance = true, .ids = true});
-        PixelErrorFold fold(ErrorRule{least_cdm2});
+        PixelErrorFold fold(ErrorRule{min_cdm2});
         for (int y = 0; y < compared_height; ++y)
             for (int x = 0; x < compared_width; ++x)
                 if (frame.ids.at(x, y) == truth_.ids.at(x, y)) // not where the outline of a thing lies to the other side of the centre
@@ -75,7 +75,7 @@ class MediaBench {
         }
         const double p95 = 100.0 * errors.error.p95;
         row.error = Interval{p95, p95, p95};
-        const Wanted colour{.colour = true};
+        const FrameOutputs colour{.colour = true};
         renderer.prepare({way.moment}, timed_, colour);
         row.seconds = timed([&] {
             renderer.render(way.moment, timed_, colour);
@@ -127,20 +127,19 @@ MediumStudy sun_ways(const Moment& moment, const RendererSettings& drawn) {
 }
 
 MediumStudy lamp_ways(const Moment& moment, const RendererSettings& drawn) {
-    MediumStudy study{
-        "street-lamps",
-        fmt::format("Lamps beside the road, {}", std::ranges::count_if(moment.other_lamps, stands_beside)),
-        "light of any one lamp fainter than this is left out (traffic_light: least_lx); shadows by maps but in the way without",
-        {}};
-    for (const double least_lx : {0.005, 0.05, 0.2, 1.0, 5.0}) {
-        study.ways.push_back({fmt::format("from {:g} lx on", least_lx), "least_lx", fmt::format("{:g}", least_lx),
-                              least_lx == moment.least_traffic_lx ? "as the drive is drawn" : "", moment, drawn});
-        study.ways.back().moment.least_traffic_lx = least_lx;
+    MediumStudy study{"street-lamps",
+                      fmt::format("Lamps beside the road, {}", std::ranges::count_if(moment.other_lamps, stands_beside)),
+                      "light of any one lamp fainter than this is left out (traffic_light: min_lx); shadows by maps but in the way without",
+                      {}};
+    for (const double min_lx : {0.005, 0.05, 0.2, 1.0, 5.0}) {
+        study.ways.push_back({fmt::format("from {:g} lx on", min_lx), "min_lx", fmt::format("{:g}", min_lx),
+                              min_lx == moment.min_traffic_lx ? "as the drive is drawn" : "", moment, drawn});
+        study.ways.back().moment.min_traffic_lx = min_lx;
     }
     MediumWay bright{"without their shadows", "shadows", "none", "", moment, drawn};
     bright.settings.traffic_shadows = false;
     study.ways.push_back(std::move(bright));
-    MediumWay none{"left out", "least_lx", "all", "", moment, drawn};
+    MediumWay none{"left out", "min_lx", "all", "", moment, drawn};
     std::erase_if(none.moment.other_lamps, stands_beside);
     study.ways.push_back(std::move(none));
     return study;
@@ -148,8 +147,8 @@ MediumStudy lamp_ways(const Moment& moment, const RendererSettings& drawn) {
 
 } // namespace
 
-std::vector<WorkPrecision> weather_study(const Stage& stage, const Variant& variant, Device& device, const StudyGoesOn& go_on) {
-    Moment moment = moments_at({tick_count(stage.drive) / 2}, stage, variant).front();
+std::vector<WorkPrecision> weather_study(const Stage& stage, const LampSet& lamp_set, Device& device, const StudyGoesOn& go_on) {
+    Moment moment = moments_at({tick_count(stage.drive) / 2}, stage, lamp_set).front();
     std::erase_if(moment.other_lamps, [](const LitLamp& lamp) { return !stands_beside(lamp); });
     Configuration as_drawn;
     as_drawn.technique = "photometric";
@@ -171,7 +170,7 @@ std::vector<WorkPrecision> weather_study(const Stage& stage, const Variant& vari
     for (const MediumStudy& study : studies) {
         WorkPrecision diagram{
             fmt::format("{}-{}", study.name, stage.drive.name),
-            fmt::format("{}: {}, {}", study.title, stage.drive.name, variant.name),
+            fmt::format("{}: {}, {}", study.title, stage.drive.name, lamp_set.name),
             "error of luminance, 95 % of the pixels",
             "%",
             "time a frame",
@@ -179,7 +178,7 @@ std::vector<WorkPrecision> weather_study(const Stage& stage, const Variant& vari
             {fmt::format("{} x {} pixels of the driver's view at {:.1f} s with at least {:g} cd/m2, surfaces without textures, against the "
                          "reference's direct light by the ray through each centre; lamps of other road users are switched off; times are "
                          "of {} x {} pixels",
-                         compared_width, compared_height, moment.time_s, least_cdm2, timed_width, timed_height)},
+                         compared_width, compared_height, moment.time_s, min_cdm2, timed_width, timed_height)},
             {}};
         if (!study.note.empty())
             diagram.notes.push_back(study.note);

@@ -1,6 +1,6 @@
 #include "runner/experiments/compare/lamps/lamp_comparison.h"
 
-#include "runner/experiments/compare/lamps/lamp_against.h"
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "scenarios/values/pose.h"
 
 #include <algorithm>
@@ -10,14 +10,14 @@ namespace fernlicht {
 namespace {
 
 /// As `fernlicht lamp FILE --cut-off`: a detector of 30 mm at 25 m.
-CutOffOptions usual_cut_off() { return {SharpnessRule::maximum, degrees(std::atan(30.0 / 25000.0))}; }
+CutOffOptions default_cut_off() { return {SharpnessRule::maximum, degrees(std::atan(30.0 / 25000.0))}; }
 
 ComparedLamp read_compared(const std::filesystem::path& path) {
     ComparedLamp lamp;
     lamp.path = path;
     lamp.file = read_lamp(path);
     lamp.description = describe(lamp.file);
-    lamp.cut_off = measure_cut_off({&lamp.file.table, {}}, usual_cut_off());
+    lamp.cut_off = measure_cut_off({&lamp.file.table, {}}, default_cut_off());
     return lamp;
 }
 

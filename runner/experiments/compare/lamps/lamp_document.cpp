@@ -1,5 +1,5 @@
-#include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/compare/lamps/lamp_comparison.h"
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/figures.h"
 
@@ -85,7 +85,7 @@ Table rows_table(const LampPairComparison& lamps) {
 
 Document document(const LampPairComparison& lamps) {
     const LampFile &a = lamps.before.file, &b = lamps.now.file;
-    Document document{short_text(name_beside(b, a), 80) + " against " + short_text(name_beside(a, b), 80), {}};
+    Document document{short_text(distinct_label(b, a), 80) + " against " + short_text(distinct_label(a, b), 80), {}};
     Table told{"difference", "", columns_of("<|B against A<"), {}};
     for (const auto& [what, text] : difference_lines(b, a, lamps.difference))
         told.rows.push_back({what.empty() ? " " : what, text});

@@ -1,5 +1,5 @@
-#include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/compare/lamps/lamp_comparison.h"
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/plots/isocandela.h"
 #include "runner/write/plots/canvas.h"
@@ -16,8 +16,8 @@ namespace {
 using plots::AngleWindow;
 using plots::Figure;
 
-std::string old_label(const LampPairComparison& lamps) { return "A: " + short_text(name_beside(lamps.before.file, lamps.now.file), 60); }
-std::string new_label(const LampPairComparison& lamps) { return "B: " + short_text(name_beside(lamps.now.file, lamps.before.file), 60); }
+std::string old_label(const LampPairComparison& lamps) { return "A: " + short_text(distinct_label(lamps.before.file, lamps.now.file), 60); }
+std::string new_label(const LampPairComparison& lamps) { return "B: " + short_text(distinct_label(lamps.now.file, lamps.before.file), 60); }
 
 AngleWindow common_window(const LampPairComparison& lamps) {
     const AngleWindow a = plots::beam_window(lamps.before.file.table), b = plots::beam_window(lamps.now.file.table);

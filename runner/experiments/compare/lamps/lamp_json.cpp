@@ -1,5 +1,5 @@
-#include "runner/experiments/compare/lamps/lamp_against.h"
 #include "runner/experiments/compare/lamps/lamp_comparison.h"
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/regulation/regulation_result.h"
 #include "runner/files/clean_text.h"
 #include "runner/files/json_text.h"

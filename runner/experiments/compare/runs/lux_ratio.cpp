@@ -1,6 +1,6 @@
 #include "runner/experiments/compare/runs/lux_ratio.h"
 
-#include "runner/experiments/compare/lamps/lamp_against.h"
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/picture_file.h"
 #include "runner/write/plots/lux_map.h"
 

@@ -19,7 +19,7 @@ std::vector<double> figures_in(const CsvFile& moments, std::size_t column) {
 }
 
 /// Of one play: its standard deviation times Student's t, two-sided, 5 %.
-void read_repeats(const PlayedVariant& played, PlayedResult& result) {
+void read_repeats(const PlayedCell& played, PlayedResult& result) {
     for (const ReadingSpread& spread : played.repeats.spread)
         if (spread.count > 1 && spread.tick < 0)
             result.by_repeats[spread.key] = student_bound(spread.count - 1, 0.05, 1) * std::sqrt(spread.variance);
@@ -30,7 +30,7 @@ void read_reaches(const CsvFile& moments, PlayedResult& result) {
         const auto key = key_of(moments.heads[column]);
         if (!key)
             continue;
-        ReachOverDrive reach{key->surface == ReadingSurface::road ? ExtentPlane::road : ExtentPlane::target, key->threshold.value, {}, {}};
+        ReachOverDrive reach{key->surface == ReadingSurface::road ? Surface::road : Surface::target, key->threshold.value, {}, {}};
         if (reach.key() != *key)
             continue;
         reach.distance_m = figures_in(moments, moments.column("car.distance_m"));
@@ -40,7 +40,7 @@ void read_reaches(const CsvFile& moments, PlayedResult& result) {
 }
 
 /// Over the moments in which there is a distance; only drives with eyes to glare have any.
-void read_glares(const PlayedVariant& played, const CsvFile& moments, PlayedResult& result) {
+void read_glares(const PlayedCell& played, const CsvFile& moments, PlayedResult& result) {
     for (const SeeingSeries& series : played.seeing) {
         const auto eye = eye_of(series.subject);
         const std::string facing = series.subject + ".facing_lx";
@@ -67,16 +67,16 @@ std::string file_below(const std::string& folder, const std::string& file) {
 
 ReadingKey ReachOverDrive::key() const {
     return {.quantity = Quantity::reach,
-            .surface = plane == ExtentPlane::road ? ReadingSurface::road : ReadingSurface::target,
+            .surface = surface == Surface::road ? ReadingSurface::road : ReadingSurface::target,
             .lane = "own",
-            .threshold = {limit_lx, ThresholdUnit::lx},
+            .threshold = {threshold_lx, ThresholdUnit::lx},
             .statistic = Statistic::median};
 }
 
-PlayedResult played_result(const PlayedVariant& played, const CsvFile& moments, const std::string& folder) {
+PlayedResult played_result(const PlayedCell& played, const CsvFile& moments, const std::string& folder) {
     PlayedResult result;
     result.drive = played.drive;
-    result.variant = played.variant;
+    result.lamp_set = played.lamp_set;
     result.verdicts = played.verdicts;
     for (const StoredFrame& frame : played.frames)
         result.frames.push_back({frame.tick, frame.time_s, frame.view, file_below(folder, frame.png), file_below(folder, frame.exr)});

@@ -9,8 +9,8 @@ namespace fernlicht {
 
 /// Reach on the own lane's centre over a drive; NaN where it was not measured.
 struct ReachOverDrive {
-    ExtentPlane plane = ExtentPlane::road;
-    double limit_lx = 0.0;
+    Surface surface = Surface::road;
+    double threshold_lx = 0.0;
     std::vector<double> distance_m, reach_m;
     ReadingKey key() const; ///< of its median
 };
@@ -22,17 +22,17 @@ struct GlareOverDrive {
     std::vector<double> at_m, facing_lx;
 };
 
-struct PlayedResult : PlayedReadings {
-    std::string drive, variant;          ///< names as the report has them; "" when it was not played
+struct PlayedResult : ReadingsOfCell {
+    std::string drive, lamp_set;         ///< names as the report has them; "" when it was not played
     std::vector<ReachOverDrive> reaches; ///< rendered
     std::vector<GlareOverDrive> glares;
     std::vector<StoredFrame> frames;                      ///< paths below what the folder is named by
-    std::vector<Verdict> verdicts;                        ///< limits of the drive, references
+    std::vector<Verdict> verdicts;                        ///< limits of the drive, baselines
     std::optional<double> error_share, error_floor_share; ///< 95 % of the road's illuminance against the reference lies within
     std::optional<double> frame_s;                        ///< a driver's view
 };
 
 /// Of one that was played; its frames' paths begin with `folder` ("" for none), its moments are those of moments_file().
-PlayedResult played_result(const PlayedVariant& played, const CsvFile& moments, const std::string& folder);
+PlayedResult played_result(const PlayedCell& played, const CsvFile& moments, const std::string& folder);
 
 } // namespace fernlicht

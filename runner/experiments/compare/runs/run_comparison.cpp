@@ -42,7 +42,7 @@ void compare_readings(DriveComparison& drive) {
         if (!before.readings.contains(key))
             only_new.push_back(name_of(key));
     for (const auto& [key, reading] : before.readings) {
-        if (says_how_exact(key) || is_time(key) || (is_extent(key) ? !measured.extent.empty() : !measured.others.empty()))
+        if (is_uncertainty(key) || is_time(key) || (is_extent(key) ? !measured.extent.empty() : !measured.others.empty()))
             continue;
         if (now.readings.contains(key))
             drive.changes.push_back(change_of_reading(key, now, before, drive.lamp_noise()));
@@ -70,8 +70,8 @@ void compare_times(DriveComparison& drive) {
         if (b)
             change.new_value = 1e3 * b->median;
         if (!a || !b || std::min(change.old_samples, change.new_samples) < fewest_rounds) {
-            change.why_not = fmt::format("{} and {} frames were timed, and fewer than {} tell nothing", change.old_samples,
-                                         change.new_samples, fewest_rounds);
+            change.reason_unknown = fmt::format("{} and {} frames were timed, and fewer than {} tell nothing", change.old_samples,
+                                                change.new_samples, fewest_rounds);
         } else {
             change.uncertainty = 0.5e3 * std::hypot(a->p95 - a->p05, b->p95 - b->p05);
             change.kind = change.least() <= *change.uncertainty ? ChangeKind::none : ChangeKind::real;
@@ -236,7 +236,7 @@ bool DriveComparison::decides(const ReadingKey& reading) const {
                    return limited && key_of(limited->text) == reading;
                });
     };
-    return !is_extent(reading) || is_named(reading, usual_readings()) || is_limited(before) || is_limited(now);
+    return !is_extent(reading) || is_named(reading, default_readings()) || is_limited(before) || is_limited(now);
 }
 
 double DriveComparison::lamp_noise() const {
@@ -247,10 +247,10 @@ double DriveComparison::lamp_noise() const {
 }
 
 std::string DriveComparison::old_label() const {
-    return "A: " + before.variant + (before.technique != now.technique ? ", " + before.technique : "");
+    return "A: " + before.lamp_set + (before.technique != now.technique ? ", " + before.technique : "");
 }
 std::string DriveComparison::new_label() const {
-    return "B: " + now.variant + (before.technique != now.technique ? ", " + now.technique : "");
+    return "B: " + now.lamp_set + (before.technique != now.technique ? ", " + now.technique : "");
 }
 
 bool RunComparison::passed() const {

@@ -1,4 +1,4 @@
-#include "metrics/readings/reading_words.h"
+#include "metrics/readings/reading_labels.h"
 #include "runner/experiments/compare/runs/run_comparison.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/figures.h"
@@ -11,7 +11,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_settings = 40;
+constexpr std::size_t max_settings = 40;
 
 /// With as many digits as tell it apart: readings reach from thousandths of a lux to thousands of square metres.
 std::string page_number(double value) {
@@ -40,7 +40,7 @@ Cell change_cell(const Value& change) {
 }
 
 std::string drive_words(const DriveComparison& drive) {
-    const std::string &now = drive.now.variant, &before = drive.before.variant;
+    const std::string &now = drive.now.lamp_set, &before = drive.before.lamp_set;
     return drive.now.drive + ", " + (now == before ? now : now + " / " + before);
 }
 
@@ -57,11 +57,10 @@ void add_change(Table& table, const DriveComparison& drive, const ReadingChange&
     const double percent = 100.0 * change.relative().value_or(0.0);
     if (change.kind != ChangeKind::real)
         table.quiet.push_back(table.rows.size());
-    table.rows.push_back({id, drive_words(drive), reading_in_words(change.reading), value_cell(change.old_value),
-                          value_cell(change.new_value), change_cell(change.change()),
-                          change.relative() ? Cell(signed_figure(percent, 1), percent) : Cell(""), number_cell(change.uncertainty),
-                          number_cell(change.by_noise), number_cell(change.by_aim), unit_in_words(change.unit()),
-                          Cell(change_name(change.kind)).hinted(change.why_not)});
+    table.rows.push_back({id, drive_words(drive), reading_label(change.reading), value_cell(change.old_value), value_cell(change.new_value),
+                          change_cell(change.change()), change.relative() ? Cell(signed_figure(percent, 1), percent) : Cell(""),
+                          number_cell(change.uncertainty), number_cell(change.noise_effect), number_cell(change.aim_effect),
+                          unit_label(change.unit()), Cell(change_name(change.kind)).hinted(change.reason_unknown)});
 }
 
 /// "reach at 1 lx on the road, own lane: 29.35 -> 33.27 m, +3.923 (+13.4 %), ±0.095".
@@ -70,8 +69,8 @@ std::string change_text(const ReadingChange& c) {
         return value.measured() ? with_bound(value, fmt::format("{:.4g}", *value.figure())) : "not measured";
     };
     const Value change = c.change();
-    std::string text = fmt::format("{}: {} -> {} {}, {}", reading_in_words(c.reading), short_value(c.old_value), short_value(c.new_value),
-                                   unit_in_words(c.unit()), with_bound(change, fmt::format("{:+.4g}", change.figure().value_or(0.0))));
+    std::string text = fmt::format("{}: {} -> {} {}, {}", reading_label(c.reading), short_value(c.old_value), short_value(c.new_value),
+                                   unit_label(c.unit()), with_bound(change, fmt::format("{:+.4g}", change.figure().value_or(0.0))));
     if (c.relative())
         text += fmt::format(" ({:+.1f} %)", 100.0 * *c.relative());
     if (c.uncertainty)
@@ -183,7 +182,7 @@ Table worst_frames_table(const DriveComparison& drive) {
                               std::to_string(channel.equal),
                               cell("rmse"),
                               cell("max_error"),
-                              unit_in_words(channel.worst->unit),
+                              unit_label(channel.worst->unit),
                               cell("ssim"),
                               {fmt::format("{:.2f}", channel.worst_s), channel.worst_s}});
     }
@@ -199,12 +198,12 @@ Section drive_section(const RunComparison& runs, const DriveComparison& drive) {
     } else {
         Table settings{"settings-" + drive.name, "What the drives set otherwise", columns_of("key<|A<|B<"), {}};
         const auto shown = [](const std::string& value) { return value.empty() ? "not set" : short_text(value, 160); };
-        for (std::size_t i = 0; i < std::min(most_settings, drive.settings.size()); ++i)
+        for (std::size_t i = 0; i < std::min(max_settings, drive.settings.size()); ++i)
             settings.rows.push_back(
                 {short_text(drive.settings[i].key, 80), shown(drive.settings[i].old_value), shown(drive.settings[i].new_value)});
         blocks.emplace_back(std::move(settings));
-        if (drive.settings.size() > most_settings)
-            blocks.emplace_back(fmt::format("and {} more in compare.json", drive.settings.size() - most_settings));
+        if (drive.settings.size() > max_settings)
+            blocks.emplace_back(fmt::format("and {} more in compare.json", drive.settings.size() - max_settings));
     }
     for (const LampFilesDifference& lamps : drive.lamp_files) {
         const std::vector<std::string> sentences = sentences_of(lamps.difference);
@@ -218,7 +217,7 @@ Section drive_section(const RunComparison& runs, const DriveComparison& drive) {
     for (const std::string& sentence : drive.left_out)
         blocks.emplace_back("left out: " + sentence);
     for (const TimeChange& time : drive.times)
-        blocks.emplace_back(time.kind == ChangeKind::unknown ? fmt::format("{}: not known: {}", name_of(time.reading), time.why_not)
+        blocks.emplace_back(time.kind == ChangeKind::unknown ? fmt::format("{}: not known: {}", name_of(time.reading), time.reason_unknown)
                                                              : fmt::format("{}; {}", change_text(time), change_name(time.kind)));
     if (!drive.frames.empty())
         blocks.emplace_back(worst_frames_table(drive));
@@ -257,9 +256,8 @@ Table frames_table(const DriveComparison& drive) {
                 true};
     for (const FramePair& frame : drive.frames)
         for (const LayerComparison& layer : frame.comparison.layers) {
-            std::vector<Cell>& cells = table.rows.emplace_back(
-                std::vector<Cell>{frame.new_frame.view, Cell(figure(frame.new_frame.time_s, 2), frame.new_frame.time_s), layer.name,
-                                  unit_in_words(layer.unit)});
+            std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{
+                frame.new_frame.view, Cell(figure(frame.new_frame.time_s, 2), frame.new_frame.time_s), layer.name, unit_label(layer.unit)});
             for (const char* name : {"max_error", "rmse", "psnr_db", "percent_different", "ssim"})
                 cells.push_back(number_cell(value_in(layer, name)));
             cells.push_back(number_cell(value_in(layer, "flip_mean"), find_in(layer, "flip_mean") ? "not measured" : ""));

@@ -48,13 +48,13 @@ plots::Polyline line_of(const std::vector<double>& x, const std::vector<double>&
 
 void add_reaches(DriveComparison& drive) {
     for (const ReachOverDrive& now : drive.now.reaches) {
-        const auto old = std::ranges::find_if(drive.before.reaches,
-                                              [&](const ReachOverDrive& r) { return r.plane == now.plane && r.limit_lx == now.limit_lx; });
-        if (old == drive.before.reaches.end() || !is_named(now.key(), usual_readings()))
+        const auto old = std::ranges::find_if(
+            drive.before.reaches, [&](const ReachOverDrive& r) { return r.surface == now.surface && r.threshold_lx == now.threshold_lx; });
+        if (old == drive.before.reaches.end() || !is_named(now.key(), default_readings()))
             continue;
         add_lines(
-            drive, fmt::format("reach-{:g}lx-{}", now.limit_lx, plane_name(now.plane)),
-            fmt::format("Reach at {:g} lx {}, own lane", now.limit_lx, now.plane == ExtentPlane::road ? "on the road" : "on a target"),
+            drive, fmt::format("reach-{:g}lx-{}", now.threshold_lx, surface_name(now.surface)),
+            fmt::format("Reach at {:g} lx {}, own lane", now.threshold_lx, now.surface == Surface::road ? "on the road" : "on a target"),
             line_of(old->distance_m, old->reach_m), line_of(now.distance_m, now.reach_m), "along the route", "reach", "m",
             plots::Scale::linear);
     }

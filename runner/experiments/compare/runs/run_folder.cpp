@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_bytes = std::size_t{16} << 20; // of a resolved drive
+constexpr std::size_t max_bytes = std::size_t{16} << 20; // of a resolved drive
 
 /// The part of a resolved drive that has these keys: what reads them need not know the others.
 YamlValue only(const YamlValue& document, std::initializer_list<std::string_view> keys) {
@@ -42,7 +42,7 @@ double grid_cell_m(const YamlValue& document, const fs::path& file, double other
 void read_resolved(const fs::path& folder, RunDrive& drive) {
     const fs::path file = folder / (file_name_of(drive.drive) + ".yaml");
     FilesRead ignored;
-    drive.resolved = parse_yaml(read_file(file, ignored, most_bytes), file);
+    drive.resolved = parse_yaml(read_file(file, ignored, max_bytes), file);
     YamlValue part = only(drive.resolved, {"views", "tone_mapper", "display", "speed", "step_s"});
     drop_unused_s(part);
     const YamlMap keys(YamlEntry(part, file, ""), {"views", "tone_mapper", "display", "speed", "step_s"});
@@ -60,7 +60,7 @@ void read_resolved(const fs::path& folder, RunDrive& drive) {
             drive.road_hash = hash->second;
 }
 
-RunDrive read_drive_of(const fs::path& folder, const PlayedVariant& played, const std::map<std::string, std::string>& hashes) {
+RunDrive read_drive_of(const fs::path& folder, const PlayedCell& played, const std::map<std::string, std::string>& hashes) {
     const CsvFile moments = read_csv(folder / moments_file(played));
     RunDrive drive;
     static_cast<PlayedResult&>(drive) = played_result(played, moments, "");
@@ -101,7 +101,7 @@ RunFolder read_run_folder(const fs::path& folder) {
     std::map<std::string, std::string> hashes;
     for (const FileRead& input : context.inputs)
         hashes[input.path.string()] = input.xxh128;
-    for (const PlayedVariant& played : report.played)
+    for (const PlayedCell& played : report.played)
         run.drives.push_back(read_drive_of(folder, played, hashes));
     return run;
 }

@@ -1,4 +1,4 @@
-#include "runner/experiments/compare/lamps/lamp_against.h"
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/compare/runs/run_comparison.h"
 #include "runner/files/clean_text.h"
 #include "runner/files/json_text.h"
@@ -23,10 +23,10 @@ Json change_json(const ReadingChange& c) {
             {"change", value_json(c.change())},
             {"relative_change", value_or_null(c.relative())},
             {"uncertainty", value_or_null(c.uncertainty)},
-            {"by_tenth_degree", value_or_null(c.by_aim)},
-            {"by_noise", value_or_null(c.by_noise)},
+            {"by_tenth_degree", value_or_null(c.aim_effect)},
+            {"by_noise", value_or_null(c.noise_effect)},
             {"kind", change_name(c.kind)},
-            {"why_not", c.kind == ChangeKind::unknown ? Json(c.why_not) : Json(nullptr)}};
+            {"why_not", c.kind == ChangeKind::unknown ? Json(c.reason_unknown) : Json(nullptr)}};
 }
 
 Json frame_json(const FramePair& frame) {
@@ -70,8 +70,8 @@ Json drive_json(const DriveComparison& drive, std::size_t index) {
     for (const FramePair& frame : drive.frames)
         frames.push_back(frame_json(frame));
     return {{"drive", drive.now.drive},
-            {"old_variant", drive.before.variant},
-            {"new_variant", drive.now.variant},
+            {"old_lamp_set", drive.before.lamp_set},
+            {"new_lamp_set", drive.now.lamp_set},
             {"old_technique", drive.before.technique},
             {"new_technique", drive.now.technique},
             {"settings", settings},
@@ -101,8 +101,8 @@ void append_line(std::string& csv, const std::vector<std::string>& fields) { csv
 std::vector<std::string> change_line(const std::string& id, const DriveComparison& drive, const ReadingChange& c, bool decides) {
     return {id,
             csv_text(drive.now.drive),
-            csv_text(drive.before.variant),
-            csv_text(drive.now.variant),
+            csv_text(drive.before.lamp_set),
+            csv_text(drive.now.lamp_set),
             csv_text(drive.before.technique),
             csv_text(drive.now.technique),
             csv_text(name_of(c.reading)),
@@ -112,11 +112,11 @@ std::vector<std::string> change_line(const std::string& id, const DriveCompariso
             number(c.change().figure()),
             number(c.relative()),
             number(c.uncertainty),
-            number(c.by_aim),
-            number(c.by_noise),
+            number(c.aim_effect),
+            number(c.noise_effect),
             change_name(c.kind),
             decides ? "yes" : "no",
-            csv_text(c.why_not),
+            csv_text(c.reason_unknown),
             bound_name(c.old_value),
             bound_name(c.new_value),
             bound_name(c.change())};
@@ -149,7 +149,7 @@ std::string runs_json(const RunComparison& runs) {
 
 std::string runs_csv(const RunComparison& runs) {
     std::string csv =
-        "id,drive,old_variant,new_variant,old_technique,new_technique,reading,unit,old_value,new_value,change,relative_change,"
+        "id,drive,old_lamp_set,new_lamp_set,old_technique,new_technique,reading,unit,old_value,new_value,change,relative_change,"
         "uncertainty,by_tenth_degree,by_noise,kind,decides,why_not,old_bound,new_bound,change_bound\r\n";
     for (std::size_t d = 0; d < runs.drives.size(); ++d) {
         const DriveComparison& drive = runs.drives[d];
@@ -163,13 +163,13 @@ std::string runs_csv(const RunComparison& runs) {
 }
 
 std::string frames_csv(const RunComparison& runs) {
-    std::string csv = "drive,old_variant,new_variant,view,frame,time_s,file,channel,figure,unit,value,x,y,not_measured\r\n";
+    std::string csv = "drive,old_lamp_set,new_lamp_set,view,frame,time_s,file,channel,figure,unit,value,x,y,not_measured\r\n";
     for (const DriveComparison& drive : runs.drives)
         for (const FramePair& frame : drive.frames)
             for (const LayerComparison& layer : frame.comparison.layers)
                 for (const ComparedValue& v : layer.values)
                     append_line(csv,
-                                {csv_text(drive.now.drive), csv_text(drive.before.variant), csv_text(drive.now.variant),
+                                {csv_text(drive.now.drive), csv_text(drive.before.lamp_set), csv_text(drive.now.lamp_set),
                                  csv_text(frame.new_frame.view), std::to_string(frame.new_frame.tick),
                                  fmt::format("{}", frame.new_frame.time_s), csv_text(frame.file(frame.new_frame)), csv_text(layer.name),
                                  csv_text(v.name), csv_text(v.unit), number(v.value), v.place ? std::to_string(v.place->first) : "",

@@ -1,4 +1,4 @@
-#include "runner/experiments/compare/lamps/lamp_against.h"
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/compare/runs/run_pairs.h"
 #include "scenarios/values/errors.h"
 
@@ -11,9 +11,9 @@ namespace {
 namespace fs = std::filesystem;
 
 const YamlValue* lamps_of(const RunDrive& drive) {
-    const YamlValue* variants = member_of(drive.resolved, "variants");
-    const YamlValue* variant = variants ? member_of(*variants, drive.variant) : nullptr;
-    return variant ? member_of(*variant, "lamps") : nullptr;
+    const YamlValue* lamp_sets = member_of(drive.resolved, "lamp_sets");
+    const YamlValue* lamp_set = lamp_sets ? member_of(*lamp_sets, drive.lamp_set) : nullptr;
+    return lamp_set ? member_of(*lamp_set, "lamps") : nullptr;
 }
 
 std::string text_in(const YamlValue& map, const char* key) {

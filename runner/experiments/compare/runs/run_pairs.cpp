@@ -9,9 +9,9 @@
 namespace fernlicht {
 namespace {
 
-const YamlValue* variant_of(const RunDrive& drive) {
-    const YamlValue* variants = member_of(drive.resolved, "variants");
-    return variants ? member_of(*variants, drive.variant) : nullptr;
+const YamlValue* lamp_set_of(const RunDrive& drive) {
+    const YamlValue* lamp_sets = member_of(drive.resolved, "lamp_sets");
+    return lamp_sets ? member_of(*lamp_sets, drive.lamp_set) : nullptr;
 }
 
 bool is_same(const RunDrive& a, const RunDrive& b, const char* key) {
@@ -30,17 +30,17 @@ std::string why_another_route(const RunDrive& a, const RunDrive& b) {
     return "";
 }
 
-std::string shown_name(const RunDrive& drive) { return fmt::format("{} ({}, {})", drive.drive, drive.variant, drive.technique); }
+std::string shown_name(const RunDrive& drive) { return fmt::format("{} ({}, {})", drive.drive, drive.lamp_set, drive.technique); }
 
 std::vector<YamlChange> settings_of(const RunDrive& before, const RunDrive& now) {
     std::vector<YamlChange> changes;
     YamlValue a = before.resolved, b = now.resolved;
     for (YamlValue* document : {&a, &b})
-        std::erase_if(document->members, [](const YamlMember& m) { return m.key == "variants" || m.key == "name" || m.key == "title"; });
+        std::erase_if(document->members, [](const YamlMember& m) { return m.key == "lamp_sets" || m.key == "name" || m.key == "title"; });
     if (!before.road_hash.empty() && before.road_hash == now.road_hash) // the same bytes under another path
         for (YamlValue* document : {&a, &b})
             std::erase_if(document->members, [](const YamlMember& m) { return m.key == "road"; });
-    add_changes(variant_of(before), variant_of(now), "", changes);
+    add_changes(lamp_set_of(before), lamp_set_of(now), "", changes);
     add_changes(&a, &b, "", changes);
     std::erase_if(changes, [&](const YamlChange& change) { // lamp files of the same bytes elsewhere
         const auto old_hash = before.hashes.find(change.old_value), new_hash = now.hashes.find(change.new_value);
@@ -60,9 +60,9 @@ class Pairing {
 
     void run() {
         match([](const RunDrive& a, const RunDrive& b) {
-            return a.drive == b.drive && a.variant == b.variant && a.technique == b.technique;
+            return a.drive == b.drive && a.lamp_set == b.lamp_set && a.technique == b.technique;
         });
-        match([](const RunDrive& a, const RunDrive& b) { return a.drive == b.drive && a.variant == b.variant; });
+        match([](const RunDrive& a, const RunDrive& b) { return a.drive == b.drive && a.lamp_set == b.lamp_set; });
         match([&](const RunDrive& a, const RunDrive& b) { return a.drive == b.drive && is_last(old_, a.drive) && is_last(new_, b.drive); });
         for (const RunDrive* drive : old_)
             runs_.left_out.push_back(shown_name(*drive) + " is in A alone");
@@ -96,9 +96,9 @@ class Pairing {
         DriveComparison drive;
         drive.before = before;
         drive.now = now;
-        drive.name = file_name_of(before.drive) + "_" + file_name_of(now.variant);
-        if (before.variant != now.variant)
-            drive.name += "-against-" + file_name_of(before.variant);
+        drive.name = file_name_of(before.drive) + "_" + file_name_of(now.lamp_set);
+        if (before.lamp_set != now.lamp_set)
+            drive.name += "-against-" + file_name_of(before.lamp_set);
         drive.settings = settings_of(before, now);
         for (const auto& [path, hash] : now.hashes)
             if (const auto old = before.hashes.find(path); old != before.hashes.end() && old->second != hash)
@@ -127,7 +127,7 @@ MeasureChange measure_change(const YamlValue& before, const YamlValue& now) {
     add_changes(a, b, "measure", changes);
     std::vector<YamlChange> extents, others;
     for (const YamlChange& change : changes) {
-        if (change.key == "measure.extent.limits_lx" || change.key == "measure.extent.width_at_m")
+        if (change.key == "measure.extent.thresholds_lx" || change.key == "measure.extent.width_at_m")
             continue; // the readings' names say which
         (change.key.starts_with("measure.extent.") ? extents : others).push_back(change);
     }

@@ -39,7 +39,7 @@ std::vector<StabilityCase> equation_cases() {
     std::vector<StabilityCase> cases;
     for (const Equation& equation : equations()) {
         const EquationBound& bound = bound_of(equation.function);
-        cases.push_back({"equation", equation.variant.empty() ? equation.function : equation.function + "-" + equation.variant,
+        cases.push_back({"equation", equation.lamp_set.empty() ? equation.function : equation.function + "-" + equation.lamp_set,
                          "float against double over " + equation.domain, bound.error, bound.of, bound.reason,
                          [&equation](StabilityBench& bench) { return examined(equation, bench); }});
     }

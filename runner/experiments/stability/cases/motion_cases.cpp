@@ -49,7 +49,7 @@ Found time_steps(StabilityBench& bench) {
             state = advance(state, drive);
             const double t = tick * step_s;
             worst.add(std::abs(state.distance_m - truth_m(t)) / 240.0, fmt::format("step {} s, tick {}: distance", step_s, tick));
-            const Moment moment = moment_at(state, drive, route, drive.variants.front());
+            const Moment moment = moment_at(state, drive, route, drive.lamp_sets.front());
             worst.add(std::abs(moment.ego.position_m.x - truth_m(t)) / 240.0, fmt::format("step {} s, tick {}: place", step_s, tick));
             if (std::abs(t - 4.0) > 1e-6 * step_s)
                 worst.add(moment.lamps.front().intensity_factor == (t < 4.0 ? 1.0 : 0.5) ? 0.0 : 1.0,

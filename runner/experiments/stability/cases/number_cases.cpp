@@ -57,7 +57,7 @@ template <class T> void try_type(const std::string& type, T big, std::vector<std
 
 /// On the calling thread: each rule of IEEE 754 that does not hold, in words; empty where all do. Tried are NaN, signed zeros, infinities,
 /// the order of sums, products that are not fused into sums, denormals, and where there is one, the control register (MXCSR).
-std::vector<std::string> broken_float_rules() {
+std::vector<std::string> ieee754_violations() {
     std::vector<std::string> broken;
     try_type<float>("float", 1e9F, broken);
     try_type<double>("double", 1e17, broken);
@@ -75,7 +75,7 @@ std::vector<std::string> broken_float_rules() {
 Found float_rules(StabilityBench& bench) {
     Found worst;
     const auto add = [&](const std::string& at) {
-        const std::vector<std::string> broken = broken_float_rules();
+        const std::vector<std::string> broken = ieee754_violations();
         worst.add(static_cast<double>(broken.size()), broken.empty() ? "every rule holds " + at : fmt::format("{} {}", broken.front(), at));
     };
     add("at first");
@@ -89,7 +89,7 @@ Found float_rules(StabilityBench& bench) {
     add("after drawing");
     const Reference reference(scene);
     ReferenceSettings settings;
-    settings.most_samples = 16;
+    settings.max_samples = 16;
     reference.render(moment, view, {.illuminance = true}, settings);
     add("after the reference's rays");
     // As many tasks as to reach every worker that the two have left.
@@ -97,7 +97,7 @@ Found float_rules(StabilityBench& bench) {
         tbb::blocked_range<int>(0, 4096, 1), 0,
         [](const tbb::blocked_range<int>& range, int sum) {
             for (int i = range.begin(); i < range.end(); ++i)
-                sum += static_cast<int>(broken_float_rules().size());
+                sum += static_cast<int>(ieee754_violations().size());
             return sum;
         },
         std::plus<>());
@@ -192,8 +192,8 @@ Found reports(StabilityBench& bench) {
         FilesRead read;
         worst.add(static_cast<double>(not_numbers(read_file(played.folder / "report.json", read))),
                   fmt::format("report.json with {}", file));
-        for (const PlayedVariant& variant : played.report.played) // which throws where a figure is no number
-            worst.add(moment_columns(variant).empty() ? std::nan("") : 0.0, fmt::format("moments with {}", file));
+        for (const PlayedCell& lamp_set : played.report.played) // which throws where a figure is no number
+            worst.add(moment_columns(lamp_set).empty() ? std::nan("") : 0.0, fmt::format("moments with {}", file));
         std::size_t pictures = 0, values = 0, bad = 0;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(played.folder))
             if (entry.path().extension() == ".exr")
@@ -217,13 +217,13 @@ Found near_field(StabilityBench& bench) {
     const Played played = play_to_the_end(bench, write_drive_file(bench, "near.yaml", more), "near");
     Found worst;
     std::size_t near = 0, far = 0;
-    for (const PlayedVariant& variant : played.report.played) {
-        for (const Reading& reading : variant.readings) {
+    for (const PlayedCell& lamp_set : played.report.played) {
+        for (const Reading& reading : lamp_set.readings) {
             const bool marked = reading.where.find("near-field") != std::string::npos;
             near += (reading.key.subject == "near") && !marked ? 1U : 0U;
             far += (reading.key.subject == "far") && marked ? 1U : 0U;
         }
-        worst.add(std::ranges::any_of(variant.notes, [](const std::string& note) { return note.find("near field") != std::string::npos; })
+        worst.add(std::ranges::any_of(lamp_set.notes, [](const std::string& note) { return note.find("near field") != std::string::npos; })
                       ? 0.0
                       : 1.0,
                   "the report's notes");

@@ -54,10 +54,10 @@ const glm::dvec3 own_lamp_m(0.0, 0.0, 0.65);
 View driver_of_posts() { return camera({-1.5, 0.3, 1.25}, 0.0, -0.03, 30.0, 64, 48); }
 
 /// Warped maps may have texels up to twice as wide as the plain map's, which lie askew: their diagonals count.
-ShadowDoubt doubt_of_warped() {
-    ShadowDoubt doubt = doubt_of_map(2.0 * texel_of(1024, 512));
-    doubt.aside_share *= std::sqrt(2.0);
-    return doubt;
+ShadowTolerance warped_shadow_tolerance() {
+    ShadowTolerance tolerance = map_shadow_tolerance(2.0 * texel_of(1024, 512));
+    tolerance.aside_share *= std::sqrt(2.0);
+    return tolerance;
 }
 
 struct HardEye {
@@ -71,7 +71,7 @@ Found warps_from(StabilityBench& bench, const std::vector<HardEye>& eyes) {
     for (const ShadowMethod method : {ShadowMethod::perspective_map, ShadowMethod::light_space_map}) {
         ShadowTrial trial(bench, scene, shadows_by(method));
         for (const HardEye& eye : eyes)
-            judge_tally(worst, trial.tally(lit_by({own_lamp_m}), eye.view, doubt_of_warped()),
+            judge_tally(worst, trial.tally(lit_by({own_lamp_m}), eye.view, warped_shadow_tolerance()),
                         fmt::format("{}, {}", name(method), eye.name), Tried::either);
     }
     return worst;
@@ -111,7 +111,7 @@ Found warp_search(StabilityBench& bench) {
                 lit_by({{chance.between(-3.0, 3.0), chance.between(-1.0, 1.0), chance.between(0.2, 2.0)}}, chance.between(-0.3, 0.3));
             const View view = camera({chance.between(-15.0, 60.0), chance.between(-15.0, 15.0), chance.between(0.2, 8.0)},
                                      chance.between(-pi, pi), chance.between(-0.4, 0.1), std::exp(chance.between(0.0, 4.9)), 40, 30);
-            all.add(trial.tally(moment, view, doubt_of_warped()));
+            all.add(trial.tally(moment, view, warped_shadow_tolerance()));
         }
         judge_tally(worst, all, std::string(name(method)));
     }
@@ -133,9 +133,10 @@ Found texels_of_maps(StabilityBench& bench) {
             if (method == ShadowMethod::soft_map && height == 4096)
                 continue; // as the others, and much memory
             ShadowTrial trial(bench, scene, settings);
-            ShadowDoubt doubt = doubt_of_map((method == ShadowMethod::light_space_map ? 2.0 : 1.0) * 1.02 * texel_of(width, height));
-            doubt.lamp_radius_m = method == ShadowMethod::soft_map ? settings.lamp_radius_m : 0.0;
-            const ShadowTally tally = trial.tally(lit_by({own_lamp_m}), driver_of_posts(), doubt);
+            ShadowTolerance tolerance =
+                map_shadow_tolerance((method == ShadowMethod::light_space_map ? 2.0 : 1.0) * 1.02 * texel_of(width, height));
+            tolerance.lamp_radius_m = method == ShadowMethod::soft_map ? settings.lamp_radius_m : 0.0;
+            const ShadowTally tally = trial.tally(lit_by({own_lamp_m}), driver_of_posts(), tolerance);
             // Of 16 texels little is beyond doubt.
             worst.add(tally.lit + tally.dark == 0 && height > 16 && width > 16 ? std::nan("") : tally.wrong(),
                       fmt::format("{}, {} x {} texels: {}", name(method), width, height, tally.text()));
@@ -152,9 +153,10 @@ Found lamps_apart(StabilityBench& bench) {
         for (const double yaw_rad : {0.0, 0.3}) {
             const glm::dvec3 aside(0.0, 0.5 * apart_m, 0.0);
             const Moment moment = lit_by({own_lamp_m + aside, own_lamp_m - aside}, yaw_rad);
-            ShadowDoubt doubt = doubt_of_map((1.0 + 0.5 * apart_m / 3.0 / std::tan(radians(half_width_deg))) *
-                                             texel_of(1024, 512)); // as wide as both beams from 3 m on
-            judge_tally(worst, trial.tally(moment, camera({2.0, 0.3, 1.5}, yaw_rad, -0.03, 30.0, 64, 48), doubt, {own_lamp_m, own_lamp_m}),
+            ShadowTolerance tolerance = map_shadow_tolerance((1.0 + 0.5 * apart_m / 3.0 / std::tan(radians(half_width_deg))) *
+                                                             texel_of(1024, 512)); // as wide as both beams from 3 m on
+            judge_tally(worst,
+                        trial.tally(moment, camera({2.0, 0.3, 1.5}, yaw_rad, -0.03, 30.0, 64, 48), tolerance, {own_lamp_m, own_lamp_m}),
                         fmt::format("lamps {} m apart, turned by {} rad", apart_m, yaw_rad));
         }
     return worst;
@@ -168,9 +170,9 @@ Found soft_radii(StabilityBench& bench) {
         ShadowSettings settings = shadows_by(ShadowMethod::soft_map);
         settings.lamp_radius_m = radius_m;
         ShadowTrial trial(bench, scene, settings);
-        ShadowDoubt doubt = doubt_of_map(1.02 * texel_of(1024, 512));
-        doubt.lamp_radius_m = radius_m;
-        judge_tally(worst, trial.tally(lit_by({own_lamp_m}), camera({2.5, 0.3, 1.5}, 0.0, -0.03, 30.0, 32, 24), doubt),
+        ShadowTolerance tolerance = map_shadow_tolerance(1.02 * texel_of(1024, 512));
+        tolerance.lamp_radius_m = radius_m;
+        judge_tally(worst, trial.tally(lit_by({own_lamp_m}), camera({2.5, 0.3, 1.5}, 0.0, -0.03, 30.0, 32, 24), tolerance),
                     fmt::format("radius {} m, a plate {} m before the lamp", radius_m, caster_m), Tried::either);
     }
     return worst;

@@ -21,10 +21,10 @@ CandelaTable level_beam() {
 }
 constexpr double beam_texel = 1.3e-3; // of 1024 x 512 texels
 
-ShadowDoubt doubt_of_planar() {
-    ShadowDoubt doubt;
-    doubt.ground_alone = true;
-    return doubt;
+ShadowTolerance planar_shadow_tolerance() {
+    ShadowTolerance tolerance;
+    tolerance.ground_alone = true;
+    return tolerance;
 }
 
 /// Everything turned about the lamp's foot by a slope ahead, and moved.
@@ -68,7 +68,7 @@ Found on_a_plane(StabilityBench& bench) {
             all.add(drawn.tally(
                 trial.moment,
                 camera(trial.axes * eye, eye.x > 50.0 ? 2.9 : 0.0, eye.x > 50.0 ? -0.25 : std::atan(slope) - 0.05, 40.0, 64, 48),
-                doubt_of_planar()));
+                planar_shadow_tolerance()));
         judge_tally(worst, all, name);
     }
     return worst;
@@ -125,18 +125,18 @@ Found under_cars(StabilityBench& bench) {
 
 struct ShadowWay {
     ShadowMethod method;
-    ShadowDoubt doubt;
+    ShadowTolerance tolerance;
 };
 
 std::vector<ShadowWay> shadow_ways() {
-    ShadowDoubt soft = doubt_of_map(beam_texel);
+    ShadowTolerance soft = map_shadow_tolerance(beam_texel);
     soft.lamp_radius_m = ShadowSettings{}.lamp_radius_m;
-    return {{ShadowMethod::planar, doubt_of_planar()},
-            {ShadowMethod::volumes, doubt_of_volumes()},
-            {ShadowMethod::map, doubt_of_map(beam_texel)},
-            {ShadowMethod::one_map, doubt_of_map(beam_texel)},
-            {ShadowMethod::perspective_map, doubt_of_map(2.0 * beam_texel)},
-            {ShadowMethod::light_space_map, doubt_of_map(2.0 * beam_texel)},
+    return {{ShadowMethod::planar, planar_shadow_tolerance()},
+            {ShadowMethod::volumes, volume_shadow_tolerance()},
+            {ShadowMethod::map, map_shadow_tolerance(beam_texel)},
+            {ShadowMethod::one_map, map_shadow_tolerance(beam_texel)},
+            {ShadowMethod::perspective_map, map_shadow_tolerance(2.0 * beam_texel)},
+            {ShadowMethod::light_space_map, map_shadow_tolerance(2.0 * beam_texel)},
             {ShadowMethod::soft_map, soft}};
 }
 
@@ -154,7 +154,7 @@ Found by_all_methods(StabilityBench& bench, double lamp_height_m, double box_hei
     Found worst;
     for (const ShadowWay& one : shadow_ways()) {
         ShadowTrial trial(bench, scene, shadows_by(one.method));
-        judge_tally(worst, trial.tally(moment, view, one.doubt), std::string(name(one.method)));
+        judge_tally(worst, trial.tally(moment, view, one.tolerance), std::string(name(one.method)));
     }
     return worst;
 }

@@ -83,7 +83,7 @@ Found shadow_crowds(StabilityBench& bench) {
                                        ? any_place() + within_cube(chance, 0.3)
                                        : glm::dvec3(chance.between(-10.0, 30.0), chance.between(-10.0, 10.0), chance.between(0.2, 6.0));
             const View view = camera(eye, chance.between(-0.7, 0.7), chance.between(-0.5, 0.1), chance.between(20.0, 110.0), 48, 36);
-            all.add(trial.tally(moment, view, doubt_of_volumes()));
+            all.add(trial.tally(moment, view, volume_shadow_tolerance()));
         }
         judge_tally(worst, all, fmt::format("crowd {}", i));
     }
@@ -120,7 +120,7 @@ Found in_planes(StabilityBench& bench) {
                 if (eye.z <= 0.05)
                     continue;
                 for (const double yaw : {0.0, 0.5 * pi, pi})
-                    all.add(trial.tally(lit_from(at), camera(eye, yaw, -0.2, 75.0, 32, 24), doubt_of_volumes()));
+                    all.add(trial.tally(lit_from(at), camera(eye, yaw, -0.2, 75.0, 32, 24), volume_shadow_tolerance()));
             }
         judge_tally(worst, all, fmt::format("lamp at {} {} {}", at.x, at.y, at.z), Tried::either);
     }
@@ -139,7 +139,7 @@ Found near_planes(StabilityBench& bench) {
             const Scene scene = street_with(before + glm::dvec3(distance_m, 0.9 * half, 0.0), box({0.1 * distance_m, half, half}));
             ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::volumes));
             for (const double yaw : {0.0, 0.4, pi})
-                all.add(trial.tally(lit_from(lamp_m), camera(eye, yaw, -0.2, 60.0, 48, 36), doubt_of_volumes()));
+                all.add(trial.tally(lit_from(lamp_m), camera(eye, yaw, -0.2, 60.0, 48, 36), volume_shadow_tolerance()));
         }
         judge_tally(worst, all, fmt::format("{} m before eye and lamp", distance_m));
     }
@@ -161,7 +161,7 @@ Found long_walls(StabilityBench& bench) {
              {camera({0.0, 0.5, 1.3}, -0.03, -0.02, 20.0, 64, 48), camera({-40.0, 40.0, 20.0}, -0.5, -0.2, 30.0, 64, 48),
               camera({250.0, 60.0, 8.0}, -2.2, -0.1, 40.0, 64, 48), camera({130.0, 95.0, 3.0}, -1.57, -0.03, 100.0, 64, 24),
               camera({280.0, 0.0, 2.0}, pi, -0.01, 5.0, 64, 24)})
-            all.add(trial.tally(lit_from({2.5, beside_m, 0.65}), view, doubt_of_volumes()));
+            all.add(trial.tally(lit_from({2.5, beside_m, 0.65}), view, volume_shadow_tolerance()));
         judge_tally(worst, all, fmt::format("lamp {} m beside", beside_m));
     }
     return worst;
@@ -176,7 +176,8 @@ Found volumes_from_above(StabilityBench& bench) {
             street_with({distance_m, 0.0, std::max(0.65 - 0.05 * distance_m, size_m)}, box({0.2 * size_m, size_m, size_m}, 0.2));
         ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::volumes));
         const View view = map_of("map", 0.0, 149.0, 8.0, 33, 150);
-        judge_tally(worst, trial.tally(lit_from({0.0, 0.0, 0.65}), view, doubt_of_volumes()), fmt::format("caster {} m away", distance_m));
+        judge_tally(worst, trial.tally(lit_from({0.0, 0.0, 0.65}), view, volume_shadow_tolerance()),
+                    fmt::format("caster {} m away", distance_m));
     }
     return worst;
 }

@@ -78,8 +78,8 @@ TEST_F(UnderCar, CostsNothingWhereNoLampShinesOnACar) {
     EXPECT_GT(near.passes, 1);
     EXPECT_EQ(behind.passes, 1);
     renderer.draw(s.moment, driver_for_shadows(), all_results);
-    const std::vector<LeftOut> left_out = renderer.left_out();
-    EXPECT_TRUE(std::ranges::any_of(left_out, [](const LeftOut& one) { return one.what == "dark polygons under cars"; }));
+    const std::vector<PrunedFeature> pruned = renderer.pruned();
+    EXPECT_TRUE(std::ranges::any_of(pruned, [](const PrunedFeature& one) { return one.what == "dark polygons under cars"; }));
 }
 
 } // namespace

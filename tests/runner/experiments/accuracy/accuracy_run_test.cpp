@@ -50,7 +50,7 @@ TEST(AccuracyRun, HoldsTechniquesAgainstTheReference) {
     const TemporaryFolder folder;
     const json accuracy =
         results_of(folder,
-                   "--moments 1 --rounds 6 --samples 32 --resolutions 128x96,64x48 --shadow-maps 256x128 --beams float,64x32x8 "
+                   "--count 1 --rounds 6 --max-samples 32 --resolutions 128x96,64x48 --shadow-maps 256x128 --beams float,64x32x8 "
                    "--techniques plain,full,light-map-2d,photometric",
                    library_file("drives/straight.yaml"));
     const json& all = accuracy.at("drives").at(0).at("configurations");
@@ -102,11 +102,11 @@ TEST(AccuracyRun, HoldsTechniquesAgainstTheReference) {
 TEST(AccuracyRun, NamesTheShadowMethodThatAutoChose) {
     const TemporaryFolder folder;
     std::ofstream(folder / "auto.yaml") << "fernlicht: 1\nname: auto-1\nroad: \"" << library_file("roads/straight.xodr")
-                                        << "\"\nspeed_kmh: 72\nrate_hz: 10\nduration_s: 0.2\nshadows: auto\nvariants:\n  one: {file: \""
+                                        << "\"\nspeed_kmh: 72\nrate_hz: 10\nduration_s: 0.2\nshadows: auto\nlamp_sets:\n  one: {file: \""
                                         << library_file("lamps/halogen-low.ies") << "\"}\n";
     std::string said;
     const json accuracy = results_of(folder,
-                                     "--diagrams shadows --moments 1 --rounds 1 --samples 16 --resolutions 64x48 --beams float "
+                                     "--diagrams shadows --count 1 --rounds 1 --max-samples 16 --resolutions 64x48 --beams float "
                                      "--techniques photometric --shadow-maps 64x64",
                                      folder / "auto.yaml", &said);
     const std::string choice = "auto chose none: nothing stands in a beam in any of 2 moments";
@@ -126,7 +126,7 @@ TEST(AccuracyRun, NamesTheShadowMethodThatAutoChose) {
 TEST(AccuracyRun, ShadowMethodsStandBesideTheTechniques) {
     const TemporaryFolder folder;
     const json accuracy = results_of(folder,
-                                     "--diagrams shadows --moments 1 --rounds 1 --samples 16 --resolutions 64x48 --beams float "
+                                     "--diagrams shadows --count 1 --rounds 1 --max-samples 16 --resolutions 64x48 --beams float "
                                      "--techniques photometric,light-map-2d --shadow-maps 256x128",
                                      library_file("drives/shelter.yaml"));
     const json& rows = accuracy.at("diagrams").at(0).at("rows");
@@ -140,14 +140,14 @@ TEST(AccuracyRun, ShadowMethodsStandBesideTheTechniques) {
     EXPECT_GT(row_of(all, "photometric, shadows none").at("whole_view").at("mean"),
               row_of(all, "photometric").at("whole_view").at("mean").get<double>());
     for (const json& reach : row_of(all, "photometric").at("reach")) // of the own lamps, in both: another car comes towards us here
-        EXPECT_TRUE(reach.at("plane") != "road" || std::abs(reach.at("worst_m").get<double>()) < 1.0) << reach;
+        EXPECT_TRUE(reach.at("surface") != "road" || std::abs(reach.at("worst_m").get<double>()) < 1.0) << reach;
 }
 
 TEST(AccuracyRun, OneRoundMakesNobodySurelyFaster) {
     const TemporaryFolder folder;
     std::string said;
     const json accuracy = results_of(folder,
-                                     "--moments 1 --rounds 1 --samples 16 --resolutions 64x48 --shadow-maps 256x128 "
+                                     "--count 1 --rounds 1 --max-samples 16 --resolutions 64x48 --shadow-maps 256x128 "
                                      "--beams float --techniques full,full-no-sun,merged-beams,photometric",
                                      library_file("drives/straight.yaml"), &said);
     EXPECT_THAT(said, HasSubstr(", perhaps"));
@@ -167,8 +167,8 @@ TEST(AccuracyRun, OneRoundMakesNobodySurelyFaster) {
 /// Interrupted at `sign`; the JSON is checked against its schema.
 json interrupted(const TemporaryFolder& folder, const std::string& flags, const std::string& sign) {
     const Outcome run = run_interrupted(
-        "accuracy --moments 3 --samples 16 --resolutions 64x48 --shadow-maps 256x128 --beams float --techniques full,photometric " + flags +
-            " --out " + (folder / "out ") + library_file("drives/straight.yaml"),
+        "accuracy --count 3 --max-samples 16 --resolutions 64x48 --shadow-maps 256x128 --beams float --techniques full,photometric " +
+            flags + " --out " + (folder / "out ") + library_file("drives/straight.yaml"),
         sign);
     EXPECT_EQ(run.exit_code, 1) << run.output;
     EXPECT_THAT(run.output, HasSubstr("missing: drive straight-1: "));
@@ -224,7 +224,7 @@ TEST(AccuracyRun, WeighsWhatIsInTheAirAndOnTheRoad) {
     const TemporaryFolder folder;
     const std::string head = "fernlicht: 1\nroad: " + library_file("roads/straight.xodr") +
                              "\nspeed_kmh: 50\nduration_s: 0.4\nrate_hz: 10\n" +
-                             "variants: {halogen: {file: " + library_file("lamps/halogen-low.ies") + "}}\n";
+                             "lamp_sets: {halogen: {file: " + library_file("lamps/halogen-low.ies") + "}}\n";
     const std::string foggy = folder / "foggy.yaml", lit = folder / "lit.yaml";
     std::ofstream(foggy) << head << "name: foggy\nweather: {fog: {visibility_m: 200}, wetness: 1}\n";
     std::ofstream(lit) << head << "name: lit\nstreet_lamps: {row: {file: " << library_file("lamps/street-6000lm.ies")
@@ -250,8 +250,8 @@ TEST(AccuracyRun, RefusesWhatItCannotUse) {
     const std::string drive = library_file("drives/straight.yaml");
     for (const std::string& flags :
          tests::each_of({{"", "--techniques no-such|--techniques full,full|--techniques photometric,|--techniques ,full|"
-                              "--resolutions 8x8|--resolutions 64|--resolutions 64x48,,32x24|--variant neon|--moments 100000|"
-                              "--moments 0|--moments x|--target-error 0|--beams 64x32|--beams 64x32x12|--beams 1x1x8|--beams float,|"
+                              "--resolutions 8x8|--resolutions 64|--resolutions 64x48,,32x24|--lamp-set neon|--count 100000|"
+                              "--count 0|--count x|--target-error 0|--beams 64x32|--beams 64x32x12|--beams 1x1x8|--beams float,|"
                               "--shadow-maps 64x64,|--diagrams all,nonsense|--diagrams ,extent|--no-such-flag"}})) {
         const TemporaryFolder folder;
         const Outcome run = run_program("accuracy --quiet " + flags + " --out " + (folder / "out ") + drive);
@@ -268,15 +268,15 @@ class PictureErrors : public testing::Test {
         ReferenceSettings settings;
         settings.footprint = Footprint::centre; // no noise: what is found was planted
         Drive measured = stage.drive;
-        measured.extent->limits_lx = {1.0, 5.0};
-        const std::vector<Moment> moments = moments_at({5}, stage, stage.drive.variants.front());
-        References references(stage, measured, device, moments, settings);
+        measured.extent->thresholds_lx = {1.0, 5.0};
+        const std::vector<Moment> moments = moments_at({5}, stage, stage.drive.lamp_sets.front());
+        ReferencePictures references(stage, measured, device, moments, settings);
         const View view = at_size(*driver_view(stage.drive), 128, 96);
         references.add_driver(0, view);
         references.add_map(0);
         Renderer renderer(device, stage.scene, {});
-        const Draw draw = [&](const Moment& moment, const View& at, const Wanted& wanted) {
-            Frame frame = renderer.draw(moment, at, wanted);
+        const Draw draw = [&](const Moment& moment, const View& at, const FrameOutputs& outputs) {
+            Frame frame = renderer.draw(moment, at, outputs);
             for (Image<float>* picture : {&frame.illuminance_lx, &frame.target_lx, &frame.luminance_cdm2})
                 for (float& value : picture->pixels())
                     value *= factor;
@@ -312,7 +312,7 @@ TEST(RoadAreas, AddUpToTheRoadInView) {
     const Stage stage(read_drive(library_file("drives/straight.yaml")));
     Device device = open_device("auto");
     Renderer renderer(device, stage.scene, {});
-    const Moment moment = moments_at({0}, stage, stage.drive.variants.front()).front();
+    const Moment moment = moments_at({0}, stage, stage.drive.lamp_sets.front()).front();
     View view;
     view.position_m = {5.0, 0.0, 10.0};
     view.pitch_rad = -radians(90.0);

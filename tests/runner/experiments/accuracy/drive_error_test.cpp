@@ -93,7 +93,7 @@ TEST(LampDiscs, AreThoseOfTheDriveInItsReference) {
     const TemporaryFolder folder;
     const auto drawn = [&](const std::string& shadows, const std::string& flags, const std::string& out) {
         const Outcome run = run_program("reference " + short_drive(folder, "shelter", shadows) + " --quiet --resolution 32x24 " +
-                                        "--most-samples 64 " + flags + " --out " + (folder / out));
+                                        "--max-samples 64 " + flags + " --out " + (folder / out));
         EXPECT_EQ(run.exit_code, 0) << run.output;
         return json::parse(content_of(folder / (out + "/reference.json"))).at("settings");
     };
@@ -112,7 +112,7 @@ TEST(LampDiscs, AreNotInTheTruthThatMethodsShare) {
     const auto compared = [&](const std::string& shadows, const std::string& out) {
         const Outcome run = run_program("accuracy " + short_drive(folder, "shelter", shadows) +
                                         " --quiet --techniques photometric --resolutions 96x72 --shadow-maps 256x128,128x64 --beams float "
-                                        "--moments 1 --rounds 1 --out " +
+                                        "--count 1 --rounds 1 --out " +
                                         (folder / out));
         EXPECT_EQ(run.exit_code, 0) << run.output;
         return run.output;

@@ -35,7 +35,7 @@ BenchResult sample_bench() {
     result.load_after = {1.5, 0.75, 1.0};
     result.others.cores = 0.1;
     result.drive = "night";
-    result.variant = "xenon";
+    result.lamp_set = "xenon";
     result.width_px = 640;
     result.height_px = 480;
     result.moments = {{0, 0.0}, {30, 1.0}};

@@ -48,7 +48,7 @@ TEST(BenchRun, ChoosesInTheTablesOrderAndTheReferenceInAnyCase) {
 TEST(BenchRun, LeavesRawSamplesOfEveryRound) {
     const TemporaryFolder folder;
     const Outcome run =
-        run_program(small_bench + "--techniques photometric,photometric-naive --seed 3 --variant xenon --out " + (folder / "out"));
+        run_program(small_bench + "--techniques photometric,photometric-naive --seed 3 --lamp-set xenon --out " + (folder / "out"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
     EXPECT_THAT(run.output, HasSubstr("first-light-1, xenon: 2 moments x 6 rounds, 64 x 48 pixels, orders from seed 3"));
     EXPECT_THAT(run.output, HasSubstr("\nphotometric "));
@@ -79,7 +79,7 @@ TEST(BenchRun, LeavesRawSamplesOfEveryRound) {
 TEST(BenchRun, RefusesWhatItCannotUseAndLeavesNoFolder) {
     const TemporaryFolder folder;
     for (const auto& [flags, complaint] :
-         {std::pair("--techniques photometrik", "'photometric'"), std::pair("--variant neon", "one of halogen, xenon"),
+         {std::pair("--techniques photometrik", "'photometric'"), std::pair("--lamp-set neon", "one of halogen, xenon"),
           std::pair("--rounds 0", "1 to 100000"), std::pair("--resolution 64", "WIDTHxHEIGHT"), std::pair("--count 361", "1 to 360")}) {
         const Outcome run = run_program("bench --quiet " + library_file("drives/first-light.yaml") + " --out " + (folder / "out ") + flags);
         EXPECT_EQ(run.exit_code, 2) << flags;
@@ -92,7 +92,7 @@ TEST(BenchRun, RefusesWhatItCannotUseAndLeavesNoFolder) {
 TEST(BenchRun, TakesAllMomentsOfAShortDrive) {
     const TemporaryFolder folder;
     std::ofstream(folder / "short.yaml") << "fernlicht: 1\nroad: \"" << library_file("roads/straight.xodr")
-                                         << "\"\nspeed_kmh: 72\nrate_hz: 10\nduration_s: 0.3\nvariants:\n  one: {file: \""
+                                         << "\"\nspeed_kmh: 72\nrate_hz: 10\nduration_s: 0.3\nlamp_sets:\n  one: {file: \""
                                          << library_file("lamps/halogen-low.ies") << "\"}\n";
     const std::string bench_short = "bench --quiet --rounds 1 --resolution 64x48 --techniques photometric " + (folder / "short.yaml");
     const Outcome run = run_program(bench_short + " --out " + (folder / "out"));

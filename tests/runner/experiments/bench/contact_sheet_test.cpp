@@ -21,7 +21,7 @@ ContactSheet sheet_of(std::span<const Technique> rows) {
     ContactSheet sheet;
     sheet.drive = "bend";
     sheet.title = "A <bend> & more";
-    sheet.variant = "xenon";
+    sheet.lamp_set = "xenon";
     sheet.moment.time_s = 1.5;
     sheet.moment.distance_m = 30.0;
     sheet.view.width_px = 4;
@@ -94,8 +94,8 @@ TEST(ContactSheet, MeasuresNothingInTheDarkAgainstNothing) {
 
 TEST(ContactSheet, ItsCrossStandsOnTheSpot) {
     const Stage stage(read_drive(library_file("drives/s-bend.yaml")));
-    const Moment moment = moments_at({60}, stage, stage.drive.variants.front()).front();
-    const ContactSheet sheet = new_sheet(stage, stage.drive.variants.front(), moment);
+    const Moment moment = moments_at({60}, stage, stage.drive.lamp_sets.front()).front();
+    const ContactSheet sheet = new_sheet(stage, stage.drive.lamp_sets.front(), moment);
     ASSERT_TRUE(sheet.spot_px);
     EXPECT_EQ(sheet.view.width_px, 320);
     EXPECT_EQ(sheet.view.height_px, 240); // of 1024 x 768

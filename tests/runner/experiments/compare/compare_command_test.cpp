@@ -206,9 +206,9 @@ TEST_F(CompareCommand, FlipAndSsimAsLeavesOfAClass) {
     const json found = json::parse(compare("a.exr", "b.exr", "--json").output);
     const json &lux = found.at("layers").at(0), &luminance = found.at("layers").at(1);
     const double flip = *value(luminance, "flip_mean"), ssim = std::min(*value(lux, "ssim"), *value(luminance, "ssim"));
-    const auto judged = [&](double most_flip, double least_ssim) {
-        write_class(fmt::format("name: seen\nlinear:\n  all:\n    - mean_flip: {{at_most: {}}}\n    - ssim: {{at_least: {}}}\n", most_flip,
-                                least_ssim));
+    const auto judged = [&](double max_flip, double min_ssim) {
+        write_class(fmt::format("name: seen\nlinear:\n  all:\n    - mean_flip: {{at_most: {}}}\n    - ssim: {{at_least: {}}}\n", max_flip,
+                                min_ssim));
         return compare("a.exr", "b.exr", "--strictness '" + path("class.yaml") + "'");
     };
     ASSERT_GT(flip, 0.002);

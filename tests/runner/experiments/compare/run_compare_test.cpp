@@ -83,8 +83,8 @@ TEST_F(RunCompare, EveryChangeIsThatOfTheReports) {
     EXPECT_EQ(found.at("kind"), "runs");
     const std::string before = "halogen", now = "xenon";
     const json drive = found.at("drives").at(0);
-    EXPECT_EQ(drive.at("old_variant"), "halogen-low");
-    EXPECT_EQ(drive.at("new_variant"), "xenon-low");
+    EXPECT_EQ(drive.at("old_lamp_set"), "halogen-low");
+    EXPECT_EQ(drive.at("new_lamp_set"), "xenon-low");
     EXPECT_GT(drive.at("changes").size(), 100U);
     for (const json& change : drive.at("changes")) {
         if (!change.at("change").is_number()) // not measured, or a bound

@@ -27,12 +27,12 @@ std::map<std::string, Image<float>> channels_of(const std::filesystem::path& fol
 TEST(ReferenceCommand, WritesMeanAndVarianceAndSaysHowNearItCame) {
     const TemporaryFolder folder;
     const Outcome run = run_program("reference " + library_file("drives/worked-example.yaml") +
-                                    " --target-error 2% --most-samples 1100 --resolution 64x48 --quiet --out " + (folder / "out"));
+                                    " --target-error 2% --max-samples 1100 --resolution 64x48 --quiet --out " + (folder / "out"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
     const json said = json_of(folder / "out");
     EXPECT_EQ(said.at("settings").at("target_error"), 0.02);
     EXPECT_EQ(said.at("settings").at("integrator"), "direct");
-    EXPECT_EQ(said.at("settings").at("most_samples"), 1024); // as used
+    EXPECT_EQ(said.at("settings").at("max_samples"), 1024); // as used
     EXPECT_TRUE(said.at("complete"));
     EXPECT_GE(said.at("context").at("inputs").size(), 3U); // drive, road, lamp
     EXPECT_GT(said.at("rays").get<double>(), 64.0 * 48.0 * 32.0);
@@ -99,13 +99,13 @@ TEST(ReferenceCommand, BadInputIsOneSentenceAndExitCodeTwo) {
     const TemporaryFolder folder;
     const std::string drive = "reference " + library_file("drives/straight.yaml");
     for (const std::string& arguments : std::vector<std::string>{
-             "reference", "reference /nonexistent.yaml", drive + " --moment 1e9", drive + " --view nowhere", drive + " --variant candle",
+             "reference", "reference /nonexistent.yaml", drive + " --moment 1e9", drive + " --view nowhere", drive + " --lamp-set candle",
              drive + " --target-error 0", drive + " --target-error 200%", drive + " --target-error 0.5x", drive + " --lamp-radius -1",
              drive + " --resolution 0x0",
              // what would have no effect
              drive + " --reach 30", drive + " --integrator path --patch 1", drive + " --integrator whitted --no-gather",
              drive + " --integrator radiosity --photons 100", drive + " --integrator photon-map --residual 0.1",
-             drive + " --smooth-depth 3", drive + " --integrator radiosity --no-gather --most-samples 64", drive + " --view ''",
+             drive + " --smooth-depth 3", drive + " --integrator radiosity --no-gather --max-samples 64", drive + " --view ''",
              drive + " --view map --resolution 64x48"}) {
         const Outcome run = run_program(arguments + " --out " + (folder / "out"));
         EXPECT_EQ(run.exit_code, 2) << arguments << '\n' << run.output;
@@ -132,12 +132,12 @@ TEST(ReferenceCheckpoint, ComesBackAsItWasAndIsRefusedWhenItIsNot) {
     View view;
     view.width_px = 3;
     view.height_px = 2;
-    constexpr Wanted wanted{.illuminance = true};
+    constexpr FrameOutputs outputs{.illuminance = true};
     const std::string inputs = "version\t1\n--seed\t1\n", other = "version\t1\n--seed\t2\n";
     const ReferenceImage image = small_picture();
-    EXPECT_THROW(read_checkpoint(inputs, view, wanted, folder.path()), InputError); // none there
+    EXPECT_THROW(read_checkpoint(inputs, view, outputs, folder.path()), InputError); // none there
     write_checkpoint(image, inputs, folder.path());
-    const ReferenceImage back = read_checkpoint(inputs, view, wanted, folder.path());
+    const ReferenceImage back = read_checkpoint(inputs, view, outputs, folder.path());
     EXPECT_EQ(back.illuminance_lx.mean, image.illuminance_lx.mean);
     EXPECT_EQ(back.illuminance_lx.standard_error, image.illuminance_lx.standard_error);
     EXPECT_TRUE(back.luminance_cdm2.mean.empty());
@@ -146,7 +146,7 @@ TEST(ReferenceCheckpoint, ComesBackAsItWasAndIsRefusedWhenItIsNot) {
     EXPECT_EQ(back.mixed, image.mixed);
     EXPECT_EQ(back.rays, image.rays);
     EXPECT_EQ(back.seconds, image.seconds);
-    EXPECT_THROW(read_checkpoint(other, view, wanted, folder.path()), InputError);
+    EXPECT_THROW(read_checkpoint(other, view, outputs, folder.path()), InputError);
     const std::string whole = content_of(checkpoint_file(folder.path()));
     std::vector<std::string> damaged{"", "x", whole.substr(0, whole.size() - 1), whole.substr(0, 40), whole + "x"};
     for (const std::size_t at : {std::size_t{0}, std::size_t{20}, std::size_t{70}, std::size_t{105}, whole.size() - 1}) {
@@ -155,7 +155,7 @@ TEST(ReferenceCheckpoint, ComesBackAsItWasAndIsRefusedWhenItIsNot) {
     }
     for (const std::string& bytes : damaged) {
         std::ofstream(checkpoint_file(folder.path()), std::ios::binary) << bytes;
-        EXPECT_THROW(read_checkpoint(inputs, view, wanted, folder.path()), InputError) << bytes.size();
+        EXPECT_THROW(read_checkpoint(inputs, view, outputs, folder.path()), InputError) << bytes.size();
     }
 }
 

@@ -28,10 +28,10 @@ std::pair<double, double> colour_and_detail(const Image<Rgb8>& image) {
 
 TEST(DisplaySheets, EveryStageHasATileOfItsOwn) {
     const Stage stage(read_drive(library_file("drives/oncoming.yaml")));
-    const Variant& variant = stage.drive.variants.front();
+    const LampSet& lamp_set = stage.drive.lamp_sets.front();
     Device device = open_device("auto");
     const DisplaySheet sheet =
-        display_sheet(stage, variant, moments_at({20}, stage, variant).front(), device, settings_for(stage.drive, RendererSettings{}));
+        display_sheet(stage, lamp_set, moments_at({20}, stage, lamp_set).front(), device, settings_for(stage.drive, RendererSettings{}));
     std::vector<std::string> names;
     for (const PictureTile& tile : sheet.eyes)
         names.push_back(tile.name);

@@ -11,12 +11,12 @@ using testing::IsEmpty;
 using testing::Not;
 
 /// Lit as far as 50 m at each moment, a moment a second, at these places.
-PlayedVariant at(const std::vector<double>& distances_m) {
-    PlayedVariant played;
-    played.variant = "xenon";
+PlayedCell at(const std::vector<double>& distances_m) {
+    PlayedCell played;
+    played.lamp_set = "xenon";
     LaneExtent extent;
     extent.lane = "own";
-    extent.limit_lx = 1.0;
+    extent.threshold_lx = 1.0;
     extent.reach_centre_m = 50.0;
     for (const double distance_m : distances_m)
         played.extents.push_back({.tick = static_cast<int>(played.extents.size()),
@@ -29,26 +29,26 @@ PlayedVariant at(const std::vector<double>& distances_m) {
     return played;
 }
 
-std::string reach_of(const PlayedVariant& played) {
+std::string reach_of(const PlayedCell& played) {
     ComparedDrive drive;
-    drive.variants = {&played};
-    return reach_svg(drive, ExtentPlane::road, 1.0);
+    drive.lamp_sets = {&played};
+    return reach_svg(drive, Surface::road, 1.0);
 }
 
 TEST(PagePlots, ReachIsOverTimeWhereTheCarStandsStillOrMovesOnSprings) {
     EXPECT_THAT(reach_of(at({0.0, 20.0, 40.0})), HasSubstr("distance along the route"));
     EXPECT_THAT(reach_of(at({0.0, 20.0, 20.0, 40.0})), Not(HasSubstr("distance along the route")));
     EXPECT_THAT(reach_of(at({0.0, 20.0, 20.0, 40.0})), HasSubstr("time [s]"));
-    PlayedVariant sprung = at({0.0, 20.0, 40.0});
+    PlayedCell sprung = at({0.0, 20.0, 40.0});
     sprung.car.resize(3);
     EXPECT_THAT(reach_of(sprung), HasSubstr("time [s]"));
 }
 
 TEST(PagePlots, ErrorOverTimeHasAPointALampSetAndTheFloor) {
-    PlayedVariant played = at({0.0, 20.0});
+    PlayedCell played = at({0.0, 20.0});
     played.technique = "photometric";
     ComparedDrive drive;
-    drive.variants = {&played};
+    drive.lamp_sets = {&played};
     EXPECT_THAT(error_svg(drive), IsEmpty()); // neither error nor time
     PixelErrors errors;
     errors.pixels = 100;

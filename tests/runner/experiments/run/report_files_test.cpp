@@ -26,8 +26,8 @@ Report hostile_report() {
     Report report = tests::sample_report(2);
     report.context.command = report.context.gl_renderer = hostile;
     report.context.inputs[0].path = hostile;
-    PlayedVariant& played = report.played[0];
-    played.drive = played.variant = hostile;
+    PlayedCell& played = report.played[0];
+    played.drive = played.lamp_set = hostile;
     played.lamps[0] = {hostile, hostile};
     played.readings[0].where = hostile;
     played.readings[2].value = Value::not_measured(hostile);
@@ -109,9 +109,9 @@ TEST(ReportJson, SaysWhyItIsIncomplete) {
 TEST(ReportJson, ComesBackAsItWasWritten) {
     const TemporaryFolder folder;
     Report report = tests::sample_report(3);
-    PlayedVariant& played = report.played[0];
+    PlayedCell& played = report.played[0];
     played.technique = "photometric";
-    played.inputs = {{"drive", "one hash"}, {"road", "another"}};
+    played.input_hashes = {{"drive", "one hash"}, {"road", "another"}};
     played.readings[0].value = Value::at_least(0.1 + 0.2);
     played.readings[1].where = "=1+1, \"quoted\"";
     played.repeats = {3, {"readings"}, {{played.readings[1].key, 0, 3, 33.0, 4.0}}};
@@ -129,14 +129,14 @@ TEST(ReportJson, ComesBackAsItWasWritten) {
     write_report(report, folder.path());
     const Report read = read_report(folder.path());
     EXPECT_EQ(report_csv(read), report_csv(report));
-    for (PlayedVariant& one : report.played)
+    for (PlayedCell& one : report.played)
         one.extent_summaries.clear(); // moments are not read back, so that they add up to nothing
     EXPECT_EQ(json::parse(report_json(read)), json::parse(report_json(report)));
 }
 
 TEST(MomentsCsv, HasAColumnForEachFigure) {
     Report report = tests::sample_report(3);
-    PlayedVariant& played = report.played[0];
+    PlayedCell& played = report.played[0];
     played.extents[1].rendered.clear(); // the lane ends
     played.extents[2].grid_errors[0].reach_m.reset();
     played.car = {{0.0, -1.5, 30.25, 1.125, {}}, {0.1, -1.25, 31.0, 1.25, {}}, {0.2, -1.0, 31.5, 1.5, {}}};
@@ -164,7 +164,7 @@ TEST(ReportCsv, MatchesByHand) {
     Report report;
     report.played.emplace_back();
     report.played[0].drive = "S bend, 150 m";
-    report.played[0].variant = "xenon";
+    report.played[0].lamp_set = "xenon";
     report.played[0].technique = "photometric";
     report.played[0].readings = {{key_of("reach_5lx_road_left_1_p05_m").value(), 61.25, "own lane, \"centre\"", 7},
                                  {key_of("probe_-wall_lx").value(), -0.5, "=1+1"},

@@ -86,9 +86,9 @@ TEST_F(ReportPage, KeysAndButtonsChooseTheMoment) {
 TEST_F(ReportPage, HostileNamesRunNothing) {
     Report report = tests::sample_report(2);
     const std::string hostile = "\"'><script>document.title='owned'</script><img src=x onerror=\"document.title='owned'\">\n\xff";
-    for (PlayedVariant& played : report.played) {
+    for (PlayedCell& played : report.played) {
         played.drive = hostile;
-        played.variant += hostile;
+        played.lamp_set += hostile;
         played.lamps[0] = {hostile, hostile};
         played.left_out = played.notes = {hostile};
         for (StoredFrame& frame : played.frames)

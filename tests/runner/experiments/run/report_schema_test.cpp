@@ -31,7 +31,7 @@ TEST(ReportSchema, DescribesReports) {
 TEST(ReportSchema, EveryNullOfASummaryHasItsReason) {
     Report report = tests::sample_report(1);
     ExtentSummary summary;
-    summary.key = {ExtentPlane::target, "own", 1.0};
+    summary.key = {Surface::target, "own", 1.0};
     summary.reach.add(150.0);
     summary.reach.add(Value::at_least(200.0));
     summary.twin_difference.add(Value::not_measured("both beyond 200 m"));

@@ -20,31 +20,31 @@ struct MadeUpBeam {
         const double edge = 1.0 / (1.0 + std::exp(-below_deg / 0.12));
         return peak_cd * edge * std::exp(-std::pow(h_deg / spread_deg, 2.0)) * std::exp(-std::max(0.0, below_deg) / depth_deg);
     }
-    double lux(double ahead_m, double left_m, ExtentPlane plane) const {
+    double lux(double ahead_m, double left_m, Surface surface) const {
         double sum = 0.0;
         for (const double lamp_left_m : {0.6, -0.6}) {
-            const double height_m = plane == ExtentPlane::road ? 0.65 : 0.40;
+            const double height_m = surface == Surface::road ? 0.65 : 0.40;
             const double beside_m = lamp_left_m - left_m, d2 = ahead_m * ahead_m + beside_m * beside_m + height_m * height_m;
             if (ahead_m <= 0.1)
                 continue;
             const double h_deg = degrees(std::atan2(beside_m, ahead_m)),
                          v_deg = -degrees(std::atan2(height_m, std::hypot(ahead_m, beside_m)));
-            const double facing = plane == ExtentPlane::road ? height_m / std::sqrt(d2) : 1.0;
+            const double facing = surface == Surface::road ? height_m / std::sqrt(d2) : 1.0;
             sum += intensity_cd(h_deg, v_deg) * facing / d2;
         }
         return sum;
     }
 };
 
-LaneExtent extent_of(const MadeUpBeam& beam, ExtentPlane plane, double limit_lx, const std::string& lane, double centre_m) {
+LaneExtent extent_of(const MadeUpBeam& beam, Surface surface, double threshold_lx, const std::string& lane, double centre_m) {
     LaneExtent extent;
-    extent.limit_lx = limit_lx;
-    extent.plane = plane;
+    extent.threshold_lx = threshold_lx;
+    extent.surface = surface;
     extent.lane = lane;
     extent.same_direction = lane != "left 1";
     const auto reach = [&](double left_m) {
         for (double ahead_m = 200.0; ahead_m > 0.0; ahead_m -= 0.5)
-            if (beam.lux(ahead_m, left_m, plane) >= limit_lx)
+            if (beam.lux(ahead_m, left_m, surface) >= threshold_lx)
                 return ahead_m;
         return 0.0;
     };
@@ -54,15 +54,15 @@ LaneExtent extent_of(const MadeUpBeam& beam, ExtentPlane plane, double limit_lx,
     extent.reach_is_cut_off = extent.reach_centre_m >= 200.0;
     for (const double at_m : {20.0, 50.0}) {
         double left_m = 0.0, right_m = 0.0;
-        while (left_m < 20.0 && beam.lux(at_m, left_m, plane) >= limit_lx)
+        while (left_m < 20.0 && beam.lux(at_m, left_m, surface) >= threshold_lx)
             left_m += 0.125;
-        while (right_m > -20.0 && beam.lux(at_m, right_m, plane) >= limit_lx)
+        while (right_m > -20.0 && beam.lux(at_m, right_m, surface) >= threshold_lx)
             right_m -= 0.125;
         extent.widths.push_back({at_m, left_m, right_m, left_m - right_m});
     }
     for (double ahead_m = 1.0; ahead_m < 200.0; ahead_m += 2.0)
         for (double left_m = centre_m - 1.75; left_m < centre_m + 1.75; left_m += 0.5)
-            extent.area_m2 += beam.lux(ahead_m, left_m, plane) >= limit_lx ? 1.0 : 0.0;
+            extent.area_m2 += beam.lux(ahead_m, left_m, surface) >= threshold_lx ? 1.0 : 0.0;
     return extent;
 }
 
@@ -70,15 +70,15 @@ ExtentRow extents_at(MadeUpBeam beam, int tick) {
     ExtentRow row{
         .tick = tick, .time_s = 0.1 * tick, .distance_m = 2.0 * tick, .rendered = {}, .twin = {}, .sensitivity = {}, .grid_errors = {}};
     beam.aim_deg += 0.12 * std::sin(0.25 * tick) * std::exp(-0.02 * tick); // the car nods
-    for (const ExtentPlane plane : {ExtentPlane::road, ExtentPlane::target})
-        for (const double limit_lx : {1.0, 3.0, 5.0, 10.0}) {
+    for (const Surface surface : {Surface::road, Surface::target})
+        for (const double threshold_lx : {1.0, 3.0, 5.0, 10.0}) {
             for (const auto& [lane, centre_m] : {std::pair<const char*, double>{"own", 0.0}, {"left 1", 3.5}}) {
-                row.rendered.push_back(extent_of(beam, plane, limit_lx, lane, centre_m));
+                row.rendered.push_back(extent_of(beam, surface, threshold_lx, lane, centre_m));
                 row.twin.push_back(row.rendered.back());
-                row.twin.back().reach_centre_m += 0.2 * std::sin(1.7 * tick + limit_lx);
+                row.twin.back().reach_centre_m += 0.2 * std::sin(1.7 * tick + threshold_lx);
             }
-            row.sensitivity.push_back({limit_lx, plane, 8.0 / std::sqrt(limit_lx), 1.1 / std::sqrt(limit_lx)});
-            row.grid_errors.push_back({limit_lx, plane, 0.25, 1.5});
+            row.sensitivity.push_back({threshold_lx, surface, 8.0 / std::sqrt(threshold_lx), 1.1 / std::sqrt(threshold_lx)});
+            row.grid_errors.push_back({threshold_lx, surface, 0.25, 1.5});
         }
     return row;
 }
@@ -91,7 +91,7 @@ LuxMap map_of(const MadeUpBeam& beam, int tick) {
     map.lx = Image<float>(160, 420);
     for (int y = 0; y < map.lx.height(); ++y)
         for (int x = 0; x < map.lx.width(); ++x)
-            map.lx.at(x, y) = static_cast<float>(beam.lux(100.0 - (y + 0.5) * 0.25 - 3.6, 20.0 - (x + 0.5) * 0.25, ExtentPlane::road));
+            map.lx.at(x, y) = static_cast<float>(beam.lux(100.0 - (y + 0.5) * 0.25 - 3.6, 20.0 - (x + 0.5) * 0.25, Surface::road));
     const auto bend_m = [&](double ahead_m) { return 0.002 * std::sin(0.05 * tick) * ahead_m * ahead_m; };
     for (const auto& [kind, left_m] :
          {std::pair<const char*, double>{"lane edge", 5.25}, {"lane edge", 1.75}, {"lane edge", -1.75}, {"road edge", -2.5}}) {
@@ -105,10 +105,10 @@ LuxMap map_of(const MadeUpBeam& beam, int tick) {
     return map;
 }
 
-PlayedVariant played_with(const std::string& name, const MadeUpBeam& beam, int moments) {
-    PlayedVariant played;
+PlayedCell played_with(const std::string& name, const MadeUpBeam& beam, int moments) {
+    PlayedCell played;
     played.drive = "country road";
-    played.variant = name;
+    played.lamp_set = name;
     played.lamps = {{"left", name + "-low.ies"}, {"right", name + "-low.ies"}};
     played.ticks_planned = played.ticks_done = moments;
     played.warm_up_dropped = 3;
@@ -129,7 +129,7 @@ PlayedVariant played_with(const std::string& name, const MadeUpBeam& beam, int m
     played.extent_summaries = summarise_extents(played, parameters);
     played.passes = {frame, shadow};
     played.readings = {{key_of("reach_5lx_road_own_m").value(), extents_at(beam, 0).rendered[4].reach_centre_m, "own lane, centre"},
-                       {key_of("probe_wall_lx").value(), beam.lux(25.0, 0.0, ExtentPlane::target), "wall, 25 m ahead", 0},
+                       {key_of("probe_wall_lx").value(), beam.lux(25.0, 0.0, Surface::target), "wall, 25 m ahead", 0},
                        {key_of("glare_own_time_above_1lx_s").value(), Value::not_measured("nobody came towards the car")}};
     played.verdicts = {{VerdictKind::pass, "reach_1lx_road_own_m", "28.0 m, limit at least 25 m", ""}};
     played.left_out = {"Sun: it is night.", "Second lamp pair: none is mounted."};
@@ -142,7 +142,7 @@ plots::Colour seen(const MadeUpBeam& beam, double right_deg, double up_deg) {
         return {3, 4, 9};
     const double ahead_m = 1.2 / std::tan(radians(-up_deg)), left_m = -ahead_m * std::tan(radians(right_deg));
     const bool marking = std::abs(std::abs(left_m) - 1.75) < 0.07;
-    const double luminance = beam.lux(ahead_m, left_m, ExtentPlane::road) * (marking ? 0.1 : 0.02);
+    const double luminance = beam.lux(ahead_m, left_m, Surface::road) * (marking ? 0.1 : 0.02);
     const auto grey = static_cast<std::uint8_t>(std::lround(255.0 * std::pow(std::min(1.0, luminance * 0.8), 1.0 / 2.2)));
     return {grey, grey, static_cast<std::uint8_t>(grey * 0.9)};
 }
@@ -152,12 +152,12 @@ const MadeUpBeam halogen{24000.0, 14.0, 3.0, -0.573}, xenon{42000.0, 19.0, 2.6, 
 } // namespace
 
 void write_sample_frames(const Report& report, const std::filesystem::path& folder) {
-    for (const PlayedVariant& played : report.played)
+    for (const PlayedCell& played : report.played)
         for (const StoredFrame& frame : played.frames) {
             Image<plots::Colour> pixels(320, 180);
             for (int y = 0; y < pixels.height(); ++y)
                 for (int x = 0; x < pixels.width(); ++x)
-                    pixels.at(x, y) = seen(played.variant == "xenon" ? xenon : halogen, (x - 159.5) * 0.12, (70.0 - y) * 0.12);
+                    pixels.at(x, y) = seen(played.lamp_set == "xenon" ? xenon : halogen, (x - 159.5) * 0.12, (70.0 - y) * 0.12);
             std::filesystem::create_directories((folder / frame.png).parent_path());
             write_file(folder / frame.png, plots::png_of_pixels(pixels));
         }
@@ -197,9 +197,9 @@ Report sample_report(int moments) {
 TEST(SampleReport, IsPlausible) {
     const Report report = sample_report(2);
     ASSERT_EQ(report.played.size(), 2U);
-    for (const PlayedVariant& played : report.played) {
+    for (const PlayedCell& played : report.played) {
         const LaneExtent& own_5lx = played.extents[0].rendered[4];
-        EXPECT_EQ(own_5lx.limit_lx, 5.0);
+        EXPECT_EQ(own_5lx.threshold_lx, 5.0);
         EXPECT_GT(own_5lx.reach_centre_m, 10.0);
         EXPECT_LT(own_5lx.reach_centre_m, 60.0);
         EXPECT_GT(own_5lx.area_m2, 20.0);

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-TEST(Savings, AreMeasuredOnAsManyMomentsAsTwoSecondsAllow) {
+TEST(PruningSavings, AreMeasuredOnAsManyMomentsAsTwoSecondsAllow) {
     // A moment takes 9 frames of each, 2.3 times the pruned one's time together: 20.7 of those.
     EXPECT_EQ(affordable_moments(0.016), 4); // 6.04, at most 4
     EXPECT_EQ(affordable_moments(0.0324), 2);
@@ -27,10 +27,10 @@ TEST(Savings, AreMeasuredOnAsManyMomentsAsTwoSecondsAllow) {
     EXPECT_EQ(affordable_moments(0.097), 0);
 }
 
-TEST(Savings, SayWhyTheyAreNotMeasured) {
+TEST(PruningSavings, SayWhyTheyAreNotMeasured) {
     Drive drive;
     drive.views.emplace_back();
-    PlayedVariant played;
+    PlayedCell played;
     EXPECT_EQ(no_savings(drive, played), "too few moments were played");
     played.throughput.view_s = 0.3;
     EXPECT_EQ(no_savings(drive, played), "a frame takes 300 ms, and seven rounds more than two seconds");
@@ -42,14 +42,14 @@ TEST(Savings, SayWhyTheyAreNotMeasured) {
     EXPECT_EQ(no_savings(drive, played), "it is measured for the technique photometric only, this is full");
 }
 
-TEST(Savings, WhatCannotBeContestedIsLeftOutAndTheRunStays) {
+TEST(PruningSavings, WhatCannotBeContestedIsLeftOutAndTheRunStays) {
     const TemporaryFolder folder;
     std::string lamps;
     for (int i = 0; i < 10; ++i)
         lamps += "      l" + std::to_string(i) + ": {file: " + library_file("lamps/halogen-low.ies") + ", position_m: [0, " +
                  std::to_string(i) + ", 0.65], level: " + (i == 0 ? "1" : "0") + "}\n";
     std::ofstream(folder / "ten.yaml") << "fernlicht: 1\nname: ten\nroad: " << library_file("roads/straight.xodr")
-                                       << "\nroute: {s_m: 20}\nspeed_kmh: 36\nrate_hz: 10\nduration_s: 1\nvariants:\n  ten:\n"
+                                       << "\nroute: {s_m: 20}\nspeed_kmh: 36\nrate_hz: 10\nduration_s: 1\nlamp_sets:\n  ten:\n"
                                           "    source: filament\n    lamps:\n"
                                        << lamps << "views: {driver: {resolution_px: [64, 48]}}\n";
     const Outcome run = run_program("run " + (folder / "ten.yaml") + " --quiet --out " + (folder / "out"));
@@ -60,8 +60,8 @@ TEST(Savings, WhatCannotBeContestedIsLeftOutAndTheRunStays) {
 }
 
 /// Seven rounds that take `factor` of the time of the unpruned ones, up to the given share of it more or less.
-Savings savings_of(double factor, double noise) {
-    Savings savings;
+PruningSavings savings_of(double factor, double noise) {
+    PruningSavings savings;
     savings.ticks = {5, 15};
     for (int round = 0; round < 7; ++round) {
         savings.unpruned_s.push_back(0.020);
@@ -72,7 +72,7 @@ Savings savings_of(double factor, double noise) {
     return savings;
 }
 
-TEST(Savings, StandInAllFilesOfTheReport) {
+TEST(PruningSavings, StandInAllFilesOfTheReport) {
     Report report = tests::sample_report(4);
     report.played[0].savings = savings_of(0.8, 0.01);
     report.played[1].savings = savings_of(1.0, 0.05);
@@ -94,9 +94,9 @@ TEST(Savings, StandInAllFilesOfTheReport) {
     EXPECT_THAT(page, HasSubstr("<td class=\"words\">nothing left out</td><td class=\"n\">20.00</td><td class=\"n\">5</td>"));
 }
 
-TEST(Savings, SayTheReasonInTheirPlace) {
+TEST(PruningSavings, SayTheReasonInTheirPlace) {
     Report report = tests::sample_report(4);
-    for (PlayedVariant& played : report.played)
+    for (PlayedCell& played : report.played)
         played.savings.not_measured = "too few moments were played";
     const json whole = json::parse(report_json(report));
     EXPECT_EQ(whole.at("times").at(0).at("savings").at("not_measured"), "too few moments were played");
@@ -107,7 +107,7 @@ TEST(Savings, SayTheReasonInTheirPlace) {
     EXPECT_THAT(times_csv(report), Not(HasSubstr("nothing left out")));
 }
 
-TEST(Savings, OfARunAreMeasuredOnTheSameMoments) {
+TEST(PruningSavings, OfARunAreMeasuredOnTheSameMoments) {
     const TemporaryFolder folder;
     const Outcome run =
         run_program("run " + library_file("drives/straight.yaml") + " --quiet --frames 10:17 --resolution 64x48 --out " + (folder / "out"));
@@ -133,7 +133,7 @@ TEST(Savings, OfARunAreMeasuredOnTheSameMoments) {
     }
 }
 
-TEST(Savings, AreNotMeasuredWherePassesAreTimed) {
+TEST(PruningSavings, AreNotMeasuredWherePassesAreTimed) {
     const TemporaryFolder folder;
     const Outcome run = run_program("run " + library_file("drives/straight.yaml") +
                                     " --quiet --profile --frames 0:5 --resolution 64x48 --out " + (folder / "out"));

@@ -2,7 +2,7 @@
 #include "runner/experiments/compare/runs/run_folder.h"
 #include "runner/play/stage.h"
 #include "scenarios/drives/play/motion.h"
-#include "scenarios/drives/play/told_story.h"
+#include "scenarios/drives/play/storyboard_timeline.h"
 #include "tests/runner/program.h"
 #include "tests/scenarios/openscenario/story_text.h"
 
@@ -32,8 +32,8 @@ TEST(ShippedStory, GoesFromDuskToNightWithItsCars) {
     const Stage stage(read_drive(library_file("drives/s-bend-story.yaml")));
     ASSERT_EQ(stage.drive.views.size(), 7U) << "six, and the map";
     const double rate_hz = 1.0 / stage.drive.step_s;
-    const auto at = [&](double time_s, std::size_t variant = 0) {
-        return moments_at({static_cast<int>(std::lround(time_s * rate_hz))}, stage, stage.drive.variants[variant]).front();
+    const auto at = [&](double time_s, std::size_t lamp_set = 0) {
+        return moments_at({static_cast<int>(std::lround(time_s * rate_hz))}, stage, stage.drive.lamp_sets[lamp_set]).front();
     };
     EXPECT_GT(stage.drive.duration_s, 60.0);
     const Moment dusk = at(0.0), night = at(stage.drive.duration_s - 1.0);
@@ -90,7 +90,7 @@ std::string on_s_bend(const std::string& text) {
 
 std::string drive_with(const std::string& name, const std::string& way, const std::string& control) {
     return fmt::format(
-        "fernlicht: 1\nname: {}\n{}rate_hz: 10\nduration_s: 14\nvariants:\n  one: {{source: arc, file: \"{}\", control: {}}}\n", name, way,
+        "fernlicht: 1\nname: {}\n{}rate_hz: 10\nduration_s: 14\nlamp_sets:\n  one: {{source: arc, file: \"{}\", control: {}}}\n", name, way,
         library_file("lamps/xenon-low.ies"), control);
 }
 
@@ -130,8 +130,8 @@ TEST(StoryControl, LampsSeeTheRoadAheadAsInADriveWithoutStoryboard) {
         const Stage told(read_drive(folder / "told.yaml")), own(read_drive(folder / "own.yaml"));
         double most = 0.0;
         for (int tick = 0; tick < 135; ++tick) {
-            const Moment a = moments_at({tick}, told, told.drive.variants[0]).front();
-            const Moment b = moments_at({tick}, own, own.drive.variants[0]).front();
+            const Moment a = moments_at({tick}, told, told.drive.lamp_sets[0]).front();
+            const Moment b = moments_at({tick}, own, own.drive.lamp_sets[0]).front();
             EXPECT_NEAR(to_the_left_deg(a, 0), to_the_left_deg(b, 0), 0.1) << control << ", tick " << tick;
             most = std::max(most, to_the_left_deg(a, 0));
             EXPECT_NEAR(a.distance_m, b.distance_m, 0.15) << "the storyboard drives by the reference line's s";
@@ -149,7 +149,9 @@ TEST(StoryControl, TheLaneAheadIsTheOneThatTheCarIsOn) {
                                                          story(event("over", change, at_time(1.0))) + stop_at(10.0));
     std::ofstream(folder / "told.yaml") << drive_with("told", "storyboard: told.xosc\n", "{bend: {law: route, preview_s: 1.5}}");
     const Stage stage(read_drive(folder / "told.yaml"));
-    const auto at = [&](double t) { return moments_at({static_cast<int>(std::lround(10.0 * t))}, stage, stage.drive.variants[0]).front(); };
+    const auto at = [&](double t) {
+        return moments_at({static_cast<int>(std::lround(10.0 * t))}, stage, stage.drive.lamp_sets[0]).front();
+    };
     for (const double t : {0.5, 6.0, 9.5}) {
         EXPECT_NEAR(to_the_left_deg(at(t), 0), 0.0, 0.01) << "straight along its lane at " << t << " s";
         const auto place = track_place(stage.drive, t);
@@ -214,8 +216,8 @@ TEST(StoryAlone, PlaysOnWhereItsLaneDoesNotLead) {
     const Stage stage(read_drive(story, edits));
     EXPECT_THAT(stage.drive.notes, testing::Contains(HasSubstr("does not lead to the road that it takes after '1'")));
     EXPECT_EQ(stage.network.roads[stage.route.legs().back().road].id, "1");
-    const Moment first = moments_at({0}, stage, stage.drive.variants[0]).front();
-    const Moment later = moments_at({30}, stage, stage.drive.variants[0]).front();
+    const Moment first = moments_at({0}, stage, stage.drive.lamp_sets[0]).front();
+    const Moment later = moments_at({30}, stage, stage.drive.lamp_sets[0]).front();
     EXPECT_GT(later.distance_m, first.distance_m);
 }
 

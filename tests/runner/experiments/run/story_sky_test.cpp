@@ -1,6 +1,6 @@
 // What a storyboard's environments do to the sky and the air of a drive: from the beginning, from each change on, by date, time and place.
 #include "runner/play/stage.h"
-#include "scenarios/drives/play/told_story.h"
+#include "scenarios/drives/play/storyboard_timeline.h"
 #include "scenarios/drives/story/story_environment.h"
 #include "tests/runner/program.h"
 #include "tests/scenarios/openscenario/story_text.h"
@@ -30,12 +30,12 @@ class StorySky : public testing::Test {
                            const std::string& more = "") {
         std::ofstream(folder_ / "told.xosc") << scenario_text(two_cars + init, (events.empty() ? "" : story(events)) + stop_at(2.0));
         std::ofstream(folder_ / "told.yaml") << "fernlicht: 1\nstoryboard: {file: told.xosc" << storyboard
-                                             << "}\nrate_hz: 10\nduration_s: 3\nvariants:\n  one: {source: filament, file: \""
+                                             << "}\nrate_hz: 10\nduration_s: 3\nlamp_sets:\n  one: {source: filament, file: \""
                                              << library_file("lamps/halogen-low.ies") << "\"}\nmeasure: {extent: false}\n"
                                              << more;
         return folder_ / "told.yaml";
     }
-    static Moment at(const Stage& stage, int tick) { return moments_at({tick}, stage, stage.drive.variants.front()).front(); }
+    static Moment at(const Stage& stage, int tick) { return moments_at({tick}, stage, stage.drive.lamp_sets.front()).front(); }
 
     TemporaryFolder folder_;
 };
@@ -69,7 +69,7 @@ TEST_F(StorySky, WhatTheDriveSaysStays) {
         EXPECT_EQ(at(stage, tick).daylight.name, "twilight");
         EXPECT_EQ(at(stage, tick).weather, (Weather{.wetness = 0.2}));
     }
-    EXPECT_EQ(stage.drive.told->skies.size(), 0U) << "nothing is asked for at each moment";
+    EXPECT_EQ(stage.drive.timeline->skies.size(), 0U) << "nothing is asked for at each moment";
 }
 
 /// The same sky by a drive's own daylight keys.
@@ -80,7 +80,7 @@ TEST_F(StorySky, TheTimeOfDayRunsAsADrivesDaylightDoes) {
                                            ", place: {latitude_deg: 48.14, longitude_deg: 11.58, utc_offset_h: 2}, day_rate: 300")));
     const auto own = [&](const std::string& time) {
         std::ofstream(folder_ / "own.yaml") << fmt::format(
-            "fernlicht: 1\nroad: \"{}\"\nspeed_kmh: 72\nrate_hz: 10\nduration_s: 2\nvariants:\n  one: {{source: filament, file: \"{}\"}}\n"
+            "fernlicht: 1\nroad: \"{}\"\nspeed_kmh: 72\nrate_hz: 10\nduration_s: 2\nlamp_sets:\n  one: {{source: filament, file: \"{}\"}}\n"
             "daylight: {{date: 2026-10-18, time: \"{}\", utc_offset_h: 2, latitude_deg: 48.14, longitude_deg: 11.58, rate: 300}}\n",
             straight_road, library_file("lamps/halogen-low.ies"), time);
         return read_drive(folder_ / "own.yaml");

@@ -34,7 +34,7 @@ const json& row_of(const json& scene, const std::string& method) {
 TEST(ShadowsCommand, HoldsMethodsAgainstRays) {
     const TemporaryFolder folder;
     const Outcome run =
-        run_program(small + "--rounds 3 --map-texels 512x256 --moments 1 --methods none,map,under-car,volumes --scenes post-5,kerb --out " +
+        run_program(small + "--rounds 3 --map-texels 512x256 --count 1 --methods none,map,under-car,volumes --scenes post-5,kerb --out " +
                     (folder / "out ") + library_file("drives/straight.yaml"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
     EXPECT_THAT(run.output, HasSubstr("   30 m "));
@@ -205,7 +205,7 @@ TEST(ShadowsCommand, RefusesWhatIsNotThere) {
     EXPECT_THAT(refused("--map-texels 8x8"), HasSubstr("16 to 8192"));
     EXPECT_THAT(refused("--vertical-fov 0"), HasSubstr("1 to 120 degrees"));
     EXPECT_THAT(refused("--lamp-radius 0.7"), HasSubstr("0.001 to 0.5 m"));
-    EXPECT_THAT(refused("--scenes none --moments 99 " + library_file("drives/shelter.yaml")), HasSubstr("1 to 50"));
+    EXPECT_THAT(refused("--scenes none --count 99 " + library_file("drives/shelter.yaml")), HasSubstr("1 to 50"));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 

@@ -105,13 +105,13 @@ TEST(StudyCompare, WhatNobodyVouchesForIsNotKnown) {
     put(result.cells[1], "reach_10lx_road_own_m", std::nullopt, "never lit");
     compare_cells(result);
     EXPECT_EQ(change_in(result, "control_others_max_lx").kind, ChangeKind::unknown);
-    EXPECT_THAT(change_in(result, "control_others_max_lx").why_not, HasSubstr("nothing tells"));
+    EXPECT_THAT(change_in(result, "control_others_max_lx").reason_unknown, HasSubstr("nothing tells"));
     EXPECT_EQ(change_in(result, "control_high_beam_share").kind, ChangeKind::none) << "however exact, there is nothing to explain";
     EXPECT_EQ(change_in(result, "control_left_bends_inside_at_50m_lx").kind, ChangeKind::real);
     EXPECT_DOUBLE_EQ(*change_in(result, "control_left_bends_inside_at_50m_lx").uncertainty, 0.05);
     EXPECT_EQ(change_in(result, "glare_a_facing_max_lx").kind, ChangeKind::real);
     EXPECT_EQ(change_in(result, "glare_a_length_above_1lx_m").kind, ChangeKind::unknown);
-    EXPECT_EQ(change_in(result, "reach_10lx_road_own_m").why_not, "never lit");
+    EXPECT_EQ(change_in(result, "reach_10lx_road_own_m").reason_unknown, "never lit");
 }
 
 /// Each kind of reading by what its calculation leaves open, both sides together: a row on trust, the distance of moments or of places, or
@@ -180,18 +180,18 @@ TEST(StudyCompare, WhatNoiseOfTheTablesWouldDoIsNoDifference) {
         put(cell, "control_swivel_max_deg", tested ? 2.0 : 1.0);
     }
     compare_cells(result);
-    EXPECT_NEAR(change_in(result, "reach_5lx_target_own_m").by_noise.value(), 0.6, 1e-12);
-    EXPECT_NEAR(change_in(result, "area_1lx_road_all_m2").by_noise.value(), 0.03 * 40.0 / std::log(3.0), 1e-12);
+    EXPECT_NEAR(change_in(result, "reach_5lx_target_own_m").noise_effect.value(), 0.6, 1e-12);
+    EXPECT_NEAR(change_in(result, "area_1lx_road_all_m2").noise_effect.value(), 0.03 * 40.0 / std::log(3.0), 1e-12);
     EXPECT_EQ(change_in(result, "area_1lx_road_all_m2").kind, ChangeKind::none); // 1.0 < 1.09
-    EXPECT_NEAR(change_in(result, "area_3lx_road_all_m2").by_noise.value(), 0.03 * 40.0 / std::log(3.0), 1e-12)
+    EXPECT_NEAR(change_in(result, "area_3lx_road_all_m2").noise_effect.value(), 0.03 * 40.0 / std::log(3.0), 1e-12)
         << "to 1 lx the old lamp has 40 m2 and the new 39.4, to 10 lx 33.2 and 34.6 of a natural logarithm";
     EXPECT_EQ(change_in(result, "area_3lx_road_all_m2").kind, ChangeKind::real); // 1.6 > 1.09
-    EXPECT_NEAR(change_in(result, "glare_a_time_above_3lx_s").by_noise.value(), 0.03 * 0.5 / std::log(3.0), 1e-12);
+    EXPECT_NEAR(change_in(result, "glare_a_time_above_3lx_s").noise_effect.value(), 0.03 * 0.5 / std::log(3.0), 1e-12);
     EXPECT_EQ(change_in(result, "glare_a_facing_max_lx").kind, ChangeKind::none); // 0.05 < 3 % of 2.05
-    EXPECT_NEAR(change_in(result, "glare_a_de_boer_min").by_noise.value(), 0.02606, 1e-5);
+    EXPECT_NEAR(change_in(result, "glare_a_de_boer_min").noise_effect.value(), 0.02606, 1e-5);
     EXPECT_EQ(change_in(result, "glare_a_de_boer_min").kind, ChangeKind::real);
     EXPECT_EQ(change_in(result, "control_swivel_max_deg").kind, ChangeKind::unknown);
-    EXPECT_THAT(change_in(result, "control_swivel_max_deg").why_not, HasSubstr("noise of the lamp tables"));
+    EXPECT_THAT(change_in(result, "control_swivel_max_deg").reason_unknown, HasSubstr("noise of the lamp tables"));
 }
 
 TEST(StudyCompare, LimitsHoldForValuesAndForChanges) {

@@ -86,8 +86,8 @@ TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
 
 TEST_F(StudyProgram, TheSameLampUnderAnotherNameDiffersInNothing) {
     const std::string file = write_study_file(folder, "{low: " + library_file("lamps/halogen-low.ies") + "}");
-    // Against references of which none was accepted: red, and all the rest is there.
-    const Outcome run = run_program("study " + file + quick + "--references " + (folder / "none") + " --out " + (folder / "out"));
+    // Against baselines of which none was accepted: red, and all the rest is there.
+    const Outcome run = run_program("study " + file + quick + "--baselines " + (folder / "none") + " --out " + (folder / "out"));
     ASSERT_EQ(run.exit_code, 1) << run.output;
     const json study = json::parse(content_of(folder / "out/study.json"));
     EXPECT_EQ(study.at("verdict"), "fail");

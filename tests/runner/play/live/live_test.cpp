@@ -139,7 +139,7 @@ TEST_F(Live, RefusesInOneSentence) {
     refused(d + " --can vcan0 --no-wait" + out, 2, "cannot be hurried");
     refused(d + " --can vcan0 --can-start 5.0" + out, 2, "--can-start");
     refused(d + log + " --can-start yesterday" + out, 2, "yesterday");
-    refused(d + log + " --variant halogen --no-draw" + out, 2, "bend-light");
+    refused(d + log + " --lamp-set halogen --no-draw" + out, 2, "bend-light");
     refused(library_file("drives/straight.yaml") + log + " --no-draw" + out, 2, "`can`");
     refused(d + " --can-log " + (folder / "no.log") + " --no-draw" + out, 2, "no.log");
     std::ofstream(folder / "empty.log") << "# nothing\n";

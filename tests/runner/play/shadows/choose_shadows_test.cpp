@@ -78,7 +78,7 @@ TEST_F(AutomaticShadows, OthersLampsAreAskedToo) {
     const json choice = played(drive_with("oncoming", "{method: auto, error_bound: 0.9}"), "out").at("shadow_choice");
     EXPECT_GT(choice.at("moments_shadowed"), 0);
     std::string text = content_of(drive_with("oncoming", "{method: auto, error_bound: 0.004}"));
-    const std::string own = "variants:";
+    const std::string own = "lamp_sets:";
     ASSERT_NE(text.find(own), std::string::npos);
     std::ofstream(folder / "oncoming.yaml") << text << "changes: [{at_s: 0, level: 0}]\n";
     const json dark = played(folder / "oncoming.yaml", "dark").at("shadow_choice");
@@ -196,7 +196,7 @@ TEST_F(CheckPlanar, TheFlagIsNamedWhereItAsked) {
 
 TEST_F(CheckPlanar, OtherProgramsNameDriveAndLineToo) {
     const std::string hilly = short_drive(folder_, "first-light", "planar");
-    for (const std::string command : {"accuracy --moments 1 --techniques photometric", "bench --count 1 --techniques photometric",
+    for (const std::string command : {"accuracy --count 1 --techniques photometric", "bench --count 1 --techniques photometric",
                                       "aliasing --moment 0.2 --techniques photometric"}) {
         const Outcome run = run_program(command + " " + hilly + " --quiet --out " + (folder_ / "out"));
         EXPECT_EQ(run.exit_code, 2) << run.output;

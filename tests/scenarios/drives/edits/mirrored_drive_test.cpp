@@ -19,7 +19,7 @@ TEST(MirroredDrive, NamesChangeSidesByWholeWords) {
 /// Every key of a drive, some of them to one side.
 Drive example() {
     Drive drive = read_drive(FERNLICHT_SOURCE_DIR "/scenarios/drive.example.yaml");
-    drive.variants.front().lamps.front().yaw_rad = 0.01;
+    drive.lamp_sets.front().lamps.front().yaw_rad = 0.01;
     return drive;
 }
 
@@ -41,9 +41,9 @@ TEST(MirroredDrive, IsWrittenAndReadBack) {
     const Drive back = read_drive(tests::written("mirrored.yaml", write_drive(drive)));
     EXPECT_EQ(write_drive(back), write_drive(drive));
     EXPECT_TRUE(back.mirrored_road);
-    for (std::size_t v = 0; v < back.variants.size(); ++v)
-        for (std::size_t i = 0; i < back.variants[v].lamps.size(); ++i)
-            EXPECT_EQ(back.variants[v].lamps[i].file->table, drive.variants[v].lamps[i].file->table);
+    for (std::size_t v = 0; v < back.lamp_sets.size(); ++v)
+        for (std::size_t i = 0; i < back.lamp_sets[v].lamps.size(); ++i)
+            EXPECT_EQ(back.lamp_sets[v].lamps[i].file->table, drive.lamp_sets[v].lamps[i].file->table);
 }
 
 TEST(MirroredDrive, MirrorsLampsOnlyWhereAsked) {
@@ -51,7 +51,7 @@ TEST(MirroredDrive, MirrorsLampsOnlyWhereAsked) {
     Drive all = drive, road = drive;
     mirror_traffic(all, true);
     mirror_traffic(road, false);
-    const MountedLamp &lamp = drive.variants[0].lamps[0], &turned = all.variants[0].lamps[0], &kept = road.variants[0].lamps[0];
+    const MountedLamp &lamp = drive.lamp_sets[0].lamps[0], &turned = all.lamp_sets[0].lamps[0], &kept = road.lamp_sets[0].lamps[0];
     EXPECT_EQ(turned.name, other_side(lamp.name));
     EXPECT_EQ(turned.position_m.y, -lamp.position_m.y);
     EXPECT_EQ(turned.yaw_rad, -0.01);

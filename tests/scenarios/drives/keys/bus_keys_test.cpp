@@ -50,8 +50,8 @@ TEST_F(BusKeys, ResolvedDrivesReadBackToTheSame) {
     EXPECT_EQ(drive.can->inputs[2].policy(BusState::stale), BusPolicy::lost);
     EXPECT_EQ(drive.can->inputs[1].values, (std::vector<std::pair<std::string, double>>{{"on and off", 1.0}, {"2.5", 0.5}}));
     EXPECT_EQ(drive.can->outputs[1].cycle_s, 0.04);
-    ASSERT_NE(drive.variants[0].control, nullptr) << "without laws, so that switches reach the lamps";
-    EXPECT_TRUE(*drive.variants[0].control == ControlParameters{});
+    ASSERT_NE(drive.lamp_sets[0].control, nullptr) << "without laws, so that switches reach the lamps";
+    EXPECT_TRUE(*drive.lamp_sets[0].control == ControlParameters{});
     const std::string written = write_drive(drive);
     const Drive again = read(written);
     EXPECT_EQ(write_drive(again), written);
@@ -107,10 +107,10 @@ TEST_F(BusKeys, WhatIsWrongIsRefusedAtItsPlace) {
     EXPECT_THAT(with("channel: can0"), HasSubstr("a bus without signals, expected inputs, outputs or both"));
     EXPECT_THAT(refusal(minimal + "can: {inputs: {ego.speed_mps: A.B}}\n"), HasSubstr("can.databases"));
     EXPECT_THAT(refusal(minimal + "can: {databases: absent.dbc, inputs: {ego.speed_mps: A.B}}\n"), HasSubstr("there is no file"));
-    const std::string two = "fernlicht: 1\nroad: road.xodr\nspeed_kmh: 72\nduration_s: 3\nvariants:\n"
+    const std::string two = "fernlicht: 1\nroad: road.xodr\nspeed_kmh: 72\nduration_s: 3\nlamp_sets:\n"
                             "  one: {file: low.ies, control: {period_s: 0.01}}\n  two: {file: low.ies, control: {period_s: 0.02}}\n";
     EXPECT_THAT(refusal(two + "can: {databases: bus.dbc, inputs: {ego.speed_mps: A.B}}\n"),
-                HasSubstr("found 0.01 s and 0.02 s, expected the same for all variants"));
+                HasSubstr("found 0.01 s and 0.02 s, expected the same for all lamp sets"));
 }
 
 TEST_F(BusKeys, InAMirrorSignalsPointToTheOtherSide) {

@@ -11,8 +11,8 @@ using testing::HasSubstr;
 
 class DriveEditsTest : public DriveFixture {
   protected:
-    double peak(const Drive& drive, std::size_t variant, std::size_t lamp) {
-        return intensity_cd(drive.variants.at(variant).lamps.at(lamp).file->table, 0.0, 0.0);
+    double peak(const Drive& drive, std::size_t lamp_set, std::size_t lamp) {
+        return intensity_cd(drive.lamp_sets.at(lamp_set).lamps.at(lamp).file->table, 0.0, 0.0);
     }
     DriveEdits with_lamp(const std::string& side) {
         DriveEdits edits;
@@ -22,28 +22,28 @@ class DriveEditsTest : public DriveFixture {
     const std::string pair =
         "fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 3\n"
         "car: {mounts: {left: [3, 1, 1], right: [3, -1, 1], high-left: [3, 0, 1]}}\n"
-        "variants:\n  a: {file: low.ies}\n  b: {file: low.ies}\n"
+        "lamp_sets:\n  a: {file: low.ies}\n  b: {file: low.ies}\n"
         "changes: [{at_s: 1, lamp: left, file: low.ies, source: arc}, {at_s: 1, lamp: left, level: 0.5, file: low.ies}]\n";
 };
 
-TEST_F(DriveEditsTest, OneSideInEveryVariant) {
+TEST_F(DriveEditsTest, OneSideInEveryLampSet) {
     const Drive drive = read(pair, with_lamp("left"));
-    ASSERT_EQ(drive.variants.size(), 2U);
-    for (const std::size_t variant : {0U, 1U}) {
-        EXPECT_DOUBLE_EQ(peak(drive, variant, 0), 2000.0);
-        EXPECT_DOUBLE_EQ(peak(drive, variant, 1), 1000.0);
-        EXPECT_DOUBLE_EQ(peak(drive, variant, 2), 1000.0) << "the high beam was not meant";
-        ASSERT_EQ(drive.variants[variant].changes.size(), 1U) << "no later switch back to the drive's own file";
-        EXPECT_EQ(drive.variants[variant].changes[0].level, 0.5);
-        EXPECT_FALSE(drive.variants[variant].changes[0].file);
+    ASSERT_EQ(drive.lamp_sets.size(), 2U);
+    for (const std::size_t lamp_set : {0U, 1U}) {
+        EXPECT_DOUBLE_EQ(peak(drive, lamp_set, 0), 2000.0);
+        EXPECT_DOUBLE_EQ(peak(drive, lamp_set, 1), 1000.0);
+        EXPECT_DOUBLE_EQ(peak(drive, lamp_set, 2), 1000.0) << "the high beam was not meant";
+        ASSERT_EQ(drive.lamp_sets[lamp_set].changes.size(), 1U) << "no later switch back to the drive's own file";
+        EXPECT_EQ(drive.lamp_sets[lamp_set].changes[0].level, 0.5);
+        EXPECT_FALSE(drive.lamp_sets[lamp_set].changes[0].file);
     }
     EXPECT_EQ(drive.opened.back().path, folder / "other.ies");
 }
 
-TEST_F(DriveEditsTest, AllLampsLeaveOneVariant) {
+TEST_F(DriveEditsTest, AllLampsLeaveOneLampSet) {
     const Drive drive = read(pair, with_lamp(""));
-    ASSERT_EQ(drive.variants.size(), 1U);
-    EXPECT_EQ(drive.variants[0].name, "other");
+    ASSERT_EQ(drive.lamp_sets.size(), 1U);
+    EXPECT_EQ(drive.lamp_sets[0].name, "other");
     EXPECT_DOUBLE_EQ(peak(drive, 0, 0), 2000.0);
     EXPECT_DOUBLE_EQ(peak(drive, 0, 1), 2000.0);
     EXPECT_DOUBLE_EQ(peak(drive, 0, 2), 1000.0);
@@ -52,7 +52,7 @@ TEST_F(DriveEditsTest, AllLampsLeaveOneVariant) {
 
 TEST_F(DriveEditsTest, HighBeamsAreMeantByName) {
     const Drive drive = read(pair, with_lamp("high-left"));
-    EXPECT_EQ(drive.variants.size(), 2U);
+    EXPECT_EQ(drive.lamp_sets.size(), 2U);
     EXPECT_DOUBLE_EQ(peak(drive, 0, 0), 1000.0);
     EXPECT_DOUBLE_EQ(peak(drive, 0, 2), 2000.0);
 }

@@ -22,9 +22,9 @@ TEST_F(DriveFile, SixLinesAreADrive) {
     EXPECT_EQ(drive.views[0].name, "driver");
     EXPECT_EQ(drive.views[1].projection, Projection::map);
     EXPECT_EQ(drive.extent, ExtentParameters{});
-    ASSERT_EQ(drive.variants.size(), 1U);
-    ASSERT_EQ(drive.variants[0].lamps.size(), 2U);
-    const MountedLamp& left = drive.variants[0].lamps[0];
+    ASSERT_EQ(drive.lamp_sets.size(), 1U);
+    ASSERT_EQ(drive.lamp_sets[0].lamps.size(), 2U);
+    const MountedLamp& left = drive.lamp_sets[0].lamps[0];
     EXPECT_EQ(left.name, "left");
     EXPECT_EQ(left.position_m, glm::dvec3(3.4, 0.6, 0.65));
     EXPECT_EQ(left.pitch_rad, 0.0);
@@ -34,25 +34,25 @@ TEST_F(DriveFile, SixLinesAreADrive) {
 }
 
 TEST_F(DriveFile, EachLampFileIsReadOnceAndRecorded) {
-    const Drive drive = read("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 3\nvariants:\n  a: {file: low.ies}\n"
+    const Drive drive = read("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 3\nlamp_sets:\n  a: {file: low.ies}\n"
                              "  b: {lamps: {left: low.ies, right: {file: ./low.ies, between_samples: log_cd}}}\n");
-    EXPECT_EQ(drive.variants[0].lamps[0].file, drive.variants[0].lamps[1].file);
-    EXPECT_EQ(drive.variants[0].lamps[0].file, drive.variants[1].lamps[0].file);
-    EXPECT_NE(drive.variants[0].lamps[0].file, drive.variants[1].lamps[1].file) << "another rule between samples is another table";
-    EXPECT_EQ(drive.variants[1].lamps[1].file->table.rule, BetweenSamples::log_cd);
+    EXPECT_EQ(drive.lamp_sets[0].lamps[0].file, drive.lamp_sets[0].lamps[1].file);
+    EXPECT_EQ(drive.lamp_sets[0].lamps[0].file, drive.lamp_sets[1].lamps[0].file);
+    EXPECT_NE(drive.lamp_sets[0].lamps[0].file, drive.lamp_sets[1].lamps[1].file) << "another rule between samples is another table";
+    EXPECT_EQ(drive.lamp_sets[1].lamps[1].file->table.rule, BetweenSamples::log_cd);
     ASSERT_EQ(drive.opened.size(), 3U);
     EXPECT_EQ(drive.opened[0].path, folder / "drive.yaml");
     EXPECT_EQ(drive.opened[1].path, folder / "low.ies");
     EXPECT_EQ(drive.opened[1].bytes, ies_text(1000.0).size());
 }
 
-TEST_F(DriveFile, ALampsOwnKeysComeBeforeItsVariants) {
+TEST_F(DriveFile, ALampsOwnKeysComeBeforeItsLampSets) {
     const Drive drive =
-        read("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 3\nvariants:\n  a:\n    file: low.ies\n    source: arc\n"
+        read("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 3\nlamp_sets:\n  a:\n    file: low.ies\n    source: arc\n"
              "    voltage_v: 12.5\n    aim: {percent_down: 1}\n    lamps:\n      left: {level: 0.5}\n      right: other.ies\n"
              "      third: {source: filament, temperature_k: 3000, position_m: [1, 2, 3], aim: {yaw_deg: 90}}\n"
              "      fourth: {mount: left, spectrum: spectrum.csv}\n");
-    const std::vector<MountedLamp>& lamps = drive.variants[0].lamps;
+    const std::vector<MountedLamp>& lamps = drive.lamp_sets[0].lamps;
     ASSERT_EQ(lamps.size(), 4U);
     EXPECT_EQ(lamps[0].level, 0.5);
     EXPECT_EQ(lamps[0].source, SourceKind::arc);
@@ -62,31 +62,31 @@ TEST_F(DriveFile, ALampsOwnKeysComeBeforeItsVariants) {
     EXPECT_DOUBLE_EQ(intensity_cd(lamps[1].file->table, 0.0, 0.0), 2000.0);
     EXPECT_EQ(lamps[2].colour.cct_k, 3000.0);
     EXPECT_DOUBLE_EQ(lamps[2].yaw_rad, pi / 2.0);
-    EXPECT_EQ(lamps[2].pitch_rad, 0.0) << "an aim replaces the variant's whole aim";
+    EXPECT_EQ(lamps[2].pitch_rad, 0.0) << "an aim replaces the lamp set's whole aim";
     EXPECT_EQ(lamps[2].position_m, glm::dvec3(1.0, 2.0, 3.0));
     EXPECT_DOUBLE_EQ(lamps[2].intensity_factor(), std::pow(12.5 / 13.2, 3.4));
     EXPECT_EQ(lamps[3].position_m, lamps[0].position_m);
     EXPECT_GT(lamps[3].colour.sp_ratio, 0.0);
 }
 
-TEST_F(DriveFile, LampsOnTheCarAreOneVariant) {
+TEST_F(DriveFile, LampsOnTheCarAreOneLampSet) {
     const Drive drive =
         read("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 3\ncar:\n  bumper_x_m: 4\n  mounts: {middle: [4, 0, 1]}\n"
              "  lamps: {middle: low.ies}\n");
-    ASSERT_EQ(drive.variants.size(), 1U);
-    ASSERT_EQ(drive.variants[0].lamps.size(), 1U);
-    EXPECT_EQ(drive.variants[0].lamps[0].position_m, glm::dvec3(4.0, 0.0, 1.0));
+    ASSERT_EQ(drive.lamp_sets.size(), 1U);
+    ASSERT_EQ(drive.lamp_sets[0].lamps.size(), 1U);
+    EXPECT_EQ(drive.lamp_sets[0].lamps[0].position_m, glm::dvec3(4.0, 0.0, 1.0));
     EXPECT_EQ(drive.bumper_m, 4.0);
 }
 
 TEST_F(DriveFile, ChangesAreSortedAndNameTheirLamps) {
     const Drive drive =
-        read("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 3\nvariants:\n  a:\n    file: low.ies\n"
+        read("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 3\nlamp_sets:\n  a:\n    file: low.ies\n"
              "    changes:\n      - {at_s: 1, lamp: left, level: 0.25}\n      - {at_s: 2, lamp: left, file: other.ies, source: arc}\n"
              "changes:\n  - {at_s: 1.5, aim: {pitch_deg: -1}}\n  - {at_s: 1, lamps: [left, right], level: 0}\n");
-    const std::vector<LampChange>& changes = drive.variants[0].changes;
+    const std::vector<LampChange>& changes = drive.lamp_sets[0].changes;
     ASSERT_EQ(changes.size(), 6U);
-    EXPECT_EQ(changes[0].lamp + changes[1].lamp + changes[2].lamp, "leftrightleft") << "the variant's own come after the drive's";
+    EXPECT_EQ(changes[0].lamp + changes[1].lamp + changes[2].lamp, "leftrightleft") << "the lamp set's own come after the drive's";
     EXPECT_EQ(changes[2].level, 0.25);
     EXPECT_EQ(changes[3].time_s, 1.5);
     EXPECT_DOUBLE_EQ(*changes[3].pitch_rad, radians(-1.0));

@@ -53,29 +53,29 @@ TEST(Turn, AnglesGiveTheAxesBack) {
 
 TEST_F(LampMounts, OfTheOwnCarTurnItsLampsAndAimsAddToThem) {
     const Drive drive = read(minimal + "  two: {file: low.ies, aim: {pitch_deg: -0.5, yaw_deg: 1}}\ncar: {model: car.glb}\n");
-    ASSERT_EQ(drive.variants[0].lamps.size(), 2U) << "one for each low beam";
-    const MountedLamp& left = drive.variants[0].lamps[0];
+    ASSERT_EQ(drive.lamp_sets[0].lamps.size(), 2U) << "one for each low beam";
+    const MountedLamp& left = drive.lamp_sets[0].lamps[0];
     EXPECT_EQ(left.name, "left");
     EXPECT_NEAR(deg_left(left.pose()), 4.0, 1e-5);
     EXPECT_NEAR(deg_up(left.pose()), 1.0, 1e-5);
-    EXPECT_NEAR(deg_left(drive.variants[0].lamps[1].pose()), 0.0, 1e-9);
-    EXPECT_NEAR(deg_left(drive.variants[1].lamps[0].pose()), 5.0, 1e-3);
-    EXPECT_NEAR(deg_up(drive.variants[1].lamps[0].pose()), 0.5, 1e-3);
+    EXPECT_NEAR(deg_left(drive.lamp_sets[0].lamps[1].pose()), 0.0, 1e-9);
+    EXPECT_NEAR(deg_left(drive.lamp_sets[1].lamps[0].pose()), 5.0, 1e-3);
+    EXPECT_NEAR(deg_up(drive.lamp_sets[1].lamps[0].pose()), 0.5, 1e-3);
     EXPECT_NEAR(left.position_m.x, 3.604, 1e-5);
     EXPECT_NEAR(drive.bumper_m, 3.61, 0.02) << "where the model ends";
     EXPECT_TRUE(std::ranges::any_of(drive.opened, [&](const FileRead& file) { return file.path == folder / "car.glb"; }));
     const std::string written = write_drive(drive);
     const Drive again = read(written);
     EXPECT_EQ(write_drive(again), written);
-    EXPECT_EQ(again.variants[1].lamps[0].pose(), drive.variants[1].lamps[0].pose()) << "to the bit";
+    EXPECT_EQ(again.lamp_sets[1].lamps[0].pose(), drive.lamp_sets[1].lamps[0].pose()) << "to the bit";
 }
 
 TEST_F(LampMounts, CanBeNamedAndReplacedInTheDrive) {
     const Drive drive =
         read("fernlicht: 1\nroad: road.xodr\nspeed_kmh: 72\nduration_s: 3\ncar: {model: car.glb, bumper_x_m: 3.5, mounts: {left: "
-             "{position_m: [3.3, 0.7, 0.6], yaw_deg: -2}}}\nvariants: {one: {lamps: {left: low.ies, fog-centre: low.ies, spare: "
+             "{position_m: [3.3, 0.7, 0.6], yaw_deg: -2}}}\nlamp_sets: {one: {lamps: {left: low.ies, fog-centre: low.ies, spare: "
              "{file: low.ies, position_m: [3, 0, 1], mount_turn: {roll_deg: 10}}}}}\n");
-    const std::vector<MountedLamp>& lamps = drive.variants[0].lamps;
+    const std::vector<MountedLamp>& lamps = drive.lamp_sets[0].lamps;
     EXPECT_EQ(drive.bumper_m, 3.5);
     EXPECT_NEAR(deg_left(lamps[0].pose()), -2.0, 1e-9);
     EXPECT_EQ(lamps[0].position_m.x, 3.3);
@@ -92,7 +92,7 @@ TEST_F(LampMounts, CanBeNamedAndReplacedInTheDrive) {
 TEST_F(LampMounts, OfOthersTurnAndScaleWithTheirModel) {
     const std::string road = FERNLICHT_SOURCE_DIR "/scenarios/library/roads/straight.xodr";
     Drive drive = read("fernlicht: 1\nroad: " + road +
-                       "\nspeed_kmh: 72\nduration_s: 3\nvariants: {one: {file: low.ies}}\n"
+                       "\nspeed_kmh: 72\nduration_s: 3\nlamp_sets: {one: {file: low.ies}}\n"
                        "traffic: {other: {model: car.glb, yaw_deg: 180, scale: 2, ahead: {gap_m: 40}, speed_mps: 0, file: low.ies, "
                        "tail_cd: 5}}\n");
     const std::string written = write_drive(drive);

@@ -24,16 +24,17 @@ TEST_F(SeeingKeys, AreOffUnlessAsked) {
 TEST_F(SeeingKeys, AreReadAndHaveDefaults) {
     const SeeingParameters short_form = seeing("sensors: {points: {edge: {at_m: 90}}}, glare: {oncoming: {a: {at_m: 80}}, mirrors: true}");
     EXPECT_EQ(short_form.sensors->points, (std::vector<Sensor>{{"edge", 90.0, Across::own_centre, 0.25}}));
-    EXPECT_EQ(short_form.sensors->limits_lx, SensorParameters{}.limits_lx);
+    EXPECT_EQ(short_form.sensors->thresholds_lx, SensorParameters{}.thresholds_lx);
     EXPECT_EQ(short_form.glare->oncoming, (std::vector<GlareObserver>{{"a", 80.0, 1.1, 0.0}}));
     EXPECT_EQ(short_form.glare->mirrors, MirrorParameters{});
     EXPECT_EQ(short_form.glare->equation, VeilingEquation::cie_general);
     const SeeingParameters long_form = seeing(
-        "sensors: {limits_lx: [5], distances_m: [], points: {e: {at_m: 1, across: left-edge, above_m: 1.5}}}, glare: {oncoming: {a: "
+        "sensors: {thresholds_lx: [5], distances_m: [], points: {e: {at_m: 1, across: left-edge, above_m: 1.5}}}, glare: {oncoming: {a: "
         "{at_m: 80, eye_height_m: 2, look_ahead_m: 30}}, mirrors: {gaps_m: [10], eye_m: [1, 0, 1.5], reflectance: 0.4, places: {m: [2, 1, "
         "1]}}, equation: "
-        "age-adjusted, age_years: 60, pigmentation: 1.2, adaptation_cdm2: 0.3, distances_m: [50], limits_lx: [2], limits_percent: [15], "
-        "limits_de_boer: [4]}");
+        "age-adjusted, age_years: 60, pigmentation: 1.2, adaptation_cdm2: 0.3, distances_m: [50], thresholds_lx: [2], thresholds_percent: "
+        "[15], "
+        "thresholds_de_boer: [4]}");
     EXPECT_EQ(long_form.sensors, (SensorParameters{{5.0}, {}, {{"e", 1.0, Across::left_edge, 1.5}}}));
     const GlareParameters expected{{{"a", 80.0, 2.0, 30.0}},
                                    MirrorParameters{{10.0}, {1.0, 0.0, 1.5}, 0.4, {{"m", {2.0, 1.0, 1.0}}}},
@@ -57,12 +58,12 @@ TEST_F(SeeingKeys, VisibilityHomogeneityAndPlaces) {
     const SeeingParameters long_form = seeing("visibility: {targets: {card: true, sign: {size_m: 0.3, squares: 2, reflectance: 0.1, level: "
                                               "9, across: [left-edge]}}, dark_cdm2: 0.1, "
                                               "age_years: 60, time_s: 2, k: 3, ahead_m: 90, step_m: 0.5, distances_m: [40]}, homogeneity: "
-                                              "{least_lx: 2, ahead_m: 70, patch_factor: 1.2}, places: {what: [boards], distances_m: [33]}");
+                                              "{min_lx: 2, ahead_m: 70, patch_factor: 1.2}, places: {what: [boards], distances_m: [33]}");
     EXPECT_EQ(long_form.visibility,
               (VisibilityParameters{
-                  {usual_targets()[0], {"sign", 0.3, 2, 0.1, 9.0, {Across::left_edge}}}, 0.1, 60.0, 2.0, 3.0, 90.0, 0.5, {40.0}}));
+                  {default_targets()[0], {"sign", 0.3, 2, 0.1, 9.0, {Across::left_edge}}}, 0.1, 60.0, 2.0, 3.0, 90.0, 0.5, {40.0}}));
     EXPECT_EQ(seeing("visibility: {targets: [pedestrian-light, card]}").visibility.value().targets,
-              (std::vector<VisibilityTarget>{usual_targets()[2], usual_targets()[0]}));
+              (std::vector<VisibilityTarget>{default_targets()[2], default_targets()[0]}));
     EXPECT_THAT(refused("visibility: {targets: [cart]}"),
                 HasSubstr("found 'cart', expected one of card, pedestrian-dark, pedestrian-light"));
     EXPECT_THAT(refused("visibility: {targets: [card, card]}"), HasSubstr("'card' twice"));
@@ -84,7 +85,7 @@ TEST_F(SeeingKeys, AreWrittenAsTheyWereRead) {
           "glare: {oncoming: {a: {at_m: 80.3}}, mirrors: true, equation: stiles-holladay}", "glare: {mirrors: {places: {x: [1, 2, 3]}}}",
           "visibility: {targets: {'1': {reflectance: 0.3, level: 8.5, across: [own-centre, right-edge]}, card: true}, k: 2.61}, "
           "homogeneity: {ahead_m: 77.7}, places: [boards, markings]",
-          "extent: false, probes: {p: {ahead_m: 3}}, glare: {oncoming: {a: {at_m: 1}}, limits_lx: [], distances_m: []}"}) {
+          "extent: false, probes: {p: {ahead_m: 3}}, glare: {oncoming: {a: {at_m: 1}}, thresholds_lx: [], distances_m: []}"}) {
         const Drive drive = read(minimal + "measure: {" + measure + "}\n");
         EXPECT_EQ(read(write_drive(drive)).seeing, drive.seeing) << measure;
     }
@@ -99,7 +100,7 @@ TEST_F(SeeingKeys, RefuseWhatTheyCannotUse) {
     EXPECT_THAT(refused("glare: {mirrors: true, age_years: 5}"), HasSubstr("measure.glare.age_years: found '5'"));
     EXPECT_THAT(refused("glare: {mirrors: {eye_m: [1, 1, 1], places: {m: [1, 1, 1]}}}"), HasSubstr("a mirror in the driver's eye"));
     EXPECT_THAT(refused("glare: {mirrors: {places: {}}}"), HasSubstr("measure.glare.mirrors.places"));
-    EXPECT_THAT(refused("glare: {mirrors: true, limits_de_boer: [0.5]}"), HasSubstr("limits_de_boer"));
+    EXPECT_THAT(refused("glare: {mirrors: true, thresholds_de_boer: [0.5]}"), HasSubstr("thresholds_de_boer"));
     EXPECT_THAT(refused("sensors: {}"), HasSubstr("measure.sensors.points: missing"));
     EXPECT_THAT(refused("sensors: {points: {a: {at_m: 3, across: kerb}}}"), HasSubstr("found 'kerb'"));
     EXPECT_THAT(refused("sensors: {points: {a: {at_m: -3}}}"), HasSubstr("measure.sensors.points.a.at_m: found '-3'"));

@@ -19,9 +19,9 @@ void share_files(const Drive& a, Drive& b) {
                 return;
             }
     };
-    for (Variant& variant : b.variants) {
-        std::ranges::for_each(variant.lamps, share, &MountedLamp::file);
-        std::ranges::for_each(variant.changes, share, &LampChange::file);
+    for (LampSet& lamp_set : b.lamp_sets) {
+        std::ranges::for_each(lamp_set.lamps, share, &MountedLamp::file);
+        std::ranges::for_each(lamp_set.changes, share, &LampChange::file);
     }
     std::ranges::for_each(b.street_lamps, share, &StreetLampRow::file);
 }
@@ -39,7 +39,7 @@ void expect_same(const Drive& a, Drive b) {
                         x.on_objects) == std::tie(y.name, y.file, y.first_m, y.last_m, y.every_m, y.beside_m, y.height_m, y.arm_m,
                                                   y.tilt_rad, y.level, y.colour, y.on_objects);
     }));
-    EXPECT_TRUE(std::ranges::equal(a.variants, b.variants, [](const Variant& x, const Variant& y) {
+    EXPECT_TRUE(std::ranges::equal(a.lamp_sets, b.lamp_sets, [](const LampSet& x, const LampSet& y) {
         return std::tie(x.name, x.lamps, x.changes, x.levelling, x.swivel) == std::tie(y.name, y.lamps, y.changes, y.levelling, y.swivel);
     }));
     EXPECT_EQ(a.views, b.views);
@@ -111,7 +111,7 @@ class AnyDrive {
         drive.bumper_m = number(2.0, 5.0);
         drive.wheelbase_m = number(2.0, 4.0);
         for (int i = 0; i <= whole(0, 2); ++i)
-            drive.variants.push_back(variant("v" + std::to_string(i)));
+            drive.lamp_sets.push_back(lamp_set("v" + std::to_string(i)));
         if (coin())
             add_vehicle(drive);
         drive.lamp_sources = sources_;
@@ -140,7 +140,7 @@ class AnyDrive {
                                 number(20.0, 80.0)};
         if (coin())
             drive.seeing.visibility = VisibilityParameters{
-                {usual_targets()[1], {"t", number(0.1, 1.0), 2, number(0.0, 1.0), number(5.0, 20.0), {Across::left_edge}}},
+                {default_targets()[1], {"t", number(0.1, 1.0), 2, number(0.0, 1.0), number(5.0, 20.0), {Across::left_edge}}},
                 number(0.0, 0.1)};
         if (coin())
             drive.seeing.homogeneity = HomogeneityParameters{number(0.1, 3.0), number(20.0, 90.0), number(1.1, 2.0)};
@@ -226,15 +226,15 @@ class AnyDrive {
         for (int i = 0; i < whole(0, 3); ++i)
             car.road_steps.push_back({10.0 * i + number(0.0, 9.0), number(-0.1, 0.1)});
         drive.vehicle = car;
-        for (Variant& variant : drive.variants) {
+        for (LampSet& lamp_set : drive.lamp_sets) {
             if (coin())
-                variant.levelling = LevellingParameters{coin() ? LevellingControl::slow : LevellingControl::dynamic, actuator()};
+                lamp_set.levelling = LevellingParameters{coin() ? LevellingControl::slow : LevellingControl::dynamic, actuator()};
             if (coin())
-                variant.swivel = SwivelParameters{number(0.0, 5.0), actuator()};
+                lamp_set.swivel = SwivelParameters{number(0.0, 5.0), actuator()};
         }
     }
-    Variant variant(const std::string& named) {
-        Variant result{named, {}, {}};
+    LampSet lamp_set(const std::string& named) {
+        LampSet result{named, {}, {}};
         for (const char* lamp : {"left", "right", "null"}) {
             MountedLamp mounted;
             mounted.name = lamp;

@@ -32,7 +32,7 @@ class BusDriveTest : public DriveFixture {
     /// A car at 36 km/h on a library road with these keys of `can`.
     static std::string on(const char* road, const char* duration_s, const std::string& keys) {
         return fmt::format("fernlicht: 1\nroad: {0}/scenarios/library/roads/{1}.xodr\nspeed_kmh: 36\nduration_s: {2}\nstep_s: 0.1\n"
-                           "variants: {{one: {{file: low.ies}}}}\ncan:\n  databases: {0}/scenarios/library/can/mock-up.dbc\n"
+                           "lamp_sets: {{one: {{file: low.ies}}}}\ncan:\n  databases: {0}/scenarios/library/can/mock-up.dbc\n"
                            "  log: bus.log\n  inputs: {3}\n",
                            FERNLICHT_SOURCE_DIR, road, duration_s, keys);
     }
@@ -67,7 +67,7 @@ class BusDriveTest : public DriveFixture {
     static std::vector<CanFrame> recording_of(const StagedDrive& script) {
         FilesRead opened;
         std::vector<std::string> notes;
-        return recorded_inputs(script.drive, script.route, script.drive.variants[1], opened, notes);
+        return recorded_inputs(script.drive, script.route, script.drive.lamp_sets[1], opened, notes);
     }
 };
 
@@ -89,7 +89,7 @@ TEST_F(BusDriveTest, SignalsThatSayTheSameAsTheScriptMakeTheSameMoments) {
     // A ramp in pieces of 20 ms is the same ramp but for the rounding of its sums.
     EXPECT_LT(place_m, 1e-9);
     EXPECT_LT(turn_rad, 1e-9);
-    EXPECT_EQ(script.drive.variants[1].motion->control->rows.size(), bus.drive.variants[1].motion->control->rows.size());
+    EXPECT_EQ(script.drive.lamp_sets[1].motion->control->rows.size(), bus.drive.lamp_sets[1].motion->control->rows.size());
 }
 
 TEST_F(BusDriveTest, QuantisedSignalsMoveThingsAsFarAsTheirSteps) {
@@ -157,13 +157,13 @@ TEST_F(BusDriveTest, TickByTickIsTheSameAsBeforehand) {
     ASSERT_EQ(static_cast<int>(moments.size()), tick_count(before.drive));
     for (int tick = 0; tick < tick_count(before.drive); ++tick)
         expect_same(before.at_tick(tick, 1), moments[static_cast<std::size_t>(tick)]);
-    const Motion& motion = *before.drive.variants[1].motion;
+    const Motion& motion = *before.drive.lamp_sets[1].motion;
     ASSERT_EQ(sent.size(), motion.sent.size());
     EXPECT_TRUE(sent == motion.sent);
-    ASSERT_EQ(live.drive.variants[1].motion->control->rows.size(), motion.control->rows.size());
+    ASSERT_EQ(live.drive.lamp_sets[1].motion->control->rows.size(), motion.control->rows.size());
     for (std::size_t row = 0; row < motion.control->rows.size(); ++row)
         for (std::size_t place = 0; place < motion.control->rows[row].size(); ++place) {
-            const double a = motion.control->rows[row][place], b = live.drive.variants[1].motion->control->rows[row][place];
+            const double a = motion.control->rows[row][place], b = live.drive.lamp_sets[1].motion->control->rows[row][place];
             EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << motion.control->signals[place] << " in row " << row;
         }
     EXPECT_EQ(live.drive.duration_s, before.drive.duration_s);
@@ -200,7 +200,7 @@ TEST_F(BusDriveTest, TheRouteEndsTheDrive) {
     drive.finish();
     EXPECT_EQ(live.drive.duration_s, before.drive.duration_s);
     EXPECT_EQ(drive.moments(), tick_count(before.drive));
-    EXPECT_EQ(live.drive.variants[0].motion->control->ticks, before.drive.variants[0].motion->control->ticks);
+    EXPECT_EQ(live.drive.lamp_sets[0].motion->control->ticks, before.drive.lamp_sets[0].motion->control->ticks);
 }
 
 TEST_F(BusDriveTest, CommandsLevelsAndMeasuredAnglesReachTheLamps) {

@@ -110,18 +110,18 @@ struct MomentTest : testing::Test {
         drive.daylight = {"moon", 0.2};
         MountedLamp lamp{
             .name = "left", .file = std::make_shared<const LampFile>(), .position_m = {3.4, 0.6, 0.65}, .pitch_rad = radians(-1.0)};
-        variant.lamps = {lamp, lamp};
-        variant.lamps[1].name = "right";
-        variant.lamps[1].position_m.y = -0.6;
+        lamp_set.lamps = {lamp, lamp};
+        lamp_set.lamps[1].name = "right";
+        lamp_set.lamps[1].position_m.y = -0.6;
     }
     Moment at(int tick) {
-        return moment_at({tick, tick * drive.step_s, distance_m(drive.speed, tick * drive.step_s), 10.0}, drive, route, variant);
+        return moment_at({tick, tick * drive.step_s, distance_m(drive.speed, tick * drive.step_s), 10.0}, drive, route, lamp_set);
     }
 
     RoadNetwork roads = network(straight(), {{0.0, 0.0, 0.02, 0.0, 0.0}});
     Route route{roads, {}};
     Drive drive;
-    Variant variant{"v", {}, {}};
+    LampSet lamp_set{"v", {}, {}};
 };
 
 TEST_F(MomentTest, LampsRideOnTheCar) {
@@ -144,7 +144,7 @@ TEST_F(MomentTest, ChangesHoldFromTheirMomentOn) {
             dip.file = other;
         if (second == 6)
             dip.pitch_rad = radians(-2.0);
-        variant.changes.push_back(dip);
+        lamp_set.changes.push_back(dip);
     }
     for (int second = 1; second <= 9; ++second) {
         // On the tick itself: 30 * second * (1 / 30) s may lie a rounding error before the second.
@@ -152,7 +152,7 @@ TEST_F(MomentTest, ChangesHoldFromTheirMomentOn) {
         EXPECT_DOUBLE_EQ(at(30 * second - 1).lamps[0].intensity_factor, second == 1 ? 1.0 : (second - 1) * 0.1) << second;
         EXPECT_EQ(at(30 * second).lamps[1].intensity_factor, 1.0) << "the right lamp was not named";
     }
-    EXPECT_EQ(at(149).lamps[0].file, variant.lamps[0].file);
+    EXPECT_EQ(at(149).lamps[0].file, lamp_set.lamps[0].file);
     EXPECT_EQ(at(150).lamps[0].file, other);
     EXPECT_NEAR(pitch_rad(at(179).lamps[0].pose), std::atan(0.02) + radians(-1.0), 1e-9);
     EXPECT_NEAR(pitch_rad(at(299).lamps[0].pose), std::atan(0.02) + radians(-2.0), 1e-9);
@@ -234,7 +234,7 @@ class PlacedTraffic : public testing::Test {
     Drive read(const std::string& traffic) {
         return read_drive(tests::written("traffic.yaml", "fernlicht: 1\nroad: " FERNLICHT_SOURCE_DIR
                                                          "/scenarios/library/roads/straight.xodr\nspeed_mps: 20\nduration_s: 4\n"
-                                                         "variants: {one: {file: " +
+                                                         "lamp_sets: {one: {file: " +
                                                              std::string(lamp) + "}}\n" + traffic));
     }
     Moment moment(Drive& drive, double time_s) {
@@ -242,7 +242,7 @@ class PlacedTraffic : public testing::Test {
         const Route route(network, drive.start, drive.via);
         drive.traffic.clear();
         place_traffic(drive, network, route);
-        return moment_at({0, time_s, distance_m(drive.speed, time_s), 20.0}, drive, route, drive.variants[0]);
+        return moment_at({0, time_s, distance_m(drive.speed, time_s), 20.0}, drive, route, drive.lamp_sets[0]);
     }
     std::string row(const std::string& keys) { return "traffic: {other: {file: " + std::string(lamp) + ", " + keys + "}}\n"; }
 
@@ -291,13 +291,13 @@ TEST_F(PlacedTraffic, WhoLeavesTheRoadIsGoneAndNobodyHasNoPlace) {
 }
 
 TEST_F(PlacedTraffic, AResolvedDriveReadsBackToTheSameTraffic) {
-    const Drive drive = read("traffic_light: {least_lx: 0.05}\n" +
+    const Drive drive = read("traffic_light: {min_lx: 0.05}\n" +
                              row("kind: van, size_m: [5, 1.9, 2], oncoming: {gap_m: 33.3}, speed_mps: 7, changes: [{at_s: 1, level: 0.3}], "
                                  "face_m: [0.2, 0.1], tail_cd: 5, brake_cd: 70, repeat: {count: 2, every_m: 11}") +
                              "");
     const std::string written = write_drive(drive);
     EXPECT_EQ(write_drive(read_drive(tests::written("again.yaml", written))), written);
-    EXPECT_THAT(written, testing::HasSubstr("least_lx: 0.05"));
+    EXPECT_THAT(written, testing::HasSubstr("min_lx: 0.05"));
     EXPECT_EQ(write_drive(read("")).find("traffic:"), std::string::npos) << "a drive without traffic says nothing of it";
 }
 

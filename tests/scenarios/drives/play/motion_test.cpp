@@ -18,11 +18,11 @@ double climb_rad(const Pose& pose) { return std::atan2(pose.forward().z, std::hy
 
 TEST(Motion, RunsOnRailsWithoutAVehicleWhichMustBeSimulatedFirst) {
     const StagedDrive played(read_drive(shipped_drives / "straight.yaml"));
-    EXPECT_EQ(played.drive.variants[0].motion, nullptr);
+    EXPECT_EQ(played.drive.lamp_sets[0].motion, nullptr);
     EXPECT_EQ(played.at(3.0).ego, ego_pose(played.route, distance_m(played.drive.speed, 3.0), played.drive.wheelbase_m));
     const Drive drive = read_drive(shipped_drives / "braking.yaml");
     const RoadNetwork network = read_opendrive(drive.road_file);
-    EXPECT_THROW(moment_at(start(drive), drive, Route(network, drive.start), drive.variants[0]), std::logic_error);
+    EXPECT_THROW(moment_at(start(drive), drive, Route(network, drive.start), drive.lamp_sets[0]), std::logic_error);
 }
 
 TEST(Motion, BrakingDipsTheLampsAndLevellingLiftsThem) {
@@ -37,8 +37,8 @@ TEST(Motion, BrakingDipsTheLampsAndLevellingLiftsThem) {
     EXPECT_NEAR(fixed.speed_mps, speed_mps(played.drive.speed, 4.5), 0.6);
     EXPECT_THAT(played.drive.notes, testing::Contains(HasSubstr("vehicle: dormand-prince for")));
     EXPECT_THAT(played.drive.notes, testing::Not(testing::Contains(HasSubstr("levelling")))) << "they would stand under both lamp sets";
-    EXPECT_THAT(played.drive.variants[0].motion->notes, testing::IsEmpty());
-    EXPECT_THAT(played.drive.variants[1].motion->notes, testing::ElementsAre(testing::StartsWith("levelling: dormand-prince for")));
+    EXPECT_THAT(played.drive.lamp_sets[0].motion->notes, testing::IsEmpty());
+    EXPECT_THAT(played.drive.lamp_sets[1].motion->notes, testing::ElementsAre(testing::StartsWith("levelling: dormand-prince for")));
 }
 
 TEST(Motion, DoesNotKnowTheFrameRate) {
@@ -49,28 +49,28 @@ TEST(Motion, DoesNotKnowTheFrameRate) {
     drive.step_s = 10.0;
     const StagedDrive very_coarse(drive);
     for (double time_s = 0.0; time_s < 12.0; time_s += 0.173)
-        for (const std::size_t variant : {0U, 1U}) {
-            EXPECT_EQ(coarse.at(time_s, variant).ego, fine.at(time_s, variant).ego);
-            EXPECT_EQ(coarse.at(time_s, variant).lamps[0].pose, very_coarse.at(time_s, variant).lamps[0].pose);
+        for (const std::size_t lamp_set : {0U, 1U}) {
+            EXPECT_EQ(coarse.at(time_s, lamp_set).ego, fine.at(time_s, lamp_set).ego);
+            EXPECT_EQ(coarse.at(time_s, lamp_set).lamps[0].pose, very_coarse.at(time_s, lamp_set).lamps[0].pose);
         }
 }
 
 TEST(Motion, FollowsTheCountryRoad) {
     Drive drive = read_drive(shipped_drives / "country.yaml");
     drive.vehicle = VehicleParameters{};
-    drive.variants[0].swivel = SwivelParameters{};
+    drive.lamp_sets[0].swivel = SwivelParameters{};
     const StagedDrive played(drive);
-    double furthest_m = 0.0, most_rad = 0.0;
+    double furthest_m = 0.0, max_rad = 0.0;
     for (double time_s = 0.0; time_s < played.drive.duration_s; time_s += 0.1) {
         const Moment moment = played.at(time_s);
         const glm::dvec3 beside = to_local(played.route.pose(moment.distance_m), moment.ego.position_m);
         furthest_m = std::max(furthest_m, std::abs(beside.y));
         EXPECT_NEAR(beside.z, 0.0, 0.02) << "the springs move little on a smooth road";
-        most_rad = std::max(most_rad, std::abs(played.drive.variants[0].motion->swivel->angle_rad(time_s)));
+        max_rad = std::max(max_rad, std::abs(played.drive.lamp_sets[0].motion->swivel->angle_rad(time_s)));
     }
     EXPECT_LT(furthest_m, 0.25);
     // The tightest bend is 180 m: half of 19.4 m/s * 1.5 s / 180 m.
-    EXPECT_NEAR(most_rad, 0.5 * 19.44 * 1.5 / 180.0, 0.012);
+    EXPECT_NEAR(max_rad, 0.5 * 19.44 * 1.5 / 180.0, 0.012);
 }
 
 TEST(Motion, AStepInTheRoadIsFeltByEachAxleInTurn) {
@@ -79,7 +79,7 @@ TEST(Motion, AStepInTheRoadIsFeltByEachAxleInTurn) {
     drive.vehicle->road_steps = {{60.0, 0.03}, {120.0, -0.03}};
     drive.vehicle->tolerance = 1.0e-9;
     const StagedDrive played(drive);
-    const CarRun& car = *played.drive.variants[0].motion->car;
+    const CarRun& car = *played.drive.lamp_sets[0].motion->car;
     EXPECT_EQ(car.work().events, 4U);
     // When the front axle comes to the step: by the car's own distance. Before it nothing has happened, just after it the wheel is 3 cm
     // low.
@@ -156,27 +156,28 @@ TEST_F(VehicleKeys, AreReadWithTheirDefaults) {
     const Drive plain = read(minimal), words = read(minimal + "vehicle: single-track\nactuators: {levelling: static, swivel: true}\n");
     EXPECT_FALSE(plain.vehicle);
     EXPECT_EQ(words.vehicle, VehicleParameters{});
-    EXPECT_EQ(words.variants[0].levelling->control, LevellingControl::slow);
-    EXPECT_EQ(words.variants[0].swivel, SwivelParameters{});
+    EXPECT_EQ(words.lamp_sets[0].levelling->control, LevellingControl::slow);
+    EXPECT_EQ(words.lamp_sets[0].swivel, SwivelParameters{});
     const Drive own = read(minimal + "vehicle: {mass_kg: 1800, rear: {spring_n_per_m: 5e4}, road_steps: [{at_m: 3, height_m: -0.01}], "
-                                     "solver: rosenbrock}\nactuators: {levelling: {rate_limit_deg_s: 10, least_deg: -2}}\n");
+                                     "solver: rosenbrock}\nactuators: {levelling: {rate_limit_deg_s: 10, min_deg: -2}}\n");
     EXPECT_EQ(own.vehicle->mass_kg, 1800.0);
     EXPECT_EQ(own.vehicle->rear.spring_n_per_m, 5.0e4);
     EXPECT_EQ(own.vehicle->rear.damper_ns_per_m, VehicleParameters{}.rear.damper_ns_per_m);
     EXPECT_EQ(own.vehicle->road_steps, (std::vector<RoadStep>{{3.0, -0.01}}));
     EXPECT_EQ(own.vehicle->solver, Solver::rosenbrock);
-    EXPECT_EQ(own.variants[0].levelling->actuator.rate_limit_rad_s, radians(10.0));
-    EXPECT_EQ(own.variants[0].levelling->actuator.least_rad, radians(-2.0));
-    EXPECT_FALSE(own.variants[0].swivel);
-    EXPECT_FALSE(read(minimal + "vehicle: single-track\nactuators: {levelling: none, swivel: false}\n").variants[0].levelling);
+    EXPECT_EQ(own.lamp_sets[0].levelling->actuator.rate_limit_rad_s, radians(10.0));
+    EXPECT_EQ(own.lamp_sets[0].levelling->actuator.min_rad, radians(-2.0));
+    EXPECT_FALSE(own.lamp_sets[0].swivel);
+    EXPECT_FALSE(read(minimal + "vehicle: single-track\nactuators: {levelling: none, swivel: false}\n").lamp_sets[0].levelling);
 }
 
-TEST_F(VehicleKeys, AVariantsActuatorsReplaceTheDrives) {
-    const std::string drive = "fernlicht: 1\nroad: road.xodr\nspeed_kmh: 72\nduration_s: 3\nvehicle: single-track\n"
-                              "actuators: {levelling: dynamic}\nvariants:\n  one: {file: low.ies}\n  two: {file: low.ies, actuators: {}}\n";
+TEST_F(VehicleKeys, ALampSetsActuatorsReplaceTheDrives) {
+    const std::string drive =
+        "fernlicht: 1\nroad: road.xodr\nspeed_kmh: 72\nduration_s: 3\nvehicle: single-track\n"
+        "actuators: {levelling: dynamic}\nlamp_sets:\n  one: {file: low.ies}\n  two: {file: low.ies, actuators: {}}\n";
     const Drive read_back = read(drive);
-    EXPECT_TRUE(read_back.variants[0].levelling);
-    EXPECT_FALSE(read_back.variants[1].levelling);
+    EXPECT_TRUE(read_back.lamp_sets[0].levelling);
+    EXPECT_FALSE(read_back.lamp_sets[1].levelling);
 }
 
 TEST_F(VehicleKeys, AreRefusedInASentence) {
@@ -198,7 +199,7 @@ TEST_F(VehicleKeys, AreRefusedInASentence) {
     EXPECT_THAT(refusal(minimal + "vehicle: {road_steps: [{at_m: 3, height_m: 0.1}, {at_m: 3, height_m: 0.1}]}\n"),
                 HasSubstr("places that ascend"));
     EXPECT_THAT(refusal(minimal + "actuators: {levelling: dynamic}\n"), HasSubstr("actuators in a drive without a vehicle"));
-    EXPECT_THAT(refusal(minimal + "vehicle: single-track\nactuators: {levelling: {least_deg: 1}}\n"), HasSubstr("0 not outside"));
+    EXPECT_THAT(refusal(minimal + "vehicle: single-track\nactuators: {levelling: {min_deg: 1}}\n"), HasSubstr("0 not outside"));
     EXPECT_THAT(refusal(minimal + "vehicle: single-track\nactuators: {lifting: dynamic}\n"), HasSubstr("actuators.lifting: unknown key"));
 }
 

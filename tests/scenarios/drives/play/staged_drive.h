@@ -21,14 +21,14 @@ struct StagedDrive {
         place_traffic(drive, network, route);
         simulate_control(drive, route);
     }
-    Moment at_tick(int tick, std::size_t variant) const {
-        return moment_at(state_at(tick, drive), drive, route, drive.variants.at(variant));
+    Moment at_tick(int tick, std::size_t lamp_set) const {
+        return moment_at(state_at(tick, drive), drive, route, drive.lamp_sets.at(lamp_set));
     }
     /// By the drive's own speed.
-    Moment at(double time_s, std::size_t variant = 0) const {
+    Moment at(double time_s, std::size_t lamp_set = 0) const {
         const int tick = static_cast<int>(std::lround(time_s / drive.step_s));
         return moment_at({tick, time_s, distance_m(drive.speed, time_s), speed_mps(drive.speed, time_s)}, drive, route,
-                         drive.variants.at(variant));
+                         drive.lamp_sets.at(lamp_set));
     }
 };
 

@@ -153,7 +153,7 @@ TEST(SpotFit, ALoneSampleIsANarrowCone) {
 TEST(SpotFit, ShippedLowBeamsWithEightSpots) {
     for (const std::size_t model : {0u, 2u}) { // halogen and xenon
         const CandelaTable table = lamp_of_model(lamp_models()[model]).table;
-        const SpotFit fit = fit_spots(table, most_spots);
+        const SpotFit fit = fit_spots(table, max_spots);
         EXPECT_EQ(fit.spots.size(), 8u);
         expect_legal(fit);
         EXPECT_LT(fit.relative_l2, 0.5); // the bells of OpenGL are wider than the hot spot, and no cut-off is straight

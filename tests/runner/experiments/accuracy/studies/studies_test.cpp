@@ -74,7 +74,7 @@ TEST(TrafficShadowStudy, MapsBringStreetLampsShadowsNearerToTheRays) {
     }
     const Stage stage(drive);
     Device device = open_device("auto");
-    const WorkPrecision diagram = traffic_shadow_study(stage, stage.drive.variants.front(), device, [] { return true; });
+    const WorkPrecision diagram = traffic_shadow_study(stage, stage.drive.lamp_sets.front(), device, [] { return true; });
     ASSERT_EQ(diagram.rows.size(), 4U);
     for (const WorkPrecisionRow& row : diagram.rows)
         ASSERT_TRUE(row.measured()) << row.label;
@@ -89,7 +89,7 @@ TEST(TrafficShadowStudy, HasNoRowsWithoutShadows) {
     drive.shadows.method = ShadowMethod::none;
     const Stage stage(drive);
     Device device = open_device("auto");
-    EXPECT_TRUE(traffic_shadow_study(stage, stage.drive.variants.front(), device, [] { return true; }).rows.empty());
+    EXPECT_TRUE(traffic_shadow_study(stage, stage.drive.lamp_sets.front(), device, [] { return true; }).rows.empty());
 }
 
 } // namespace

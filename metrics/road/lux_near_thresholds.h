@@ -1,0 +1,60 @@
+// Illuminance on a grid that is exact only where it decides. An extent asks of most points no more than on which side of each limit they
+// lie; how much light there is matters where the isolux lines run.
+#pragma once
+
+#include "metrics/road/extent.h"
+#include "scenarios/light/light_bounds.h"
+
+#include <cmath>
+#include <oneapi/tbb/parallel_for.h>
+#include <vector>
+
+namespace fernlicht {
+
+/// Number of limits that an illuminance reaches; `undecided_side` where its bounds do not tell.
+using LimitSide = std::uint8_t;
+inline constexpr LimitSide undecided_side = 255;
+inline LimitSide limit_side(const LuxBounds& bounds, const std::vector<double>& thresholds_lx) {
+    constexpr double hair = 1e-9; // what lies between two points is interpolated, and rounded
+    const double low_lx = bounds.low_lx * (1.0 - hair), high_lx = bounds.high_lx * (1.0 + hair);
+    if (!(std::isfinite(low_lx) && std::isfinite(high_lx)) || thresholds_lx.size() >= undecided_side)
+        return undecided_side;
+    unsigned low = 0, high = 0;
+    for (const double limit : thresholds_lx) {
+        low += low_lx >= limit ? 1U : 0U;
+        high += high_lx >= limit ? 1U : 0U;
+    }
+    return low == high ? static_cast<LimitSide>(low) : undecided_side;
+}
+
+/// Row-major, like `sides`: 1 where a point within two rows and two columns, itself included, is undecided or lies on another side of a
+/// limit, and wherever a lane's edge runs across columns faster than that. Two, because a grid of half the samples is measured too.
+std::vector<unsigned char> deciding_points(const ExtentGrid& grid, const std::vector<LimitSide>& sides);
+
+/// Row-major values on the grid: exact_lx(i) at the points that decide, elsewhere a value that reaches the same limits. bounds_lx(i) hold
+/// exact_lx(i). measure_extent and grid_error find the same in them as in exact values everywhere.
+template <class Bounds, class Exact> std::vector<double>
+lux_near_thresholds(const ExtentGrid& grid, const std::vector<double>& thresholds_lx, Bounds bounds_lx, Exact exact_lx) {
+    std::vector<double> lx(grid.surface.size());
+    std::vector<LimitSide> sides(lx.size());
+    const auto at_every_point = [&](auto at_point) {
+        const std::size_t columns = grid.offset_m.size();
+        oneapi::tbb::parallel_for(std::size_t{0}, grid.ahead_m.size(), [&](std::size_t row) {
+            for (std::size_t i = row * columns; i < (row + 1) * columns; ++i)
+                at_point(i);
+        });
+    };
+    at_every_point([&](std::size_t i) {
+        const LuxBounds bounds = bounds_lx(i);
+        lx[i] = bounds.low_lx;
+        sides[i] = limit_side(bounds, thresholds_lx);
+    });
+    const std::vector<unsigned char> decides = deciding_points(grid, sides);
+    at_every_point([&](std::size_t i) {
+        if (decides[i] != 0)
+            lx[i] = exact_lx(i);
+    });
+    return lx;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,167 @@
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
+
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace fernlicht {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t max_framed = 4; ///< zones; more would hide the picture
+
+Json measured_json(const std::optional<FittedFigure>& measured) {
+    return measured ? Json{{"value", measured->value}, {"standard_error", measured->uncertainty}} : Json(nullptr);
+}
+
+void refuse_darkness(const LampFile& lamp) {
+    if (!(peak_of(lamp.table).cd > 0.0))
+        throw InputError({lamp.opened.empty() ? std::filesystem::path() : lamp.opened.front().path, 0, 0, {}}, "found no light in it",
+                         "a lamp that shines");
+}
+
+/// The directions with at least 1 % of the peak, and a little round them.
+void show_beam(plots::Figure& figure, const CandelaTable& table) {
+    const double min_cd = 0.01 * peak_of(table).cd;
+    double left = table.h_deg.back(), right = table.h_deg.front(), bottom = table.v_deg.back(), top = table.v_deg.front();
+    for (std::size_t v = 0; v < table.v_deg.size(); ++v)
+        for (std::size_t h = 0; h < table.h_deg.size(); ++h)
+            if (table.at(v, h) >= min_cd) {
+                left = std::min(left, table.h_deg[h]);
+                right = std::max(right, table.h_deg[h]);
+                bottom = std::min(bottom, table.v_deg[v]);
+                top = std::max(top, table.v_deg[v]);
+            }
+    figure.x = {"H, to the right", "deg", std::floor(left) - 1.0, std::ceil(right) + 1.0};
+    figure.y = {"V, up", "deg", std::floor(bottom) - 1.0, std::ceil(top) + 1.0};
+}
+
+/// Tested over against; NaN where either has less than `floor_cd` or no data.
+Image<float> ratio(const plots::Figure& figure, const CandelaTable& tested, const CandelaTable& against, double floor_cd) {
+    constexpr int columns = 480, rows = 240;
+    Image<float> image(columns, rows);
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < columns; ++x) {
+            const double h = figure.x.from + (figure.x.to - figure.x.from) * (x + 0.5) / columns;
+            const double v = figure.y.to - (figure.y.to - figure.y.from) * (y + 0.5) / rows;
+            const double a = intensity_cd(tested, h, v), b = intensity_cd(against, h, v);
+            const bool is_compared = has_data(tested, h, v) && has_data(against, h, v) && std::max(a, b) >= floor_cd && b > 0.0;
+            image.at(x, y) = is_compared ? static_cast<float>(a / b) : std::numeric_limits<float>::quiet_NaN();
+        }
+    return image;
+}
+
+} // namespace
+
+std::string distinct_label(const LampFile& lamp, const LampFile& other) {
+    if (lamp.opened.empty())
+        return lamp.name;
+    const std::filesystem::path file = lamp.opened.front().path;
+    const bool is_alike = !other.opened.empty() && other.opened.front().path.filename() == file.filename();
+    const std::string name = is_alike ? file.string() : file.filename().string();
+    const bool says_more = !lamp.name.empty() && lamp.name != file.filename().string() && lamp.name != file.stem().string();
+    return says_more ? name + " (" + lamp.name + ")" : name;
+}
+
+plots::Axis ratio_axis(const Image<float>& values) {
+    std::vector<double> sizes;
+    for (const float value : values.pixels())
+        if (std::isfinite(value) && value > 0.0F)
+            sizes.push_back(std::abs(std::log(static_cast<double>(value))));
+    double most = 0.01;
+    if (!sizes.empty()) {
+        const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() * 98 / 100);
+        std::ranges::nth_element(sizes, at);
+        most = std::max(most, std::expm1(*at));
+    }
+    if (most > 0.2) {
+        double factor = 2.0;
+        for (const double next : {2.0, 5.0, 10.0, 100.0, 1000.0})
+            if (factor = next; factor >= 1.0 + most)
+                break;
+        return {"new over old", "", 1.0 / factor, factor, plots::Scale::logarithmic};
+    }
+    double share = 0.2;
+    for (const double next : {0.01, 0.02, 0.05, 0.1, 0.2})
+        if (share = next; share >= most * 0.999)
+            break;
+    return {"new over old", "", 1.0 - share, 1.0 + share};
+}
+
+LampDifference difference_of(const LampFile& tested, const LampFile& against, double noise_relative) {
+    refuse_darkness(tested);
+    refuse_darkness(against);
+    return compare_lamps(tested, against, {.noise_relative = noise_relative});
+}
+
+std::vector<std::pair<std::string, std::string>> difference_lines(const LampFile& tested, const LampFile& against,
+                                                                  const LampDifference& difference) {
+    std::vector<std::pair<std::string, std::string>> lines{{"lamp", printable(distinct_label(tested, against), 400)},
+                                                           {"against", printable(distinct_label(against, tested), 400)}};
+    constexpr std::size_t max_reported = 8; // lamps of two makes differ in dozens of zones
+    const std::vector<std::string> sentences = sentences_of(difference);
+    for (std::size_t i = 0; i < std::min(max_reported, sentences.size()); ++i)
+        lines.emplace_back("difference", sentences[i]);
+    if (sentences.size() > max_reported)
+        lines.emplace_back("", fmt::format("and {} more; --json has them all", sentences.size() - max_reported));
+    lines.emplace_back("noise",
+                       fmt::format("{:.3g} % where there is more than a tenth of the peak; claimed is what lies beyond {:.2f} of it",
+                                   100.0 * difference.noise_relative, difference.z_limit));
+    lines.emplace_back("compared", fmt::format("{} directions with at least {:.3g} cd", difference.directions, difference.floor_cd));
+    return lines;
+}
+
+Json difference_json(const LampDifference& difference) {
+    Json zones = Json::array();
+    for (const BeamZone& zone : difference.zones)
+        zones.push_back({{"share", zone.share},
+                         {"standard_error", zone.uncertainty},
+                         {"h_from_deg", zone.h_from_deg},
+                         {"h_to_deg", zone.h_to_deg},
+                         {"v_from_deg", zone.v_from_deg},
+                         {"v_to_deg", zone.v_to_deg},
+                         {"z", zone.z},
+                         {"directions", zone.samples}});
+    return {{"differs", difference.any()},
+            {"says", sentences_of(difference)},
+            {"aim_up_deg", measured_json(difference.aim_up_deg)},
+            {"aim_right_deg", measured_json(difference.aim_right_deg)},
+            {"cut_off_up_deg", measured_json(difference.cut_off_up_deg)},
+            {"level_share", measured_json(difference.level)},
+            {"zones", zones},
+            {"directions", difference.directions},
+            {"noise_relative", difference.noise_relative},
+            {"z_limit", difference.z_limit},
+            {"floor_cd", difference.floor_cd}};
+}
+
+plots::Figure difference_figure(const LampFile& tested, const LampFile& against, const LampDifference& difference) {
+    plots::Figure figure;
+    figure.title = printable(distinct_label(tested, against)) + " against " + printable(distinct_label(against, tested));
+    figure.subtitle = sentences_of(difference).front();
+    figure.height_px = 420.0;
+    show_beam(figure, against.table);
+    const Image<float> values = ratio(figure, tested.table, against.table, difference.floor_cd);
+    const plots::Axis axis = ratio_axis(values);
+    figure.colour_bar = plots::ColourBar{axis, true};
+    figure.rasters.push_back(
+        {plots::difference_map(values, axis, {225, 225, 225}), figure.x.from, figure.x.to, figure.y.to, figure.y.from});
+    if (difference.zones.size() > max_framed)
+        return figure;
+    for (const BeamZone& zone : difference.zones)
+        figure.series.push_back({.points = {{zone.h_from_deg, zone.v_from_deg},
+                                            {zone.h_to_deg, zone.v_from_deg},
+                                            {zone.h_to_deg, zone.v_to_deg},
+                                            {zone.h_from_deg, zone.v_to_deg},
+                                            {zone.h_from_deg, zone.v_from_deg}},
+                                 .colour = {0, 0, 0},
+                                 .width_px = 1.5});
+    return figure;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,161 @@
+#include "runner/play/display_pipeline.h"
+
+#include "metrics/display/display_colour.h"
+#include "metrics/display/night_vision.h"
+#include "metrics/display/scatter.h"
+#include "renderer/technique.h"
+#include "scenarios/drives/drive.h"
+#include "scenarios/values/files.h"
+
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace fernlicht {
+namespace {
+
+/// Of a pixel in the middle of the picture.
+double scene_pixel_deg(double vertical_fov_rad, int height) {
+    return std::atan(2.0 * std::tan(0.5 * vertical_fov_rad) / height) * 180.0 / std::numbers::pi;
+}
+
+Image<glm::vec3> behind_windscreen(const Image<glm::vec3>& light, double vertical_fov_rad, const Windscreen& screen) {
+    Image<glm::vec3> seen = scattered(light, vertical_fov_rad, windscreen_scatter(screen.haze));
+    for (glm::vec3& pixel : seen.pixels())
+        pixel *= static_cast<float>(screen.transmittance);
+    return seen;
+}
+
+} // namespace
+
+ShownPicture show(const Image<glm::vec3>& light, double vertical_fov_rad, const DisplaySettings& display, const ToneMapper& mapper) {
+    using Clock = std::chrono::steady_clock;
+    ShownPicture shown;
+    Image<glm::vec3> seen = light;
+    const auto stage = [&](const char* name, auto make) {
+        const Clock::time_point began = Clock::now();
+        make();
+        shown.stage_s.emplace_back(name, std::chrono::duration<double>(Clock::now() - began).count());
+    };
+    const double pixel_deg = scene_pixel_deg(vertical_fov_rad, std::max(light.height(), 1));
+    if (display.windscreen)
+        stage("windscreen", [&] { seen = behind_windscreen(seen, vertical_fov_rad, *display.windscreen); });
+    if (display.veil)
+        stage("veil in the eye", [&] {
+            seen = scattered(seen, vertical_fov_rad, eye_scatter({display.veil->age_years, display.veil->pigmentation}));
+        });
+    if (display.night_colours)
+        stage("colours at night", [&] { seen = colours_at_night(seen, pixel_deg); });
+    if (display.night_sharpness)
+        stage("sharpness at night", [&] { seen = sharpness_at_night(seen, pixel_deg); });
+    const DisplayProfile profile = display.profile.value_or(srgb_display());
+    shown.bits = profile.bits;
+    stage("tone mapper and display", [&] { shown.codes = display_picture(profile, mapper, seen); });
+    return shown;
+}
+
+bool is_shown_after_drawing(const DisplaySettings& display, const ToneMapper& mapper) {
+    return display.after_drawing() || mapper.kind == ToneMapperKind::histogram;
+}
+
+std::string shown_by(const DisplaySettings& display, const ToneMapper& mapper) {
+    std::string text = std::string(name(mapper.kind));
+    if (mapper.kind == ToneMapperKind::rational || mapper.kind == ToneMapperKind::logarithmic)
+        text += fmt::format(" s={:.6g}", mapper.s);
+    if (mapper.kind == ToneMapperKind::histogram)
+        text += fmt::format(" curve={}", content_hash(mapper.curve.data(), mapper.curve.size() * sizeof(ToneKnot)).substr(0, 8));
+    text += fmt::format(" white={:.6g} cd/m2; display {}", mapper.l_max_cdm2, display.profile ? display.profile->name : "srgb");
+    if (!display.profile && is_shown_after_drawing(display, mapper))
+        text += ", luminance kept";
+    if (display.profile) {
+        const std::string profile = write_display_profile(*display.profile);
+        text += fmt::format(" ({})", content_hash(profile.data(), profile.size()).substr(0, 8));
+    }
+    if (display.windscreen)
+        text += fmt::format("; windscreen {:g} haze {:g}", display.windscreen->transmittance, display.windscreen->haze);
+    if (display.veil)
+        text += fmt::format("; eye of {:g} years, pigmentation {:g}", display.veil->age_years, display.veil->pigmentation);
+    if (display.night_colours)
+        text += "; colours at night";
+    if (display.night_sharpness)
+        text += "; sharpness at night";
+    if (display.adaptation)
+        text += "; adapting";
+    return text;
+}
+
+namespace {
+
+constexpr double min_display_contrast = 3.0;
+
+/// By how much luminance rises from the code that shows it to the next.
+double code_step(const DisplayProfile& profile, double luminance_cdm2) {
+    const double codes = profile.bits == 16 ? 65535.0 : 255.0, share = luminance_cdm2 / profile.white_cdm2();
+    return decoded(profile, encoded(profile, share) + 1.0 / codes) / share - 1.0;
+}
+
+} // namespace
+
+std::vector<std::string> display_warnings(const DisplayProfile& profile) {
+    std::vector<std::string> warnings;
+    if (const double contrast = profile.peak_cdm2() / profile.black_cdm2; contrast < min_display_contrast)
+        warnings.push_back(fmt::format("display '{}' has a contrast of {:.4g} : 1 (peak {:.4g} cd/m2, black {:.4g} cd/m2), less than the "
+                                       "{:g} : 1 that ISO 9241-3 recommends for text: its pictures hide what was drawn",
+                                       profile.name, contrast, profile.peak_cdm2(), profile.black_cdm2, min_display_contrast));
+    if (profile.transfer == TransferKind::pq && profile.bits == 8)
+        warnings.push_back(
+            fmt::format("display '{}' has transfer: pq in 8 bits, where ITU-R BT.2100 has 10 or 12: its codes are {:.1f} % of "
+                        "luminance apart at 1 cd/m2, and dark pictures show bands; bits: 16 has none",
+                        profile.name, 100.0 * code_step(profile, 1.0)));
+    return warnings;
+}
+
+std::string substitute_shadows(const Drive& drive) {
+    const Technique& technique = technique_named(drive.technique, drive.file);
+    const ShadowMethod method = drive.shadows.method;
+    const bool ours = technique.kind == TechniqueKind::ours;
+    if (method == ShadowMethod::none || (ours && (technique.name != "photometric-naive" || method == ShadowMethod::map)))
+        return "";
+    return ours ? "its shadows are those of a map for each lamp" : "it draws no shadows of lamps";
+}
+
+RenderingSettings rendering_settings(const Drive& drive) {
+    return {drive.shadows, substitute_shadows(drive), drive.tone_mapper, drive.display};
+}
+
+DisplayProfile display_of(const RenderingSettings& drawn) {
+    if (drawn.display.profile)
+        return *drawn.display.profile;
+    DisplayProfile srgb = srgb_display();
+    srgb.name = "srgb";
+    srgb.gamut = is_shown_after_drawing(drawn.display, drawn.tone_mapper) ? GamutRule::keep_luminance : GamutRule::clip;
+    return srgb;
+}
+
+double shown_cdm2(const RenderingSettings& drawn, double seen_cdm2) {
+    const DisplayProfile display = display_of(drawn);
+    return display.black_cdm2 + toned(drawn.tone_mapper, seen_cdm2) * display.white_cdm2();
+}
+
+std::vector<std::string> display_stages(const RenderingSettings& drawn) {
+    const DisplaySettings& display = drawn.display;
+    std::vector<std::string> stages;
+    if (display.windscreen)
+        stages.push_back(
+            fmt::format("windscreen, transmittance {:g}, haze {:g}", display.windscreen->transmittance, display.windscreen->haze));
+    if (display.veil)
+        stages.push_back(
+            fmt::format("veil in an eye of {:g} years, pigmentation {:g}", display.veil->age_years, display.veil->pigmentation));
+    if (display.night_colours)
+        stages.emplace_back("colours at night");
+    if (display.night_sharpness)
+        stages.emplace_back("sharpness at night");
+    if (display.adaptation)
+        stages.push_back(
+            fmt::format("adaptation: white follows the driver's picture, in {:g} s towards brighter and {:g} s towards darker light",
+                        display.adaptation->brighter_s, display.adaptation->darker_s));
+    return stages;
+}
+
+} // namespace fernlicht
