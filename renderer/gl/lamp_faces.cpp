@@ -71,11 +71,11 @@ void LampFaces::draw_faces(const Shot& shot, const std::vector<Face>& faces) {
     gl.DepthMask(GL_FALSE);
     const FrameOutputs& w = shot.outputs;
     GLuint slot = 0;
-    for (const auto& [outputs, blended, how] :
+    for (const auto& [drawn, blended, how] :
          {std::tuple(w.colour, true, GL_MAX), std::tuple(w.illuminance, false, 0), std::tuple(w.target, false, 0),
           std::tuple(w.luminance, true, GL_FUNC_ADD), std::tuple(w.light, true, GL_FUNC_ADD), std::tuple(w.depth, false, 0),
           std::tuple(w.ids, false, 0)}) {
-        if (!wanted)
+        if (!drawn)
             continue;
         if (blended) {
             gl.Enablei(GL_BLEND, slot);

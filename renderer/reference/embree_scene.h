@@ -80,6 +80,8 @@ class EmbreeScene {
     /// than that casts no shadow and shades nothing.
     static glm::dvec3 raised(const SurfaceHit& hit);
 
+    std::size_t triangles() const { return facets_.size(); }
+
   private:
     struct Embree;
     /// A triangle as hit_on needs it, in double.

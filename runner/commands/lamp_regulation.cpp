@@ -34,7 +34,7 @@ void refuse_other_work(const LampRequest& request, const char* option) {
 }
 
 /// The lamp, and the other side where --add names it.
-std::vector<LampFile> lamps_of(const LampRequest& request, const Regulation& r) {
+std::vector<LampFile> requested_lamps(const LampRequest& request, const Regulation& r) {
     if (!r.pairs || request.add.empty())
         return {lamp_of(request)};
     if (request.add.size() > 1)
@@ -61,7 +61,7 @@ int lamp_regulation(const LampRequest& request) {
     if (request.cut_off)
         throw InputError({{}, 0, 0, "--cut-off"}, "found together with --regulation", "one of them");
     const Regulation& r = regulation(request.regulation);
-    const std::vector<LampFile> lamps = lamps_of(request, r);
+    const std::vector<LampFile> lamps = requested_lamps(request, r);
     std::vector<CandelaTable> tables;
     std::vector<std::string> names;
     for (const LampFile& lamp : lamps) {

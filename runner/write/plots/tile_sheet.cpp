@@ -11,7 +11,8 @@ using plots::Canvas;
 
 constexpr int tiles_across = 3;
 constexpr plots::Colour tile_ink{24, 24, 32}, tile_faint{100, 100, 108};
-constexpr double sheet_edge_px = 16.0, tile_gap_px = 12.0, title_px = 17.0, words_px = 13.0, tile_name_px = 13.0, tile_words_px = 12.0;
+constexpr double sheet_edge_px = 16.0, tile_gap_px = 12.0, section_title_px = 17.0, words_px = 13.0, tile_name_px = 13.0,
+                 tile_words_px = 12.0;
 constexpr double words_line_px = 17.0, tile_line_px = 15.0;
 constexpr double inner_px = tiles_across * tile_px + (tiles_across - 1) * tile_gap_px;
 
@@ -107,7 +108,7 @@ std::string tile_sheet_svg(const std::string& title, const std::vector<TileSecti
     canvas.rectangle(0.0, 0.0, width_px, height_px, {.fill = "#ffffff"});
     double top = 0.0;
     for (const TileSection& section : sections) {
-        canvas.text(sheet_edge_px, top + 26.0, section.title, {.size_px = title_px, .colour = tile_ink, .bold = true});
+        canvas.text(sheet_edge_px, top + 26.0, section.title, {.size_px = section_title_px, .colour = tile_ink, .bold = true});
         draw_lines(canvas, sheet_edge_px, top + 46.0, words_line_px, sheet_lines(section.words, words_px, inner_px),
                    {.size_px = words_px, .colour = tile_faint});
         draw_tiles(canvas, section, top + over_tiles(section));
