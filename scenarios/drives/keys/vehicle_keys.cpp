@@ -76,8 +76,8 @@ const Fields<ActuatorParameters>& actuator_fields() {
             field("damping", 2, &Actuator::damping, range(0.0, 1.0e6), "1: aperiodic"),
             field("rate_limit", 3, &Actuator::rate_limit_rad_s, angular_speed("rate_limit", 1.0e-4, 1.0e7, 1.0e-6, 1.0e6),
                   "how fast it turns"),
-            field("least", 4, &Actuator::min_rad, degrees_within("least", 90.0), "how far down or right"),
-            field("greatest", 5, &Actuator::max_rad, degrees_within("greatest", 90.0), "how far up or left"),
+            field("min", 4, &Actuator::min_rad, degrees_within("min", 90.0), "how far down or right"),
+            field("max", 5, &Actuator::max_rad, degrees_within("max", 90.0), "how far up or left"),
             field("control_period_s", 6, &Actuator::control_period_s, range(1.0e-4, 100.0), "between two commands"),
             field("dead_time_s", 7, &Actuator::dead_time_s, range(0.0, 10.0), "until a command takes effect"),
         }
