@@ -16,7 +16,7 @@ struct MomentColumn {
 /// "frame" and "time_s", then the others. Throws std::logic_error naming the column for a number that is NaN or infinite: whoever measured
 /// it owed a not_measured.
 std::vector<MomentColumn> moment_columns(const PlayedCell& played);
-/// Where they lie below the report's folder: "moments-DRIVE-VARIANT.csv".
+/// Where they lie below the report's folder: "moments-DRIVE-LAMPS.csv".
 std::string moments_file(const PlayedCell& played);
 
 } // namespace fernlicht

@@ -43,7 +43,8 @@ ResultDifference judge_by_spread(ResultDifference difference, double off, double
     return difference;
 }
 
-ResultDifference compare(const AcceptedReading& tested, const AcceptedReading& accepted, const BaselineTolerance& tolerance,
+/// `other`: the figure whose exactness or sensitivity the reading tells, 0 for one that stands for itself.
+ResultDifference compare(const AcceptedReading& tested, const AcceptedReading& accepted, double other, const BaselineTolerance& tolerance,
                          std::size_t comparisons) {
     ResultDifference difference{label_of(accepted), Agreement::agrees, "", 0.0, accepted.key};
     const std::string text = fmt::format("{}, accepted {}", value_text(tested), value_text(accepted));
@@ -54,14 +55,15 @@ ResultDifference compare(const AcceptedReading& tested, const AcceptedReading& a
         return difference;
     // A bound by its figure, too: where light ends just at the edge of what is looked at, rounding makes a number of a bound.
     const double was = *accepted.mean.figure(), off = std::abs(*tested.mean.figure() - was);
-    const double rounding = tolerance.absolute + tolerance.relative * std::abs(was);
+    const double rounding = tolerance.absolute + tolerance.relative * std::abs(was) + tolerance.of_other * std::abs(other);
     const std::string figures = fmt::format("{}, {:.3g} % off", text, was == 0.0 ? 0.0 : 100.0 * off / std::abs(was));
     const auto test = spread_test({tested.count, tested.variance}, {accepted.count, accepted.variance}, tolerance.false_alarm, comparisons);
     if (test)
         return judge_by_spread(difference, off, rounding, *test, figures, tolerance);
     difference.of_allowed = off / rounding;
     difference.agreement = off <= rounding ? Agreement::agrees : Agreement::differs;
-    difference.text = fmt::format("{}, at most {:.3g} % for rounding", figures, 100.0 * tolerance.relative);
+    difference.text = other == 0.0 ? fmt::format("{}, at most {:.3g} % for rounding", figures, 100.0 * tolerance.relative)
+                                   : fmt::format("{}, at most {:.3g} {} for rounding", figures, rounding, unit_of(accepted.key));
     return difference;
 }
 
@@ -148,13 +150,20 @@ void compare_channels(std::vector<ResultDifference>& out, const std::string& lab
 std::vector<ResultDifference> compare_readings(const std::vector<AcceptedReading>& tested, const std::vector<AcceptedReading>& accepted,
                                                const BaselineTolerance& tolerance) {
     const auto same = [](const AcceptedReading& a, const AcceptedReading& b) { return a.key == b.key && a.tick == b.tick; };
+    const auto other_of = [&](AcceptedReading reading) {
+        if (!is_uncertainty(reading.key))
+            return 0.0;
+        reading.key.aspect = Aspect::value;
+        const auto found = std::ranges::find_if(accepted, [&](const AcceptedReading& other) { return same(other, reading); });
+        return found == accepted.end() ? 0.0 : found->mean.figure().value_or(0.0);
+    };
     std::vector<ResultDifference> out;
     for (const AcceptedReading& baseline : accepted) {
         const auto found = std::ranges::find_if(tested, [&](const AcceptedReading& reading) { return same(reading, baseline); });
         if (found == tested.end())
             out.push_back(only_one(label_of(baseline), "not in this run, accepted " + value_text(baseline), baseline.key));
         else
-            out.push_back(compare(*found, baseline, tolerance, accepted.size()));
+            out.push_back(compare(*found, baseline, other_of(baseline), tolerance, accepted.size()));
     }
     for (const AcceptedReading& reading : tested)
         if (std::ranges::none_of(accepted, [&](const AcceptedReading& baseline) { return same(reading, baseline); }))

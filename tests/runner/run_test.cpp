@@ -72,7 +72,7 @@ TEST(Run, WhatLiesBeyondTheGridIsABoundEverywhere) {
     EXPECT_EQ(field_of(folder / "out", "reach_1lx_target_own_m", "bound"), "at_least");
     EXPECT_EQ(reading_of(folder / "out", "reach_1lx_target_own_m"), 200.0);
     for (const json& summary : report.at("drives").at(0).at("summary"))
-        if (summary.at("plane") == "target" && summary.at("lane") == "own" && summary.at("threshold_lx") == 1.0) {
+        if (summary.at("surface") == "target" && summary.at("lane") == "own" && summary.at("threshold_lx") == 1.0) {
             EXPECT_EQ(summary.at("reach_m").at("median"), bound);
             EXPECT_TRUE(summary.at("reach_m").at("mean").is_null());
         }

@@ -15,9 +15,20 @@ namespace {
 constexpr double of_free_light = 0.02; // by which a drawn light may lie outside what rays allow
 constexpr double beside_centre_px = 0.05;
 
-/// Across and upwards as the lamp sees it.
-constexpr std::array<glm::dvec2, 9> beside_it{
-    {{0.0, 0.0}, {1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}, {0.5, 0.0}, {-0.5, 0.0}, {0.0, 0.5}, {0.0, -0.5}}};
+/// Across and upwards as the lamp sees it; a look-up weighs a square of texels, whose corners count at the corner of a shadow.
+constexpr std::array<glm::dvec2, 13> beside_it{{{0.0, 0.0},
+                                                {1.0, 0.0},
+                                                {-1.0, 0.0},
+                                                {0.0, 1.0},
+                                                {0.0, -1.0},
+                                                {0.5, 0.0},
+                                                {-0.5, 0.0},
+                                                {0.0, 0.5},
+                                                {0.0, -0.5},
+                                                {1.0, 1.0},
+                                                {-1.0, 1.0},
+                                                {1.0, -1.0},
+                                                {-1.0, -1.0}}};
 
 enum class Seen { no, yes, perhaps };
 

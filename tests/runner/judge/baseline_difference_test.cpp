@@ -32,6 +32,21 @@ TEST(ReadingWithoutSpread, IsJudgedByRoundingAlone) {
     EXPECT_THAT(compared(reading(100.11), reading(100.0)).text, HasSubstr("at most 0.1 % for rounding"));
 }
 
+// A grid error of 1.6 mm at a reach of 60 m is the difference of two figures of 60 m: these may round by 0.6 mm, and it by 0.1 mm of its
+// own.
+TEST(ReadingWithoutSpread, IsRoundedAsTheOtherWhoseErrorItTells) {
+    const auto judged = [](double error_m) {
+        const AcceptedReading reach{key_of("reach_1lx_target_own_m").value(), -1, 60.0, 1, 0.0};
+        const auto error_of = [](double value) {
+            return AcceptedReading{key_of("reach_1lx_target_own_grid_error_m").value(), -1, value, 1, 0.0};
+        };
+        return compare_readings({error_of(error_m), reach}, {error_of(0.0016), reach}, {}).front();
+    };
+    EXPECT_EQ(judged(0.0016 + 0.0007).agreement, Agreement::agrees);
+    EXPECT_EQ(judged(0.0016 + 0.00071).agreement, Agreement::differs);
+    EXPECT_THAT(judged(0.003).text, HasSubstr("at most 0.000702 m for rounding"));
+}
+
 // Accepted: 20 repeats with a standard deviation of 0.05 lx. Student's t with 19 degrees of freedom at 0.001: 3.883 (printed tables); the
 // error of one play against their mean 0.05 sqrt(1 + 1/20) = 0.05123: chance reaches 0.1989 lx, with rounding 0.2990.
 TEST(ReadingWithSpread, IsJudgedByStudentsTestOnTopOfRounding) {

@@ -51,7 +51,7 @@ Document document(const TossResult& result) {
 Document full_document() {
     Table table{.name = "sides", .caption = "", .columns = {{"row"}, {.head = "side", .words = true}, {"share"}}, .rows = {}};
     table.rows = {{{"c0", 0.0}, Cell("50 % heads").hinted("the eagle"), {"37.5", 37.5}}, {{"c1", 1.0}, "tails", ""}};
-    table.sortable = true;
+    table.sortable = table.led_to = true;
     table.quiet = {1};
     const Card card{"share of heads", "+12.5", "%", "(more)", "by chance", Cell("a coin").linked("#c0")};
     return {"Coins & notes",

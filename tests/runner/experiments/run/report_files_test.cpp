@@ -120,6 +120,7 @@ TEST(ReportJson, ComesBackAsItWasWritten) {
     played.savings.not_measured = "too few moments were played";
     played.error.ticks = {0, 2};
     played.error.rays = 7;
+    played.error.road_p95 = {0.2, 0.3};
     PixelErrors& road = played.error.road.emplace();
     road.pixels = 4;
     road.error = {0.1, 0.2, 0.3};

@@ -97,8 +97,6 @@ TEST_F(ReportPage, HostileNamesRunNothing) {
             map.edges[0].kind = hostile;
         for (Verdict& verdict : played.verdicts)
             verdict.text = verdict.rerun = hostile;
-        for (ExtentRow& row : played.extents)
-            row.rendered[1].lane = hostile;
     }
     report.context.command = report.context.inputs[0].xxh128 = report.interrupted = hostile;
     report.context.inputs[0].path = hostile + std::string(4000, 'x');
