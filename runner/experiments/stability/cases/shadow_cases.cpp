@@ -33,7 +33,8 @@ Found far(StabilityBench& bench) {
     for (const double x : {50.0, 100.0, 200.0, 315.0}) {
         const WallBehindABoard trial(x);
         ShadowTrial drawn(bench, trial.scene, shadows_by(ShadowMethod::map));
-        judge_tally(worst, drawn.tally(trial.moment, trial.view, map_shadow_tolerance(1.02 * texel_tangent)), fmt::format("wall at {} m", x));
+        judge_tally(worst, drawn.tally(trial.moment, trial.view, map_shadow_tolerance(1.02 * texel_tangent)),
+                    fmt::format("wall at {} m", x));
     }
     return worst;
 }
