@@ -150,7 +150,7 @@ double pixels_per_degree_of_view(double vertical_fov_rad, int height_px) {
 
 Image<float> flip_ldr(const Image<Rgb8>& tested, const Image<Rgb8>& reference, double pixels_per_degree) {
     check(tested, reference, pixels_per_degree);
-    const auto shown = [](const Rgb8& p) { return glm::vec3(srgb_table()[p.r], srgb_table()[p.g], srgb_table()[p.b]); };
+    const auto shown = [&table = srgb_table()](const Rgb8& p) { return glm::vec3(table[p.r], table[p.g], table[p.b]); };
     return worst_of({{rows_of(tested, shown), rows_of(reference, shown)}}, tested.width(), tested.height(), pixels_per_degree,
                     flip::Colours::all);
 }

@@ -40,16 +40,16 @@ struct HuntLab {
     float l, a, b;
 };
 
-float unit(float v) { return v < 0.0F ? 0.0F : v > 1.0F ? 1.0F : v; }
+inline float unit(float v) { return v < 0.0F ? 0.0F : v > 1.0F ? 1.0F : v; }
 
 /// CIE 15's f(t): cube root above (6/29)^3, a line below.
-float lab_root(float t) {
+inline float lab_root(float t) {
     constexpr float end = 216.0F / 24389.0F;
     return t > end ? quick_cube_root(t > end ? t : 1.0F) : t * (841.0F / 108.0F) + 4.0F / 29.0F;
 }
 
 /// What is seen of a filtered colour, clamped to what a display can show.
-HuntLab hunt_lab(float y, float x_less_y, float y_less_z) {
+inline HuntLab hunt_lab(float y, float x_less_y, float y_less_z) {
     const float x = y + x_less_y, z = y - y_less_z;
     const ColourMatrix &to = rgb_of_white, &from = white_of_rgb;
     const float r = unit(to[0] * x + to[1] * y + to[2] * z), g = unit(to[3] * x + to[4] * y + to[5] * z),

@@ -73,6 +73,17 @@ std::vector<std::size_t> line_starts(const std::string& text) {
     return starts;
 }
 
+/// Where `key` stands as a key, from `at` on; not in a comment, a value or another key.
+std::size_t key_in(const std::string& text, std::string_view key, std::size_t at) {
+    for (at = text.find(key, at); at != std::string::npos; at = text.find(key, at + 1)) {
+        const std::size_t after = text.find_first_not_of(" \"'", at + key.size());
+        if ((at == 0 || std::string_view(" \t\n{,\"'").find(text[at - 1]) != std::string_view::npos) && after != std::string::npos &&
+            text[after] == ':')
+            break;
+    }
+    return at;
+}
+
 } // namespace
 
 std::string_view name_of_today(std::string_view key, std::span<const std::string_view> known_keys) {
@@ -96,7 +107,7 @@ std::string edited(const std::string& text, std::vector<TextEdit> edits, std::ve
         if (at < text.size() && (text[at] == '"' || text[at] == '\''))
             ++at;
         if (text.compare(at, edit.old.size(), edit.old) != 0) // a line with characters of several bytes, in some encodings
-            at = std::min(text.find(edit.old, line), text.size());
+            at = std::min(key_in(text, edit.old, line), text.size());
         if (at < done || at >= (edit.line < starts.size() ? starts[edit.line] : text.size())) {
             unmatched.push_back(fmt::format("{}: '{}' is not written out here", edit.line, edit.old));
             continue;

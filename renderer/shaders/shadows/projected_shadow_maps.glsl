@@ -5,7 +5,7 @@
 #else
 #define SHADOW_SAMPLER sampler2DShadow
 #endif
-#define SHADOW_UNIT(i, beam, map) layout(binding = i < 7 ? 8 + i : 16) uniform SHADOW_SAMPLER map;
+#define SHADOW_UNIT(i, beam, map) layout(binding = 8 + i + i / 7) uniform SHADOW_SAMPLER map;
 EACH_LAMP(SHADOW_UNIT) // SHADOW_NEAR / w; 0: nothing
 uniform mat4 shadow_from_lamp[LAMP_COUNT];
 

@@ -1,5 +1,5 @@
 // Share of a lamp that a surface sees, by a depth map for each lamp.
-#define SHADOW_UNIT(i, beam, map) layout(binding = i < 7 ? 8 + i : 16) uniform sampler2DShadow map;
+#define SHADOW_UNIT(i, beam, map) layout(binding = 8 + i + i / 7) uniform sampler2DShadow map; // units 8 to 14, and 16
 EACH_LAMP(SHADOW_UNIT) // shadow_near_m / distance along the axis; 0: nothing
 const vec4 shadow_window[LAMP_COUNT] = vec4[LAMP_COUNT](SHADOW_WINDOWS); // tangents -> texture: scale x, y, offset x, y
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
+#include <utility>
 
 namespace fernlicht {
 namespace {
@@ -195,8 +196,8 @@ const Fields<LampChange>& change_fields() {
     return fields;
 }
 
-LampsAreOf::LampsAreOf(const Drive& drive) { written = &drive; }
-LampsAreOf::~LampsAreOf() { written = nullptr; }
+LampsAreOf::LampsAreOf(const Drive& drive) : before_(std::exchange(written, &drive)) {}
+LampsAreOf::~LampsAreOf() { written = before_; }
 
 std::shared_ptr<const LampFile> read_lamp_keys(const YamlMap& keys, LampCache& cache, TypeCAxis axis) {
     const auto file = keys.find("file");

@@ -43,6 +43,9 @@ class LampsAreOf {
     explicit LampsAreOf(const Drive& drive);
     ~LampsAreOf();
     LampsAreOf(const LampsAreOf&) = delete;
+
+  private:
+    const Drive* before_; ///< whose they were until then
 };
 
 /// `file` with the keys that say how it is read; nullptr where none is named. `axis`: of a Type C file that does not give it.
