@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <memory>
+#include <set>
 
 namespace fernlicht {
 namespace {
@@ -111,6 +112,8 @@ std::vector<Drive> cells_in(const std::vector<fs::path>& files) {
 fs::path target(const MigrateFlags& flags, const fs::path& file) {
     if (flags.in_place)
         return file;
+    if (flags.out.empty()) // printed
+        return {};
     const fs::path target = fs::path(flags.out) / fs::absolute(file).lexically_normal().filename();
     if (fs::exists(target))
         throw InputError({target, 0, 0, {}}, "is there already", "a folder without it");
@@ -120,30 +123,29 @@ fs::path target(const MigrateFlags& flags, const fs::path& file) {
 int migrate(const MigrateFlags& flags) {
     if (flags.in_place && !flags.out.empty())
         throw InputError({{}, 0, 0, "--in-place"}, "found --out beside it", "one of them");
-    const bool printed = !flags.in_place && flags.out.empty();
     std::vector<fs::path> files;
     std::vector<std::string> unmatched, texts;
     for (const fs::path& file : flags.files) // all are read before the first is written
         if (!is_baselines(file)) {
             texts.push_back(converted(file, unmatched));
             files.push_back(file);
-        } else if (printed)
-            throw InputError({file, 0, 0, {}}, "is a folder of baselines", "--in-place or --out beside it");
-    if (!flags.in_place && !flags.out.empty())
+        } else if (!flags.in_place)
+            throw InputError({file, 0, 0, {}}, "is a folder of baselines", "--in-place beside it");
+    std::vector<fs::path> targets;
+    for (const fs::path& file : files)
+        targets.push_back(target(flags, file));
+    if (std::set<fs::path>(targets.begin(), targets.end()).size() < targets.size())
+        throw InputError({{}, 0, 0, "--out"}, "found two files of one name", "files of different names");
+    if (!flags.out.empty())
         make_folder(flags.out);
     for (std::size_t i = 0; i < files.size(); ++i)
-        if (printed)
+        if (targets[i].empty())
             fmt::print("{}", texts[i]);
         else if (FilesRead opened; !flags.in_place || read_file(files[i], opened) != texts[i])
-            write_file(target(flags, files[i]), texts[i]);
+            write_file(targets[i], texts[i]);
     for (const fs::path& file : flags.files)
-        if (is_baselines(file)) {
-            const fs::path store = target(flags, store_of(file));
-            if (!flags.in_place)
-                fs::copy(store_of(file), store, fs::copy_options::recursive);
-            std::ranges::move(convert_baselines(store, cells_in(flags.in_place ? files : std::vector<fs::path>{})),
-                              std::back_inserter(unmatched));
-        }
+        if (is_baselines(file))
+            std::ranges::move(convert_baselines(store_of(file), cells_in(files)), std::back_inserter(unmatched));
     for (const std::string& one : unmatched)
         fmt::print(stderr, "fernlicht: {}\n", one);
     return unmatched.empty() ? 0 : 1;
@@ -153,8 +155,7 @@ int migrate(const MigrateFlags& flags) {
 
 void add_migrate_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto flags = std::make_shared<MigrateFlags>();
-    CLI::App* sub =
-        app.add_subcommand("migrate", "convert files of version 0.1 to today's names; prints them where no flag says otherwise");
+    CLI::App* sub = app.add_subcommand("migrate", "convert files of version 0.1 to today's names; printed unless a flag is given");
     sub->add_option("FILE", flags->files, "drives, studies, lists of known failures, and folders of baselines")->required();
     sub->add_flag("--in-place", flags->in_place, "write over the files");
     sub->add_option("--out", flags->out, "folder for the converted files");

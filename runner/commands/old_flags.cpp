@@ -21,7 +21,7 @@ constexpr OldFlag old_flags[] = {{"", "references", "baselines"},
                                  {"accuracy", "--samples", "--max-samples"},
                                  {"shadows", "--moments", "--count"},
                                  {"bench", "--frames", "--count"},
-                                 {"bench", "--drive", "the drive's file alone, without a flag"},
+                                 {"bench", "--drive", "FILE alone"},
                                  {"reference", "--most-samples", "--max-samples"}};
 
 } // namespace
@@ -34,8 +34,7 @@ std::string old_word_in(const std::vector<std::string>& command_line) {
         const auto known = std::ranges::find_if(
             old_flags, [&](const OldFlag& flag) { return flag.old == word && (*flag.command == '\0' || flag.command == command_line[1]); });
         if (known != std::end(old_flags))
-            return fmt::format("found '{}' of version 0.1, expected {}, its name today (`fernlicht migrate` converts files)", word,
-                               known->now);
+            return fmt::format("found '{}' of version 0.1, expected {} (`fernlicht migrate` converts files)", word, known->now);
     }
     return {};
 }

@@ -105,7 +105,7 @@ int try_cases(const StabilityFlags& flags) {
 void add_stability_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto flags = std::make_shared<StabilityFlags>();
     CLI::App* sub = app.add_subcommand("stability", "check extreme and degenerate inputs against bounds; exit with 1 if one fails");
-    CLI::Option* only = sub->add_option("--only", flags->only, "comma-separated names of cases, * and ? allowed: 'lamp/*,table/zero'")
+    CLI::Option* only = sub->add_option("--only", flags->only, "comma-separated names of cases, * and ? allowed: 'lamp/*,table/poles'")
                             ->allow_extra_args(false)
                             ->default_str("");
     sub->add_flag_callback(

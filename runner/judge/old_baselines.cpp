@@ -51,6 +51,7 @@ std::vector<std::string> convert_baselines(const std::filesystem::path& store, c
         json.at("schema_version").refuse("2: a store that knows the inputs of its results");
     const std::map<std::string, std::string> hashes = hashes_of_today(cells);
     std::vector<std::filesystem::path> replaced;
+    std::vector<std::pair<std::filesystem::path, std::string>> objects;
     for (const StoredBaseline& entry : from_json<std::vector<StoredBaseline>>(json.at("baselines"), stored_members)) {
         const std::filesystem::path path = object_path(store, entry.id);
         std::string object = baseline_text_of_today(read_file(path, opened));
@@ -62,17 +63,22 @@ std::vector<std::string> convert_baselines(const std::filesystem::path& store, c
             const std::string inputs = hash_of_inputs(producer.inputs);
             replace_all(object, entry.key.inputs, inputs);
             replace_all(index, entry.key.inputs, inputs);
-        } else
+        } else if (drive != producer.inputs.end()) // pictures of others have no drive, and keep their inputs
             unmatched.push_back(
                 fmt::format("{}:{}: no drive or study that was given has the inputs of {}", index_file.string(),
                             1 + std::count(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(before.find(entry.id)), '\n'),
                             key_text(entry.key)));
         const std::string id = content_hash(object.data(), object.size());
-        make_folder(object_path(store, id).parent_path());
-        write_durably(object_path(store, id), object);
+        objects.emplace_back(object_path(store, id), std::move(object));
         replace_all(index, entry.id, id);
         if (id != entry.id)
             replaced.push_back(path);
+    }
+    if (!unmatched.empty()) // half converted it would belong to neither version
+        return unmatched;
+    for (const auto& [path, object] : objects) {
+        make_folder(path.parent_path());
+        write_durably(path, object);
     }
     const std::filesystem::path next = store / fmt::format(".index-{}.json", ::getpid());
     write_durably(next, index);

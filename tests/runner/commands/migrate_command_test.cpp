@@ -122,7 +122,10 @@ TEST_F(Migrate, BaselinesStandUnderTodaysNamesAndHashes) {
         std::ofstream(entry.path(), std::ios::trunc | std::ios::binary) << text;
     }
     EXPECT_THAT(run_program("baselines list --baselines " + store.string()).output, HasSubstr("is a store of version 0.1"));
-    EXPECT_EQ(run_program("migrate --out " + (folder_ / "alone ") + store.string()).exit_code, 1) << "no drive has the inputs";
+    const std::string before = content_of(store / "index.json");
+    EXPECT_EQ(run_program("migrate --in-place " + store.string()).exit_code, 1) << "no drive has the inputs";
+    EXPECT_EQ(content_of(store / "index.json"), before) << "nothing is converted by halves";
+    EXPECT_EQ(run_program("migrate --out " + (folder_ / "alone ") + store.string()).exit_code, 2) << "in place alone";
     for (int time = 1; time <= 2; ++time) {
         const Outcome run = run_program("migrate --in-place " + store.string() + " " + library_file("studies/standard.yaml"));
         EXPECT_EQ(run.exit_code, 0) << run.output;
