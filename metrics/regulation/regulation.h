@@ -46,7 +46,7 @@ struct RegulationRow {
 enum class AimRule {
     as_is,           ///< as the file has it
     cut_off,         ///< UN: inflection 2.5 degrees left at 0.57 D, kink by the three verticals at 1, 2 and 3 R on V-V
-    automatic,       ///< UN: cut_off, else cut_off_by_line, else elbow: the first that finds what it aims by
+    automatic,       ///< UN: cut_off, else cut_off_by_line, else elbow: the first that finds what it aims by; else the regulation's way
     cut_off_by_line, ///< UN: the same height, horizontally by the line at 0.2 D onto line A, 0.5 R
     elbow,           ///< ours: the same height, the elbow by a fit over all columns on V-V
     vol,             ///< FMVSS 108: greatest gradient 2.5 degrees left at 0.4 D; no horizontal aim

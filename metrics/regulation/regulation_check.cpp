@@ -151,7 +151,7 @@ class Examination {
 RegulationCheck checked(const Regulation& regulation, const std::vector<CandelaTable>& lamps, const CheckOptions& options,
                         const CandelaTable* aim_by) {
     RegulationCheck check;
-    AimRule rule = options.aim.value_or(regulation.aim);
+    AimRule rule = options.aim && *options.aim != AimRule::automatic ? *options.aim : regulation.aim; // automatic: its own way
     if (aim_by) {
         if (rule == AimRule::as_is || rule == AimRule::maximum)
             rule = AimRule::automatic;

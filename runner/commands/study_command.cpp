@@ -25,8 +25,8 @@ struct StudyFlags {
     bool resume = false, quiet = false, no_accuracy = false, list = false;
 };
 
-int list_cells(const Study& study) {
-    for (const StudyCell& cell : cells_of(study))
+int list_cells(const std::vector<StudyCell>& cells) {
+    for (const StudyCell& cell : cells)
         fmt::print("{:<40} {}\n", cell.name, cell.condition);
     return 0;
 }
@@ -46,7 +46,7 @@ void write_study(const StudyResult& result, const std::filesystem::path& folder)
 int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     const Study study = read_study(flags.file);
     if (flags.list)
-        return list_cells(study);
+        return list_cells(chosen_cells(study, items_of("--only", flags.only)));
     if (flags.resume && flags.out.empty())
         throw InputError({{}, 0, 0, "--resume"}, "found no --out beside it", "the folder to go on in");
     StudyOptions options;

@@ -75,7 +75,7 @@ std::string lane_title(const std::string& lane) {
 }
 
 std::vector<Column> extent_columns(const ComparedDrive& drive, const Axes& axes, bool own) {
-    std::vector<Column> columns{{"limit", "lx"}, {.head = "lamp", .words = true}};
+    std::vector<Column> columns{{"threshold", "lx"}, {.head = "lamp", .words = true}};
     add_heads(columns, drive, "reach", "m");
     for (const double at_m : axes.widths_at_m)
         add_heads(columns, drive, fmt::format("width at {:g} m", at_m), "m");

@@ -28,18 +28,6 @@ struct Planned {
     Drive drive;
 };
 
-std::vector<StudyCell> chosen_cells(const Study& study, const std::vector<std::string>& only) {
-    std::vector<StudyCell> cells = cells_of(study), chosen;
-    for (const std::string& pattern : only)
-        if (std::ranges::none_of(cells, [&](const StudyCell& cell) { return matches(pattern, cell.name); }))
-            throw InputError({study.file, 0, 0, "--only"}, fmt::format("found '{}', which fits no cell", printable(pattern)),
-                             "a pattern like '*xenon*'; --list names the cells");
-    std::ranges::copy_if(cells, std::back_inserter(chosen), [&](const StudyCell& cell) {
-        return only.empty() || std::ranges::any_of(only, [&](const std::string& pattern) { return matches(pattern, cell.name); });
-    });
-    return chosen;
-}
-
 std::vector<Planned> plan(const Study& study, const std::vector<std::string>& only) {
     std::vector<Planned> planned;
     for (const StudyCell& cell : chosen_cells(study, only)) {
@@ -204,6 +192,18 @@ void add_lanes(const std::vector<Planned>& planned, StudyResult& result) {
 }
 
 } // namespace
+
+std::vector<StudyCell> chosen_cells(const Study& study, const std::vector<std::string>& only) {
+    std::vector<StudyCell> cells = cells_of(study), chosen;
+    for (const std::string& pattern : only)
+        if (std::ranges::none_of(cells, [&](const StudyCell& cell) { return matches(pattern, cell.name); }))
+            throw InputError({study.file, 0, 0, "--only"}, fmt::format("found '{}', which fits no cell", printable(pattern)),
+                             "a pattern like '*xenon*'; --list names the cells");
+    std::ranges::copy_if(cells, std::back_inserter(chosen), [&](const StudyCell& cell) {
+        return only.empty() || std::ranges::any_of(only, [&](const std::string& pattern) { return matches(pattern, cell.name); });
+    });
+    return chosen;
+}
 
 StudyResult run_study(const Study& study, const StudyOptions& options) {
     StudyResult result;

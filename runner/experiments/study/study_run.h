@@ -17,6 +17,9 @@ struct StudyOptions {
     std::function<void(const StudyResult&)> write; ///< into the folder, before it is marked as complete
 };
 
+/// Those of a study's cells whose names fit one of the patterns, all where there is none. Throws InputError for one that fits no cell.
+std::vector<StudyCell> chosen_cells(const Study& study, const std::vector<std::string>& only);
+
 /// Reads all drives and lamps first, plays the cells in the order of cells_of, reads their reports back, compares. A cell that fails is
 /// noted and the next one played; SIGINT ends the study after the moment at hand. Throws InputError and DeviceError where nothing can be
 /// played, or where a folder to go on in holds cells of another study.

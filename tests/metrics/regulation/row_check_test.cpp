@@ -331,6 +331,7 @@ TEST(ShippedLamps, MeetTheRowsTheyAreBuiltToWithTheMarginsThatAreDocumented) {
         const RegulationCheck check = check_regulation(regulation(id), {table(lamp)});
         EXPECT_EQ(check.verdict, RowVerdict::pass) << lamp;
         EXPECT_FALSE(check.was_re_aimed) << lamp; // as first aimed
+        EXPECT_EQ(check_regulation(regulation(id), {table(lamp)}, {.aim = AimRule::automatic}).verdict, RowVerdict::pass) << lamp;
     }
     // Read off the shipped files by `fernlicht lamp FILE --picture`, and from docs/lamps.md: B50L 248 cd, 75R 26 % above its minimum.
     const RegulationCheck halogen = check_regulation(regulation("r112-b"), {table("halogen-low")});

@@ -186,6 +186,11 @@ TEST_F(StudyProgram, RefusesBeforeAnythingIsDrawn) {
     const Outcome none = run_program("study " + library_file("studies/standard.yaml") + " --only moon --out " + (folder / "out"));
     EXPECT_EQ(none.exit_code, 2);
     EXPECT_THAT(none.output, HasSubstr("found 'moon', which fits no cell"));
+    const auto listed = [](const std::string& only) {
+        return run_program("study " + library_file("studies/standard.yaml") + " --list --only " + only);
+    };
+    EXPECT_EQ(std::ranges::count(listed("'straight*'").output, '\n'), 2);
+    EXPECT_EQ(listed("moon").exit_code, 2);
 }
 
 } // namespace
