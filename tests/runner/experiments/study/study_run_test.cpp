@@ -3,6 +3,7 @@
 #include "tests/runner/run_readings.h"
 #include "tests/runner/schema_check.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
