@@ -194,7 +194,7 @@ YamlMap::YamlMap(YamlEntry entry, std::span<const std::string_view> known_keys) 
         if (const std::string_view now = name_of_today(member.key, known_keys); !now.empty())
             throw InputError({entry_.file(), member.line, member.column, child_path(entry_.key_path(), member.key)}, "a key of version 0.1",
                              fmt::format("'{}', its name today; `fernlicht migrate --in-place {}` writes the file so", now,
-                                         printable(entry_.file().string())));
+                                         printable(entry_.file().string(), 400)));
         const std::string near = meant_key(member.key, known_keys);
         throw InputError({entry_.file(), member.line, member.column, child_path(entry_.key_path(), member.key)}, "unknown key",
                          near.empty() ? fmt::format("one of {}", fmt::join(known_keys, ", ")) : "'" + near + "', the nearest known key");

@@ -89,7 +89,7 @@ TEST_F(Migrate, RefusesWhatItCannotRead) {
     for (const std::string& file : {written("broken.yaml", "fernlicht: [1\n"), written("other.yaml", "road: x\n"), folder_ / "none.yaml",
                                     folder_.path().string() + " --in-place"})
         EXPECT_EQ(run_program("migrate " + file).exit_code, 2) << file;
-    EXPECT_THAT(run_program("migrate " + folder_.path().string()).output, HasSubstr("--in-place or --out"));
+    EXPECT_THAT(run_program("migrate " + folder_.path().string()).output, HasSubstr("--in-place beside it"));
 }
 
 TEST_F(Migrate, ReadersNameTodaysWord) {
@@ -97,7 +97,8 @@ TEST_F(Migrate, ReadersNameTodaysWord) {
     const Outcome run = run_program("run " + drive);
     EXPECT_EQ(run.exit_code, 2);
     EXPECT_THAT(run.output, HasSubstr("old.yaml:2:1: variants: a key of version 0.1, expected 'lamp_sets', its name today; "
-                                      "`fernlicht migrate --in-place old.yaml` writes the file so"));
+                                      "`fernlicht migrate --in-place " +
+                                      drive + "` writes the file so"));
     for (const auto& [arguments, now] : {std::pair("bench --variant a", "--lamp-set"), std::pair("accept x --to=y", "--baselines"),
                                          std::pair("shadows --moments 2", "--count"), std::pair("references list", "baselines")}) {
         const Outcome old = run_program(arguments);
