@@ -260,9 +260,10 @@ TEST(Elbow, ABeamOf15DegreesThatIsRightAsFiledStaysThere) {
 TEST(Elbow, AnyAngleIsTurnedAtOnceInBothTraffics) {
     for (const planted::CutOff& c : planted_shapes) {
         const CandelaTable right = planted::beam(c), left = mirrored(right);
-        const Regulation none;
-        const Aim aim = check_regulation(none, {right}, {.aim = AimRule::automatic}).aims.front();
-        const Aim other = check_regulation(none, {left}, {.aim = AimRule::automatic, .left_hand_traffic = true}).aims.front();
+        Regulation limitless;
+        limitless.aim = AimRule::automatic;
+        const Aim aim = check_regulation(limitless, {right}, {}).aims.front();
+        const Aim other = check_regulation(limitless, {left}, {.left_hand_traffic = true}).aims.front();
         ASSERT_TRUE(aim.found) << aim.how;
         EXPECT_NEAR(aim.turned.v_deg, -0.57 - c.level_v_deg, aim.bound.v_deg);
         EXPECT_LE(std::abs(aim.residual.v_deg), aim.bound.v_deg);
