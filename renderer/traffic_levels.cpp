@@ -40,15 +40,17 @@ TrafficBeam::TrafficBeam(const BeamTexture& beam)
       columns_((beam.width + texels_a_column - 1) / texels_a_column), rows_(index_of((beam.height + texels_a_row - 1) / texels_a_row)),
       max_of_cell_(rows_.size() * index_of(columns_), 0.0F) {
     const int margin = 2 * max_steps + 1;
-    std::vector<float> row(index_of(beam.width + 2 * margin), 0.0F), worst(row.size());
+    const std::size_t stride = index_of(beam.width + 2 * margin);
+    std::vector<float> padded(index_of(texels_a_row + 2) * stride, 0.0F), worst(stride);
     for (int r = 0; r < static_cast<int>(rows_.size()); ++r) {
         Row& one = rows_[index_of(r)];
         one.second_cd.assign(index_of(max_steps + 1), 0.0F);
         // What is interpolated between two rows belongs to both.
-        for (int y = std::max(0, texels_a_row * r - 1); y <= std::min(beam.height - 1, texels_a_row * (r + 1)); ++y) {
+        const int bottom = std::max(0, texels_a_row * r - 1), top = std::min(beam.height - 1, texels_a_row * (r + 1));
+        for (int y = bottom; y <= top; ++y) {
             const auto cd = [&](int x, int v) { return beam.cd[index_of(v) * index_of(beam.width) + index_of(x)]; };
             for (int x = 0; x < beam.width; ++x) {
-                row[index_of(x + margin)] = cd(x, y);
+                padded[index_of(y - bottom) * stride + index_of(x + margin)] = cd(x, y);
                 if (y + 1 < beam.height)
                     one.up = std::max(one.up, std::abs(cd(x, y + 1) - cd(x, y)));
                 if (x + 1 < beam.width)
@@ -60,18 +62,19 @@ TrafficBeam::TrafficBeam(const BeamTexture& beam)
                     most = std::max(most, cd(x, y));
                 }
             }
-            for (int n = 1; n <= max_steps; ++n) {
-                worst.assign(worst.size(), 0.0F); // by column: no maximum waits for another
-                const float* const at = row.data();
-                const std::size_t apart = index_of(n), end = row.size() - apart - 1;
-                for (std::size_t x = apart; x < end; ++x) {
-                    const float whole = std::abs(at[x - apart] + at[x + apart] - 2.0F * at[x]);
-                    const float half = std::abs(at[x - apart] + at[x + apart + 1] - at[x] - at[x + 1]);
-                    worst[x] = whole > half ? whole : half;
+        }
+        for (std::size_t n = 1; n <= index_of(max_steps); ++n) {
+            worst.assign(stride, 0.0F); // by column: no maximum waits for another
+            for (int y = bottom; y <= top; ++y) {
+                const float* const at = padded.data() + index_of(y - bottom) * stride;
+                for (std::size_t x = n; x < stride - n - 1; ++x) {
+                    const float whole = std::abs(at[x - n] + at[x + n] - 2.0F * at[x]);
+                    const float half = std::abs(at[x - n] + at[x + n + 1] - at[x] - at[x + 1]);
+                    const float more = whole > half ? whole : half;
+                    worst[x] = worst[x] > more ? worst[x] : more;
                 }
-                float& second = one.second_cd[apart];
-                second = std::max(second, *std::max_element(worst.begin(), worst.end()));
             }
+            one.second_cd[n] = *std::max_element(worst.begin(), worst.end());
         }
         for (std::size_t n = 1; n < one.second_cd.size(); ++n)
             one.second_cd[n] = std::max(one.second_cd[n], one.second_cd[n - 1]);
