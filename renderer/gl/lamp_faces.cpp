@@ -64,7 +64,7 @@ void LampFaces::draw_faces(const Shot& shot, const std::vector<Face>& faces) {
         layout_ = make_vertex_array(context_);
     buffer_.fill(context_, faces);
     p.use();
-    gl.Uniform2f(p.uniform("picture_px"), static_cast<float>(shot.view.width_px), static_cast<float>(shot.view.height_px));
+    p.set("picture_px", glm::vec2(shot.view.width_px, shot.view.height_px));
     gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, buffer_.buffer);
     gl.BindVertexArray(layout_);
     // Luminance adds up, the shown colour takes the brighter, and the rest is the surface's.

@@ -36,8 +36,7 @@ class PhotometricLighting : public Lighting {
     };
     struct Compiled {
         Program program;
-        GLint clip, eye, axis, sky, traffic_grid;
-        bool shadows, sun, weather, lamps_in_fog;
+        bool traffic, shadows, sun, weather, lamps_in_fog;
     };
     /// Pieces that one variant draws.
     struct Group {

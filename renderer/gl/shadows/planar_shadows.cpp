@@ -39,7 +39,6 @@ PlanarShadows::PlanarShadows(Context& context, const SceneBuffers& scene, const 
     : ShadowMask(context, scene, settings, use),
       program_(context, "planar_shadow.vert.glsl", "",
                scene.moves() ? std::vector<Program::Define>{{"MOVING", "1"}} : std::vector<Program::Define>{}),
-      clip_(program_.uniform("clip_from_ego")), plane_(program_.uniform("plane")), lamp_(program_.uniform("lamp_m")),
       list_(context, scene) {}
 
 void PlanarShadows::set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m) {
@@ -133,12 +132,9 @@ void PlanarShadows::mark_hidden(const Shot& shot, std::size_t lamp, double raise
         return;
     const GladGLContext& gl = context_.gl;
     program_.use();
-    const glm::mat4 clip(glm::translate(shot.camera.clip_from_ego, {0.0, 0.0, -raised_m}));
-    const glm::vec4 to_plane(plane);
-    const glm::vec3 lamp_m(casters.lamp_m);
-    gl.UniformMatrix4fv(clip_, 1, GL_FALSE, &clip[0][0]);
-    gl.Uniform4fv(plane_, 1, &to_plane[0]);
-    gl.Uniform3fv(lamp_, 1, &lamp_m[0]);
+    program_.set("clip_from_ego", glm::mat4(glm::translate(shot.camera.clip_from_ego, {0.0, 0.0, -raised_m})));
+    program_.set("plane", glm::vec4(plane));
+    program_.set("lamp_m", glm::vec3(casters.lamp_m));
     gl.StencilFunc(GL_EQUAL, static_cast<GLint>(ground_bit | 1U), ground_bit);
     gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
     gl.Disable(GL_DEPTH_TEST);

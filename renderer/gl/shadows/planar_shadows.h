@@ -48,7 +48,6 @@ class PlanarShadows : public ShadowMask {
     void find_plane(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams);
 
     Program program_;
-    GLint clip_, plane_, lamp_;
     DrawList list_;
     std::vector<std::uint32_t> ground_; ///< pieces that the plane was laid through
     glm::dvec3 origin_m_{0.0};          ///< what world_plane_ is relative to
