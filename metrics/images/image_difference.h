@@ -2,6 +2,7 @@
 // How two display pictures (8-bit sRGB) differ, in their own levels 0..255 over all three channels.
 // How two pictures differ whose pixels are means with estimated variances: rays against rays.
 // Light as an eye and a log scale take it: in decades, for metrics that compare structure.
+// sRGB as IEC 61966-2-1 encodes it.
 #pragma once
 
 #include "scenarios/drives/play/frame.h"
@@ -102,5 +103,10 @@ Image<float> decades_of(const Image<float>& picture, double peak);
 
 /// The largest value; 0 for a picture without light.
 double peak_of(const Image<float>& picture);
+
+/// 0..1 to 0..1.
+double srgb_decoded(double encoded);
+/// Of all 8-bit values.
+const std::array<float, 256>& srgb_table();
 
 } // namespace fernlicht

@@ -1,4 +1,4 @@
-#include "metrics/strictness/strictness_classes.h"
+#include "metrics/strictness/strictness.h"
 
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"

@@ -1,4 +1,4 @@
-#include "renderer/reference/air.h"
+#include "renderer/reference/scattering.h"
 
 #include "renderer/reference/surface_response.h"
 #include "scenarios/light/fog_light.h"

@@ -1,4 +1,4 @@
-#include "scenarios/models/model_textures.h"
+#include "scenarios/models/model.h"
 
 #include <algorithm>
 #include <array>

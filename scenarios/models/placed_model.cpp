@@ -1,6 +1,5 @@
-#include "scenarios/models/placed_model.h"
 
-#include "scenarios/models/model_textures.h"
+#include "scenarios/models/model.h"
 #include "scenarios/roads/route.h"
 
 #include <glm/common.hpp>

@@ -1,4 +1,4 @@
-#include "scenarios/roads/mirrored_road.h"
+#include "scenarios/roads/road_network.h"
 
 #include <algorithm>
 

@@ -1,7 +1,5 @@
 #include "scenarios/roads/plan.h"
 
-#include "scenarios/roads/plan_curves.h"
-
 #include <algorithm>
 #include <cmath>
 

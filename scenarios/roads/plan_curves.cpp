@@ -1,4 +1,4 @@
-#include "scenarios/roads/plan_curves.h"
+#include "scenarios/roads/plan.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scenarios/roads/route_links.h"
+#include "scenarios/roads/road_finder.h"
 
 #include "scenarios/roads/plan.h"
 

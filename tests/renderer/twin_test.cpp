@@ -1,7 +1,7 @@
 // The GPU's float frames against the double-precision twin, pixel by pixel, within a bound that is derived, not tuned.
 #include "renderer/twin.h"
 
-#include "renderer/sanity.h"
+#include "renderer/renderer.h"
 #include "scenarios/photometry.h"
 #include "tests/renderer/device_test.h"
 #include "tests/renderer/reference/rooms.h"

@@ -1,6 +1,6 @@
 #include "metrics/images/ciede2000.h"
 #include "metrics/images/flip.h"
-#include "metrics/images/flip_filters.h"
+#include "metrics/images/flip_tile.h"
 #include "metrics/images/image_difference.h"
 #include "metrics/images/quick_powers.h"
 #include "metrics/images/ssim.h"

@@ -1,6 +1,5 @@
 #include "metrics/strictness/strictness.h"
 
-#include "metrics/strictness/strictness_classes.h"
 #include "tests/metrics/images/made_pictures.h"
 
 #include <cmath>

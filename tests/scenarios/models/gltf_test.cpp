@@ -1,4 +1,3 @@
-#include "scenarios/models/glb_writer.h"
 #include "scenarios/models/model.h"
 #include "scenarios/models/road_user_bodies.h"
 #include "scenarios/values/errors.h"
