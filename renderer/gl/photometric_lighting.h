@@ -1,8 +1,7 @@
 // The technique `photometric`: variants compiled for what a moment needs, and drawn group by group.
 #pragma once
 
-#include "renderer/gl/lamp_faces.h"
-#include "renderer/gl/lamps_in_fog.h"
+#include "renderer/gl/lamps_seen.h"
 #include "renderer/gl/scene/lighting.h"
 #include "renderer/gl/shadows/shadows.h"
 #include "renderer/gl/sun_light.h"
