@@ -1,4 +1,3 @@
-#include "metrics/images/ciede2000.h"
 
 #include "metrics/images/image_difference.h"
 #include "metrics/statistics/statistics.h"

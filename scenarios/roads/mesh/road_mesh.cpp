@@ -1,7 +1,6 @@
 #include "scenarios/roads/mesh/road_mesh.h"
 
 #include "scenarios/roads/mesh/mesh_materials.h"
-#include "scenarios/roads/mesh/mesh_objects.h"
 #include "scenarios/roads/mesh/mesh_terrain.h"
 
 #include <algorithm>
