@@ -1,7 +1,6 @@
 #include "metrics/road/lit_line.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <limits>

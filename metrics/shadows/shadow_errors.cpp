@@ -7,7 +7,6 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
-#include <utility>
 
 namespace fernlicht {
 namespace {

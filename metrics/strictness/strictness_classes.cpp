@@ -5,7 +5,6 @@
 #include "scenarios/values/picture_decoding.h"
 #include "scenarios/yaml/yaml_entry.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <map>

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <sstream>
 
 namespace fernlicht::gl {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <tuple>
 
 namespace fernlicht::gl {
 namespace {

@@ -3,9 +3,6 @@
 #include "scenarios/roads/mesh/mesh_materials.h"
 #include "scenarios/roads/mesh/mesh_terrain.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace fernlicht {
 
 namespace {

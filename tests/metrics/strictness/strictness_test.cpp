@@ -5,7 +5,6 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <limits>
-#include <numeric>
 #include <tuple>
 
 namespace fernlicht {

@@ -3,7 +3,6 @@
 #include "tests/scenarios/can/dbc_trial.h"
 #include "tests/trial.h"
 
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
