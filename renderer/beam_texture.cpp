@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
-#include <utility>
 
 namespace fernlicht {
 namespace {

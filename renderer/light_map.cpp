@@ -7,7 +7,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <oneapi/tbb/parallel_for.h>
 #include <stdexcept>
 

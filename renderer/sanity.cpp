@@ -1,4 +1,3 @@
-#include "renderer/sanity.h"
 
 #include "renderer/renderer.h"
 #include "scenarios/drives/play/camera.h"

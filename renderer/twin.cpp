@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
 namespace fernlicht {
 namespace {

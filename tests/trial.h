@@ -3,10 +3,12 @@
 
 #include "scenarios/values/errors.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -26,6 +28,17 @@ inline std::filesystem::path new_folder() {
 inline std::filesystem::path written(const std::string& name, const std::string& text, const std::filesystem::path& folder = new_folder()) {
     std::ofstream(folder / name, std::ios::binary) << text;
     return folder / name;
+}
+
+/// Files of these extensions below a folder, by name; none where it does not exist.
+inline std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder, const std::set<std::string>& extensions) {
+    std::vector<std::filesystem::path> files;
+    if (std::filesystem::is_directory(folder))
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+            if (extensions.contains(entry.path().extension().string()))
+                files.push_back(entry.path());
+    std::ranges::sort(files);
+    return files;
 }
 
 /// What an action is refused with.

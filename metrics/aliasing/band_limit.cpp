@@ -1,4 +1,4 @@
-#include "metrics/aliasing/band_limit.h"
+#include "metrics/aliasing/spatial_aliasing.h"
 
 #include <bit>
 #include <cmath>

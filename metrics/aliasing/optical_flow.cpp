@@ -1,6 +1,5 @@
 #include "metrics/aliasing/optical_flow.h"
 
-#include "metrics/aliasing/band_limit.h"
 #include "metrics/aliasing/spatial_aliasing.h"
 #include "metrics/statistics/statistics.h"
 

@@ -4,7 +4,7 @@
 
 #include "metrics/folds/seeing_series.h"
 #include "metrics/readings/readings.h"
-#include "metrics/road/lane_ahead.h"
+#include "metrics/road/lit_line.h"
 #include "metrics/seeing/visibility.h"
 
 namespace fernlicht {

@@ -1,7 +1,5 @@
-#include "metrics/images/ciede2000.h"
 
 #include "metrics/images/image_difference.h"
-#include "metrics/images/srgb.h"
 #include "metrics/statistics/statistics.h"
 #include "scenarios/values/pose.h"
 

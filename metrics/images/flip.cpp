@@ -2,7 +2,6 @@
 
 #include "metrics/images/flip_tile.h"
 #include "metrics/images/image_difference.h"
-#include "metrics/images/srgb.h"
 #include "metrics/statistics/statistics.h"
 #include "scenarios/values/pose.h"
 

@@ -1,4 +1,4 @@
-#include "metrics/images/flip_filters.h"
+#include "metrics/images/flip_tile.h"
 
 #include "scenarios/values/pose.h"
 

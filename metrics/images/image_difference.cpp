@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
@@ -259,6 +260,18 @@ Image<float> decades_of(const Image<float>& picture, double peak) {
 
 double peak_of(const Image<float>& picture) {
     return picture.empty() ? 0.0 : std::max(0.0, static_cast<double>(*std::ranges::max_element(picture.pixels())));
+}
+
+double srgb_decoded(double encoded) { return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4); }
+
+const std::array<float, 256>& srgb_table() {
+    static const std::array<float, 256> table = [] {
+        std::array<float, 256> values{};
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = static_cast<float>(srgb_decoded(static_cast<double>(i) / 255.0));
+        return values;
+    }();
+    return table;
 }
 
 } // namespace fernlicht

@@ -2,6 +2,16 @@
 // How two display pictures (8-bit sRGB) differ, in their own levels 0..255 over all three channels.
 // How two pictures differ whose pixels are means with estimated variances: rays against rays.
 // Light as an eye and a log scale take it: in decades, for metrics that compare structure.
+// sRGB as IEC 61966-2-1 encodes it.
+// Structural similarity: 1 for the same picture, towards 0 (and below, where structures are each other's negatives) for different ones.
+// SSIM: Wang, Bovik, Sheikh, Simoncelli, "Image quality assessment: from error visibility to structural similarity" (2004).
+// MS-SSIM: Wang, Simoncelli, Bovik, "Multiscale structural similarity for image quality assessment" (2003).
+//
+// A window of 11 x 11 weights (Gaussian, standard deviation 1.5) goes over every pixel. At the picture's edges it sees the picture mirrored
+// about its outermost pixels (OpenCV's BORDER_REFLECT_101), so that edges count as much as the middle; the authors' own program leaves out
+// the five outermost pixels instead. On one 8-bit channel with range 255, mean() is what OpenCV's QualitySSIM computes for that channel.
+// Differences of colour in the CIE's formula of 2000, after Sharma, Wu and Dalal, "The CIEDE2000 color-difference formula: implementation
+// notes, supplementary test data, and mathematical observations" (2005), with kL = kC = kH = 1. About 1 is just seen beside each other.
 #pragma once
 
 #include "scenarios/drives/play/frame.h"
@@ -10,6 +20,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace fernlicht {
 
@@ -102,5 +113,47 @@ Image<float> decades_of(const Image<float>& picture, double peak);
 
 /// The largest value; 0 for a picture without light.
 double peak_of(const Image<float>& picture);
+
+/// 0..1 to 0..1.
+double srgb_decoded(double encoded);
+/// Of all 8-bit values.
+const std::array<float, 256>& srgb_table();
+
+struct Ssim {
+    double mean = 1.0;
+    double minimum = 1.0; ///< least similar pixel
+    int minimum_x = 0, minimum_y = 0;
+};
+
+/// `range`: of the values, 255 for 8-bit pictures, above 0; K1 = 0.01 and K2 = 0.03 of it keep the quotients from 0 / 0.
+/// Throws std::invalid_argument for different sizes, empty pictures, values that are not finite, and a range that is not above 0.
+Ssim ssim(const Image<float>& tested, const Image<float>& reference, double range);
+
+/// The least width and height for five scales: the window still fits into the coarsest.
+inline constexpr int smallest_for_ms_ssim_px = 161;
+
+/// Five scales, each half as fine as the one before (means of 2 x 2 pixels; an odd last one counts twice): contrast and structure of the
+/// first four and all of the coarsest, to the powers 0.0448, 0.2856, 0.3001, 0.2363 and 0.1333. A scale whose mean is below 0 counts as 0,
+/// since a negative number has no such power. nullopt for pictures smaller than smallest_for_ms_ssim_px either way. Throws as ssim() does.
+std::optional<double> ms_ssim(const Image<float>& tested, const Image<float>& reference, double range);
+
+/// CIELAB: L* 0..100, a* to red, b* to yellow.
+struct Lab {
+    double l = 0.0, a = 0.0, b = 0.0;
+};
+
+double ciede2000(const Lab& one, const Lab& other);
+
+/// Of an 8-bit sRGB colour, white D65 (BT.709's own, 2 degrees).
+Lab lab_of(const Rgb8& colour);
+
+struct ColourDifference {
+    double mean = 0.0, median = 0.0, p95 = 0.0, maximum = 0.0; ///< over pixels; median and p95 by nearest rank
+    int maximum_x = 0, maximum_y = 0;
+};
+/// Pixel by pixel. Throws std::invalid_argument for different sizes or empty pictures. The formula is meant for colours beside each other
+/// in good light: in the dark parts of a night picture it says more than a driver sees.
+Image<float> ciede2000_map(const Image<Rgb8>& tested, const Image<Rgb8>& reference);
+ColourDifference summary_of_colours(const Image<float>& differences);
 
 } // namespace fernlicht

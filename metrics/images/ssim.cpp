@@ -1,4 +1,3 @@
-#include "metrics/images/ssim.h"
 
 #include "metrics/images/image_difference.h"
 

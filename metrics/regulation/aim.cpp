@@ -1,4 +1,4 @@
-#include "metrics/regulation/aim.h"
+#include "metrics/regulation/regulation_check.h"
 
 #include "metrics/beam/cut_off_elbow.h"
 #include "scenarios/values/pose.h"

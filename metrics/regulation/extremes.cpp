@@ -1,4 +1,4 @@
-#include "metrics/regulation/extremes.h"
+#include "metrics/regulation/row_check.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,5 @@
 #include "metrics/regulation/row_check.h"
 
-#include "metrics/regulation/extremes.h"
 #include "metrics/regulation/rows.h"
 
 #include <algorithm>

@@ -1,6 +1,8 @@
 // How strictly two pictures must agree: a tree of leaves, each a statement about pixels, joined by `all` and `any`. A class of strictness
 // is such a tree with a name. What comes back tells how near to its threshold everything came, not only whether it passed.
 // How many pixels differ by how much: bins of a third of a decade, and apart from them those that do not differ at all.
+// The classes of strictness that have a name, from the strictest on.
+// Classes of strictness by name, or from a file of the user's.
 #pragma once
 
 #include "scenarios/values/image.h"
@@ -89,5 +91,19 @@ struct ErrorHistogram {
 /// Of |tested - reference|; of several channels that of the worst. Throws std::invalid_argument for sizes or numbers of channels that
 /// differ, and values that are not finite.
 ErrorHistogram error_histogram(const std::vector<Image<float>>& tested, const std::vector<Image<float>>& reference);
+
+struct StrictnessClass {
+    std::string name;
+    std::string meaning;    ///< one sentence: who needs it, and why its numbers are what they are
+    StrictnessNode display; ///< for 8-bit pictures, in levels
+    StrictnessNode linear;  ///< for lx, cd/m2, m
+};
+
+/// identical, same-driver, same-light, same-picture.
+const std::vector<StrictnessClass>& strictness_classes();
+
+/// The class of this name; else the YAML file of this name (docs/comparing.md has its keys), whose masks are read too. Throws InputError:
+/// neither a class nor a file; unknown keys, numbers out of range, with file and line; masks that cannot be read.
+StrictnessClass read_strictness(const std::string& name_or_file);
 
 } // namespace fernlicht

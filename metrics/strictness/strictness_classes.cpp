@@ -1,11 +1,10 @@
-#include "metrics/strictness/strictness_classes.h"
+#include "metrics/strictness/strictness.h"
 
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
 #include "scenarios/values/picture_decoding.h"
 #include "scenarios/yaml/yaml_entry.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <map>

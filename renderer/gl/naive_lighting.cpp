@@ -74,8 +74,7 @@ void NaiveLighting::draw_shadow_maps(const Shot& shot) {
         const float far_away = 0.0F;
         gl.ClearNamedFramebufferfv(shadow_target_, GL_DEPTH, 0, &far_away);
         const glm::dmat4 clip = lamp_clip(lamps_[i], beams_.of(lamps_[i].file).window, shot.moment.ego.position_m);
-        const glm::mat4 clip_float(clip);
-        gl.UniformMatrix4fv(depth_.uniform("clip_from_ego"), 1, GL_FALSE, &clip_float[0][0]);
+        depth_.set("clip_from_ego", glm::mat4(clip));
         draw_pieces(clip, shot.moment.ego.position_m, false, shadow_farthest_m, shot.work);
         ++shot.work.shadow_maps;
         ++shot.work.shadow_maps_drawn;
@@ -96,18 +95,15 @@ void NaiveLighting::draw(const Shot& shot) {
     shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
     const Program& program = variant(lamps_.size(), shot);
     program.use();
-    const glm::mat4 clip(shot.camera.clip_from_ego);
-    const glm::vec3 eye(shot.camera.eye_m), direction(shot.camera.is_map ? -shot.camera.axis : glm::dvec3(0.0)), axis(shot.camera.axis);
-    gl.UniformMatrix4fv(program.uniform("clip_from_ego"), 1, GL_FALSE, &clip[0][0]);
-    gl.Uniform3fv(program.uniform("eye_m"), 1, &eye[0]);
-    gl.Uniform3fv(program.uniform("eye_direction"), 1, &direction[0]);
-    gl.Uniform4f(program.uniform("eye_axis"), axis.x, axis.y, axis.z, 0.0F);
-    gl.Uniform1f(program.uniform("sky_lx"), static_cast<float>(shot.moment.daylight.horizontal_illuminance_lx));
-    gl.Uniform1f(program.uniform("target_height_m"), static_cast<float>(settings_.target_height_m));
-    gl.Uniform1f(program.uniform("shadow_tolerance_m"), static_cast<float>(settings_.shadows.tolerance_m));
+    program.set("clip_from_ego", glm::mat4(shot.camera.clip_from_ego));
+    program.set("eye_m", glm::vec3(shot.camera.eye_m));
+    program.set("eye_direction", glm::vec3(shot.camera.is_map ? -shot.camera.axis : glm::dvec3(0.0)));
+    program.set("eye_axis", four(shot.camera.axis));
+    program.set("sky_lx", shot.moment.daylight.horizontal_illuminance_lx);
+    program.set("target_height_m", settings_.target_height_m);
+    program.set("shadow_tolerance_m", settings_.shadows.tolerance_m);
     const ToneMapper& tone = settings_.tone_mapper;
-    gl.Uniform4f(program.uniform("tone"), static_cast<float>(tone.kind), static_cast<float>(tone.s), static_cast<float>(tone.l_max_cdm2),
-                 0.0F);
+    program.set("tone", glm::vec4(static_cast<float>(tone.kind), tone.s, tone.l_max_cdm2, 0.0));
     gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_);
     for (std::size_t i = 0; i < lamps_.size(); ++i) {
         gl.BindTextureUnit(static_cast<GLuint>(i), beams_.of(lamps_[i].file).texture);

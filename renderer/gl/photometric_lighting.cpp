@@ -37,10 +37,9 @@ void set_weather_uniforms(const GladGLContext& gl, const Program& program, const
     const auto extinction = static_cast<float>(weather.extinction_per_m);
     const auto scattering = static_cast<float>(weather.extinction_per_m * weather.scattering_albedo);
     const bool seen_through = !shot.camera.is_map; // maps show the ground without the air above it
-    gl.Uniform4f(program.uniform("fog"), extinction, seen_through ? extinction : 0.0F, seen_through ? scattering : 0.0F,
-                 static_cast<float>(weather.asymmetry));
-    gl.Uniform1f(program.uniform("wetness"), static_cast<float>(weather.wetness));
-    gl.Uniform1f(program.uniform("sky_cdm2"), shot.sky_luminance_cdm2);
+    program.set("fog", glm::vec4(extinction, seen_through ? extinction : 0.0F, seen_through ? scattering : 0.0F, weather.asymmetry));
+    program.set("wetness", weather.wetness);
+    program.set("sky_cdm2", static_cast<double>(shot.sky_luminance_cdm2));
     const Camera& camera = shot.camera;
     glm::vec3 corners[3];
     for (int i = 0; i < 3; ++i) {
@@ -175,35 +174,27 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
         d.insert(d.end(), more.begin(), more.end());
     }
     Program program(context_, "photometric.vert.glsl", "photometric.frag.glsl", d);
-    const GLint clip = program.uniform("clip_from_ego"), eye = program.uniform("eye_m"), axis = program.uniform("eye_axis"),
-                sky = program.uniform("sky_lx"), grid = f.traffic ? program.uniform("traffic_grid") : -1;
-    return variants_
-        .emplace(f, Compiled{std::move(program), clip, eye, axis, sky, grid, f.shadows, f.sun > 0, f.fog || f.wet, f.lamps_in_fog})
+    return variants_.emplace(f, Compiled{std::move(program), f.traffic, f.shadows, f.sun > 0, f.fog || f.wet, f.lamps_in_fog})
         .first->second;
 }
 
 void PhotometricLighting::use(const Compiled& v, const Shot& shot) const {
-    const GladGLContext& gl = context_.gl;
     v.program.use();
     if (v.shadows)
         shadows_->set_uniforms(v.program);
-    const glm::mat4 clip(shot.camera.clip_from_ego);
-    const glm::vec3 eye(shot.camera.eye_m), axis(shot.camera.axis);
-    gl.UniformMatrix4fv(v.clip, 1, GL_FALSE, &clip[0][0]);
-    gl.Uniform3fv(v.eye, 1, &eye[0]);
-    gl.Uniform4f(v.axis, axis.x, axis.y, axis.z, shot.camera.is_map ? 0.0F : 1.0F);
-    if (v.traffic_grid >= 0) {
-        const glm::vec4 grid = traffic_.grid();
-        gl.Uniform4fv(v.traffic_grid, 1, &grid[0]);
-    }
-    gl.Uniform1f(v.sky, static_cast<float>(shot.moment.daylight.horizontal_illuminance_lx));
+    v.program.set("clip_from_ego", glm::mat4(shot.camera.clip_from_ego));
+    v.program.set("eye_m", glm::vec3(shot.camera.eye_m));
+    v.program.set("eye_axis", four(shot.camera.axis, shot.camera.is_map ? 0.0 : 1.0));
+    if (v.traffic)
+        v.program.set("traffic_grid", traffic_.grid());
+    v.program.set("sky_lx", shot.moment.daylight.horizontal_illuminance_lx);
     if (v.sun)
         sun_->set_uniforms(v.program);
     if (v.weather)
-        set_weather_uniforms(gl, v.program, shot);
+        set_weather_uniforms(context_.gl, v.program, shot);
     if (v.lamps_in_fog) {
-        gl.Uniform1f(v.program.uniform("air_lamp_count"), static_cast<float>(lamps_in_fog_.count()));
-        gl.Uniform1f(v.program.uniform("air_min_cdm2"), lamps_in_fog_.min_cdm2());
+        v.program.set("air_lamp_count", lamps_in_fog_.count());
+        v.program.set("air_min_cdm2", static_cast<double>(lamps_in_fog_.min_cdm2()));
     }
 }
 

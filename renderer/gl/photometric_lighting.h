@@ -1,8 +1,7 @@
 // The technique `photometric`: variants compiled for what a moment needs, and drawn group by group.
 #pragma once
 
-#include "renderer/gl/lamp_faces.h"
-#include "renderer/gl/lamps_in_fog.h"
+#include "renderer/gl/lamps_seen.h"
 #include "renderer/gl/scene/lighting.h"
 #include "renderer/gl/shadows/shadows.h"
 #include "renderer/gl/sun_light.h"
@@ -36,8 +35,7 @@ class PhotometricLighting : public Lighting {
     };
     struct Compiled {
         Program program;
-        GLint clip, eye, axis, sky, traffic_grid;
-        bool shadows, sun, weather, lamps_in_fog;
+        bool traffic, shadows, sun, weather, lamps_in_fog;
     };
     /// Pieces that one variant draws.
     struct Group {

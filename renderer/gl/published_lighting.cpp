@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <sstream>
 
 namespace fernlicht::gl {
@@ -137,7 +136,7 @@ void PublishedLighting::set_lamps(const Shot& shot) {
     update_buffer(context_, spot_block_, spots_);
 }
 
-const PublishedLighting::Compiled& PublishedLighting::variant(const Variant& wish, const FrameOutputs& outputs) {
+const Program& PublishedLighting::variant(const Variant& wish, const FrameOutputs& outputs) {
     if (const auto known = variants_.find(wish); known != variants_.end())
         return known->second;
     std::vector<Program::Define> d = Targets::defines(outputs);
@@ -166,26 +165,18 @@ const PublishedLighting::Compiled& PublishedLighting::variant(const Variant& wis
         define("MAP_INVERSE_SPAN", vector([](const LightMapAxis& a) { return 1.0 / (a.to_m - a.from_m); }, *map_));
         define("MAP_GROWTH", literal(map_->ahead.growth));
     }
-    Program program(context_, "published.vert.glsl", "published.frag.glsl", d);
-    const auto at = [&](const char* name) { return program.uniform(name); };
-    const GLint clip = at("clip_from_ego"), car = at("car_axes"), eye = at("eye_m"), axis = at("eye_axis"), sun = at("sun_lx"),
-                ambient = at("ambient");
-    return variants_.emplace(wish, Compiled{std::move(program), clip, car, eye, axis, sun, ambient}).first->second;
+    return variants_.emplace(wish, Program(context_, "published.vert.glsl", "published.frag.glsl", d)).first->second;
 }
 
-void PublishedLighting::use(const Compiled& v, const Shot& shot) const {
-    const GladGLContext& gl = context_.gl;
-    v.program.use();
-    const glm::mat4 clip(shot.camera.clip_from_ego);
-    const glm::mat3 car(shot.moment.ego.axes);
-    const glm::vec3 eye(shot.camera.eye_m), axis(shot.camera.axis);
+void PublishedLighting::use(const Program& program, const Shot& shot) const {
+    program.use();
     const double tod = time_of_day(shot.moment.daylight);
-    gl.UniformMatrix4fv(v.clip, 1, GL_FALSE, &clip[0][0]);
-    gl.UniformMatrix3fv(v.car, 1, GL_FALSE, &car[0][0]);
-    gl.Uniform3fv(v.eye, 1, &eye[0]);
-    gl.Uniform3fv(v.axis, 1, &axis[0]);
-    gl.Uniform1f(v.sun, is("SUN", "1") ? static_cast<float>(tod * sun_max_lx) : 0.0F);
-    gl.Uniform1f(v.ambient, static_cast<float>(std::min(global_ambient + tod, 1.0)));
+    program.set("clip_from_ego", glm::mat4(shot.camera.clip_from_ego));
+    program.set("car_axes", glm::mat3(shot.moment.ego.axes));
+    program.set("eye_m", glm::vec3(shot.camera.eye_m));
+    program.set("eye_axis", glm::vec3(shot.camera.axis));
+    program.set("sun_lx", is("SUN", "1") ? tod * sun_max_lx : 0.0);
+    program.set("ambient", std::min(global_ambient + tod, 1.0));
 }
 
 void PublishedLighting::bind() const {

@@ -73,10 +73,6 @@ class PublishedLighting : public Lighting {
         int lamps = 0, texture = 0, pass = 0, outputs = 0;
         auto operator<=>(const Variant&) const = default;
     };
-    struct Compiled {
-        Program program;
-        GLint clip, car, eye, axis, sun, ambient;
-    };
     struct Group {
         int texture; ///< SurfaceClass::texture
         std::vector<std::uint32_t> pieces;
@@ -94,8 +90,8 @@ class PublishedLighting : public Lighting {
     void set_projected_lamp(const LitLamp& lamp, const UploadedBeam& beam, const glm::dvec3& ego_m);
     void set_spots(const LitLamp& lamp, const glm::dvec3& ego_m);
     std::vector<Group> groups_for(const Shot& shot, std::size_t& pieces) const;
-    const Compiled& variant(const Variant& wish, const FrameOutputs& outputs);
-    void use(const Compiled& v, const Shot& shot) const;
+    const Program& variant(const Variant& wish, const FrameOutputs& outputs);
+    void use(const Program& program, const Shot& shot) const;
     void bind() const;
     void start_pass(int pass, const Shot& shot) const;
     void end_passes() const;
@@ -108,7 +104,7 @@ class PublishedLighting : public Lighting {
     SceneBuffers scene_;
     PublishedBeams beams_;
     DrawList list_;
-    std::map<Variant, Compiled> variants_;
+    std::map<Variant, Program> variants_;
     int lamps_ = 0, computed_lamps_ = 0; ///< as the shader is compiled for; as it computes one by one
     std::vector<PackedLamp> packed_;
     std::vector<PackedSpot> spots_;

@@ -104,16 +104,12 @@ void SunLight::compile() {
 }
 
 void SunLight::set_uniforms(const Program& program) const {
-    const GladGLContext& gl = context_.gl;
-    const glm::vec3 towards(towards_);
-    gl.Uniform4f(program.uniform("sun_towards_lx"), towards.x, towards.y, towards.z, static_cast<float>(illuminance_lx_));
+    program.set("sun_towards_lx", four(towards_, illuminance_lx_));
     glm::dmat4 to_map(1.0);
     to_map[0][0] = to_map[1][1] = 0.5 * window_share;
     to_map[3][0] = to_map[3][1] = 0.5;
-    const glm::mat4 map(to_map * window_from_ego());
-    gl.UniformMatrix4fv(program.uniform("sun_map_from_ego"), 1, GL_FALSE, &map[0][0]);
-    gl.Uniform2f(program.uniform("sun_raised_m"), static_cast<float>(raised_m),
-                 static_cast<float>(ground_casts_ ? raised_m : ground_raised_m));
+    program.set("sun_map_from_ego", glm::mat4(to_map * window_from_ego()));
+    program.set("sun_raised_m", glm::vec2(raised_m, ground_casts_ ? raised_m : ground_raised_m));
 }
 
 std::size_t SunLight::texture_bytes() const { return map_ ? std::size_t{4} * sun_map_texels * sun_map_texels : 0; }

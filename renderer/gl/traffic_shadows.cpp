@@ -3,7 +3,6 @@
 #include "renderer/gl/shadows/shadow_maps.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 

@@ -1,4 +1,3 @@
-#include "renderer/reference/air.h"
 #include "renderer/reference/pixel_estimate.h"
 #include "renderer/reference/scattering.h"
 

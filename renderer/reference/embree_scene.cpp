@@ -3,7 +3,6 @@
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <tbb/parallel_for.h>

@@ -1,6 +1,5 @@
 #include "renderer/reference/path.h"
 
-#include "renderer/reference/air.h"
 #include "renderer/reference/scattering.h"
 #include "scenarios/light/fog_light.h"
 #include "scenarios/light/light.h"

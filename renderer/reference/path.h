@@ -6,16 +6,16 @@
 // discs that no path meets by itself. The sky, L = E_h / pi from every direction above the horizon, and surfaces' own light count where a
 // path meets them, and are never asked directly; sun and moon are asked as lamps are. So each way that light can take is counted once. A
 // surface met from behind, on the side that is not lit, is black. A wet surface sends paths on below its film and off it (scattering.h);
-// fog turns them (air.h).
+// fog turns them (scattering.h).
 //
 // Whitted's ray tracing (T. Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980): at each surface one feeler to
 // each lamp, and where it is smooth one ray on by mirroring and one by refraction.
 //
-// Fog on each way from surface to surface is that of direct light (air.h). Bias: light that has left a rough surface lights no other; the
-// sky's share on a surface is (1 + n_z) / 2, hidden by nothing; feelers end at glass as at any surface, and lamps light nothing by way of
-// mirrors; after ReferenceSettings::max_smooth smooth surfaces there is no light. No noise but that of the pixel's footprint and of lamps
-// with an area. Where nothing is smooth it is the same picture as direct light. Shares of mirroring and refraction are Fresnel's, not the
-// constants of 1980.
+// Fog on each way from surface to surface is that of direct light (scattering.h). Bias: light that has left a rough surface lights no
+// other; the sky's share on a surface is (1 + n_z) / 2, hidden by nothing; feelers end at glass as at any surface, and lamps light nothing
+// by way of mirrors; after ReferenceSettings::max_smooth smooth surfaces there is no light. No noise but that of the pixel's footprint and
+// of lamps with an area. Where nothing is smooth it is the same picture as direct light. Shares of mirroring and refraction are Fresnel's,
+// not the constants of 1980.
 #pragma once
 
 #include "renderer/reference/shot.h"
@@ -36,7 +36,7 @@ void add_bounced_light(const Shot& shot, const std::array<SamplePoint, packet_si
 /// What is seen in the packet's mirrors and through its glass, both ways that glass sends it. Luminance only.
 void add_smooth_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const Arriving& arriving, PacketLight& light);
 
-/// Both, by paths, and where there is fog what it sends towards the eye (air.h).
+/// Both, by paths, and where there is fog what it sends towards the eye (scattering.h).
 void add_path_light(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const std::array<Ray, packet_size>& eye_rays,
                     LaneMask lanes, PacketLight& light);
 

@@ -1,4 +1,4 @@
-// Light of others' lamps that the air turns towards the eye (lamps_in_fog.h says what is left out). v_air: eye, number of lamps; v_air_min_cdm2.
+// Light of others' lamps that the air turns towards the eye (lamps_seen.h says what is left out). v_air: eye, number of lamps; v_air_min_cdm2.
 struct AirLamp {
     vec4 position_m; // relative to the car; w: most candela
     vec4 right;

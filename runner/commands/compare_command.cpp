@@ -1,7 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "metrics/images/flip.h"
-#include "metrics/strictness/strictness_classes.h"
+#include "metrics/strictness/strictness.h"
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/compare/lamps/lamp_comparison.h"
 #include "runner/experiments/compare/picture_comparison.h"

@@ -2,7 +2,6 @@
 
 #include "renderer/gpu_timer.h"
 #include "renderer/renderer.h"
-#include "renderer/sanity.h"
 #include "runner/findings/library_versions.h"
 #include "runner/findings/run_context.h"
 #include "runner/play/live/can_socket.h"

@@ -7,9 +7,7 @@
 #include "runner/files/json_text.h"
 #include "runner/files/picture_file.h"
 #include "scenarios/lamps/lamp_model.h"
-#include "scenarios/models/glb_writer.h"
-#include "scenarios/models/model_textures.h"
-#include "scenarios/models/placed_model.h"
+#include "scenarios/models/model.h"
 #include "scenarios/models/road_user_bodies.h"
 #include "scenarios/values/errors.h"
 

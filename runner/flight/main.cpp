@@ -1,6 +1,6 @@
 // fernlicht-import FILE OUT FORWARD: what `fernlicht import` starts, apart so that OpenSceneGraph burdens nothing else.
 #include "runner/flight/flight_model.h"
-#include "scenarios/models/glb_writer.h"
+#include "scenarios/models/model.h"
 #include "scenarios/values/errors.h"
 
 #include <exception>

@@ -1,8 +1,8 @@
 // What a drive's stored pictures are shown by, as the play loop meets them.
 #pragma once
 
-#include "metrics/display/display_viewing.h"
-#include "metrics/display/tone_fit.h"
+#include "metrics/display/display_colour.h"
+#include "metrics/display/night_vision.h"
 #include "runner/findings/report.h"
 #include "scenarios/drives/play/frame.h"
 

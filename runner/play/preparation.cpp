@@ -1,6 +1,6 @@
 #include "runner/play/preparation.h"
 
-#include "metrics/display/tone_fit.h"
+#include "metrics/display/display_colour.h"
 #include "renderer/gpu_timer.h"
 #include "runner/play/display_step.h"
 #include "runner/play/lux_map.h"

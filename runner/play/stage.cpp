@@ -6,7 +6,7 @@
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/staged_scene.h"
 #include "scenarios/drives/story/apply_storyboard.h"
-#include "scenarios/roads/mirrored_road.h"
+#include "scenarios/roads/road_network.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>

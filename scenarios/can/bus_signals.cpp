@@ -164,42 +164,25 @@ void BusSignals::apply_policy(std::size_t input, std::int64_t tick_ns, BusValue&
         return;
     }
     value.policy_acted = true;
-    value.value = not_known;
-    switch (by.policy(value.state)) {
-    case BusPolicy::hold:
-        value.value = source.held ? *source.held : by.fallback.value_or(not_known);
-        break;
-    case BusPolicy::fallback:
-        value.value = by.fallback.value_or(not_known);
-        break;
-    case BusPolicy::lost:
-        break;
-    case BusPolicy::fail:
-        // A signal is missing when its time to come is over; until then it is lost.
-        if (value.state == BusState::missing && tick_ns <= source.stale_after_ns) {
-            value.value = by.fallback.value_or(not_known);
-            break;
-        }
-        std::string found;
-        switch (value.state) {
-        case BusState::missing:
-            found = fmt::format("no frame until {:.3f} s", in_seconds(tick_ns));
-            break;
-        case BusState::stale:
-            found = fmt::format("no frame for {:.3f} s at {:.3f} s", value.age_s, in_seconds(tick_ns));
-            break;
-        case BusState::out_of_range:
-            found = fmt::format("{} at {:.3f} s", said_by(source.first.conversion, *source.first.signal, by, value.received),
-                                in_seconds(tick_ns));
-            break;
-        default:
-            found = fmt::format(
-                "{} beside {} of {} at {:.3f} s", said_by(source.first.conversion, *source.first.signal, by, value.received),
-                said_by(source.second->conversion, *source.second->signal, by, value.other), by.also->text(), in_seconds(tick_ns));
-        }
-        throw InputError(by.where, fmt::format("{} of {} is {}: {}{}", by.name, by.source.text(), words_of(value.state), found, recording_),
-                         "a fresh value, because its policy is to fail");
+    const BusPolicy policy = by.policy(value.state);
+    // A signal is missing when its time to come is over; until then it is lost.
+    const bool may_come = value.state == BusState::missing && tick_ns <= source.stale_after_ns;
+    const double fallback = by.fallback.value_or(not_known);
+    value.value = policy == BusPolicy::lost ? not_known : policy == BusPolicy::hold ? source.held.value_or(fallback) : fallback;
+    if (policy != BusPolicy::fail || may_come)
+        return;
+    const std::string now = fmt::format("{:.3f} s", in_seconds(tick_ns));
+    std::string found =
+        value.state == BusState::missing ? "no frame until " + now : fmt::format("no frame for {:.3f} s at {}", value.age_s, now);
+    if (value.state == BusState::out_of_range || value.state == BusState::contradictory) {
+        found = said_by(source.first.conversion, *source.first.signal, by, value.received);
+        if (value.state == BusState::contradictory)
+            found += fmt::format(" beside {} of {}", said_by(source.second->conversion, *source.second->signal, by, value.other),
+                                 by.also->text());
+        found += " at " + now;
     }
+    throw InputError(by.where, fmt::format("{} of {} is {}: {}{}", by.name, by.source.text(), words_of(value.state), found, recording_),
+                     "a fresh value, because its policy is to fail");
 }
 
 const std::vector<BusValue>& BusSignals::at(std::int64_t tick_ns) {

@@ -18,18 +18,7 @@ void append_byte(std::string& out, std::uint8_t byte) {
     out += upper_hex[byte & 15];
 }
 
-void append_padded(std::string& out, std::int64_t value, std::size_t digits) {
-    char text[20];
-    std::size_t length = 0;
-    do {
-        text[length++] = static_cast<char>('0' + value % 10);
-        value /= 10;
-    } while (value > 0);
-    for (; length < digits && length < sizeof text; ++length)
-        text[length] = '0';
-    while (length > 0)
-        out += text[--length];
-}
+void append_padded(std::string& out, std::int64_t value, int digits) { fmt::format_to(std::back_inserter(out), "{:0{}}", value, digits); }
 
 void append_date(std::string& out, std::int64_t seconds) {
     using namespace std::chrono;

@@ -1,6 +1,5 @@
 #include "scenarios/can/candump_stream.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "scenarios/can/signal_bits.h"
+#include "scenarios/can/signal_codec.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 #include "scenarios/can/signal_codec.h"
 
-#include "scenarios/can/signal_bits.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #include "scenarios/control/control_run.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace fernlicht {
 

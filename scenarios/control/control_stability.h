@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenarios/control/control_run.h"
-#include "scenarios/vehicle/stability_study.h"
+#include "scenarios/vehicle/solver_study.h"
 
 namespace fernlicht {
 

@@ -1,9 +1,8 @@
 // All laws of a lamp set, moved on tick by tick: signals in, commands out, in one table.
 #pragma once
 
-#include "scenarios/control/bend_light.h"
 #include "scenarios/control/control_parameters.h"
-#include "scenarios/control/high_beam.h"
+#include "scenarios/control/laws.h"
 #include "scenarios/control/signals.h"
 
 #include <glm/vec3.hpp>

@@ -7,7 +7,7 @@
 #include "scenarios/drives/shadow_settings.h"
 #include "scenarios/lamps/beam_texels.h"
 #include "scenarios/lamps/mounted_lamp.h"
-#include "scenarios/models/placed_model.h"
+#include "scenarios/models/model.h"
 #include "scenarios/openscenario/reader/read_storyboard.h"
 #include "scenarios/roads/route.h"
 #include "scenarios/sky/daylight.h"

@@ -1,4 +1,4 @@
-#include "scenarios/models/glb_writer.h"
+#include "scenarios/models/model.h"
 
 #include <algorithm>
 #include <cstdint>

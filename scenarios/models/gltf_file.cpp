@@ -3,7 +3,6 @@
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>

@@ -1,6 +1,6 @@
 #include "scenarios/models/gltf_materials.h"
 
-#include "scenarios/models/model_textures.h"
+#include "scenarios/models/model.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/picture_decoding.h"
 

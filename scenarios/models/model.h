@@ -1,4 +1,7 @@
 // A model of a car or of scenery: triangles, materials and the places of its lamps, read from a file of another tool.
+// A model as a glTF 2.0 file in one piece.
+// Pictures of models on their way into a scene: linear, powers of two, one size for all.
+// A model in a drive: which file, where, how large.
 #pragma once
 
 #include "scenarios/values/files.h"
@@ -44,5 +47,37 @@ Model read_model(const std::filesystem::path& path);
 /// A position in glTF's axes (y up, z forward, x left) in ours.
 inline glm::dvec3 from_gltf_axes(const glm::dvec3& v) { return {v.z, v.x, v.y}; }
 inline glm::dvec3 to_gltf_axes(const glm::dvec3& v) { return {v.y, v.z, v.x}; }
+
+/// A .glb that read_model reads back to the same triangles, colours, retroreflection and mounts. Pictures are written as they are given:
+/// `pictures[i]` is the PNG or JPEG of Model::textures[i], empty to leave it out; fewer may be given than there are textures.
+std::string glb_of(const Model& model, const std::vector<std::string>& pictures = {});
+
+/// `rgba` of width x height texels, sRGB-encoded colours with linear opacity, made linear and brought to the powers of two nearest to its
+/// sides, at most `max_px`. Means of reflectance are kept to the rounding of 8 bits. Sizes of at least 1.
+SurfaceTexture surface_texture(std::string name, int width, int height, const std::vector<std::uint8_t>& rgba, int max_px);
+
+/// Brings all textures of a scene to the largest width and height among them, by repeating texels: means and, from the first mipmap on,
+/// what is looked up stay what they are. Nothing changes where they have one size already.
+void unify_texture_sizes(Scene& scene);
+
+class Route;
+
+struct PlacedModel {
+    std::filesystem::path file;
+    std::shared_ptr<const Model> model;
+    bool along_route = false;
+    /// In the world: x, y, z. Along the route: distance from its start, to the left of the own lane's centre, above the surface.
+    glm::dvec3 position_m{0.0};
+    double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0; ///< against the world's axes, or the route's there
+    double scale = 1.0;                                    ///< > 0
+    bool ground = false;                                   ///< it is ground, and stands in maps
+};
+
+/// Adds the model's meshes, materials and textures to the scene, turned and moved to `pose` and scaled. Surfaces become `kind`.
+/// Sizes of textures are left to unify_texture_sizes().
+void add_model(Scene& scene, const Model& model, const Pose& pose, double scale, SurfaceKind kind);
+
+/// A drive's scenery, each model where the drive puts it; then one size for all textures.
+void add_scenery(Scene& scene, const std::vector<PlacedModel>& scenery, const Route& route);
 
 } // namespace fernlicht

@@ -2,7 +2,6 @@
 
 #include "scenarios/values/errors.h"
 
-#include <cstdint>
 #include <fmt/format.h>
 
 namespace fernlicht {

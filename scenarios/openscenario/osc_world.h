@@ -3,7 +3,6 @@
 
 #include "scenarios/openscenario/storyboard.h"
 #include "scenarios/roads/road_finder.h"
-#include "scenarios/roads/route_links.h"
 #include "scenarios/values/errors.h"
 
 namespace fernlicht::osc {

@@ -1,4 +1,5 @@
 // From a point of the world to the road under it: which road, where along it, how far beside its reference line, on which lane.
+// Where a lane leads at the end of its lane section: the next section, the next road, a road through a junction.
 #pragma once
 
 #include "scenarios/roads/road_network.h"
@@ -46,5 +47,19 @@ class RoadFinder {
 int lane_at(const Road& road, double s_m, double t_m);
 /// t of a lane's centre; of lane 0 the lane offset. Throws std::out_of_range for an unknown lane.
 double lane_centre_t(const Road& road, int lane, double s_m);
+
+/// A lane of one lane section, with the direction in which it is followed.
+struct LanePlace {
+    std::size_t road = 0, section = 0; ///< into network.roads, road.sections
+    int lane = 0;
+    bool with_s = true;
+    bool operator==(const LanePlace&) const = default;
+};
+
+/// The lane with this id; nullptr for none and for the centre.
+const Lane* lane_of(const LaneSection& section, int id);
+
+/// All places the lane leads to, the one with the least turn first; empty where the lane ends.
+std::vector<LanePlace> next_places(const RoadNetwork& network, const LanePlace& from);
 
 } // namespace fernlicht

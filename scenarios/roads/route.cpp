@@ -1,8 +1,8 @@
 // Distance along a lane's centre against s, in cells on which the geometry is smooth.
 #include "scenarios/roads/route.h"
 
-#include "scenarios/roads/plan_curves.h"
-#include "scenarios/roads/route_links.h"
+#include "scenarios/roads/plan.h"
+#include "scenarios/roads/road_finder.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #include "scenarios/traffic/road_user_mesh.h"
 
-#include "scenarios/models/model_textures.h"
-#include "scenarios/models/placed_model.h"
+#include "scenarios/models/model.h"
 #include "scenarios/models/road_user_bodies.h"
 
 #include <array>

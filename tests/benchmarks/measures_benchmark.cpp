@@ -1,8 +1,6 @@
 // What is computed for every moment of a run, and over a bench's samples.
-#include "metrics/images/ciede2000.h"
 #include "metrics/images/flip.h"
 #include "metrics/images/image_difference.h"
-#include "metrics/images/ssim.h"
 #include "metrics/road/extent.h"
 #include "metrics/statistics/statistics.h"
 #include "tests/benchmarks/country_road.h"

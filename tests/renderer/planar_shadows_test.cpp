@@ -1,6 +1,6 @@
 // Shadows flattened onto the road's plane: as rays have them on the ground, none on upright things, and no drive on ground that is no
 // plane.
-#include "renderer/gl/shadows/planar_shadows.h"
+#include "renderer/gl/shadows/ground_shadows.h"
 #include "scenarios/values/errors.h"
 #include "tests/renderer/shadow_scene.h"
 #include "tests/trial.h"

@@ -2,8 +2,6 @@
 #include "renderer/reference/reference.h"
 #include "tests/renderer/shadow_scene.h"
 
-#include <fmt/format.h>
-
 namespace fernlicht {
 namespace {
 

@@ -3,7 +3,6 @@
 #include "scenarios/values/scene.h"
 
 #include <gtest/gtest.h>
-#include <tuple>
 
 namespace fernlicht {
 namespace {

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <dlfcn.h>
-#include <fmt/format.h>
 
 namespace fernlicht::gl {
 namespace {

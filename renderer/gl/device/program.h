@@ -6,7 +6,8 @@
 #include "scenarios/drives/play/frame.h"
 
 #include <fmt/format.h>
-#include <glm/vec4.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,14 @@ class Program {
     Program& operator=(Program&&) = delete;
 
     void use() const;
-    /// Location, or -1 where the variant has no use for it (setting it is then a no-op).
+    /// Sets a uniform of the program in use; nothing where the variant has no use for it. Doubles are rounded to floats.
+    void set(const char* name, double x) const { context_->gl.Uniform1f(uniform(name), static_cast<float>(x)); }
+    void set(const char* name, const glm::vec2& v) const { context_->gl.Uniform2fv(uniform(name), 1, &v[0]); }
+    void set(const char* name, const glm::vec3& v) const { context_->gl.Uniform3fv(uniform(name), 1, &v[0]); }
+    void set(const char* name, const glm::vec4& v) const { context_->gl.Uniform4fv(uniform(name), 1, &v[0]); }
+    void set(const char* name, const glm::mat3& m) const { context_->gl.UniformMatrix3fv(uniform(name), 1, GL_FALSE, &m[0][0]); }
+    void set(const char* name, const glm::mat4& m) const { context_->gl.UniformMatrix4fv(uniform(name), 1, GL_FALSE, &m[0][0]); }
+    /// Location, or -1 where the variant has no use for it.
     GLint uniform(const char* name) const;
 
   private:

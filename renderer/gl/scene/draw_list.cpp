@@ -95,8 +95,8 @@ Program depth_program(Context& context, bool moving) {
 }
 
 DepthPass::DepthPass(Context& context, const SceneBuffers& scene, bool moving)
-    : context_(context), moving_(moving), program_(depth_program(context, moving)), matrix_(program_.uniform("clip_from_ego")),
-      list_(context, scene), target_(make_framebuffer(context)) {}
+    : context_(context), moving_(moving), program_(depth_program(context, moving)), list_(context, scene),
+      target_(make_framebuffer(context)) {}
 
 void DepthPass::begin(int width, int height, int beside) {
     width_ = width;
@@ -126,8 +126,7 @@ void DepthPass::draw(GLuint map, const glm::dmat4& clip, Work& work, GLint layer
     gl.Scissor(0, 0, width_, height_);
     gl.ClearNamedFramebufferfv(target_, GL_DEPTH, 0, &far_away);
     gl.Scissor(1, 1, width_ - 2, height_ - 2);
-    const glm::mat4 clip_float(clip);
-    gl.UniformMatrix4fv(matrix_, 1, GL_FALSE, &clip_float[0][0]);
+    program_.set("clip_from_ego", glm::mat4(clip));
     list_.draw(0);
     ++work.passes;
     ++work.shadow_maps_drawn;

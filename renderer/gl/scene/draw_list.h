@@ -79,7 +79,6 @@ class DepthPass {
     Context& context_;
     bool moving_;
     Program program_;
-    GLint matrix_;
     DrawList list_;
     Framebuffer target_;
     int width_ = 0, height_ = 0, pieces_ = 0;

@@ -1,8 +1,7 @@
-#include "renderer/gl/shadows/planar_shadows.h"
+#include "renderer/gl/shadows/ground_shadows.h"
 #include "renderer/gl/shadows/projected_maps.h"
 #include "renderer/gl/shadows/shadow_maps.h"
 #include "renderer/gl/shadows/shadow_volumes.h"
-#include "renderer/gl/shadows/under_car_shadows.h"
 #include "renderer/gl/shadows/warped_maps.h"
 
 #include <stdexcept>

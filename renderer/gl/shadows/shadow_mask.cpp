@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <tuple>
 
 namespace fernlicht::gl {
 namespace {
@@ -15,14 +14,12 @@ constexpr GLuint target_bits_from = 8;
 
 /// In maps, where parallel lines do not meet at infinity, hulls end this many times as far from the lamp as their casters: 500 m behind
 /// what is 5 mm away.
-constexpr float farthest_in_maps = 1e-5F;
+constexpr double farthest_in_maps = 1e-5;
 
 } // namespace
 
 StencilVolumes::StencilVolumes(Context& context)
-    : context_(context), program_(context, "shadow_volume.vert.glsl", "", {}), clip_(program_.uniform("clip_from_ego")),
-      offset_(program_.uniform("offset_m")), turn_(program_.uniform("turn")), lamp_(program_.uniform("lamp_m")),
-      gap_(program_.uniform("gap")), farthest_(program_.uniform("farthest")), layout_(make_vertex_array(context)) {
+    : context_(context), program_(context, "shadow_volume.vert.glsl", "", {}), layout_(make_vertex_array(context)) {
     const GladGLContext& gl = context.gl;
     gl.EnableVertexArrayAttrib(layout_, 0);
     gl.VertexArrayAttribFormat(layout_, 0, 4, GL_FLOAT, GL_FALSE, 0);
@@ -45,9 +42,8 @@ void StencilVolumes::begin(const Camera& camera) const {
     const GladGLContext& gl = context_.gl;
     program_.use();
     gl.BindVertexArray(layout_);
-    const glm::mat4 clip(camera.clip_from_ego);
-    gl.UniformMatrix4fv(clip_, 1, GL_FALSE, &clip[0][0]);
-    gl.Uniform1f(farthest_, camera.is_map ? farthest_in_maps : 0.0F);
+    program_.set("clip_from_ego", glm::mat4(camera.clip_from_ego));
+    program_.set("farthest", camera.is_map ? farthest_in_maps : 0.0);
     // What lies beyond a map's depth counts where it ends. A perspective has no end, and what is nearer than its near plane does not
     // matter: kept, its depth near / w would be so large that floats between it and infinity could not tell hull and surface apart.
     if (camera.is_map)
@@ -58,21 +54,19 @@ void StencilVolumes::begin(const Camera& camera) const {
 }
 
 void StencilVolumes::draw(const Placed& placed) const {
-    const GladGLContext& gl = context_.gl;
-    const glm::vec3 offset(placed.offset_m), lamp(placed.lamp_m);
-    gl.Uniform3fv(offset_, 1, &offset[0]);
-    gl.Uniform4fv(turn_, 1, &placed.turn[0]);
-    gl.Uniform3fv(lamp_, 1, &lamp[0]);
-    gl.Uniform3f(gap_, static_cast<float>(placed.gap_m), static_cast<float>(placed.gap_share), static_cast<float>(placed.lowered_m));
-    gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(placed.first), static_cast<GLsizei>(placed.count));
+    program_.set("offset_m", glm::vec3(placed.offset_m));
+    program_.set("turn", placed.turn);
+    program_.set("lamp_m", glm::vec3(placed.lamp_m));
+    program_.set("gap", glm::vec3(placed.gap_m, placed.gap_share, placed.lowered_m));
+    context_.gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(placed.first), static_cast<GLsizei>(placed.count));
 }
 
 void StencilVolumes::end() const { context_.gl.Disable(GL_DEPTH_CLAMP); }
 
 ShadowMask::ShadowMask(Context& context, const SceneBuffers& scene, const ShadowSettings& settings, const ShadowUse& use)
     : Shadows(context, scene, settings), use_(use), depth_program_(depth_program(context, scene.moves())),
-      mask_program_(context, "shadow_mask.vert.glsl", "shadow_mask.frag.glsl", {}), depth_clip_(depth_program_.uniform("clip_from_ego")),
-      bits_(mask_program_.uniform("bits")), nothing_(make_vertex_array(context)), list_(context, scene) {}
+      mask_program_(context, "shadow_mask.vert.glsl", "shadow_mask.frag.glsl", {}), nothing_(make_vertex_array(context)),
+      list_(context, scene) {}
 
 void ShadowMask::set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m) {
     Shadows::set(lamps, beams, ego_m);
@@ -126,8 +120,7 @@ void ShadowMask::draw_depth(const Shot& shot) {
         sorted[piece.ground ? 1 : 0].emplace_back(distance, i);
     }
     depth_program_.use();
-    const glm::mat4 clip(shot.camera.clip_from_ego);
-    gl.UniformMatrix4fv(depth_clip_, 1, GL_FALSE, &clip[0][0]);
+    depth_program_.set("clip_from_ego", glm::mat4(shot.camera.clip_from_ego));
     list_.start(ego_m_, scene_.moves());
     for (auto& pieces : sorted) {
         std::ranges::sort(pieces);
@@ -151,7 +144,7 @@ void ShadowMask::draw_depth(const Shot& shot) {
 void ShadowMask::set_bits(GLuint bits) const {
     const GladGLContext& gl = context_.gl;
     mask_program_.use();
-    gl.Uniform1ui(bits_, bits);
+    gl.Uniform1ui(mask_program_.uniform("bits"), bits);
     gl.BindVertexArray(nothing_);
     const GLuint counts = only_on_ground() ? count_bits : 0xFFU;
     gl.StencilMask(counts);

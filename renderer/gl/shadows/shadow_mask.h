@@ -37,7 +37,6 @@ class StencilVolumes {
   private:
     Context& context_;
     Program program_;
-    GLint clip_, offset_, turn_, lamp_, gap_, farthest_;
     VertexArray layout_;
     Buffer corners_;
     std::size_t capacity_ = 0;
@@ -86,7 +85,6 @@ class ShadowMask : public Shadows {
 
     ShadowUse use_;
     Program depth_program_, mask_program_;
-    GLint depth_clip_, bits_;
     VertexArray nothing_;
     DrawList list_;
     std::list<Canvas> canvases_; ///< of the sizes that shadows were drawn in; used last stands first

@@ -3,7 +3,7 @@
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/flag_values.h"
 #include "runner/play/progress.h"
-#include "scenarios/can/can_filter.h"
+#include "scenarios/can/can_frame.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

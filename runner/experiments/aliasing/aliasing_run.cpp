@@ -1,6 +1,6 @@
 #include "runner/experiments/aliasing/aliasing_run.h"
 
-#include "renderer/sanity.h"
+#include "renderer/renderer.h"
 #include "runner/experiments/accuracy/technique_sweep.h"
 #include "runner/experiments/aliasing/flow_measures.h"
 #include "runner/experiments/aliasing/motion.h"

@@ -1,6 +1,6 @@
 #include "runner/experiments/aliasing/flow_measures.h"
 
-#include "metrics/images/srgb.h"
+#include "metrics/images/image_difference.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "runner/experiments/aliasing/aliasing_run.h"
 
 #include "metrics/images/flip.h"
-#include "metrics/images/srgb.h"
+#include "metrics/images/image_difference.h"
 #include "runner/experiments/aliasing/aliasing_result.h"
 #include "runner/experiments/aliasing/flow_measures.h"
 #include "runner/files/output_folder.h"

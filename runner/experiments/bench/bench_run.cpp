@@ -2,7 +2,6 @@
 
 #include "renderer/gpu_timer.h"
 #include "renderer/renderer.h"
-#include "renderer/sanity.h"
 #include "runner/experiments/bench/contact_sheet.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"

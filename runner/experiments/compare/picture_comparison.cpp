@@ -1,9 +1,7 @@
 #include "runner/experiments/compare/picture_comparison.h"
 
-#include "metrics/images/ciede2000.h"
 #include "metrics/images/flip.h"
 #include "metrics/images/image_difference.h"
-#include "metrics/images/ssim.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "metrics/strictness/strictness.h"
-#include "metrics/strictness/strictness_classes.h"
 #include "runner/experiments/compare/picture_pair.h"
 #include "runner/findings/document.h"
 #include "runner/findings/findings.h"

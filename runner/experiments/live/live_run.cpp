@@ -1,6 +1,6 @@
 #include "runner/experiments/live/live_run.h"
 
-#include "renderer/sanity.h"
+#include "renderer/renderer.h"
 #include "runner/files/durable_files.h"
 #include "runner/files/json_text.h"
 #include "runner/files/output_folder.h"

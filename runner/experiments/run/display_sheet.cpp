@@ -1,6 +1,6 @@
 #include "runner/experiments/run/display_sheet.h"
 
-#include "metrics/display/tone_fit.h"
+#include "metrics/display/display_colour.h"
 #include "runner/files/clean_text.h"
 #include "runner/play/display_pipeline.h"
 

@@ -1,4 +1,4 @@
-#include "metrics/display/display_viewing.h"
+#include "metrics/display/night_vision.h"
 #include "runner/experiments/run/run_document.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/figures.h"

@@ -1,4 +1,4 @@
-#include "metrics/display/display_viewing.h"
+#include "metrics/display/night_vision.h"
 #include "runner/experiments/accuracy/errors_json.h"
 #include "runner/experiments/bench/bench_result.h"
 #include "runner/experiments/run/run_report.h"

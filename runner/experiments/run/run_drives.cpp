@@ -2,7 +2,6 @@
 #include "runner/experiments/run/run_report.h"
 
 #include "renderer/renderer.h"
-#include "renderer/sanity.h"
 #include "runner/experiments/accuracy/drive_error.h"
 #include "runner/experiments/bench/contact_sheet.h"
 #include "runner/experiments/run/display_sheet.h"

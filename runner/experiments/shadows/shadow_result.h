@@ -1,7 +1,7 @@
 // What `fernlicht shadows` found: shadow methods by scenes, how wrong they are and what they cost. The writers only format it.
 #pragma once
 
-#include "metrics/shadows/shadow_edges.h"
+#include "metrics/shadows/shadow_errors.h"
 #include "metrics/statistics/work_precision.h"
 #include "runner/experiments/bench/bench_result.h"
 #include "runner/findings/document.h"

@@ -1,6 +1,6 @@
 #include "runner/experiments/shadows/shadow_study.h"
 
-#include "renderer/sanity.h"
+#include "renderer/renderer.h"
 #include "runner/experiments/accuracy/technique_sweep.h"
 #include "runner/experiments/bench/bench_run.h"
 #include "runner/files/output_folder.h"

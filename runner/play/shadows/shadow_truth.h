@@ -1,7 +1,7 @@
 // Shadows of a scene as they are, by a ray from each pixel's centre to each lamp, for holding ways to draw them against.
 #pragma once
 
-#include "metrics/shadows/shadow_area.h"
+#include "metrics/shadows/shadow_errors.h"
 #include "renderer/reference/reference.h"
 #include "renderer/renderer.h"
 #include "runner/play/stage.h"

@@ -1,5 +1,5 @@
 #include "scenarios/can/dbc/dbc_meaning.h"
-#include "scenarios/can/signal_bits.h"
+#include "scenarios/can/signal_codec.h"
 
 #include <charconv>
 #include <cmath>

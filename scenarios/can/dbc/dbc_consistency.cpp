@@ -1,7 +1,6 @@
 #include "scenarios/can/dbc/dbc_meaning.h"
-#include "scenarios/can/signal_bits.h"
+#include "scenarios/can/signal_codec.h"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <string_view>

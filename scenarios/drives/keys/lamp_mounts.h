@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenarios/lamps/mounted_lamp.h"
-#include "scenarios/models/placed_model.h"
+#include "scenarios/models/model.h"
 #include "scenarios/yaml/yaml_entry.h"
 
 #include <vector>

@@ -1,6 +1,6 @@
 #include "scenarios/drives/play/control_play.h"
 
-#include "scenarios/control/high_beam.h"
+#include "scenarios/control/laws.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/vehicle/car_model.h"
 

@@ -4,7 +4,6 @@
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace fernlicht::osc {

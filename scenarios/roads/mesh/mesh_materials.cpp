@@ -1,13 +1,15 @@
 #include "scenarios/roads/mesh/mesh_materials.h"
 
+#include "scenarios/photometry.h"
 #include "scenarios/roads/mesh/road_mesh.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>
 
 namespace fernlicht {
-
 namespace {
 
 // EN 1436's 30 m geometry: light arrives 1.24 degrees and is seen 2.29 degrees above the surface [M], so 1.05 degrees between them.
@@ -80,6 +82,212 @@ RoadMaterial lane_material(const std::string& lane_type) {
 
 RoadMaterial marking_material(const std::string& colour) {
     return colour == "yellow" || colour == "orange" ? RoadMaterial::marking_yellow : RoadMaterial::marking_white;
+}
+
+namespace {
+
+constexpr int px = road_texture_px;
+constexpr std::size_t texels = static_cast<std::size_t>(px) * px;
+
+/// In the order of road_textures().
+enum class RoadTexture { asphalt, concrete, grass, paint_wear };
+
+/// Runs over the texels in rows from below: where in 0..1, and which.
+template <class At> std::vector<double> field(const At& at) {
+    std::vector<double> values;
+    values.reserve(texels);
+    for (int y = 0; y < px; ++y)
+        for (int x = 0; x < px; ++x)
+            values.push_back(at(x, y, (x + 0.5) / px, (y + 0.5) / px));
+    return values;
+}
+
+/// Writes a channel, scaled so that its mean is `level` exactly: what rounding takes from a texel goes to the next one.
+void write_channel(SurfaceTexture& texture, std::size_t channel, const std::vector<double>& values, int level) {
+    double sum = 0.0;
+    for (const double value : values)
+        sum += value;
+    const double scale = level * static_cast<double>(values.size()) / sum;
+    double carry = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double wanted = values[i] * scale + carry;
+        const double written = std::clamp(std::floor(wanted + 0.5), 0.0, 255.0);
+        carry = wanted - written;
+        texture.rgba[4 * i + channel] = static_cast<std::uint8_t>(written);
+    }
+}
+
+SurfaceTexture empty(const char* name) {
+    SurfaceTexture texture{name, px, px, {}};
+    texture.rgba.assign(4 * texels, 255);
+    return texture;
+}
+
+SurfaceTexture grey(const char* name, const std::vector<double>& values, int level) {
+    SurfaceTexture texture = empty(name);
+    for (std::size_t channel = 0; channel < 3; ++channel)
+        write_channel(texture, channel, values, level);
+    return texture;
+}
+
+/// A place that was opened and closed again: a rectangle in texels.
+struct Patch {
+    double x, y, half_width, half_height, tone;
+};
+
+/// Signed distance to the patch's border in texels, the nearest repetition counting; negative inside.
+double distance_to(const Patch& patch, int x, int y) {
+    const auto along = [](double d) { return std::abs(d - px * std::floor(d / px + 0.5)); };
+    return std::max(along(x + 0.5 - patch.x) - patch.half_width, along(y + 0.5 - patch.y) - patch.half_height);
+}
+
+/// Aggregate in bitumen. A texel of 31 mm holds several stones of 8 to 16 mm: their contrast is averaged already. Light single
+/// stones, a mottle of 6 to 50 cm, and three repaired patches, a little darker, in a seam of bitumen.
+SurfaceTexture asphalt(std::uint64_t seed) {
+    const TilingNoise grain(seed, 1), chips(seed, 2), mottle(seed, 3), edge(seed, 4);
+    const std::array<Patch, 3> patches{Patch{58.0, 70.0, 15.0, 34.0, 0.93}, Patch{170.0, 150.0, 24.0, 11.0, 0.90},
+                                       Patch{216.0, 36.0, 8.0, 9.0, 1.07}};
+    return grey("asphalt", field([&](int x, int y, double u, double v) {
+                    double tone = 1.0 + 0.26 * (grain.uniform(x, y) + grain.uniform(x + px, y) - 1.0);
+                    tone += 0.18 * mottle.octaves(u, v, 16, 4, 1.0);
+                    const double chip = chips.uniform(x, y);
+                    tone += chip < 0.03 ? 0.40 : chip > 0.97 ? -0.30 : 0.0;
+                    for (const Patch& patch : patches) {
+                        const double d = distance_to(patch, x, y) + 1.5 * edge.gradient(u, v, 64);
+                        tone *= d < -0.5 ? patch.tone : d < 0.5 ? 0.80 : 1.0;
+                    }
+                    return tone;
+                }),
+                128);
+}
+
+/// Slabs of 0.5 m with joints of 1 cm, each slab of its own tone, fine grain and stains.
+SurfaceTexture concrete(std::uint64_t seed) {
+    constexpr int slab_px = 16;
+    const TilingNoise grain(seed, 11), slabs(seed, 12), stains(seed, 13);
+    return grey("concrete", field([&](int x, int y, double u, double v) {
+                    double tone = 1.0 + 0.10 * (grain.uniform(x, y) - 0.5) + 0.08 * (slabs.uniform(x / slab_px, y / slab_px) - 0.5);
+                    tone += 0.10 * stains.octaves(u, v, 16, 3, 0.8);
+                    return x % slab_px == 0 || y % slab_px == 0 ? 0.72 * tone : tone;
+                }),
+                190);
+}
+
+/// Tufts and blades, some greener and some drier.
+SurfaceTexture grass(std::uint64_t seed) {
+    const TilingNoise tufts(seed, 21), blades(seed, 22), hue(seed, 23);
+    const std::vector<double> tone = field([&](int x, int y, double u, double v) {
+        return 1.0 + 0.30 * tufts.octaves(u, v, 8, 5, 1.25) + 0.40 * (blades.uniform(x, y) - 0.5);
+    });
+    const std::vector<double> dry = field([&](int, int, double u, double v) { return hue.octaves(u, v, 8, 4, 1.0); });
+    SurfaceTexture texture = empty("grass");
+    const std::array<double, 3> share{0.14, 0.0, -0.18}; // of dryness in R, G, B
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        std::vector<double> values = tone;
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = std::max(0.1, values[i]) * (1.0 + share[channel] * dry[i]);
+        write_channel(texture, channel, values, 112);
+    }
+    return texture;
+}
+
+/// Paint that has come off stone by stone, more in some places than in others.
+SurfaceTexture paint_wear(std::uint64_t seed) {
+    constexpr std::uint8_t bare = 20; // 0.08 of 255: asphalt
+    const TilingNoise places(seed, 31), stones(seed, 32), grain(seed, 33);
+    SurfaceTexture texture = empty("paint-wear");
+    const std::vector<double> opacity = field([&](int x, int y, double u, double v) {
+        const double wear = 0.9 * places.octaves(u, v, 16, 2, 0.8) + 0.9 * stones.gradient(u, v, 96) + 0.5 * (grain.uniform(x, y) - 0.5);
+        return std::clamp(3.0 * (wear - 0.30), 0.0, 0.9);
+    });
+    for (std::size_t i = 0; i < texels; ++i) {
+        std::fill_n(texture.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i), 3, bare);
+        texture.rgba[4 * i + 3] = static_cast<std::uint8_t>(std::floor(255.0 * opacity[i] + 0.5));
+    }
+    return texture;
+}
+
+double luminance(const glm::dvec3& rgb) { return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)); } // IEC 61966-2-1
+
+/// The mean reflectance is linear in the own colour: mean(own) = mean(0) + own (mean(1) - mean(0)), channel by channel.
+void put_on(Material& material, const std::vector<SurfaceTexture>& textures, RoadTexture which, TextureMode mode) {
+    material.texture = static_cast<int>(which);
+    material.texture_mode = mode;
+    const SurfaceTexture& texture = textures[static_cast<std::size_t>(which)];
+    const glm::dvec3 wanted(material.albedo), cc(material.blend_colour);
+    const glm::dvec3 of_black = mean_reflectance(texture, mode, glm::dvec3(0.0), cc);
+    const glm::dvec3 own = (wanted - of_black) / (mean_reflectance(texture, mode, glm::dvec3(1.0), cc) - of_black);
+    material.albedo = glm::vec3(own);
+    // R_L goes with the luminance of the reflectance over that of the own colour (textured_rl), whose mean is wanted / own.
+    material.retro_rl = static_cast<float>(static_cast<double>(material.retro_rl) * luminance(own) / luminance(wanted));
+}
+
+/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014).
+std::uint64_t mixed(std::uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+    return z ^ (z >> 31);
+}
+
+constexpr std::uint64_t golden = 0x9E3779B97F4A7C15ULL;
+
+/// Perlin's fade of 2002: first and second derivative are 0 at both ends.
+double fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
+
+} // namespace
+
+std::vector<SurfaceTexture> road_textures(std::uint64_t seed) { return {asphalt(seed), concrete(seed), grass(seed), paint_wear(seed)}; }
+
+glm::dvec3 mean_reflectance(const SurfaceTexture& texture, TextureMode mode, const glm::dvec3& own, const glm::dvec3& blend_colour) {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i + 3 < texture.rgba.size(); i += 4) {
+        const glm::dvec4 texel(texture.rgba[i], texture.rgba[i + 1], texture.rgba[i + 2], texture.rgba[i + 3]);
+        sum += photometry::combined_reflectance(static_cast<int>(mode), own, texel / 255.0, blend_colour);
+    }
+    return sum / (static_cast<double>(texture.rgba.size()) / 4.0);
+}
+
+void add_road_textures(Scene& scene, std::uint64_t seed) {
+    scene.textures = road_textures(seed);
+    const auto put = [&](RoadMaterial material, RoadTexture texture, TextureMode mode) {
+        put_on(scene.materials[index_of(material)], scene.textures, texture, mode);
+    };
+    put(RoadMaterial::asphalt, RoadTexture::asphalt, TextureMode::modulate);
+    put(RoadMaterial::concrete, RoadTexture::concrete, TextureMode::modulate);
+    put(RoadMaterial::object, RoadTexture::concrete, TextureMode::modulate);
+    put(RoadMaterial::verge, RoadTexture::grass, TextureMode::modulate);
+    put(RoadMaterial::terrain, RoadTexture::grass, TextureMode::modulate);
+    put(RoadMaterial::marking_white, RoadTexture::paint_wear, TextureMode::decal);
+    put(RoadMaterial::marking_yellow, RoadTexture::paint_wear, TextureMode::decal);
+}
+
+TilingNoise::TilingNoise(std::uint64_t seed, std::uint64_t stream) : key_(mixed(mixed(seed + golden) + stream * golden)) {}
+
+double TilingNoise::uniform(int x, int y) const {
+    const std::uint64_t place = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32) | static_cast<std::uint32_t>(y);
+    return static_cast<double>(mixed(key_ ^ mixed(place + golden)) >> 11) * 0x1p-53;
+}
+
+double TilingNoise::gradient(double u, double v, int cells) const {
+    const double x = u * cells, y = v * cells, x0 = std::floor(x), y0 = std::floor(y);
+    const double fx = x - x0, fy = y - y0;
+    const auto wrapped = [cells](double i) { return ((static_cast<int>(i) % cells) + cells) % cells; };
+    const auto corner = [&](int dx, int dy) {
+        const int ix = wrapped(x0 + dx), iy = wrapped(y0 + dy);
+        const double gx = 2.0 * uniform(2 * ix, iy) - 1.0, gy = 2.0 * uniform(2 * ix + 1, iy) - 1.0;
+        return gx * (fx - dx) + gy * (fy - dy);
+    };
+    const double wx = fade(fx), wy = fade(fy);
+    const double below = corner(0, 0) + (corner(1, 0) - corner(0, 0)) * wx, above = corner(0, 1) + (corner(1, 1) - corner(0, 1)) * wx;
+    return below + (above - below) * wy;
+}
+
+double TilingNoise::octaves(double u, double v, int cells, int count, double gain) const {
+    double sum = 0.0, strength = 1.0;
+    for (int i = 0; i < count; ++i, cells *= 2, strength *= gain)
+        sum +=
+            strength * gradient(u + 0.5 / cells, v + 0.5 / cells, cells); // gradient noise is 0 on its lattice: octaves must not share one
+    return sum;
 }
 
 } // namespace fernlicht

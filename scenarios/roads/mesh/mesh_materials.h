@@ -1,10 +1,14 @@
 // The materials of a road scene, and which one a lane, a mark or an object has.
+// Pictures for the surfaces of a road scene, drawn by formula.
+// Noise on a square that repeats: for textures without seams. Whole-number hashes and the four basic operations only, so that the
+// same seed gives the same bits on every machine.
 #pragma once
 
 #include "scenarios/roads/road_network.h"
 #include "scenarios/values/scene.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace fernlicht {
 
@@ -33,5 +37,38 @@ constexpr std::uint32_t index_of(RoadMaterial material) { return static_cast<std
 RoadMaterial lane_material(const std::string& lane_type);
 /// Yellow and orange paint is yellow, all other colours are white: no other mark has a coefficient of its own in EN 1436.
 RoadMaterial marking_material(const std::string& colour);
+
+/// Texels along each side of every texture here. With mesh_builder.h's texture_repeat_m that is 31 mm a texel.
+constexpr int road_texture_px = 256;
+
+/// asphalt (mean level 128), concrete (190) and grass (112 of 255) are to modulate: R, G and B each have exactly that mean, so that no
+/// mipmap needs to round it. paint-wear is a decal: the colour of bare asphalt everywhere, opaque where paint is gone; as the colour
+/// does not vary, averaging it apart from the opacity, as mipmaps do, averages the reflectance. All repeat without a seam, and averages
+/// over 0.5 m of the first three differ by 2 to 6 % (rms): from afar nothing shows the repetition. The same seed gives the same bytes.
+std::vector<SurfaceTexture> road_textures(std::uint64_t seed);
+
+/// Mean reflectance of a surface of colour `own` under the texture. `blend_colour` counts for blend only.
+glm::dvec3 mean_reflectance(const SurfaceTexture& texture, TextureMode mode, const glm::dvec3& own, const glm::dvec3& blend_colour);
+
+/// Gives the materials of build_scene (road_materials()) their textures: asphalt; concrete and objects; verge and terrain; both kinds of
+/// paint. Albedo and retro_rl become such that their means over a repetition are what they were.
+void add_road_textures(Scene& scene, std::uint64_t seed);
+
+class TilingNoise {
+  public:
+    /// `stream` tells apart what is drawn with one seed.
+    TilingNoise(std::uint64_t seed, std::uint64_t stream);
+
+    /// Uniform in [0, 1), independent for each pair of whole numbers.
+    double uniform(int x, int y) const;
+    /// Gradient noise (Perlin 1985) of `cells` x `cells` cells over the square u, v in [0, 1); smooth, repeats beyond it. Its mean is near
+    /// 0, it lies within -1 .. 1, and it has little at wavelengths much longer than a cell. `cells` >= 1.
+    double gradient(double u, double v, int cells) const;
+    /// gradient() at `cells`, 2 `cells`, 4 `cells` ..., each octave `gain` as strong as the one before.
+    double octaves(double u, double v, int cells, int count, double gain) const;
+
+  private:
+    std::uint64_t key_;
+};
 
 } // namespace fernlicht

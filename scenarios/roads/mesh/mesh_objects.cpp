@@ -1,4 +1,4 @@
-#include "scenarios/roads/mesh/mesh_objects.h"
+#include "scenarios/roads/mesh/mesh_terrain.h"
 
 #include <algorithm>
 #include <array>

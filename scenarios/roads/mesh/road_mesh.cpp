@@ -1,12 +1,7 @@
 #include "scenarios/roads/mesh/road_mesh.h"
 
 #include "scenarios/roads/mesh/mesh_materials.h"
-#include "scenarios/roads/mesh/mesh_objects.h"
 #include "scenarios/roads/mesh/mesh_terrain.h"
-#include "scenarios/roads/mesh/surface_textures.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace fernlicht {
 

@@ -12,7 +12,7 @@ struct RoadMeshOptions {
     double chord_error_m = 0.005; ///< greatest distance between the surface and its triangles
     double chunk_length_m = 60.0; ///< a mesh's extent along the road
     double verge_width_m = 30.0;  ///< terrain beside the outermost lane on each side
-    bool textures = true;         ///< pictures of asphalt, concrete, grass and worn paint (surface_textures.h); mean reflectances stay
+    bool textures = true;         ///< pictures of asphalt, concrete, grass and worn paint (mesh_materials.h); mean reflectances stay
     std::uint64_t seed = 1;       ///< of the textures
 };
 

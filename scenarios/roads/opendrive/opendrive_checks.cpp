@@ -1,7 +1,7 @@
 // Rules of OpenDRIVE that span several parts of a file. What breaks them is played all the same: each breach is a warning.
 #include "scenarios/roads/opendrive/opendrive_parts.h"
 #include "scenarios/roads/plan.h"
-#include "scenarios/roads/route_links.h"
+#include "scenarios/roads/road_finder.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 #include "scenarios/roads/opendrive/opendrive_parts.h"
 #include "scenarios/roads/plan.h"
-#include "scenarios/roads/plan_curves.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
-#include <numbers>
 #include <opencv2/core.hpp>
 #include <tuple>
 

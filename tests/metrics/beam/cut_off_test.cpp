@@ -1,7 +1,6 @@
 // The cut-off's ruler: edges whose sharpness, place and kink are known in closed form.
 #include "metrics/beam/cut_off.h"
 #include "metrics/beam/cut_off_elbow.h"
-#include "metrics/regulation/aim.h"
 #include "metrics/regulation/regulation_check.h"
 #include "tests/lamps.h"
 #include "tests/metrics/planted_cut_off.h"

@@ -1,5 +1,5 @@
 // The receiver's mean and the extremes against closed forms.
-#include "metrics/regulation/extremes.h"
+#include "metrics/regulation/row_check.h"
 #include "tests/lamps.h"
 
 #include <cmath>

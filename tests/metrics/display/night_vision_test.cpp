@@ -1,5 +1,4 @@
 #include "metrics/display/display_colour.h"
-#include "metrics/display/display_viewing.h"
 #include "metrics/display/night_vision.h"
 #include "metrics/display/scatter.h"
 

@@ -1,5 +1,4 @@
 #include "metrics/display/display_colour.h"
-#include "metrics/display/tone_fit.h"
 #include "scenarios/display/tone_mapper.h"
 #include "scenarios/values/files.h"
 #include "tests/trial.h"

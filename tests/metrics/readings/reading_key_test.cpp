@@ -13,7 +13,6 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>

@@ -5,6 +5,7 @@
 #include "scenarios/values/errors.h"
 #include "tests/lamps.h"
 #include "tests/metrics/regulation/generated_lamp.h"
+#include "tests/trial.h"
 
 #include <algorithm>
 #include <cmath>
@@ -162,11 +163,7 @@ TEST(Regulations, GoThroughLampFilesOfOthers) {
     const std::filesystem::path folder = std::filesystem::path(FERNLICHT_SHARED_DATA) / "lamps";
     if (!std::filesystem::is_directory(folder))
         GTEST_SKIP() << "no " << folder;
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-        if (entry.path().extension() == ".ies" || entry.path().extension() == ".IES" || entry.path().extension() == ".ldt")
-            files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
+    const auto files = tests::files_below(folder, {".ies", ".IES", ".ldt"});
     std::size_t read = 0;
     const bool every = std::getenv("FERNLICHT_EVERY_LAMP") != nullptr;
     for (std::size_t i = 0; i < files.size(); i += every ? 1 : 12) {

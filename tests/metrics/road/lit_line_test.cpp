@@ -1,5 +1,4 @@
 #include "metrics/road/extent.h"
-#include "metrics/road/lane_ahead.h"
 #include "metrics/road/lit_line.h"
 #include "metrics/road/lux_near_thresholds.h"
 #include "scenarios/drives/play/advance.h"

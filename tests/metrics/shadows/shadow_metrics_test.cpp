@@ -1,5 +1,5 @@
 // Errors of shadows against values worked out by hand.
-#include "metrics/shadows/shadow_edges.h"
+#include "metrics/shadows/shadow_errors.h"
 #include "tests/metrics/images/made_pictures.h"
 
 #include <cmath>

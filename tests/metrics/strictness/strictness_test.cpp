@@ -1,12 +1,10 @@
 #include "metrics/strictness/strictness.h"
 
-#include "metrics/strictness/strictness_classes.h"
 #include "tests/metrics/images/made_pictures.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
 #include <limits>
-#include <numeric>
 #include <tuple>
 
 namespace fernlicht {

@@ -3,7 +3,7 @@
 #include "scenarios/drives/play/camera.h"
 #include "scenarios/lamps/lamp_model.h"
 #include "scenarios/light/light.h"
-#include "scenarios/models/placed_model.h"
+#include "scenarios/models/model.h"
 #include "scenarios/models/road_user_bodies.h"
 #include "tests/renderer/device_test.h"
 #include "tests/renderer/reference/rooms.h"

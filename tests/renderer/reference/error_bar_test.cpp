@@ -5,7 +5,6 @@
 #include "renderer/reference/sampling.h"
 
 #include <atomic>
-#include <bit>
 #include <set>
 #include <tbb/global_control.h>
 

@@ -1,5 +1,4 @@
 // Lines of candump, read and written back byte by byte.
-#include "scenarios/can/can_filter.h"
 #include "scenarios/can/can_frame.h"
 #include "scenarios/can/candump_log.h"
 #include "tests/scenarios/can/random_frames.h"

@@ -3,8 +3,6 @@
 #include "tests/trial.h"
 
 #include <filesystem>
-#include <fmt/format.h>
-#include <fstream>
 #include <gmock/gmock.h>
 #include <tuple>
 

@@ -361,17 +361,12 @@ TEST_F(Dbc, FilesOfOthers) {
     const std::filesystem::path folder = std::filesystem::path(FERNLICHT_SHARED_DATA) / "can";
     if (!std::filesystem::exists(folder))
         GTEST_SKIP() << "no files of others in " << folder;
-    std::size_t files = 0, refused = 0, messages = 0, signals = 0, notes = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-        std::string extension = entry.path().extension().string();
-        for (char& c : extension)
-            c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        if (extension != ".dbc")
-            continue;
-        ++files;
+    const auto files = tests::files_below(folder, {".dbc", ".DBC"});
+    std::size_t refused = 0, messages = 0, signals = 0, notes = 0;
+    for (const std::filesystem::path& file : files) {
         try {
             FilesRead opened;
-            const CanDatabase read = read_dbc(entry.path(), opened);
+            const CanDatabase read = read_dbc(file, opened);
             messages += read.messages.size();
             notes += read.notes.size();
             for (const CanMessage& message : read.messages)
@@ -382,8 +377,8 @@ TEST_F(Dbc, FilesOfOthers) {
             std::printf("refused: %s\n", error.what());
         }
     }
-    std::printf("%zu files, %zu refused; %zu messages, %zu signals, %zu notes\n", files, refused, messages, signals, notes);
-    EXPECT_GT(files, 0U);
+    std::printf("%zu files, %zu refused; %zu messages, %zu signals, %zu notes\n", files.size(), refused, messages, signals, notes);
+    EXPECT_FALSE(files.empty());
     EXPECT_EQ(refused, 0U) << "all that were there when this was written are read";
 }
 

@@ -1,10 +1,8 @@
 // Bytes to values and back, against vectors worked out by hand; the derivation stands beside each.
-#include "scenarios/can/signal_bits.h"
 #include "scenarios/can/signal_codec.h"
 #include "tests/scenarios/can/dbc_trial.h"
 #include "tests/trial.h"
 
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <random>

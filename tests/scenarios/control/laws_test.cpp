@@ -1,8 +1,8 @@
 // The laws beside the bend light, each step by step: thresholds, hysteresis, delays, what a lost signal does.
 #include "scenarios/control/control_run.h"
 #include "scenarios/control/control_stability.h"
-#include "scenarios/control/high_beam.h"
 #include "scenarios/control/lamp_controller.h"
+#include "scenarios/control/laws.h"
 #include "scenarios/values/pose.h"
 #include "tests/trial.h"
 

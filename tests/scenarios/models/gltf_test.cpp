@@ -1,4 +1,3 @@
-#include "scenarios/models/glb_writer.h"
 #include "scenarios/models/model.h"
 #include "scenarios/models/road_user_bodies.h"
 #include "scenarios/values/errors.h"
@@ -195,14 +194,7 @@ TEST_F(Gltf, CopiesWithoutEndAreRefusedBeforeTheyAreMade) {
 const std::filesystem::path real_files = std::filesystem::path(FERNLICHT_SHARED_DATA) / "models";
 
 /// Models of others; none where there are no such files.
-std::vector<std::filesystem::path> real_models() {
-    std::vector<std::filesystem::path> all;
-    if (std::filesystem::exists(real_files))
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(real_files))
-            if (entry.path().extension() == ".gltf" || entry.path().extension() == ".glb")
-                all.push_back(entry.path());
-    return all;
-}
+std::vector<std::filesystem::path> real_models() { return tests::files_below(real_files, {".gltf", ".glb"}); }
 
 /// What becomes of each file of others: read, or refused for this reason.
 TEST_F(Gltf, FilesOfOthersAreReadOrRefusedPrecisely) {

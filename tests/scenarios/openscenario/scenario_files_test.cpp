@@ -2,6 +2,7 @@
 #include "scenarios/openscenario/reader/read_storyboard.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/xml_file.h"
+#include "tests/trial.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,16 +17,6 @@ namespace fernlicht::osc {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<fs::path> scenario_files(const fs::path& folder) {
-    std::vector<fs::path> files;
-    std::error_code failed;
-    for (fs::recursive_directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
-        if (entry->path().extension() == ".xosc")
-            files.push_back(entry->path());
-    std::sort(files.begin(), files.end());
-    return files;
-}
 
 /// What the file says it is, by its own elements.
 bool is_scenario(const fs::path& path) {
@@ -43,7 +34,7 @@ struct Counts {
 /// Every scenario is played to its end, or refused by one sentence that names file and line.
 TEST(ScenarioFiles, ArePlayedToTheirEndOrRefusedWithFileAndLine) {
     const fs::path shared = FERNLICHT_SHARED_DATA;
-    const auto files = scenario_files(shared / "scenarios");
+    const auto files = tests::files_below(shared / "scenarios", {".xosc"});
     if (files.empty())
         GTEST_SKIP() << "no scenarios in " << shared;
     Counts counts;

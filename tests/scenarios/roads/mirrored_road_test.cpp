@@ -1,6 +1,6 @@
 // A mirrored road is the road in a mirror: every pose, lane and way through it, on our roads, on one of every kind of geometry, and on
 // those of others where they are.
-#include "scenarios/roads/mirrored_road.h"
+#include "scenarios/roads/road_network.h"
 
 #include "scenarios/roads/route.h"
 #include "scenarios/values/errors.h"

@@ -2,6 +2,7 @@
 // on light. The rules and reasons are in docs/roads.md; the files are the published cases of ASAM's OpenDRIVE checker.
 #include "scenarios/roads/road_network.h"
 #include "scenarios/values/errors.h"
+#include "tests/trial.h"
 
 #include <algorithm>
 #include <array>
@@ -98,10 +99,7 @@ TEST(OpenDriveRules, EachBreachIsJudgedAsListedAndWhatIsValidIsPlayed) {
     if (!std::filesystem::is_directory(checker_folder()))
         GTEST_SKIP() << "no checker cases in " << checker_folder();
     std::size_t breaches = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(checker_folder())) {
-        const std::filesystem::path& file = entry.path();
-        if (file.extension() != ".xodr")
-            continue;
+    for (const std::filesystem::path& file : tests::files_below(checker_folder(), {".xodr"})) {
         SCOPED_TRACE(file);
         if (!named_invalid(file.filename().string())) {
             EXPECT_NO_THROW(read_opendrive(file));

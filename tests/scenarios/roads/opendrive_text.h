@@ -15,15 +15,7 @@ inline const std::filesystem::path shared_roads = FERNLICHT_SHARED_DATA "/roads"
 inline RoadNetwork library_road(const char* name) { return read_opendrive(library_roads / name); }
 
 /// All road files below a folder, by name; none where it does not exist.
-inline std::vector<std::filesystem::path> road_files(const std::filesystem::path& folder) {
-    std::vector<std::filesystem::path> files;
-    if (std::filesystem::is_directory(folder))
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-            if (entry.path().extension() == ".xodr")
-                files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    return files;
-}
+inline std::vector<std::filesystem::path> road_files(const std::filesystem::path& folder) { return tests::files_below(folder, {".xodr"}); }
 
 inline RoadNetwork network_of(const std::string& content) { return read_opendrive(tests::written("road.xodr", content)); }
 

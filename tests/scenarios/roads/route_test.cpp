@@ -4,7 +4,6 @@
 #include "tests/scenarios/roads/opendrive_text.h"
 #include "tests/trial.h"
 
-#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>

@@ -3,7 +3,6 @@
 #include "scenarios/vehicle/actuator.h"
 #include "scenarios/vehicle/integrator.h"
 #include "scenarios/vehicle/solver_study.h"
-#include "scenarios/vehicle/stability_study.h"
 #include "tests/trial.h"
 
 #include <cmath>

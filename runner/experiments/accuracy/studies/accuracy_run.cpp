@@ -1,5 +1,5 @@
 
-#include "renderer/sanity.h"
+#include "renderer/renderer.h"
 #include "runner/experiments/accuracy/picture_errors.h"
 #include "runner/experiments/accuracy/studies/studies.h"
 #include "runner/files/output_folder.h"

@@ -1,10 +1,10 @@
-// What moves car and lamps: stiff and extreme cases of its equations (scenarios/vehicle/stability_study.h has the measuring), and steps of
+// What moves car and lamps: stiff and extreme cases of its equations (scenarios/vehicle/solver_study.h has the measuring), and steps of
 // time from a millionth of a second to ten seconds.
 #include "runner/experiments/stability/stability_case.h"
 #include "runner/experiments/stability/trial.h"
 #include "scenarios/control/control_stability.h"
 #include "scenarios/drives/play/advance.h"
-#include "scenarios/vehicle/stability_study.h"
+#include "scenarios/vehicle/solver_study.h"
 
 #include <algorithm>
 #include <cmath>

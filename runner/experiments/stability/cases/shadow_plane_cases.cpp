@@ -106,7 +106,7 @@ Found under_cars(StabilityBench& bench) {
                         if (here.id != 1 || frame.ids.at(x, y) != 1 || here.illuminance_lx < 1e-3)
                             continue;
                         const glm::dvec3 in_car = to_local(pose, moved_m + here.point_m);
-                        // So far inside or outside of what is dark: the outline, 0.3 m up and down (under_car_shadows.cpp).
+                        // So far inside or outside of what is dark: the outline, 0.3 m up and down (ground_shadows.cpp).
                         const double beyond =
                             std::max({std::abs(in_car.x) - half.x, std::abs(in_car.y) - half.y, std::abs(in_car.z) - 0.3});
                         if (std::abs(beyond) < 1e-3)

@@ -1,5 +1,5 @@
 // A dark polygon under a car is its outline from above on the ground: no more, no less, whatever lamps shine.
-#include "renderer/gl/shadows/under_car_shadows.h"
+#include "renderer/gl/shadows/ground_shadows.h"
 
 #include "tests/renderer/shadow_scene.h"
 

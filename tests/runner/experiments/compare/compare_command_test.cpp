@@ -1,4 +1,4 @@
-#include "metrics/strictness/strictness_classes.h"
+#include "metrics/strictness/strictness.h"
 #include "runner/experiments/compare/picture_pair.h"
 #include "runner/files/picture_file.h"
 #include "scenarios/values/errors.h"

@@ -4,7 +4,7 @@
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/place_traffic.h"
 #include "scenarios/drives/play/staged_scene.h"
-#include "scenarios/models/glb_writer.h"
+#include "scenarios/models/model.h"
 #include "scenarios/models/road_user_bodies.h"
 #include "scenarios/traffic/road_user_mesh.h"
 #include "tests/scenarios/drives/drive_fixture.h"

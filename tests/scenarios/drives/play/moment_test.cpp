@@ -1,7 +1,7 @@
 // The car on its road, and its lamps at a moment.
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/place_traffic.h"
-#include "scenarios/models/glb_writer.h"
+#include "scenarios/models/model.h"
 #include "scenarios/models/road_user_bodies.h"
 #include "scenarios/traffic/road_user_mesh.h"
 #include "scenarios/values/errors.h"

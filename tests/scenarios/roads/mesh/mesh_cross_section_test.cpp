@@ -1,7 +1,6 @@
 // Strips of a cross-section: side by side, in the right colours, dashes where they belong.
 #include "scenarios/roads/mesh/mesh_cross_section.h"
 #include "scenarios/roads/mesh/mesh_materials.h"
-#include "scenarios/roads/mesh/mesh_objects.h"
 #include "scenarios/roads/mesh/mesh_terrain.h"
 #include "scenarios/roads/mesh/road_mesh.h"
 #include "tests/scenarios/roads/mesh_checks.h"

@@ -3,7 +3,6 @@
 #include "scenarios/roads/mesh/mesh_builder.h"
 #include "scenarios/roads/mesh/mesh_materials.h"
 #include "scenarios/roads/mesh/road_mesh.h"
-#include "scenarios/roads/mesh/surface_textures.h"
 #include "tests/scenarios/roads/mesh_checks.h"
 #include "tests/scenarios/roads/opendrive_text.h"
 
