@@ -17,26 +17,28 @@ std::optional<double> value_of(const ReadingsOfCell& played, const ReadingKey& k
     return found == played.readings.end() ? std::nullopt : found->second.value.number();
 }
 
-/// What is told of all readings of the key's surface, lane and threshold: its median on the lane's centre.
-ReadingKey about_lane(Quantity quantity, const ReadingKey& key, Aspect aspect) {
-    return {.quantity = quantity,
-            .surface = key.surface,
-            .lane = key.lane,
-            .threshold = key.threshold,
-            .aspect = aspect,
-            .statistic = Statistic::median};
+/// What is told of all readings of the key's surface, lane and threshold: the median at its place, where either edge stands for both, else
+/// on the lane's centre.
+std::optional<double> about_lane(const ReadingsOfCell& played, Quantity quantity, const ReadingKey& key, Aspect aspect) {
+    ReadingKey row{.quantity = quantity,
+                   .surface = key.surface,
+                   .lane = key.lane,
+                   .threshold = key.threshold,
+                   .place = key.place == ReadingPlace::none ? ReadingPlace::none : ReadingPlace::edges,
+                   .aspect = aspect,
+                   .statistic = Statistic::median};
+    const auto there = value_of(played, row);
+    row.place = ReadingPlace::none;
+    return there ? there : value_of(played, row);
 }
 
 std::optional<double> positive(double step) { return step > 0.0 ? std::optional(step) : std::nullopt; }
 
 /// The grid's error on that line and the distance between drawing and double precision.
 std::optional<double> of_grid_and_drawing(const ReadingsOfCell& played, const ReadingKey& key) {
-    const auto centre = value_of(played, about_lane(Quantity::reach, key, Aspect::grid_error)),
-               twin = value_of(played, about_lane(Quantity::reach, key, Aspect::twin_difference));
-    ReadingKey line = about_lane(key.quantity, key, Aspect::grid_error);
-    line.place = key.place == ReadingPlace::none ? ReadingPlace::none : ReadingPlace::edges;
-    auto grid = value_of(played, line);
-    grid = grid ? grid : centre;
+    auto grid = about_lane(played, key.quantity, key, Aspect::grid_error);
+    grid = grid ? grid : about_lane(played, Quantity::reach, key, Aspect::grid_error);
+    const auto twin = about_lane(played, Quantity::reach, key, Aspect::twin_difference);
     return grid && twin ? std::optional(*grid + *twin) : std::nullopt;
 }
 
@@ -62,7 +64,7 @@ std::optional<double> numerical_uncertainty(const ReadingsOfCell& played, const 
     case Exactness::grid_and_drawing:
         return of_grid_and_drawing(played, reading.key);
     case Exactness::grid:
-        return value_of(played, about_lane(reading.key.quantity, reading.key, Aspect::grid_error));
+        return about_lane(played, reading.key.quantity, reading.key, Aspect::grid_error);
     case Exactness::grid_columns:
         return 2.0 * played.grid_cell_m / 4.0; // across a column is a quarter of a row
     case Exactness::drawing:
@@ -172,9 +174,8 @@ std::optional<double> light_sensitivity(const ReadingsOfCell& played, const Read
     if (reading.key.threshold.unit == ThresholdUnit::de_boer)
         return slope_over_ratings(played, reading);
     const auto slope = slope_over_limits(played, reading);
-    const auto tenth = reading.key.quantity == Quantity::reach
-                           ? value_of(played, about_lane(Quantity::reach, reading.key, Aspect::per_tenth_flux))
-                           : std::nullopt;
+    const auto tenth =
+        reading.key.quantity == Quantity::reach ? about_lane(played, Quantity::reach, reading.key, Aspect::per_tenth_flux) : std::nullopt;
     return tenth ? std::optional(std::max(slope.value_or(0.0), std::abs(*tenth) / 0.1)) : slope;
 }
 
@@ -188,8 +189,8 @@ std::optional<double> with_repeats(const ReadingsOfCell& cell, const Reading& re
 }
 
 std::optional<double> aim_effect(const ReadingsOfCell& a, const ReadingsOfCell& b, const ReadingKey& key) {
-    const ReadingKey row = about_lane(Quantity::reach, key, Aspect::per_tenth_degree);
-    const auto first = value_of(a, row), second = value_of(b, row);
+    const auto first = about_lane(a, Quantity::reach, key, Aspect::per_tenth_degree),
+               second = about_lane(b, Quantity::reach, key, Aspect::per_tenth_degree);
     if (key.quantity != Quantity::reach || (!first && !second))
         return std::nullopt;
     return std::max(std::abs(first.value_or(0.0)), std::abs(second.value_or(0.0)));

@@ -203,30 +203,6 @@ ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bum
     return grid;
 }
 
-std::vector<LaneGridError> lane_grid_errors(const ExtentGrid& grid, const std::vector<double>& lx, Surface surface,
-                                            const std::vector<double>& thresholds_lx, const std::vector<LaneExtent>& measured) {
-    std::vector<LaneGridError> errors;
-    const std::size_t columns = grid.offset_m.size();
-    if (grid.ahead_m.size() < 3 || columns < 3)
-        return errors;
-    PickedGrid coarse = picked(grid, lx, 2, grid.ahead_m.size(), columns);
-    coarse.grid.surface.resize(coarse.lx.size()); // whose areas are known
-    for (std::size_t row = 0; row < grid.ahead_m.size(); row += 2)
-        coarse.grid.sections.push_back(grid.sections[row]);
-    const std::vector<LaneExtent> other = measure_extent(coarse.grid, coarse.lx, surface, thresholds_lx, {});
-    for (const LaneExtent& fine : measured) {
-        const auto found = std::ranges::find_if(
-            other, [&](const LaneExtent& extent) { return extent.lane == fine.lane && extent.threshold_lx == fine.threshold_lx; });
-        if (found == other.end() || fine.reach_is_cut_off || found->reach_is_cut_off)
-            continue;
-        errors.push_back({fine.threshold_lx, surface, fine.lane, std::abs(fine.reach_centre_m - found->reach_centre_m),
-                          std::max(std::abs(fine.reach_left_edge_m - found->reach_left_edge_m),
-                                   std::abs(fine.reach_right_edge_m - found->reach_right_edge_m)),
-                          std::abs(fine.unlit_before_reach_m - found->unlit_before_reach_m), std::abs(fine.area_m2 - found->area_m2)});
-    }
-    return errors;
-}
-
 namespace {
 
 struct ReachAndArea {
@@ -249,24 +225,47 @@ std::vector<ReachAndArea> reach_and_area(const ExtentGrid& grid, const std::vect
 
 } // namespace
 
-std::vector<GridError> grid_error(const ExtentGrid& grid, const std::vector<double>& lx, Surface surface,
-                                  const std::vector<double>& thresholds_lx) {
-    check_measurable(grid, lx, thresholds_lx);
+std::vector<GridError> grid_errors(const ExtentGrid& grid, const std::vector<double>& lx, Surface surface,
+                                   const std::vector<double>& thresholds_lx, const std::vector<LaneExtent>& measured) {
     std::vector<GridError> errors;
-    if (grid.ahead_m.size() < 3 || grid.offset_m.size() < 3)
-        return errors;
-    // An odd number of both, so that the coarse grid covers what the fine one covers and only the cell differs.
-    const std::size_t rows = grid.ahead_m.size() - (grid.ahead_m.size() % 2 == 0 ? 1 : 0);
-    const std::size_t columns = grid.offset_m.size() - (grid.offset_m.size() % 2 == 0 ? 1 : 0);
-    const bool odd = rows == grid.ahead_m.size() && columns == grid.offset_m.size();
-    const PickedGrid trimmed = odd ? PickedGrid{} : picked(grid, lx, 1, rows, columns);
-    const PickedGrid coarse = picked(grid, lx, 2, rows, columns);
-    const std::vector<ReachAndArea> by_fine = reach_and_area(odd ? grid : trimmed.grid, odd ? lx : trimmed.lx, thresholds_lx);
-    const std::vector<ReachAndArea> by_coarse = reach_and_area(coarse.grid, coarse.lx, thresholds_lx);
-    for (std::size_t i = 0; i < thresholds_lx.size(); ++i) {
-        const std::optional<double>&fine_m = by_fine[i].reach_m, &coarse_m = by_coarse[i].reach_m;
-        errors.push_back({thresholds_lx[i], surface, fine_m && coarse_m ? std::optional(std::abs(*fine_m - *coarse_m)) : std::nullopt,
-                          std::abs(by_fine[i].area_m2 - by_coarse[i].area_m2)});
+    std::vector<LaneExtent> other;
+    const std::size_t rows = grid.ahead_m.size(), columns = grid.offset_m.size();
+    if (rows >= 3 && columns >= 3) {
+        PickedGrid coarse = picked(grid, lx, 2, rows, columns);
+        coarse.grid.surface.resize(coarse.lx.size()); // whose areas are known
+        for (std::size_t row = 0; row < rows; row += 2)
+            coarse.grid.sections.push_back(grid.sections[row]);
+        other = measure_extent(coarse.grid, coarse.lx, surface, thresholds_lx, {});
+        // An odd number of both, so that the coarse grid covers what the fine one covers and only the cell differs.
+        const bool odd = rows % 2 == 1 && columns % 2 == 1;
+        const PickedGrid trimmed = odd ? PickedGrid{} : picked(grid, lx, 1, rows - 1 + rows % 2, columns - 1 + columns % 2);
+        const std::vector<ReachAndArea> by_fine = reach_and_area(odd ? grid : trimmed.grid, odd ? lx : trimmed.lx, thresholds_lx);
+        const std::vector<ReachAndArea> by_coarse = reach_and_area(coarse.grid, coarse.lx, thresholds_lx);
+        for (std::size_t i = 0; i < thresholds_lx.size(); ++i) {
+            const std::optional<double>&fine_m = by_fine[i].reach_m, &coarse_m = by_coarse[i].reach_m;
+            const Value reach = fine_m && coarse_m ? Value(std::abs(*fine_m - *coarse_m)) : Value::not_measured(reach_beyond);
+            errors.push_back({thresholds_lx[i], surface, "own", reach});
+            errors.push_back({thresholds_lx[i], surface, "all", {}, {}, {}, std::abs(by_fine[i].area_m2 - by_coarse[i].area_m2)});
+        }
+    }
+    for (const LaneExtent& fine : measured) {
+        const auto is_it = [&](const auto& entry) { return entry.lane == fine.lane && entry.threshold_lx == fine.threshold_lx; };
+        const auto found = std::ranges::find_if(other, is_it);
+        const auto known = std::ranges::find_if(errors, is_it);
+        GridError& error = known != errors.end() ? *known : errors.emplace_back(GridError{fine.threshold_lx, surface, fine.lane});
+        const bool ends = found != other.end() && !fine.reach_is_cut_off && !found->reach_is_cut_off;
+        const auto gap = [&](double LaneExtent::*figure) {
+            return ends                    ? Value(std::abs(fine.*figure - (*found).*figure))
+                   : fine.reach_is_cut_off ? Value::not_measured(reach_beyond)
+                                           : Value();
+        };
+        if (fine.lane != "own")
+            error.reach = gap(&LaneExtent::reach_centre_m);
+        const Value left = gap(&LaneExtent::reach_left_edge_m), right = gap(&LaneExtent::reach_right_edge_m);
+        error.edge = left.low() < right.low() ? right : left;
+        error.unlit = gap(&LaneExtent::unlit_before_reach_m);
+        if (fine.lane != "all")
+            error.area = gap(&LaneExtent::area_m2);
     }
     return errors;
 }

@@ -59,7 +59,7 @@ ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bum
 /// The same bytes for any number of threads.
 std::vector<double> twin_illuminance_lx(const ExtentGrid& grid, const Moment& moment, Surface surface);
 
-/// The same for measure_extent and grid_error, which find the same in it as long as they are asked for these limits or some of them: exact
+/// The same for measure_extent and grid_errors, which find the same in it as long as they are asked for these limits or some of them: exact
 /// where they decide (lux_near_thresholds.h), elsewhere a value that reaches the same limits. In a quarter of the time on the road; on
 /// targets, of which more are lit, it saves little.
 std::vector<double> twin_lux_near_thresholds(const ExtentGrid& grid, const Moment& moment, Surface surface,
@@ -74,6 +74,7 @@ std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector
 /// How the reach on the own lane's centre answers to what is never known exactly. From the twin, which is asked between the grid's
 /// rows too. A limit whose reach is nowhere or cut off, as it is or with a lamp changed, has no difference to give and no entry.
 struct ReachSensitivity {
+    static constexpr const char* lane = "own";
     double threshold_lx = 0.0;
     Surface surface = Surface::road;
     double metres_per_tenth_degree = 0.0; ///< central difference of +-0.1 degrees of pitch of all lamps
@@ -81,30 +82,23 @@ struct ReachSensitivity {
 };
 std::vector<ReachSensitivity> reach_sensitivity(const ExtentGrid& grid, const Moment& moment, const std::vector<double>& thresholds_lx);
 
-/// The grid's own error: reach on the own lane's centre and area of "all" from every second row and column against every one, as
-/// |difference| by limit. Where the error goes as the square of the cell, the grid's own is a third of this.
-struct GridError {
-    double threshold_lx;
-    Surface surface;
-    std::optional<double> reach_m; ///< nullopt: cut off in either, which says nothing of the cell
-    double area_m2;
-    bool operator==(const GridError&) const = default;
-};
-std::vector<GridError> grid_error(const ExtentGrid& grid, const std::vector<double>& lx, Surface surface,
-                                  const std::vector<double>& thresholds_lx);
+inline constexpr const char* reach_beyond = "the reach lies beyond the end of grid, road or lane";
 
-/// |difference| of one lane's extents between the grid and every second row and column of it, metres. Where the error goes as the square of
-/// the cell, the grid's own is a third of this.
-struct LaneGridError {
+/// |difference| of one lane's extents between the grid and every second row and column of it, metres and m2. Where the error goes as the
+/// square of the cell, the grid's own is a third of this.
+struct GridError {
     double threshold_lx = 0.0;
     Surface surface = Surface::road;
-    std::string lane;                                                 ///< as LaneExtent::lane
-    double reach_m = 0.0, edge_m = 0.0, unlit_m = 0.0, area_m2 = 0.0; ///< `edge_m` is the larger of both edges'
+    std::string lane = {}; ///< as LaneExtent::lane
+    /// `edge` is the larger of both edges'. Not measured: `reach_beyond`, or, without a reason, where nothing tells.
+    Value reach = {}, edge = {}, unlit = {}, area = {};
+    bool operator==(const GridError&) const = default;
 };
 
-/// `measured` is what measure_extent finds in `lx` on `grid`. A lane that the coarser grid loses (its edge lies beyond the last column),
-/// and a reach that is cut off on either, have no entry. Empty for a grid of less than three rows or columns.
-std::vector<LaneGridError> lane_grid_errors(const ExtentGrid& grid, const std::vector<double>& lx, Surface surface,
-                                            const std::vector<double>& thresholds_lx, const std::vector<LaneExtent>& measured);
+/// `measured` is what measure_extent finds in `lx` on `grid`. Nothing tells of a grid of less than three rows or columns, and of a lane
+/// that the coarser grid loses (its edge lies beyond the last column) or cuts off. The own lane's reach, on the line at offset 0, and the
+/// area of "all" are those of the same ground on both grids, wherever the lanes' edges run: by limit these two come first.
+std::vector<GridError> grid_errors(const ExtentGrid& grid, const std::vector<double>& lx, Surface surface,
+                                   const std::vector<double>& thresholds_lx, const std::vector<LaneExtent>& measured);
 
 } // namespace fernlicht

@@ -32,7 +32,7 @@ inline LimitSide limit_side(const LuxBounds& bounds, const std::vector<double>& 
 std::vector<unsigned char> deciding_points(const ExtentGrid& grid, const std::vector<LimitSide>& sides);
 
 /// Row-major values on the grid: exact_lx(i) at the points that decide, elsewhere a value that reaches the same limits. bounds_lx(i) hold
-/// exact_lx(i). measure_extent and grid_error find the same in them as in exact values everywhere.
+/// exact_lx(i). measure_extent and grid_errors find the same in them as in exact values everywhere.
 template <class Bounds, class Exact> std::vector<double>
 lux_near_thresholds(const ExtentGrid& grid, const std::vector<double>& thresholds_lx, Bounds bounds_lx, Exact exact_lx) {
     std::vector<double> lx(grid.surface.size());

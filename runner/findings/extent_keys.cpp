@@ -1,42 +1,68 @@
 #include "runner/findings/extent_keys.h"
 
-#include <algorithm>
 #include <tuple>
 
 namespace fernlicht {
 
+std::span<const ExtentFigure> extent_figures() {
+    using enum Quantity;
+    static constexpr std::array spread = {Statistic::median, Statistic::minimum, Statistic::p05};
+    static constexpr std::array worst = {Statistic::median, Statistic::maximum, Statistic::none};
+    static constexpr ExtentLine centre{&LaneExtent::reach_centre_m, &LaneExtent::reach_is_cut_off};
+    static constexpr ExtentLine left{&LaneExtent::reach_left_edge_m, &LaneExtent::left_edge_is_cut_off};
+    static constexpr ExtentLine right{&LaneExtent::reach_right_edge_m, &LaneExtent::right_edge_is_cut_off};
+    static constexpr const char *on_centre = ", centre", *of_all = ", line that reaches farthest", *by_half = ", grid of half the samples";
+    static constexpr auto is_own = [](const std::string& lane) { return lane == "own"; };
+    static constexpr auto is_all = [](const std::string& lane) { return lane == "all"; };
+    static constexpr auto is_lane = [](const std::string& lane) { return lane != "all"; };
+    // clang-format off
+    static constexpr ExtentFigure figures[] = {
+        {.quantity = reach, .statistics = spread, .where = on_centre, .where_of_all = of_all, .member = centre.reach_m, .line = &centre},
+        {.quantity = reach, .place = ReadingPlace::left_edge, .where = ", left edge", .where_of_all = ", leftmost line looked at",
+         .member = left.reach_m, .line = &left},
+        {.quantity = reach, .place = ReadingPlace::right_edge, .where = ", right edge", .where_of_all = ", rightmost line looked at",
+         .member = right.reach_m, .line = &right},
+        {.quantity = unlit_before_reach, .where = on_centre, .where_of_all = of_all, .member = &LaneExtent::unlit_before_reach_m,
+         .line = &centre},
+        {.quantity = width, .statistics = spread},
+        {.quantity = area, .statistics = spread, .member = &LaneExtent::area_m2},
+        {.quantity = reach, .aspect = Aspect::twin_difference, .statistics = worst, .where = ", |rendered - twin|",
+         .member = centre.reach_m, .line = &centre},
+        {.quantity = reach, .aspect = Aspect::per_tenth_degree, .is_of = is_own,
+         .where = ", gained by 0.1 degrees more pitch of all lamps", .sensitivity = &ReachSensitivity::metres_per_tenth_degree},
+        {.quantity = reach, .aspect = Aspect::per_tenth_flux, .is_of = is_own, .where = ", gained by 10 % more flux",
+         .sensitivity = &ReachSensitivity::metres_per_tenth_flux},
+        {.quantity = area, .aspect = Aspect::grid_error, .is_of = is_all, .where = by_half, .grid_error = &GridError::area,
+         .error_column_of = "all"},
+        {.quantity = reach, .aspect = Aspect::grid_error, .where = by_half, .grid_error = &GridError::reach, .error_column_of = "own"},
+        {.quantity = reach, .place = ReadingPlace::edges, .aspect = Aspect::grid_error, .where = by_half, .grid_error = &GridError::edge},
+        {.quantity = unlit_before_reach, .aspect = Aspect::grid_error, .where = by_half, .grid_error = &GridError::unlit},
+        {.quantity = area, .aspect = Aspect::grid_error, .is_of = is_lane, .where = by_half, .grid_error = &GridError::area},
+    };
+    // clang-format on
+    return figures;
+}
+
 const char* surface_name(Surface surface) { return surface == Surface::road ? "road" : "target"; }
 
 const char* verdict_name(VerdictKind kind) {
-    switch (kind) {
-    case VerdictKind::pass:
-        return "pass";
-    case VerdictKind::fail:
-        return "fail";
-    case VerdictKind::flaky:
-        return "flaky";
-    case VerdictKind::not_measured:
-        break;
-    }
-    return "not_measured";
+    static constexpr const char* names[] = {"pass", "fail", "not_measured", "flaky"};
+    return names[static_cast<std::size_t>(kind)];
 }
 
 std::vector<ExtentKey> extent_keys(const PlayedCell& played) {
     std::vector<std::string> lanes;
     std::vector<ExtentKey> keys;
-    const auto collect = [&](const std::vector<LaneExtent>& extents) {
-        for (const LaneExtent& extent : extents) {
-            if (std::find(lanes.begin(), lanes.end(), extent.lane) == lanes.end())
-                lanes.push_back(extent.lane);
-            const ExtentKey key{extent.surface, extent.lane, extent.threshold_lx};
-            if (std::find(keys.begin(), keys.end(), key) == keys.end())
-                keys.push_back(key);
-        }
+    const auto collect = [](auto& all, const auto& one) {
+        if (std::ranges::find(all, one) == all.end())
+            all.push_back(one);
     };
-    for (const ExtentRow& row : played.extents) {
-        collect(row.rendered);
-        collect(row.twin);
-    }
+    for (const ExtentRow& row : played.extents)
+        for (const std::vector<LaneExtent>* const extents : {&row.rendered, &row.twin})
+            for (const LaneExtent& extent : *extents) {
+                collect(lanes, extent.lane);
+                collect(keys, ExtentKey{extent.surface, extent.lane, extent.threshold_lx});
+            }
     const auto rank = [&](const ExtentKey& key) {
         return std::tuple(key.surface, std::find(lanes.begin(), lanes.end(), key.lane) - lanes.begin(), key.threshold_lx);
     };
@@ -44,20 +70,21 @@ std::vector<ExtentKey> extent_keys(const PlayedCell& played) {
     return keys;
 }
 
-ReadingKey extent_reading(const ExtentKey& key, Quantity quantity, ReadingPlace place, Aspect aspect) {
+ReadingKey extent_reading(const ExtentKey& key, Quantity quantity, ReadingPlace place, Aspect aspect,
+                          const std::optional<double>& distance_m) {
     return {.quantity = quantity,
             .surface = key.surface == Surface::road ? ReadingSurface::road : ReadingSurface::target,
             .lane = key.lane,
             .threshold = {key.threshold_lx, ThresholdUnit::lx},
             .place = place,
+            .distance_m = distance_m,
             .aspect = aspect};
 }
 
-const LaneExtent* find_extent(const std::vector<LaneExtent>& extents, const ExtentKey& key) {
-    const auto found = std::find_if(extents.begin(), extents.end(), [&](const LaneExtent& extent) {
-        return extent.surface == key.surface && extent.threshold_lx == key.threshold_lx && extent.lane == key.lane;
-    });
-    return found == extents.end() ? nullptr : &*found;
+const CensoredSamples& moments_of(const ExtentSummary& summary, Quantity quantity, Aspect aspect, const std::optional<double>& distance_m) {
+    static const CensoredSamples none;
+    const auto found = summary.moments.find(extent_reading(summary.key, quantity, ReadingPlace::none, aspect, distance_m));
+    return found == summary.moments.end() ? none : found->second;
 }
 
 } // namespace fernlicht

@@ -43,37 +43,34 @@ class Columns {
     std::map<std::string, std::size_t> places_;
 };
 
-std::string extent_name(const ExtentKey& key, Quantity quantity, ReadingPlace place = ReadingPlace::none, Aspect aspect = Aspect::value) {
-    ReadingKey reading = extent_reading(key, quantity, place, aspect);
+std::string column_name(ReadingKey reading) {
     reading.statistic = Statistic::median; // which goes without saying in its name
     return name_of(reading);
 }
 
-std::string width_name(const ExtentKey& key, double at_m) {
-    ReadingKey reading = extent_reading(key, Quantity::width);
-    reading.distance_m = at_m;
-    reading.statistic = Statistic::median;
-    return name_of(reading);
+std::string figure_name(const ExtentKey& key, const ExtentFigure& figure) {
+    return column_name(extent_reading(key, figure.quantity, figure.place, figure.aspect));
 }
 
 /// Of the rendered image under the reading's own name, of the twin with another end.
 void add_lane(Columns& columns, const PlayedCell& played, const ExtentKey& key) {
-    const std::string reach = extent_name(key, Quantity::reach), left = extent_name(key, Quantity::reach, ReadingPlace::left_edge),
-                      right = extent_name(key, Quantity::reach, ReadingPlace::right_edge),
-                      unlit = extent_name(key, Quantity::unlit_before_reach), area = extent_name(key, Quantity::area);
+    std::vector<std::pair<std::string, double LaneExtent::*>> figures;
+    for (const ExtentFigure& figure : extent_figures())
+        if (figure.member && figure.aspect == Aspect::value)
+            figures.emplace_back(figure_name(key, figure), figure.member);
     for (const auto& [source, end] : {std::pair(&ExtentRow::rendered, ""), std::pair(&ExtentRow::twin, ".twin")})
         for (std::size_t i = 0; i < played.extents.size(); ++i) {
             const LaneExtent* const extent = find_extent(played.extents[i].*source, key);
             if (!extent)
                 continue;
-            columns.metres(reach + end, i, extent->reach_centre_m);
-            columns.text(reach + end + ".cut_off", i, extent->reach_is_cut_off ? "1" : "0");
-            columns.metres(left + end, i, extent->reach_left_edge_m);
-            columns.metres(right + end, i, extent->reach_right_edge_m);
-            columns.metres(unlit + end, i, extent->unlit_before_reach_m);
-            columns.metres(area + end, i, extent->area_m2);
+            for (const auto& [name, member] : figures) {
+                columns.metres(name + end, i, extent->*member);
+                if (member == &LaneExtent::reach_centre_m)
+                    columns.text(name + end + ".cut_off", i, extent->reach_is_cut_off ? "1" : "0");
+            }
             for (const LaneExtent::Width& width : extent->widths) {
-                const std::string name = width_name(key, width.at_m) + end;
+                const std::string name =
+                    column_name(extent_reading(key, Quantity::width, ReadingPlace::none, Aspect::value, width.at_m)) + end;
                 columns.metres(name, i, width.width_m);
                 columns.metres(name + ".left", i, width.left_m);
                 columns.metres(name + ".right", i, width.right_m);
@@ -83,18 +80,17 @@ void add_lane(Columns& columns, const PlayedCell& played, const ExtentKey& key) 
 
 /// What moves the own lane's reach, and the grid's error in it and in the area.
 void add_uncertainty(Columns& columns, const ExtentRow& row, std::size_t moment) {
-    const auto name = [](const auto& entry, const char* lane, Quantity quantity, Aspect aspect) {
-        return extent_name({entry.surface, lane, entry.threshold_lx}, quantity, ReadingPlace::none, aspect);
+    const auto add = [&](const auto& entry, const ExtentFigure& figure, double value) {
+        columns.metres(figure_name({entry.surface, entry.lane, entry.threshold_lx}, figure), moment, value);
     };
-    for (const ReachSensitivity& of : row.sensitivity) {
-        columns.metres(name(of, "own", Quantity::reach, Aspect::per_tenth_degree), moment, of.metres_per_tenth_degree);
-        columns.metres(name(of, "own", Quantity::reach, Aspect::per_tenth_flux), moment, of.metres_per_tenth_flux);
-    }
-    for (const GridError& error : row.grid_errors) {
-        if (error.reach_m)
-            columns.metres(name(error, "own", Quantity::reach, Aspect::grid_error), moment, *error.reach_m);
-        columns.metres(name(error, "all", Quantity::area, Aspect::grid_error), moment, error.area_m2);
-    }
+    for (const ReachSensitivity& of : row.sensitivity)
+        for (const ExtentFigure& figure : extent_figures())
+            if (figure.sensitivity)
+                add(of, figure, of.*figure.sensitivity);
+    for (const GridError& error : row.grid_errors)
+        for (const ExtentFigure& figure : extent_figures())
+            if (figure.grid_error && error.lane == figure.error_column_of && (error.*figure.grid_error).measured())
+                add(error, figure, *(error.*figure.grid_error).number());
 }
 
 void add_car(Columns& columns, const CarRow& row, std::size_t moment) {

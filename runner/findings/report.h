@@ -53,10 +53,8 @@ struct ExtentKey {
 /// What the moments' extents of one key add up to.
 struct ExtentSummary {
     ExtentKey key;
-    CensoredSamples reach, left_edge, right_edge, unlit_before_reach, area, twin_difference; ///< rendered; |rendered - twin| of reach
-    std::map<double, CensoredSamples> widths;                                                ///< by distance ahead
-    CensoredSamples per_tenth_degree, per_tenth_flux, grid_error; ///< of the own lane's reach: what moves it, and the grid's error
-    std::size_t cut_off = 0;                                      ///< moments whose reach is a lower bound, by road's end or grid's
+    std::map<ReadingKey, CensoredSamples> moments = {}; ///< of extent_figures(), without a statistic; widths by distance ahead
+    std::size_t cut_off = 0;                            ///< moments whose reach is a lower bound, by road's end or grid's
 };
 
 /// Extents of one moment.
@@ -66,7 +64,6 @@ struct ExtentRow {
     std::vector<LaneExtent> rendered, twin;
     std::vector<ReachSensitivity> sensitivity;
     std::vector<GridError> grid_errors;
-    std::vector<LaneGridError> lane_grid_errors = {};
 };
 
 struct PassTime {

@@ -127,8 +127,7 @@ ExtentRow ExtentFold::measure(const ExtentDrawing& drawing) const {
         const std::vector<double> truth = twin_lux_near_thresholds(grid, moment, surface, p.thresholds_lx);
         const std::vector<LaneExtent> measured = measure_extent(grid, truth, surface, p.thresholds_lx, p.width_at_m);
         std::ranges::copy(measured, std::back_inserter(row.twin));
-        std::ranges::copy(grid_error(grid, truth, surface, p.thresholds_lx), std::back_inserter(row.grid_errors));
-        std::ranges::copy(lane_grid_errors(grid, truth, surface, p.thresholds_lx, measured), std::back_inserter(row.lane_grid_errors));
+        std::ranges::copy(grid_errors(grid, truth, surface, p.thresholds_lx, measured), std::back_inserter(row.grid_errors));
     }
     row.sensitivity = reach_sensitivity(grid, moment, p.thresholds_lx);
     return row;

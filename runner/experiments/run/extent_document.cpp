@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace fernlicht {
 namespace {
@@ -16,13 +17,14 @@ Cell value_cell(const Value& value, int decimals) {
 }
 
 /// A measured figure of a lamp set, and where there are several, how far it is from the first one's: medians.
-void add_compared(std::vector<Cell>& cells, const ComparedDrive& drive, const CensoredSamples& own, const CensoredSamples* first,
-                  int decimals) {
-    const Value now = own.quantile(0.5);
+void add_compared(std::vector<Cell>& cells, const ComparedDrive& drive, const ExtentSummary& own, const ExtentSummary* first, int decimals,
+                  Quantity quantity, const std::optional<double>& distance_m = {}) {
+    const auto median = [&](const ExtentSummary& of) { return moments_of(of, quantity, Aspect::value, distance_m).quantile(0.5); };
+    const Value now = median(own);
     cells.push_back(value_cell(now, decimals));
     if (drive.lamp_sets.size() < 2)
         return;
-    const Value change = first ? difference(now, first->quantile(0.5), "") : Value();
+    const Value change = first ? difference(now, median(*first), "") : Value();
     cells.push_back(!first              ? Cell("")
                     : change.measured() ? Cell(with_bound(change, signed_figure(*change.figure(), decimals)), *change.figure())
                                         : Cell(nothing));
@@ -37,22 +39,11 @@ void add_heads(std::vector<Column>& columns, const ComparedDrive& drive, const s
     columns.push_back({"difference", unit, what});
 }
 
-CensoredSamples width_at(const ExtentSummary& summary, double at_m) {
-    const auto found = summary.widths.find(at_m);
-    return found == summary.widths.end() ? CensoredSamples() : found->second;
-}
-
 /// What all lamp sets of a drive have together: (plane, lane) in order of sight, limits and width distances ascending.
 struct Axes {
     std::vector<std::pair<Surface, std::string>> places;
-    std::vector<double> thresholds_lx, widths_at_m;
+    std::set<double> thresholds_lx, widths_at_m;
 };
-
-void insert_sorted(std::vector<double>& values, double value) {
-    const auto place = std::lower_bound(values.begin(), values.end(), value);
-    if (place == values.end() || *place != value)
-        values.insert(place, value);
-}
 
 Axes axes_of(const ComparedDrive& drive) {
     Axes axes;
@@ -61,9 +52,10 @@ Axes axes_of(const ComparedDrive& drive) {
             const std::pair place(summary.key.surface, summary.key.lane);
             if (std::find(axes.places.begin(), axes.places.end(), place) == axes.places.end())
                 axes.places.push_back(place);
-            insert_sorted(axes.thresholds_lx, summary.key.threshold_lx);
-            for (const auto& [at_m, moments] : summary.widths)
-                insert_sorted(axes.widths_at_m, at_m);
+            axes.thresholds_lx.insert(summary.key.threshold_lx);
+            for (const auto& [key, moments] : summary.moments)
+                if (key.distance_m)
+                    axes.widths_at_m.insert(*key.distance_m);
         }
     const auto rank = [](const auto& place) { return std::tuple(place.second != "own", place.first); };
     std::stable_sort(axes.places.begin(), axes.places.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
@@ -93,21 +85,21 @@ std::vector<Column> extent_columns(const ComparedDrive& drive, const Axes& axes,
 std::vector<Cell> extent_cells(const ComparedDrive& drive, const ExtentSummary& summary, const ExtentSummary* first, const Axes& axes,
                                bool own) {
     std::vector<Cell> cells;
-    add_compared(cells, drive, summary.reach, first ? &first->reach : nullptr, 1);
-    for (const double at_m : axes.widths_at_m) {
-        const CensoredSamples of_first = first ? width_at(*first, at_m) : CensoredSamples();
-        add_compared(cells, drive, width_at(summary, at_m), first ? &of_first : nullptr, 1);
-    }
-    add_compared(cells, drive, summary.area, first ? &first->area : nullptr, 0);
-    cells.emplace_back(summary.reach.count() > 0 ? value_cell(summary.reach.quantile(0.0), 1).text + "\u2009\u2026\u2009" +
-                                                       value_cell(summary.reach.quantile(1.0), 1).text
-                                                 : nothing);
+    const auto of_reach = [&](Aspect aspect, double share, int decimals) {
+        return value_cell(moments_of(summary, Quantity::reach, aspect).quantile(share), decimals);
+    };
+    add_compared(cells, drive, summary, first, 1, Quantity::reach);
+    for (const double at_m : axes.widths_at_m)
+        add_compared(cells, drive, summary, first, 1, Quantity::width, at_m);
+    add_compared(cells, drive, summary, first, 0, Quantity::area);
+    cells.emplace_back(moments_of(summary, Quantity::reach).count() > 0
+                           ? of_reach(Aspect::value, 0.0, 1).text + "\u2009\u2026\u2009" + of_reach(Aspect::value, 1.0, 1).text
+                           : nothing);
     if (own)
-        cells.insert(cells.end(),
-                     {value_cell(summary.per_tenth_degree.quantile(0.5), 1), value_cell(summary.per_tenth_flux.quantile(0.5), 1)});
-    cells.push_back(value_cell(summary.twin_difference.quantile(1.0), 2));
+        cells.insert(cells.end(), {of_reach(Aspect::per_tenth_degree, 0.5, 1), of_reach(Aspect::per_tenth_flux, 0.5, 1)});
+    cells.push_back(of_reach(Aspect::twin_difference, 1.0, 2));
     if (own)
-        cells.push_back(value_cell(summary.grid_error.quantile(0.5), 2));
+        cells.push_back(of_reach(Aspect::grid_error, 0.5, 2));
     return cells;
 }
 
@@ -142,9 +134,10 @@ Cards reaches_at_a_glance(const ComparedDrive& drive) {
         for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
             const auto& all = drive.lamp_sets[i]->extent_summaries;
             const auto found = std::ranges::find(all, ExtentKey{Surface::road, "own", threshold_lx}, &ExtentSummary::key);
-            if (found == all.end() || found->reach.count() == 0)
+            if (found == all.end() || moments_of(*found, Quantity::reach).count() == 0)
                 continue;
-            const Value reach = found->reach.quantile(0.5), by_aim = found->per_tenth_degree.quantile(0.5);
+            const Value reach = moments_of(*found, Quantity::reach).quantile(0.5),
+                        by_aim = moments_of(*found, Quantity::reach, Aspect::per_tenth_degree).quantile(0.5);
             const Value change = i == 0 ? Value() : difference(reach, first, "");
             first = i == 0 ? reach : first;
             reaches.push_back({fmt::format("reach at {:g} lx", threshold_lx), value_cell(reach, 1).text, "m",

@@ -83,19 +83,24 @@ JsonMembers summary_members(ExtentSummary& summary) {
     const auto width_members = [](std::pair<double, CensoredSamples>& width) -> JsonMembers {
         return {{"at_m", width.first}, {"width_m", moments_part(width.second)}};
     };
-    using Widths = std::vector<std::pair<double, CensoredSamples>>;
+    std::vector<std::pair<double, CensoredSamples>> widths;
+    for (const auto& [key, moments] : summary.moments)
+        if (key.distance_m)
+            widths.emplace_back(*key.distance_m, moments);
+    const CensoredSamples& reach = moments_of(summary, Quantity::reach);
+    const auto of_reach = [&](Aspect aspect, double share) { return moments_of(summary, Quantity::reach, aspect).quantile(share); };
     return joined({{"surface", one_of(summary.key.surface, names_of<Surface>(surface_name, 2))},
                    {"lane", summary.key.lane},
                    {"threshold_lx", summary.key.threshold_lx},
-                   {"moments", summary.reach.count()},
+                   {"moments", reach.count()},
                    {"moments_cut_off", summary.cut_off},
-                   {"reach_m", moments_part(summary.reach)},
-                   {"widths_m", Widths(summary.widths.begin(), summary.widths.end()), width_members},
-                   {"area_m2", moments_part(summary.area)}},
-                  with_reasons({{"largest_twin_difference_m", summary.twin_difference.quantile(1.0)}},
-                               {{"metres_per_tenth_degree", summary.per_tenth_degree.quantile(0.5)},
-                                {"metres_per_tenth_flux", summary.per_tenth_flux.quantile(0.5)},
-                                {"grid_error_m", summary.grid_error.quantile(0.5)}},
+                   {"reach_m", moments_part(reach)},
+                   {"widths_m", std::move(widths), width_members},
+                   {"area_m2", moments_part(moments_of(summary, Quantity::area))}},
+                  with_reasons({{"largest_twin_difference_m", of_reach(Aspect::twin_difference, 1.0)}},
+                               {{"metres_per_tenth_degree", of_reach(Aspect::per_tenth_degree, 0.5)},
+                                {"metres_per_tenth_flux", of_reach(Aspect::per_tenth_flux, 0.5)},
+                                {"grid_error_m", of_reach(Aspect::grid_error, 0.5)}},
                                summary.key.lane == "own"));
 }
 

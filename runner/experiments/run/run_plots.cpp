@@ -49,11 +49,8 @@ plots::Polyline reach_line(const PlayedCell& played, std::vector<LaneExtent> Ext
 plots::Band aim_band(const PlayedCell& played, const ExtentKey& key, const plots::Polyline& reach) {
     plots::Band band;
     for (std::size_t i = 0; i < reach.size(); ++i) {
-        const auto& sensitivity = played.extents[i].sensitivity;
-        const auto found = std::find_if(sensitivity.begin(), sensitivity.end(), [&](const ReachSensitivity& entry) {
-            return entry.surface == key.surface && entry.threshold_lx == key.threshold_lx;
-        });
-        const double half_m = found == sensitivity.end() ? not_a_number : std::abs(found->metres_per_tenth_degree);
+        const ReachSensitivity* const found = find_extent(played.extents[i].sensitivity, key);
+        const double half_m = found ? std::abs(found->metres_per_tenth_degree) : not_a_number;
         band.x.push_back(reach[i].x);
         band.low.push_back(std::max(0.0, reach[i].y - half_m));
         band.high.push_back(reach[i].y + half_m);

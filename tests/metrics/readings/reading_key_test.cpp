@@ -4,6 +4,7 @@
 #include "metrics/readings/reading_labels.h"
 #include "metrics/readings/significance.h"
 #include "metrics/readings/value.h"
+#include "scenarios/drives/edits/mirrored_drive.h"
 #include "scenarios/values/errors.h"
 #include "tests/trial.h"
 
@@ -97,14 +98,15 @@ TEST(ReadingKey, EveryFieldHasItsPlaceInTheName) {
     }
 }
 
-TEST(ReadingKey, EveryShapeLeadsBackToItsKeyAndNoTwoShareAName) {
+TEST(ReadingKey, EveryShapeLeadsBackToItsKeyAsItsOtherSideDoesAndNoTwoShareAName) {
     std::set<std::string> names;
     std::size_t shapes = 0;
     for (const QuantityRow& row : quantities())
         for (const ReadingKey& shape :
-             shapes_of({.quantity = row.quantity, .subject = "a_b-c.1", .lane = "left 3", .threshold = {0.5}, .distance_m = 12.5})) {
+             shapes_of({.quantity = row.quantity, .subject = "a_b-left.1", .lane = "left 3", .threshold = {0.5}, .distance_m = 12.5})) {
             const std::string name = name_of(shape);
             EXPECT_EQ(key_of(name), shape) << name;
+            EXPECT_EQ(name_of(key(other_side(name))), other_side(name));
             names.insert(name);
             ++shapes;
         }
@@ -337,6 +339,18 @@ TEST(Significance, ABoundIsExactAsABound) {
     }
     EXPECT_EQ(change(Value::at_least(200.0), 199.9).kind, ChangeKind::unknown) << "it may be much more";
     EXPECT_EQ(change(Value::at_least(200.0), Value::at_least(200.0)).reason_unknown, "both beyond 200 m");
+}
+
+TEST(Significance, TheGridsErrorIsAReadingAtEveryPlaceThatRestsOnIt) {
+    for (const QuantityRow& row : quantities())
+        if (row.exactness == Exactness::grid || row.exactness == Exactness::grid_and_drawing)
+            for (ReadingKey shape : shapes_of({.quantity = row.quantity, .lane = "right 1", .threshold = {1.0}}))
+                if (shape.aspect == Aspect::value) {
+                    shape.place = shape.place == ReadingPlace::none ? ReadingPlace::none : ReadingPlace::edges;
+                    shape.aspect = Aspect::grid_error;
+                    shape.statistic = Statistic::median;
+                    EXPECT_NO_THROW(name_of(shape)) << row.id;
+                }
 }
 
 // Values that are numbers, bounds or not measured, and what they make of each other.

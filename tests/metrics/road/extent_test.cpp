@@ -216,62 +216,48 @@ TEST(Extent, RefusesWhatCannotBeMeasured) {
     EXPECT_TRUE(measure_extent({}, {}, Surface::road, {1.0}, {}).empty());
 }
 
-GridError error_on(const StraightGrid& size) {
+/// First the own lane's, then those of the whole width.
+std::vector<GridError> errors_on(const StraightGrid& size) {
     const ExtentGrid grid = straight_grid(size);
-    return grid_error(grid, lit_by(grid, [](double x, double y) { return BareLamp{}.road_lx(x, y); }), Surface::road, {3.0}).at(0);
+    const std::vector<double> lx = lit_by(grid, [](double x, double y) { return BareLamp{}.road_lx(x, y); });
+    const std::vector<LaneExtent> measured = measure_extent(grid, lx, Surface::road, {3.0}, {});
+    const std::vector<GridError> errors = grid_errors(grid, lx, Surface::road, {3.0}, measured);
+    EXPECT_EQ(errors.size(), measured.size());
+    return errors;
 }
 
 // The error of the reach goes as the square of the cell: E = x^-3 gives c^2 / (8 x) on top of another phase in the cell.
-TEST(GridError, IsSmallForSmoothLightAndShrinksWithTheCell) {
-    const GridError coarse = error_on({.ahead_m = 60.0, .along_m = 2.0, .across_m = 0.5}),
-                    fine = error_on({.ahead_m = 60.0, .along_m = 0.5, .across_m = 0.125});
-    EXPECT_LT(coarse.reach_m.value(), 4.0 * 4.0 / (8.0 * 12.0));
-    EXPECT_GT(coarse.area_m2, 0.0);
-    EXPECT_LT(fine.reach_m.value(), 0.015);
-    EXPECT_LT(fine.area_m2, 0.2 * coarse.area_m2);
-    EXPECT_EQ(fine.threshold_lx, 3.0);
-}
-
-// Of every lane what grid_error tells of the own lane's reach and of the whole width's area.
-TEST(LaneGridErrors, AgreeWithTheGridsErrorAndShrinkWithTheCell) {
-    const BareLamp lamp;
-    const auto errors_with = [&](double cell_m) {
-        const ExtentGrid grid = straight_grid({.ahead_m = 60.0, .along_m = cell_m, .across_m = cell_m / 4.0});
-        const std::vector<double> lx = lit_by(grid, [&](double x, double y) { return lamp.road_lx(x, y); });
-        const std::vector<LaneExtent> measured = measure_extent(grid, lx, Surface::road, {3.0}, {});
-        const std::vector<LaneGridError> errors = lane_grid_errors(grid, lx, Surface::road, {3.0}, measured);
-        EXPECT_EQ(errors.size(), measured.size());
-        const GridError whole = grid_error(grid, lx, Surface::road, {3.0}).at(0);
-        for (const LaneGridError& error : errors) {
-            EXPECT_NEAR(error.lane == "own" ? error.reach_m : whole.reach_m.value(), whole.reach_m.value(), 1e-12);
-            EXPECT_NEAR(error.lane == "all" ? error.area_m2 : whole.area_m2, whole.area_m2, 1e-9);
-        }
-        return errors;
-    };
-    const auto coarse = errors_with(2.0), fine = errors_with(0.5);
+TEST(GridErrors, AreSmallForSmoothLightAndShrinkWithTheCell) {
+    const auto coarse = errors_on({.ahead_m = 60.0, .along_m = 2.0, .across_m = 0.5}),
+               fine = errors_on({.ahead_m = 60.0, .along_m = 0.5, .across_m = 0.125});
+    EXPECT_LT(coarse.at(0).reach.number().value(), 4.0 * 4.0 / (8.0 * 12.0));
+    EXPECT_LT(fine.at(0).reach.number().value(), 0.015);
+    EXPECT_GT(coarse.at(1).area.number().value(), 0.0);
+    EXPECT_LT(fine[1].area.number().value(), 0.2 * coarse[1].area.number().value());
+    EXPECT_EQ(std::tuple(fine[0].threshold_lx, fine[0].lane, fine[1].lane), std::tuple(3.0, "own", "all"));
     ASSERT_EQ(coarse.size(), fine.size());
     ASSERT_GT(fine.size(), 2U);
-    for (std::size_t i = 0; i < fine.size(); ++i) {
-        EXPECT_LE(fine[i].reach_m, 0.3 * coarse[i].reach_m + 0.01) << fine[i].lane;
-        EXPECT_LE(fine[i].edge_m, 0.3 * coarse[i].edge_m + 0.01) << fine[i].lane;
-        EXPECT_LE(fine[i].area_m2, 0.3 * coarse[i].area_m2 + 0.05) << fine[i].lane;
-    }
+    for (std::size_t i = 0; i < fine.size(); ++i)
+        for (const auto& [figure, left_m] :
+             {std::pair(&GridError::reach, 0.01), std::pair(&GridError::edge, 0.01), std::pair(&GridError::area, 0.05)})
+            EXPECT_LE((fine[i].*figure).number().value(), 0.3 * (coarse[i].*figure).number().value() + left_m) << fine[i].lane;
 }
 
-TEST(GridError, EvenNumbersOfRowsCompareTheSameGround) {
-    ExtentGrid grid = straight_grid({.ahead_m = 10.5});
+TEST(GridErrors, EvenNumbersOfRowsCompareTheSameGround) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 10.5});
     ASSERT_EQ(grid.ahead_m.size() % 2, 0U);
-    const auto errors = grid_error(grid, std::vector<double>(grid.surface.size(), 7.0), Surface::target, {5.0});
-    ASSERT_EQ(errors.size(), 1U);
-    EXPECT_FALSE(errors[0].reach_m); // lit to the end of both
-    EXPECT_NEAR(errors[0].area_m2, 0.0, 1e-9);
+    const std::vector<double> lx(grid.surface.size(), 7.0);
+    const auto errors = grid_errors(grid, lx, Surface::target, {5.0}, measure_extent(grid, lx, Surface::target, {5.0}, {}));
+    EXPECT_EQ(errors.at(0).reach.reason(), reach_beyond); // lit to the end of both
+    EXPECT_NEAR(errors.at(1).area.number().value(), 0.0, 1e-9);
     EXPECT_EQ(errors[0].surface, Surface::target);
 }
 
 // Of two reaches that both end with the grid nothing tells how far apart they are.
-TEST(GridError, AReachThatGoesOnHasNone) {
-    EXPECT_TRUE(error_on({.ahead_m = 60.0, .along_m = 0.5, .across_m = 0.25}).reach_m);
-    EXPECT_FALSE(error_on({.ahead_m = 8.0, .along_m = 0.5, .across_m = 0.25}).reach_m);
+TEST(GridErrors, AReachThatGoesOnHasNone) {
+    EXPECT_TRUE(errors_on({.ahead_m = 60.0, .along_m = 0.5, .across_m = 0.25}).at(0).reach.number());
+    for (const GridError& error : errors_on({.ahead_m = 8.0, .along_m = 0.5, .across_m = 0.25}))
+        EXPECT_EQ(std::tuple(error.reach.reason(), error.edge.reason()), std::tuple(reach_beyond, reach_beyond)) << error.lane;
 }
 
 /// The straight of the library, or another of its roads; a grid from the bumper, 3.6 m before the rear axle, on.
@@ -322,7 +308,7 @@ TEST(ExtentGrid, WithoutRowsGivesNoExtents) {
     const std::vector<double> lx = twin_illuminance_lx(grid, moment, Surface::road);
     EXPECT_TRUE(lx.empty());
     EXPECT_TRUE(measure_extent(grid, lx, Surface::road, {1.0}, {20.0}).empty());
-    EXPECT_TRUE(grid_error(grid, lx, Surface::road, {1.0}).empty());
+    EXPECT_TRUE(grid_errors(grid, lx, Surface::road, {1.0}, {}).empty());
     EXPECT_TRUE(reach_sensitivity(grid, moment, {1.0}).empty());
 }
 

@@ -218,20 +218,22 @@ TEST(DecidingTwin, GivesTheExtentsOfTheTwin) {
                     return measure_extent(grid, lx, surface, thresholds_lx, {20.0, 50.0, 33.3});
                 };
                 EXPECT_EQ(extents(deciding), extents(exact)) << name << " " << tick;
-                const auto lane_errors = [&](const std::vector<double>& lx) {
-                    std::vector<double> all;
-                    for (const LaneGridError& error : lane_grid_errors(grid, lx, surface, thresholds_lx, extents(lx)))
-                        all.insert(all.end(), {error.reach_m, error.edge_m, error.unlit_m, error.area_m2});
-                    return all;
+                const auto errors = [&](const std::vector<double>& lx) {
+                    return grid_errors(grid, lx, surface, thresholds_lx, extents(lx));
                 };
                 // Lanes whose edges run across columns decide at points of the coarser grid that the finer one does not ask for: seen
                 // is 1e-5 m, far below what these figures are used for.
-                const std::vector<double> from_deciding = lane_errors(deciding), from_exact = lane_errors(exact);
+                const std::vector<GridError> from_deciding = errors(deciding), from_exact = errors(exact);
                 ASSERT_EQ(from_deciding.size(), from_exact.size());
                 for (std::size_t i = 0; i < from_exact.size(); ++i)
-                    EXPECT_NEAR(from_deciding[i], from_exact[i], 1e-4) << name << " " << tick << " " << i;
-                EXPECT_EQ(grid_error(grid, deciding, surface, thresholds_lx), grid_error(grid, exact, surface, thresholds_lx))
-                    << name << " " << tick;
+                    for (const auto figure : {&GridError::reach, &GridError::edge, &GridError::unlit, &GridError::area}) {
+                        const std::string& lane = from_exact[i].lane;
+                        const bool same_ground = lane == (figure == &GridError::area ? "all" : figure == &GridError::reach ? "own" : "");
+                        const Value &quick = from_deciding[i].*figure, &slow = from_exact[i].*figure;
+                        EXPECT_EQ(quick.reason(), slow.reason()) << name << " " << tick << " " << lane;
+                        EXPECT_NEAR(quick.figure().value_or(0.0), slow.figure().value_or(0.0), same_ground ? 0.0 : 1e-4)
+                            << name << " " << tick << " " << lane;
+                    }
                 const std::size_t same = static_cast<std::size_t>(
                     std::inner_product(exact.begin(), exact.end(), deciding.begin(), std::ptrdiff_t{0}, std::plus<>(), std::equal_to<>()));
                 EXPECT_LT(same, exact.size() / 2) << "most points decide nothing";

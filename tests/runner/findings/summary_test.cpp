@@ -1,7 +1,11 @@
 #include "runner/findings/summary.h"
 
+#include "scenarios/drives/edits/mirrored_drive.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <iterator>
+#include <set>
 
 namespace fernlicht {
 namespace {
@@ -31,7 +35,7 @@ PlayedCell played(const std::vector<LaneExtent>& extents) {
         row.twin = {extent};
         row.twin[0].reach_centre_m += 0.5;
         row.sensitivity = {{5.0, Surface::road, 7.0 + row.tick, 1.0}};
-        row.grid_errors = {{5.0, Surface::road, 0.02, 3.0}};
+        row.grid_errors = {{5.0, Surface::road, "own", 0.02, 0.03, 0.04, 0.5}, {5.0, Surface::road, "all", {}, {}, {}, 3.0}};
         lamp_set.extents.push_back(row);
     }
     return lamp_set;
@@ -59,25 +63,34 @@ const Reading& find(const Readings& readings, const std::string& name) {
 
 double value(const Readings& readings, const std::string& name) { return find(readings, name).value.number().value(); }
 
-TEST(Summary, MediansMinimaAndPercentilesOverTheMoments) {
+TEST(Summary, MediansMinimaAndPercentilesOverTheMomentsInOneOrder) {
+    const std::pair<const char*, double> expected[] = {{"reach_5lx_road_own_m", 60.0},
+                                                       {"reach_5lx_road_own_min_m", 50.0},
+                                                       {"reach_5lx_road_own_p05_m", 51.0},
+                                                       {"reach_5lx_road_own_left_edge_m", 59.0},
+                                                       {"reach_5lx_road_own_right_edge_m", 62.0},
+                                                       {"unlit_before_reach_5lx_road_own_m", 0.0},
+                                                       {"width_5lx_road_own_at_20m_m", 6.0},
+                                                       {"width_5lx_road_own_at_20m_min_m", 5.0},
+                                                       {"width_5lx_road_own_at_20m_p05_m", 5.1},
+                                                       {"area_5lx_road_own_m2", 600.0},
+                                                       {"area_5lx_road_own_min_m2", 500.0},
+                                                       {"area_5lx_road_own_p05_m2", 510.0},
+                                                       {"reach_5lx_road_own_twin_difference_m", 0.5},
+                                                       {"reach_5lx_road_own_twin_difference_worst_m", 0.5},
+                                                       {"reach_5lx_road_own_per_tenth_degree_m", 8.0},
+                                                       {"reach_5lx_road_own_per_tenth_flux_m", 1.0},
+                                                       {"reach_5lx_road_own_grid_error_m", 0.02},
+                                                       {"reach_5lx_road_own_edge_grid_error_m", 0.03},
+                                                       {"unlit_before_reach_5lx_road_own_grid_error_m", 0.04},
+                                                       {"area_5lx_road_own_grid_error_m2", 0.5}};
     const Readings readings = summarise(played({reaching(60.0), reaching(50.0), reaching(80.0)}), looking_200_m());
-    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_m"), 60.0);
-    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_min_m"), 50.0);
-    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_p05_m"), 51.0);
-    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_left_edge_m"), 59.0);
-    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_right_edge_m"), 62.0);
-    EXPECT_DOUBLE_EQ(value(readings, "unlit_before_reach_5lx_road_own_m"), 0.0);
-    EXPECT_DOUBLE_EQ(value(readings, "width_5lx_road_own_at_20m_m"), 6.0);
-    EXPECT_DOUBLE_EQ(value(readings, "width_5lx_road_own_at_20m_min_m"), 5.0);
-    EXPECT_DOUBLE_EQ(value(readings, "area_5lx_road_own_m2"), 600.0);
-    EXPECT_DOUBLE_EQ(value(readings, "area_5lx_road_own_p05_m2"), 510.0);
-    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_twin_difference_m"), 0.5);
-    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_twin_difference_worst_m"), 0.5);
-    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_per_tenth_degree_m"), 8.0);
-    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_per_tenth_flux_m"), 1.0);
-    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_grid_error_m"), 0.02);
-    EXPECT_EQ(find(readings, "reach_5lx_road_own_m").unit(), std::string("m"));
-    EXPECT_EQ(find(readings, "area_5lx_road_own_m2").unit(), std::string("m2"));
+    ASSERT_EQ(readings.size(), std::size(expected));
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        EXPECT_EQ(readings[i].name(), expected[i].first);
+        EXPECT_DOUBLE_EQ(readings[i].value.number().value(), expected[i].second) << expected[i].first;
+        EXPECT_TRUE(readings[i].name().ends_with(readings[i].unit()));
+    }
 }
 
 TEST(Summary, NamesSayLimitPlaneAndLane) {
@@ -88,9 +101,17 @@ TEST(Summary, NamesSayLimitPlaneAndLane) {
     EXPECT_THROW(find(readings, "reach_0.5lx_target_left_1_per_tenth_degree_m"), std::out_of_range);
 }
 
-TEST(Summary, TheGridsAreaErrorBelongsToAll) {
-    const Readings readings = summarise(played({reaching(60.0, "all")}), looking_200_m());
-    EXPECT_DOUBLE_EQ(value(readings, "area_5lx_road_all_grid_error_m2"), 3.0);
+TEST(Summary, BothSidesHaveTheSameFiguresAndTheGridsAreaErrorOfAllComesFirst) {
+    for (const auto& [lane, other] : {std::pair("own", "own"), std::pair("all", "all"), std::pair("left 1", "right 1")}) {
+        std::multiset<std::string> here, there;
+        for (const Reading& reading : summarise(played({reaching(60.0, lane)}), looking_200_m()))
+            here.insert(other_side(reading.name()));
+        for (const Reading& reading : summarise(played({reaching(60.0, other)}), looking_200_m()))
+            there.insert(reading.name());
+        EXPECT_EQ(here, there);
+    }
+    const Reading area = summarise(played({reaching(60.0, "all")}), looking_200_m()).at(14);
+    EXPECT_EQ(std::pair(area.name(), area.value), std::pair(std::string("area_5lx_road_all_grid_error_m2"), Value(3.0)));
 }
 
 // Three of four moments measured: the median lies between the 2nd and the 3rd and is exact, whatever the fourth would be.
@@ -115,7 +136,7 @@ TEST(Summary, WhatTellsOfAReachThatGoesOnSaysSo) {
     PlayedCell beyond = played({reaching(200.0, "own", 5.0, true), reaching(200.0, "own", 5.0, true)});
     for (ExtentRow& row : beyond.extents) {
         row.sensitivity.clear();
-        row.grid_errors[0].reach_m.reset();
+        row.grid_errors[0].reach = row.grid_errors[0].edge = Value::not_measured(reach_beyond);
     }
     const std::string why = "the reach lies beyond the end of grid, road or lane in every moment";
     const Readings none = summarise(beyond, looking_200_m());
@@ -125,7 +146,7 @@ TEST(Summary, WhatTellsOfAReachThatGoesOnSaysSo) {
         EXPECT_EQ(find(none, name).value.reason(), why) << name;
     }
     PlayedCell once = played({reaching(200.0, "own", 5.0, true), reaching(150.0)});
-    once.extents[0].grid_errors[0].reach_m.reset();
+    once.extents[0].grid_errors[0].reach = Value::not_measured(reach_beyond);
     EXPECT_DOUBLE_EQ(value(summarise(once, looking_200_m()), "reach_5lx_road_own_grid_error_m"), 0.02) << "the other moment's";
 }
 

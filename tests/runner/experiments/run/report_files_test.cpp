@@ -139,7 +139,7 @@ TEST(MomentsCsv, HasAColumnForEachFigure) {
     Report report = tests::sample_report(3);
     PlayedCell& played = report.played[0];
     played.extents[1].rendered.clear(); // the lane ends
-    played.extents[2].grid_errors[0].reach_m.reset();
+    played.extents[2].grid_errors[0].reach = Value();
     played.car = {{0.0, -1.5, 30.25, 1.125, {}}, {0.1, -1.25, 31.0, 1.25, {}}, {0.2, -1.0, 31.5, 1.5, {}}};
     played.seeing = {tests::sample_seeing()};
     const TemporaryFolder folder;

@@ -1,5 +1,6 @@
 // report.json against runner/experiments/run/report.schema.json.
 #include "runner/commands/run_files.h"
+#include "runner/findings/extent_keys.h"
 #include "tests/runner/sample_report.h"
 #include "tests/runner/schema_check.h"
 
@@ -32,10 +33,13 @@ TEST(ReportSchema, EveryNullOfASummaryHasItsReason) {
     Report report = tests::sample_report(1);
     ExtentSummary summary;
     summary.key = {Surface::target, "own", 1.0};
-    summary.reach.add(150.0);
-    summary.reach.add(Value::at_least(200.0));
-    summary.twin_difference.add(Value::not_measured("both beyond 200 m"));
-    summary.grid_error.add(0.02);
+    const auto reach = [&](Aspect aspect) -> CensoredSamples& {
+        return summary.moments[extent_reading(summary.key, Quantity::reach, ReadingPlace::none, aspect)];
+    };
+    reach(Aspect::value).add(150.0);
+    reach(Aspect::value).add(Value::at_least(200.0));
+    reach(Aspect::twin_difference).add(Value::not_measured("both beyond 200 m"));
+    reach(Aspect::grid_error).add(0.02);
     report.played[0].extent_summaries = {summary};
     const json written = json::parse(report_json(report));
     EXPECT_THAT(complaints_of(written), IsEmpty());

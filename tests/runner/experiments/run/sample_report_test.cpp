@@ -78,7 +78,8 @@ ExtentRow extents_at(MadeUpBeam beam, int tick) {
                 row.twin.back().reach_centre_m += 0.2 * std::sin(1.7 * tick + threshold_lx);
             }
             row.sensitivity.push_back({threshold_lx, surface, 8.0 / std::sqrt(threshold_lx), 1.1 / std::sqrt(threshold_lx)});
-            row.grid_errors.push_back({threshold_lx, surface, 0.25, 1.5});
+            row.grid_errors.push_back({threshold_lx, surface, "own", 0.25});
+            row.grid_errors.push_back({threshold_lx, surface, "all", {}, {}, {}, 1.5});
         }
     return row;
 }
