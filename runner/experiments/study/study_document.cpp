@@ -259,7 +259,7 @@ std::string played_in_part(const StudyResult& result) {
                        range_over(result.cells, &CellResult::moments_of_drive), result.frames);
 }
 
-Document document(const StudyResult& result) {
+Document document(const StudyResult& result, const std::vector<std::string>& papers) {
     Section lamps = lamps_section(result), reach{"Reach over the drive", {}}, glare{"Glare over the drive", {}},
             maps{"Lux from above", {"All maps in one scale, 0.1 to 100 lx; below each pair the ratio of new to old."}}, cells{"Cells", {}};
     for (const StudyFigure& figure : result.figures)
@@ -271,14 +271,15 @@ Document document(const StudyResult& result) {
             if (figure.plot.name.starts_with(beginning))
                 section->blocks.emplace_back(figure.plot);
     cells.blocks.emplace_back(cells_table(result));
+    Listing files({Cell("study.json").linked("study.json"), Cell("study.csv").linked("study.csv")});
+    for (const std::string& paper : papers)
+        files.items.push_back(Cell((paper == papers.front() ? "for papers: " : "") + paper).linked(paper));
     const Section readings{
         "Readings that decide",
         {"A heading sorts, again the other way round. ± calc. is what calculation leaves open of the change, ± noise what three standard "
          "deviations of the noise of the lamps' tables would do, ± aim what 0.1° of aim would do. Each line is the row of its number in "
          "study.json and study.csv, which have all other readings too.",
-         Listing{{Cell("study.json").linked("study.json"), Cell("study.csv").linked("study.csv"),
-                  Cell("for papers: study.md").linked("study.md"), Cell("study.tex").linked("study.tex")}},
-         readings_table(result)}};
+         files, readings_table(result)}};
     Document document{short_text(result.study.title, 160), {verdict_section(result), largest_section(result)}};
     for (const Section& section : {lamps, reach, glare, readings, views_section(result), maps, cells})
         if (!section.blocks.empty())
