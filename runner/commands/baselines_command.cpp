@@ -7,7 +7,7 @@
 #include "runner/judge/baseline_difference.h"
 #include "runner/judge/baseline_json.h"
 #include "runner/judge/baselines.h"
-#include "runner/write/aligned_table.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>

@@ -71,9 +71,7 @@ void add_tables_flag(CLI::App& command, const OutputFormat*& tables) {
     for (const OutputFormat& format : output_formats())
         if (format.of_table)
             names.emplace_back(format.name);
-    const std::string last = names.back();
-    names.pop_back();
-    const std::string known = fmt::format("{} or {}", fmt::join(names, ", "), last);
+    const std::string known = fmt::format("one of {}", fmt::join(names, ", "));
     const auto take = [&tables, known](const std::string& name) {
         const auto format =
             std::ranges::find_if(output_formats(), [&](const OutputFormat& one) { return one.of_table && one.name == name; });

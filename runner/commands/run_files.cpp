@@ -3,7 +3,6 @@
 #include "runner/findings/moment_columns.h"
 #include "runner/write/document.h"
 #include "runner/write/report_texts.h"
-#include "runner/write/run_page.h"
 
 namespace fernlicht {
 

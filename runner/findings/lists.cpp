@@ -17,17 +17,8 @@ using Json = nlohmann::ordered_json;
 } // namespace
 
 const char* kind_name(TechniqueKind kind) {
-    switch (kind) {
-    case TechniqueKind::as_published:
-        return "as published";
-    case TechniqueKind::as_printed:
-        return "as printed";
-    case TechniqueKind::known:
-        return "known";
-    case TechniqueKind::ours:
-        break;
-    }
-    return "ours";
+    static constexpr const char* names[] = {"as published", "as printed", "known", "ours"};
+    return names[static_cast<std::size_t>(kind)];
 }
 
 Document techniques_document(std::span<const Technique> rows, ShadowMethods shadows) {

@@ -1,5 +1,4 @@
 #include "runner/files/clean_text.h"
-#include "runner/write/aligned_table.h"
 #include "runner/write/document.h"
 
 #include <algorithm>
@@ -7,6 +6,11 @@
 
 namespace fernlicht {
 namespace {
+
+/// Code points, as fmt pads by them.
+std::size_t characters(const std::string& text) {
+    return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
 
 /// Of a table of prose: a line for each cell, behind its head, and rows apart.
 std::string entries_of(const Table& table) {
@@ -75,11 +79,28 @@ std::string text_of(const Cards& cards) {
     return text;
 }
 
-std::string text_of(const PictureOverlay&) { return ""; }
-
-std::string text_of(const PictureStrip&) { return ""; }
+std::string text_of(const auto&) { return ""; } // pictures
 
 } // namespace
+
+std::string aligned_table(const std::string& alignment, const std::vector<std::string>& header,
+                          const std::vector<std::vector<std::string>>& rows) {
+    std::vector<std::vector<std::string>> lines{header};
+    lines.insert(lines.end(), rows.begin(), rows.end());
+    std::string text;
+    std::vector<std::size_t> widths(header.size(), 0);
+    for (const auto& cells : lines)
+        for (std::size_t i = 0; i < widths.size(); ++i)
+            widths[i] = std::max(widths[i], characters(cells.at(i)));
+    for (const auto& cells : lines) {
+        std::string line;
+        for (std::size_t i = 0; i < widths.size(); ++i)
+            line += (i == 0 ? "" : "  ") +
+                    (alignment.at(i) == '>' ? fmt::format("{:>{}}", cells[i], widths[i]) : fmt::format("{:<{}}", cells[i], widths[i]));
+        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+    }
+    return text;
+}
 
 std::string table_text(const Table& table) {
     return (table.caption.empty() ? "" : table.caption + "\n") + (table.prose ? entries_of(table) : lines_of(table));

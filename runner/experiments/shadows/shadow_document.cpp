@@ -1,6 +1,5 @@
 #include "runner/experiments/shadows/shadow_result.h"
 #include "runner/findings/figures.h"
-#include "runner/findings/shadow_figures.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace fernlicht {
 namespace {
@@ -346,33 +345,16 @@ std::string study_csv(const StudyResult& result) {
     std::string csv = "id,new,against,drive,technique,condition,reading,unit,old_value,new_value,change,uncertainty,by_tenth_degree,by_"
                       "noise,kind,decides,"
                       "new_cell,old_cell,why_not,old_bound,new_bound,change_bound\r\n";
-    const auto number = [](const std::optional<double>& value) { return value ? fmt::format("{}", *value) : std::string(); };
     for (std::size_t i = 0; i < result.changes.size(); ++i) {
         const Change& c = result.changes[i];
         const CellResult &now = result.cells[c.tested], &before = result.cells[c.against];
-        const std::vector<std::string> fields{fmt::format("c{}", i),
-                                              csv_text(result.study.lamps[now.cell.lamp].name),
-                                              csv_text(result.study.lamps[before.cell.lamp].name),
-                                              csv_text(now.drive),
-                                              csv_text(result.study.techniques[now.cell.technique]),
-                                              csv_text(now.cell.condition),
-                                              csv_text(name_of(c.reading)),
-                                              csv_text(c.unit()),
-                                              number(c.old_value.figure()),
-                                              number(c.new_value.figure()),
-                                              number(c.change().figure()),
-                                              number(c.uncertainty),
-                                              number(c.aim_effect),
-                                              number(c.noise_effect),
-                                              change_name(c.kind),
-                                              c.decides ? "yes" : "no",
-                                              csv_text(now.cell.name),
-                                              csv_text(before.cell.name),
-                                              csv_text(c.reason_unknown),
-                                              bound_name(c.old_value),
-                                              bound_name(c.new_value),
-                                              bound_name(c.change())};
-        csv += fmt::format("{}\r\n", fmt::join(fields, ","));
+        csv += csv_line(fmt::format("c{}", i), csv_text(result.study.lamps[now.cell.lamp].name),
+                        csv_text(result.study.lamps[before.cell.lamp].name), csv_text(now.drive),
+                        csv_text(result.study.techniques[now.cell.technique]), csv_text(now.cell.condition), csv_text(name_of(c.reading)),
+                        csv_text(c.unit()), csv_number(c.old_value.figure()), csv_number(c.new_value.figure()),
+                        csv_number(c.change().figure()), csv_number(c.uncertainty), csv_number(c.aim_effect), csv_number(c.noise_effect),
+                        change_name(c.kind), c.decides ? "yes" : "no", csv_text(now.cell.name), csv_text(before.cell.name),
+                        csv_text(c.reason_unknown), bound_name(c.old_value), bound_name(c.new_value), bound_name(c.change()));
     }
     return csv;
 }

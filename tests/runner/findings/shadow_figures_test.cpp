@@ -1,5 +1,5 @@
 // Figures of shadows for people, and what sheets show.
-#include "runner/findings/shadow_figures.h"
+#include "runner/findings/figures.h"
 #include "runner/write/document.h"
 
 #include "runner/experiments/shadows/shadow_result.h"

@@ -1,5 +1,4 @@
 #include "runner/experiments/bench/bench_result.h"
-#include "runner/write/aligned_table.h"
 #include "runner/write/document.h"
 #include "runner/write/plots/png.h"
 #include "scenarios/values/files.h"
