@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace fernlicht {
 namespace {
@@ -67,11 +66,10 @@ void add_seed_flag(CLI::App& command, std::uint64_t& seed, const char* text) {
 }
 
 void add_tables_flag(CLI::App& command, const OutputFormat*& tables) {
-    std::vector<std::string> names;
+    std::string known;
     for (const OutputFormat& format : output_formats())
         if (format.of_table)
-            names.emplace_back(format.name);
-    const std::string known = fmt::format("one of {}", fmt::join(names, ", "));
+            known += (known.empty() ? "one of " : ", ") + std::string(format.name);
     const auto take = [&tables, known](const std::string& name) {
         const auto format =
             std::ranges::find_if(output_formats(), [&](const OutputFormat& one) { return one.of_table && one.name == name; });

@@ -85,7 +85,7 @@ int live(const LiveFlags& flags, const std::vector<std::string>& command) {
     options.wait = !flags.no_wait;
     options.draw = !flags.no_draw && !flags.no_wait;
     options.command = command;
-    options.write = [&options, tables = flags.tables](const Report& report) { write_report(report, options.folder, tables); };
+    options.write = [&](const Report& report) { write_report(report, options.folder, flags.tables); };
     Drive drive = drive_of(flags);
     options.folder = result_folder(flags.out, drive.name);
     const Report report = run_and_name(std::move(drive), options);

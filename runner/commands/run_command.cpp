@@ -91,9 +91,7 @@ int run(const RunFlags& flags, const std::vector<std::string>& command) {
     options.ticks = tick_range(flags.frames);
     options.accuracy = !flags.no_accuracy;
     options.known = take(flags.judging, options);
-    options.write = [tables = flags.tables](const Report& report, const std::filesystem::path& folder) {
-        write_report(report, folder, tables);
-    };
+    options.write = [&](const Report& report, const std::filesystem::path& folder) { write_report(report, folder, flags.tables); };
     options.command = command;
     const DriveEdits edits = edits_of(flags);
     std::vector<Drive> drives;

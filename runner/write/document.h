@@ -16,10 +16,9 @@ std::string place_of(const Plot& plot);
 /// One self-contained page; plots stand in it as SVG, pictures are read below `folder`. It has a script only where something sorts or
 /// slides.
 std::string document_html(const Document& document, const Findings& findings, const std::filesystem::path& folder = {});
-/// Rows of as many cells as `header` has. Columns are as wide as their widest cell, two spaces apart; `alignment` has a character for
-/// each: '<' or '>'. Nothing trails. Lines end with a newline.
-std::string aligned_table(const std::string& alignment, const std::vector<std::string>& header,
-                          const std::vector<std::vector<std::string>>& rows);
+/// Columns as wide as their widest cell, two spaces apart; `alignment` has a character for each: '<' or '>'. Nothing trails. Lines end
+/// with a newline.
+std::string aligned_table(const std::string& alignment, const std::vector<std::vector<std::string>>& lines);
 /// For a terminal: paragraphs, tables in columns (of prose: an entry for each row), captions of plots. Lines end with a newline.
 std::string table_text(const Table& table);
 std::string document_text(const Document& document);

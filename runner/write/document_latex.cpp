@@ -16,13 +16,6 @@ std::string latex_text(const std::string& words) {
                                                                {">", "\\textgreater{}"},
                                                                {"|", "\\textbar{}"},
                                                                {"\"", "''"},
-                                                               {"&", "\\&"},
-                                                               {"%", "\\%"},
-                                                               {"$", "\\$"},
-                                                               {"#", "\\#"},
-                                                               {"_", "\\_"},
-                                                               {"{", "\\{"},
-                                                               {"}", "\\}"},
                                                                {"\u2212", "$-$"},
                                                                {"\u2264", "$\\le$"},
                                                                {"\u2265", "$\\ge$"},
@@ -39,6 +32,8 @@ std::string latex_text(const std::string& words) {
         std::size_t length = 1;
         while (at + length < clean.size() && (static_cast<unsigned char>(clean[at + length]) & 0xC0U) == 0x80U)
             ++length;
+        if (std::string_view("&%$#_{}").find(clean[at]) != std::string_view::npos)
+            out += '\\';
         const auto sign = signs.find(std::string_view(clean).substr(at, length));
         out += sign == signs.end() ? clean.substr(at, length) : sign->second;
         at += length;

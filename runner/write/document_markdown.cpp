@@ -1,8 +1,6 @@
 #include "runner/files/clean_text.h"
 #include "runner/write/document.h"
 
-#include <algorithm>
-
 namespace fernlicht {
 namespace {
 
@@ -14,13 +12,11 @@ std::string markdown_cell(const std::string& text) {
     return out;
 }
 
-/// Each of the words that are typed, between backticks.
-std::string code_cell(const std::string& words) {
-    std::string out;
-    for (std::size_t at = 0, end = 0; at < words.size(); at = end + 2) {
-        end = std::min(words.find(", ", at), words.size());
-        out += (at == 0 ? "`" : ", `") + markdown_cell(words.substr(at, end - at)) + "`";
-    }
+/// As it is typed, between backticks; of a list each item.
+std::string code_cell(const std::string& words, bool is_list) {
+    std::string out = "`" + markdown_cell(words) + "`";
+    for (std::size_t at = out.find(", "); is_list && at != std::string::npos; at = out.find(", ", at + 4))
+        out.replace(at, 2, "`, `");
     return out;
 }
 
@@ -38,7 +34,7 @@ std::string table_markdown(const Table& table) {
         for (std::size_t i = 0; i < table.columns.size(); ++i)
             out += i >= row.size()         ? " |"
                    : row[i].text.empty()   ? (table.prose ? "  |" : " - |")
-                   : table.columns[i].code ? " " + code_cell(row[i].text) + " |"
+                   : table.columns[i].code ? " " + code_cell(row[i].text, table.prose) + " |"
                                            : " " + markdown_cell(row[i].text) + " |";
         out += "\n";
     }

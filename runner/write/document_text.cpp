@@ -21,7 +21,7 @@ std::string entries_of(const Table& table) {
             if (!row[i].text.empty())
                 lines.push_back(
                     {head_of(table.columns[i]), clean_text(row[i].text + (row[i].hint.empty() ? "" : " (" + row[i].hint + ")"))});
-        text += (text.empty() ? "" : "\n") + aligned_table("<<", lines.front(), {lines.begin() + 1, lines.end()});
+        text += (text.empty() ? "" : "\n") + aligned_table("<<", lines);
     }
     return text;
 }
@@ -49,7 +49,7 @@ std::string lines_of(const Table& table) {
         for (const Cell& cell : row)
             line.push_back(clean_text(cell.text.empty() ? "-" : cell.text));
     }
-    return aligned_table(alignment, lines.front(), {lines.begin() + 1, lines.end()}) + after;
+    return aligned_table(alignment, lines) + after;
 }
 
 std::string text_of(const Table& table) { return table.off_terminal ? "" : table_text(table); }
@@ -83,12 +83,9 @@ std::string text_of(const auto&) { return ""; } // pictures
 
 } // namespace
 
-std::string aligned_table(const std::string& alignment, const std::vector<std::string>& header,
-                          const std::vector<std::vector<std::string>>& rows) {
-    std::vector<std::vector<std::string>> lines{header};
-    lines.insert(lines.end(), rows.begin(), rows.end());
+std::string aligned_table(const std::string& alignment, const std::vector<std::vector<std::string>>& lines) {
     std::string text;
-    std::vector<std::size_t> widths(header.size(), 0);
+    std::vector<std::size_t> widths(alignment.size(), 0);
     for (const auto& cells : lines)
         for (std::size_t i = 0; i < widths.size(); ++i)
             widths[i] = std::max(widths[i], characters(cells.at(i)));

@@ -97,9 +97,6 @@ TEST(ReadingsList, SaysEachQuantityInWords) {
 }
 
 TEST(ListCommands, PrintEachInOneForm) {
-    const Outcome run = run_program("techniques --markdown");
-    EXPECT_EQ(run.exit_code, 0);
-    EXPECT_EQ(run.output, document_markdown(techniques_document(techniques(), shadow_method_names())));
     EXPECT_EQ(nlohmann::json::parse(run_program("techniques --json").output).at("techniques").size(), techniques().size());
     EXPECT_EQ(run_program("techniques --json --markdown").exit_code, 2);
     for (const OutputFormat& format : output_formats()) {
