@@ -15,11 +15,6 @@ std::string reading_label(const ReadingKey& key);
 /// Whose eyes a glare reading is of: "mirrors of a car 15 m ahead", "eyes of oncoming driver opposite".
 std::string eye_label(const ReadingKey& key);
 
-/// A paragraph for each quantity: its names, unit, which way is better, what it is.
-std::string readings_text();
-/// The table of docs/readings.md, with equation and source.
-std::string readings_markdown();
-
 /// "m2": "m²"; "cd/m2": "cd/m²". Other units stay as they are.
 inline std::string unit_label(const std::string& unit) {
     return unit == "m2" || unit.ends_with("/m2") ? unit.substr(0, unit.size() - 1) + "²" : unit;

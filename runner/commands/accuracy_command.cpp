@@ -20,7 +20,8 @@ namespace {
 struct AccuracyFlags {
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> techniques, resolutions, shadow_maps, beams;
-    std::string lamp_set, target_error = "0.5%", backend = "auto", out, tables;
+    std::string lamp_set, target_error = "0.5%", backend = "auto", out;
+    const OutputFormat* tables = nullptr;
     std::vector<std::string> diagrams{"techniques"};
     SweepRequest sweep;
     bool quiet = false;
@@ -66,7 +67,7 @@ int accuracy(const AccuracyFlags& flags, const std::vector<std::string>& command
     request.write = [&](const AccuracyResult& result) {
         write_file(request.folder / "accuracy.json", accuracy_json(result));
         write_file(request.folder / "accuracy.csv", accuracy_csv(result));
-        write_document(document(result), result, request.folder, "accuracy", table_format(flags.tables));
+        write_document(document(result), result, request.folder, "accuracy", flags.tables);
     };
     const AccuracyResult result = run_accuracy(request);
     fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "accuracy.html").string());

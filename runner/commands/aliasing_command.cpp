@@ -19,7 +19,8 @@ namespace {
 struct AliasingFlags {
     std::filesystem::path drive;
     std::optional<double> moment_s;
-    std::string lamp_set, frames, resolution, backend = "auto", out, tables, picture = "luminance";
+    std::string lamp_set, frames, resolution, backend = "auto", out, picture = "luminance";
+    const OutputFormat* tables = nullptr;
     std::vector<std::string> techniques, beams, filters{"mipmapped", "none", "trilinear"};
     std::vector<int> samples{1, 4};
     int supersample = 4;
@@ -121,7 +122,7 @@ AliasingResult run(const AliasingFlags& flags, const std::vector<std::string>& c
     const auto write = [&](const AliasingResult& result) {
         write_file(folder / "aliasing.json", aliasing_json(result));
         write_file(folder / "aliasing.csv", aliasing_csv(result));
-        write_document(document(result), result, folder, "aliasing", table_format(flags.tables));
+        write_document(document(result), result, folder, "aliasing", flags.tables);
     };
     if (!flags.sequence.empty()) {
         SequenceRequest request = sequence_request_of(flags);

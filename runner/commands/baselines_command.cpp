@@ -7,7 +7,7 @@
 #include "runner/judge/baseline_difference.h"
 #include "runner/judge/baseline_json.h"
 #include "runner/judge/baselines.h"
-#include "runner/write/aligned_table.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -30,9 +30,7 @@ struct BaselinesFlags {
 };
 
 /// The first row is the head.
-std::string table(const std::vector<std::vector<std::string>>& rows) {
-    return aligned_table(std::string(rows.front().size(), '<'), rows.front(), {rows.begin() + 1, rows.end()});
-}
+std::string table(const std::vector<std::vector<std::string>>& rows) { return aligned_table(std::string(rows.front().size(), '<'), rows); }
 
 /// A folder without baselines is one without; a folder that is none was misspelt.
 void refuse_missing(const std::string& store) {

@@ -19,7 +19,8 @@ constexpr const char* default_drive = "scenarios/library/drives/bench.yaml";
 /// The flags as typed.
 struct BenchFlags {
     std::filesystem::path drive = default_drive;
-    std::string lamp_set, resolution, backend = "auto", out, tables;
+    std::string lamp_set, resolution, backend = "auto", out;
+    const OutputFormat* tables = nullptr;
     std::vector<std::string> techniques;
     std::optional<int> count;
     int rounds = 21;
@@ -50,7 +51,7 @@ int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
     request.write = [&](const BenchResult& result) {
         write_file(request.folder / "bench.json", bench_json(result));
         write_file(request.folder / "bench.csv", bench_csv(result));
-        write_document(document(result), result, request.folder, "bench", table_format(flags.tables));
+        write_document(document(result), result, request.folder, "bench", flags.tables);
     };
     const BenchResult result = run_bench(request);
     fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "bench.html").string());

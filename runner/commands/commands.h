@@ -24,9 +24,7 @@ AddCommand add_accuracy_command;   // error against run time
 AddCommand add_aliasing_command;   // how much of what a picture shows is not there, by how it is drawn
 AddCommand add_shadows_command;    // how wrong each shadow method is, and what it costs
 AddCommand add_reference_command;  // one moment by rays, each pixel with its standard error
-AddCommand add_techniques_command; // lists the ways to light a scene
-AddCommand add_readings_command;   // lists what is read of a drive
-AddCommand add_signals_command;    // lists what lamp control reads and writes
+AddCommand add_list_commands;      // list the ways to light a scene, what is read of a drive, what lamp control reads and writes
 AddCommand add_can_command;        // small tools for logs and frames of a CAN bus (runner/commands/can)
 AddCommand add_lamp_command;       // what a lamp file holds; scaled, mirrored, summed, converted, held against a regulation
 AddCommand add_model_command;      // what a model file holds, as text, JSON or picture

@@ -65,14 +65,31 @@ void add_seed_flag(CLI::App& command, std::uint64_t& seed, const char* text) {
     command.add_option("--seed", seed, text)->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))->capture_default_str();
 }
 
-void add_tables_flag(CLI::App& command, std::string& tables) {
-    command.add_option("--tables", tables, "csv or tex: write each table of the page also as a file in tables/");
+void add_tables_flag(CLI::App& command, const OutputFormat*& tables) {
+    std::string known;
+    for (const OutputFormat& format : output_formats())
+        if (format.of_table)
+            known += (known.empty() ? "one of " : ", ") + std::string(format.name);
+    const auto take = [&tables, known](const std::string& name) {
+        const auto format =
+            std::ranges::find_if(output_formats(), [&](const OutputFormat& one) { return one.of_table && one.name == name; });
+        if (format == output_formats().end())
+            refuse_flag("--tables", name, known.c_str());
+        tables = &*format;
+    };
+    command.add_option_function<std::string>("--tables", take, known + ": write each table of the page also as a file in tables/");
 }
 
-TableFormat table_format(const std::string& text) {
-    if (!text.empty() && text != "csv" && text != "tex")
-        refuse_flag("--tables", text, "csv or tex");
-    return text.empty() ? TableFormat::none : text == "csv" ? TableFormat::csv : TableFormat::tex;
+void add_print_flags(CLI::App& command, const OutputFormat*& format, std::vector<CLI::Option*> others) {
+    for (const OutputFormat& row : output_formats()) {
+        if (!row.of_document)
+            continue;
+        CLI::Option* const flag = command.add_flag_callback(
+            fmt::format("--{}", row.name), [&format, &row] { format = &row; }, fmt::format("print {}", row.meaning));
+        for (CLI::Option* const one : others)
+            flag->excludes(one);
+        others.push_back(flag);
+    }
 }
 
 void refuse_flag(const char* flag, const std::string& found, const char* expected) {

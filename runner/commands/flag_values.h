@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runner/experiments/run/run_drives.h"
-#include "runner/write/document.h"
+#include "runner/write/formats.h"
 #include "scenarios/can/candump_stream.h"
 #include "scenarios/lamps/beam_texels.h"
 
@@ -14,7 +14,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+} // namespace CLI
 
 namespace fernlicht {
 
@@ -47,10 +48,11 @@ void refuse_existing(const char* flag, const std::filesystem::path& path, bool f
 std::vector<std::pair<std::string, std::filesystem::path>> lamps_of(const std::vector<std::string>& texts);
 
 void add_seed_flag(CLI::App& command, std::uint64_t& seed, const char* text);
-/// --tables, the same for all commands that write a document.
-void add_tables_flag(CLI::App& command, std::string& tables);
-/// "csv", "tex" or "". Throws InputError naming --tables.
-TableFormat table_format(const std::string& text);
+/// --tables, the same for all commands that write a document: any format that has tables. What is none is refused while flags are parsed.
+void add_tables_flag(CLI::App& command, const OutputFormat*& tables);
+/// A flag for each format of whole documents (--markdown), for commands that print one; at most one of
+/// them and of `others` may be given.
+void add_print_flags(CLI::App& command, const OutputFormat*& format, std::vector<CLI::Option*> others = {});
 
 /// "FIRST:LAST", "FIRST:" or ":LAST" of --frames; all for "". Throws InputError naming the flag.
 TickRange tick_range(const std::string& frames);

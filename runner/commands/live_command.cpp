@@ -23,7 +23,8 @@ constexpr int interrupted_code = 130; ///< as a shell has it for what SIGINT end
 struct LiveFlags {
     LiveOptions options;
     std::filesystem::path drive;
-    std::string start, resolution, out, tables;
+    std::string start, resolution, out;
+    const OutputFormat* tables = nullptr;
     double duration_s = 0.0;
     bool no_wait = false, no_draw = false, lossless = false;
 };
@@ -84,7 +85,7 @@ int live(const LiveFlags& flags, const std::vector<std::string>& command) {
     options.wait = !flags.no_wait;
     options.draw = !flags.no_draw && !flags.no_wait;
     options.command = command;
-    options.write = [&options, tables = table_format(flags.tables)](const Report& report) { write_report(report, options.folder, tables); };
+    options.write = [&](const Report& report) { write_report(report, options.folder, flags.tables); };
     Drive drive = drive_of(flags);
     options.folder = result_folder(flags.out, drive.name);
     const Report report = run_and_name(std::move(drive), options);

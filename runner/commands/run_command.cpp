@@ -20,7 +20,8 @@ struct RunFlags {
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> lamps;
     RunOptions options;
-    std::string road, technique, resolution, frames, capture, out, tables;
+    std::string road, technique, resolution, frames, capture, out;
+    const OutputFormat* tables = nullptr;
     JudgingFlags judging;
     std::vector<std::string> road_folders;
     std::string replay, ego, can_start, can_channel;
@@ -90,9 +91,7 @@ int run(const RunFlags& flags, const std::vector<std::string>& command) {
     options.ticks = tick_range(flags.frames);
     options.accuracy = !flags.no_accuracy;
     options.known = take(flags.judging, options);
-    options.write = [tables = table_format(flags.tables)](const Report& report, const std::filesystem::path& folder) {
-        write_report(report, folder, tables);
-    };
+    options.write = [&](const Report& report, const std::filesystem::path& folder) { write_report(report, folder, flags.tables); };
     options.command = command;
     const DriveEdits edits = edits_of(flags);
     std::vector<Drive> drives;

@@ -1,8 +1,8 @@
 #include "runner/commands/run_files.h"
 
 #include "runner/findings/moment_columns.h"
+#include "runner/write/document.h"
 #include "runner/write/report_texts.h"
-#include "runner/write/run_page.h"
 
 namespace fernlicht {
 
@@ -10,7 +10,7 @@ std::string report_html(const Report& report, const std::filesystem::path& folde
     return run_page_html(report, run_page(report), folder);
 }
 
-void write_report(const Report& report, const std::filesystem::path& folder, TableFormat tables) {
+void write_report(const Report& report, const std::filesystem::path& folder, const OutputFormat* tables) {
     // The figures first, the large page last: a disk that fills up takes the page before it takes the numbers.
     write_file(folder / "readings.csv", report_csv(report));
     write_file(folder / "times.csv", times_csv(report));
@@ -19,8 +19,8 @@ void write_report(const Report& report, const std::filesystem::path& folder, Tab
     for (const PlayedCell& played : report.played)
         if (const std::string moments = moments_csv(played); !moments.empty())
             write_file(folder / moments_file(played), moments);
-    if (tables != TableFormat::none)
-        write_tables(document(report), folder, tables);
+    if (tables)
+        write_tables(document(report), folder, *tables);
     write_file(folder / "report.html", report_html(report, folder));
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runner/experiments/run/run_report.h"
-#include "runner/write/document.h"
+#include "runner/write/formats.h"
 
 namespace fernlicht {
 
@@ -11,6 +11,6 @@ std::string report_html(const Report& report, const std::filesystem::path& folde
 
 /// Writes report.json, junit.xml, readings.csv, times.csv, a CSV of each lamp set's moments, tables as asked for and report.html into
 /// `folder` (frames are there already). Each file atomically.
-void write_report(const Report& report, const std::filesystem::path& folder, TableFormat tables = TableFormat::none);
+void write_report(const Report& report, const std::filesystem::path& folder, const OutputFormat* tables = nullptr);
 
 } // namespace fernlicht

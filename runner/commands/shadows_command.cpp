@@ -22,13 +22,15 @@ constexpr const char* default_lamp = "scenarios/library/lamps/xenon-low.ies";
 /// The flags as typed.
 struct ShadowsFlags {
     std::vector<std::filesystem::path> drives;
-    std::string lamp_set, backend = "auto", out, tables, texels = "1024x512", resolution = "512x384";
+    std::string lamp_set, backend = "auto", out, texels = "1024x512", resolution = "512x384";
+    const OutputFormat* tables = nullptr;
     std::vector<std::string> methods, scenes{"*"};
     std::filesystem::path lamp = default_lamp;
     double lamp_radius_m = ShadowSettings{}.lamp_radius_m, floor_lx = shadow_floor_lx, vertical_fov_deg = degrees(View{}.vertical_fov_rad);
     int moments = 3, rounds = 7;
     std::uint64_t seed = 1;
-    bool quiet = false, markdown = false;
+    const OutputFormat* printed = nullptr; ///< of the paper; nullptr: the page as text
+    bool quiet = false;
 };
 
 /// One of those that draw: not auto, which takes one of them.
@@ -98,10 +100,10 @@ int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) 
     request.write = [&](const ShadowResult& result) {
         write_file(request.folder / "shadows.json", shadow_json(result));
         write_file(request.folder / "shadows.csv", shadow_csv(result));
-        write_document(document(result), result, request.folder, "shadows", table_format(flags.tables));
+        write_document(document(result), result, request.folder, "shadows", flags.tables);
     };
     const ShadowResult result = run_shadow_study(request);
-    fmt::print("{}\n{}\n", flags.markdown ? table_markdown(shadow_table(result)) : document_text(document(result)),
+    fmt::print("{}\n{}\n", flags.printed ? flags.printed->of_document(shadow_paper(result)) : document_text(document(result)),
                (request.folder / "shadows.html").string());
     if (!result.interrupted.empty())
         fmt::print("incomplete: {}\n", result.interrupted);
@@ -138,7 +140,7 @@ void add_shadows_command(CLI::App& app, const std::vector<std::string>& command,
     sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--out", flags->out, "new or empty folder for the results");
     add_tables_flag(*sub, flags->tables);
-    sub->add_flag("--markdown", flags->markdown, "print the table as in docs/shadow-tables.md");
+    add_print_flags(*sub, flags->printed);
     sub->add_flag("--quiet", flags->quiet, "show no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return shadows(*flags, command); }; });
 }

@@ -19,7 +19,8 @@ namespace {
 struct StabilityFlags {
     std::vector<std::string> only{"*"};
     std::string backend = "auto", out;
-    bool json = false, markdown = false, list = false, thorough = false;
+    const OutputFormat* printed = nullptr; ///< when all cases are judged; nullptr: each as text, as it comes
+    bool json = false, list = false, thorough = false;
 };
 
 /// Where the cases write their files: kept where the user names a folder, else gone with this value.
@@ -85,7 +86,7 @@ int try_cases(const StabilityFlags& flags) {
     StabilityResult result;
     for (const StabilityCase* one : cases) {
         result.rows.push_back(judge(*one, bench));
-        if (!flags.json && !flags.markdown) {
+        if (!flags.json && !flags.printed) {
             fmt::print("{}", document_text(document(result.rows.back())));
             std::fflush(stdout);
         }
@@ -93,8 +94,8 @@ int try_cases(const StabilityFlags& flags) {
     result.device = bench.drew() ? bench.device().info().gl_renderer : "";
     if (flags.json)
         fmt::print("{}", stability_json(result));
-    else if (flags.markdown)
-        fmt::print("{}", document_markdown(document(result)));
+    else if (flags.printed)
+        fmt::print("{}", flags.printed->of_document(document(result)));
     else
         fmt::print("\n{}", document_text(document(result)));
     return std::ranges::all_of(result.rows, &StabilityRow::passed) ? 0 : 1;
@@ -112,8 +113,8 @@ void add_stability_command(CLI::App& app, const std::vector<std::string>&, std::
            "--equations", [flags] { flags->only = {"equation/*"}; }, "check the light equations one by one")
         ->excludes(only);
     CLI::Option* json = sub->add_flag("--json", flags->json, "print JSON");
-    CLI::Option* markdown = sub->add_flag("--markdown", flags->markdown, "print the table of docs/accuracy.md")->excludes(json);
-    sub->add_flag("--list", flags->list, "list the cases and run none")->excludes(json)->excludes(markdown);
+    CLI::Option* list = sub->add_flag("--list", flags->list, "list the cases and run none")->excludes(json);
+    add_print_flags(*sub, flags->printed, {json, list});
     sub->add_flag("--thorough", flags->thorough, "search ten times as long");
     sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--out", flags->out, "keep the files that the cases write in this folder");

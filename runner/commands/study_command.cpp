@@ -36,11 +36,13 @@ void write_study(const StudyResult& result, const std::filesystem::path& folder)
     const Document paper = study_paper(result);
     write_file(folder / "study.json", study_json(result));
     write_file(folder / "study.csv", study_csv(result));
-    write_file(folder / "study.md", document_markdown(paper));
-    write_file(folder / "study.tex", document_latex(paper));
+    std::vector<std::string> papers;
+    for (const OutputFormat& format : output_formats())
+        if (format.for_papers)
+            write_file(folder / papers.emplace_back(std::string("study") + format.extension), format.of_document(paper));
     write_file(folder / "junit.xml", report_junit(suites_of(result)));
     write_file(folder / "study.yaml", result.study.text);
-    write_document(document(result), result, folder, "report");
+    write_document(document(result, papers), result, folder, "report");
 }
 
 int study(const StudyFlags& flags, const std::vector<std::string>& command) {

@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <fmt/format.h>
 #include <vector>
 
 namespace fernlicht {
@@ -141,6 +141,8 @@ std::string csv_text(std::string_view bytes) {
         out += c == '"' ? std::string("\"\"") : std::string(1, c);
     return out + '"';
 }
+
+std::string csv_number(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
 
 std::string relative_link(std::string_view path) {
     static constexpr char hex[] = "0123456789ABCDEF";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,6 +20,14 @@ std::string xml_text(std::string_view bytes);
 
 /// A field of RFC 4180: quoted where it must be. A text that a spreadsheet would take for a formula gets a leading apostrophe.
 std::string csv_text(std::string_view bytes);
+/// With all its digits; "" for none.
+std::string csv_number(const std::optional<double>& value);
+/// Such fields between commas, and the end of the line.
+std::string csv_line(const auto&... fields) {
+    std::string line;
+    ((line += fields, line += ','), ...);
+    return line.replace(line.size() - 1, 1, "\r\n");
+}
 
 /// A relative path as the reference of a link: everything but unreserved characters and / percent-encoded, "./" before it so that no scheme
 /// can be meant.

@@ -20,6 +20,7 @@ Table rows_of(const WorkPrecision& diagram) {
                  {"textures", "MiB"},
                  {.head = "standing", .words = true}},
                 {},
+                true,
                 true};
     const std::vector<Standing> standing = standings(diagram.rows);
     for (std::size_t i = 0; i < diagram.rows.size(); ++i) {

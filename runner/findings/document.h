@@ -22,6 +22,7 @@ struct Cell {
 
     Cell(std::string words) : text(std::move(words)) {}
     Cell(const char* words) : text(words) {}
+    Cell(std::string_view words) : text(words) {}
     Cell(std::string rounded, double of) : text(std::move(rounded)), value(of) {}
 
     static Cell of_series(std::string words, std::size_t number) {
@@ -55,10 +56,12 @@ struct Table {
     std::string name, caption; ///< `name` tells tables of one document apart: "errors"
     std::vector<Column> columns;
     std::vector<std::vector<Cell>> rows; ///< the first cell names the row; where cells are missing, the last one takes their place
-    bool aside = false;                  ///< says in figures what a plot shows: folded away on a page, left out on a terminal
+    bool folded = false;                 ///< few look at it: opened on a page by who wants to
+    bool off_terminal = false;           ///< a terminal does without: it is long, or what was printed before says the same
     bool sortable = false;               ///< its columns sort on a page; none has a group
     bool led_to = false;                 ///< links lead to its rows by their first cell
     std::vector<std::size_t> quiet = {}; ///< rows in grey
+    bool prose = false; ///< cells are sentences as paragraphs are, and nothing where there is none: too wide for columns of a terminal
 };
 
 /// Sentences one below the other, without full stops.

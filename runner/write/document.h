@@ -16,7 +16,11 @@ std::string place_of(const Plot& plot);
 /// One self-contained page; plots stand in it as SVG, pictures are read below `folder`. It has a script only where something sorts or
 /// slides.
 std::string document_html(const Document& document, const Findings& findings, const std::filesystem::path& folder = {});
-/// For a terminal: paragraphs, tables in columns, captions of plots. Lines end with a newline.
+/// Columns as wide as their widest cell, two spaces apart; `alignment` has a character for each: '<' or '>'. Nothing trails. Lines end
+/// with a newline.
+std::string aligned_table(const std::string& alignment, const std::vector<std::vector<std::string>>& lines);
+/// For a terminal: paragraphs, tables in columns (of prose: an entry for each row), captions of plots. Lines end with a newline.
+std::string table_text(const Table& table);
 std::string document_text(const Document& document);
 /// A table in Markdown's pipes.
 std::string table_markdown(const Table& table);
@@ -29,13 +33,13 @@ std::string table_latex(const Table& table);
 /// RFC 4180 with one line of heads. Figures are those that are shown, with a plain minus sign.
 std::string table_csv(const Table& table);
 
-enum class TableFormat { none, csv, tex };
-/// Each table as tables/NAME.csv or .tex, those that a page folds away too.
-void write_tables(const Document& document, const std::filesystem::path& folder, TableFormat format);
+struct OutputFormat; // formats.h
+/// Each table as tables/NAME with the format's extension, those that a page folds away too. The format has to be one of tables.
+void write_tables(const Document& document, const std::filesystem::path& folder, const OutputFormat& format);
 
 /// STEM.html, tables as asked for, and each plot as SVG and PNG, each as a whole or not at all. Figures for programs are the caller's, and
 /// come first.
 void write_document(const Document& document, const Findings& findings, const std::filesystem::path& folder, const std::string& stem,
-                    TableFormat tables = TableFormat::none);
+                    const OutputFormat* tables = nullptr);
 
 } // namespace fernlicht

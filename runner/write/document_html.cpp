@@ -86,8 +86,9 @@ data row_of(const std::vector<Cell>& row, const Table& table, bool is_quiet) {
     for (std::size_t i = 0; i < row.size(); ++i) {
         const bool is_code = table.columns[i].code && !row[i].text.empty() && (i + 1 < row.size() || row.size() == table.columns.size());
         data cell;
-        cell.set("html", swatch(row[i].series) +
-                             linked_html(row[i], is_code ? "<code>" + xml_text(row[i].text) + "</code>" : xml_text(row[i].text)));
+        cell.set("html", swatch(row[i].series) + linked_html(row[i], is_code       ? "<code>" + xml_text(row[i].text) + "</code>"
+                                                                     : table.prose ? sentence_html(row[i].text)
+                                                                                   : xml_text(row[i].text)));
         cell.set("tag", i == 0 ? "th scope=\"row\"" : "td");
         cell.set("end", i == 0 ? "th" : "td");
         cell.set("attributes", attributes_of(row, i, table));
@@ -123,8 +124,8 @@ data part_of(const Table& table, const std::filesystem::path&, std::size_t&) {
         rows.push_back(row_of(table.rows[i], table, std::ranges::count(table.quiet, i) > 0));
     part.set("is_table", true);
     part.set("caption", clean_text(table.caption));
-    part.set("has_caption", !table.caption.empty() && !table.aside);
-    part.set("aside", table.aside);
+    part.set("has_caption", !table.caption.empty() && !table.folded);
+    part.set("folded", table.folded);
     part.set("sortable", table.sortable);
     part.set("has_groups", has_groups);
     part.set("groups", groups_of(table));
@@ -263,7 +264,8 @@ std::string document_html(const Document& document, const Findings& findings, co
     page.set("is_interrupted", !findings.interrupted.empty());
     page.set("interrupted", clean_text(findings.interrupted));
     page.set("missing", missing);
-    page.set("context", context_part(findings.context));
+    if (!findings.context.command.empty()) // else it was not measured by a call that could be repeated
+        page.set("context", context_part(findings.context));
     return page_of("document.html.mustache", page);
 }
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <stdexcept>
 
 namespace fernlicht {
@@ -15,32 +14,16 @@ namespace fernlicht {
 std::string report_csv(const Report& report) {
     std::string out = "drive,lamp_set,technique,frame,quantity,aspect,threshold,threshold_unit,surface,lane,place,distance_m,statistic,"
                       "subject,bound,value,unit,reason,where,name\r\n";
-    const auto number = [](const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; };
     for (const PlayedCell& played : report.played)
         for (const Reading& reading : played.readings) {
             const ReadingKey& key = reading.key;
             const bool has_threshold = key.threshold.unit != ThresholdUnit::none;
-            const std::string fields[] = {csv_text(played.drive),
-                                          csv_text(played.lamp_set),
-                                          csv_text(played.technique),
-                                          reading.tick < 0 ? "" : fmt::format("{}", reading.tick),
-                                          row_of(key.quantity).id,
-                                          name_of(key.aspect),
-                                          has_threshold ? number(key.threshold.value) : "",
-                                          name_of(key.threshold.unit),
-                                          name_of(key.surface),
-                                          key.lane,
-                                          name_of(key.place),
-                                          number(key.distance_m),
-                                          name_of(key.statistic),
-                                          csv_text(key.subject),
-                                          bound_name(reading.value),
-                                          number(reading.value.figure()),
-                                          csv_text(reading.unit()),
-                                          csv_text(reading.value.reason()),
-                                          csv_text(reading.where),
-                                          csv_text(reading.name())};
-            out += fmt::format("{}\r\n", fmt::join(fields, ","));
+            out += csv_line(csv_text(played.drive), csv_text(played.lamp_set), csv_text(played.technique),
+                            reading.tick < 0 ? "" : fmt::format("{}", reading.tick), row_of(key.quantity).id, name_of(key.aspect),
+                            has_threshold ? csv_number(key.threshold.value) : "", name_of(key.threshold.unit), name_of(key.surface),
+                            key.lane, name_of(key.place), csv_number(key.distance_m), name_of(key.statistic), csv_text(key.subject),
+                            bound_name(reading.value), csv_number(reading.value.figure()), csv_text(reading.unit()),
+                            csv_text(reading.value.reason()), csv_text(reading.where), csv_text(reading.name()));
         }
     return out;
 }
@@ -63,8 +46,7 @@ std::string times_csv(const Report& report) {
     std::string out = "drive,lamp_set,name,value,unit\r\n";
     for (const PlayedCell& played : report.played) {
         const auto add = [&](const std::string& name, std::optional<double> value, const char* unit) {
-            out += fmt::format("{},{},{},{},{}\r\n", csv_text(played.drive), csv_text(played.lamp_set), csv_text(name),
-                               value ? fmt::format("{}", *value) : "", unit);
+            out += csv_line(csv_text(played.drive), csv_text(played.lamp_set), csv_text(name), csv_number(value), unit);
         };
         for (const PassTime& pass : played.passes)
             if (const std::optional<Spread> spread = spread_of(pass.seconds)) {

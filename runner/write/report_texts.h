@@ -1,8 +1,9 @@
-// What programs read of verdicts, readings and times. Pure functions of the report.
+// What a run leaves that no document holds: what programs read of verdicts, readings and times, and its page.
 #pragma once
 
-#include "runner/findings/report.h"
+#include "runner/findings/run_page.h"
 
+#include <filesystem>
 #include <string>
 
 namespace fernlicht {
@@ -18,5 +19,8 @@ std::string moments_csv(const PlayedCell& played);
 
 /// RFC 4180: times of passes and the run's throughput. What differs from run to run is here and not in report_csv.
 std::string times_csv(const Report& report);
+
+/// One self-contained page. Frames are read from `folder`; one that is missing or unreadable is linked and said to be missing.
+std::string run_page_html(const Report& report, const RunPage& page, const std::filesystem::path& folder);
 
 } // namespace fernlicht

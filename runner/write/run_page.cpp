@@ -1,11 +1,10 @@
-#include "runner/write/run_page.h"
-
 #include "report_files.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/write/page_base.h"
 #include "runner/write/plots/lux_map.h"
 #include "runner/write/plots/png.h"
+#include "runner/write/report_texts.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>

@@ -64,6 +64,7 @@ Table places_table(const DriveAccuracy& drive) {
                 "Where the errors on the road lie",
                 {{.head = "drawn by", .words = true}, {"below 0.05 lx, 95 %", "lx"}, {.head = "worst pixel", .words = true}},
                 {},
+                true,
                 true};
     for (const ConfigurationResult& found : drive.configurations)
         if (found.road && found.road->pixels > 0) {

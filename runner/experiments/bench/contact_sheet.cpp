@@ -1,8 +1,8 @@
 #include "runner/experiments/bench/contact_sheet.h"
 
 #include "runner/files/clean_text.h"
+#include "runner/findings/lists.h"
 #include "runner/findings/plots/axes.h"
-#include "runner/findings/technique_list.h"
 #include "runner/play/extent_fold.h"
 #include "runner/write/plots/canvas.h"
 #include "runner/write/plots/svg.h"

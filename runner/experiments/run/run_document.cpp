@@ -124,7 +124,7 @@ Section verdict_section(const Report& report) {
           gaps = verdict_table("not-measured", "Not measured", "why"), known = verdict_table("known-failures", "Known failures", "found"),
           passes = verdict_table("green", "What is green", "found");
     passes.columns.pop_back();
-    passes.aside = true;
+    passes.folded = true;
     const auto add = [&](const Verdict& verdict, const std::string& where) {
         Table& table = !is_red(verdict)                            ? (verdict.kind == VerdictKind::pass ? passes : known)
                        : verdict.kind == VerdictKind::flaky        ? flakes

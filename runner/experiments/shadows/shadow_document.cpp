@@ -1,6 +1,5 @@
 #include "runner/experiments/shadows/shadow_result.h"
 #include "runner/findings/figures.h"
-#include "runner/findings/shadow_figures.h"
 
 #include <fmt/format.h>
 
@@ -104,7 +103,7 @@ Table details_table(const ShadowSceneResult& scene) {
                                                      work ? fmt::format("{}", work->triangles) : "", passes});
                           return cells;
                       });
-    table.aside = true;
+    table.folded = table.off_terminal = true;
     return table;
 }
 
@@ -153,7 +152,7 @@ Document document(const ShadowResult& result) {
     return document;
 }
 
-Table shadow_table(const ShadowResult& result) {
+Document shadow_paper(const ShadowResult& result) {
     Table all{"all", "", {{.head = "scene", .words = true}}, {}};
     const std::vector<Column> errors = error_columns();
     all.columns.insert(all.columns.end(), errors.begin(), errors.end());
@@ -167,7 +166,7 @@ Table shadow_table(const ShadowResult& result) {
             else
                 cells.emplace_back("refused");
         }
-    return all;
+    return {"Shadow methods", {{"", {std::move(all)}}}};
 }
 
 } // namespace fernlicht

@@ -76,7 +76,7 @@ std::string shadow_sheet_svg(const ShadowSceneResult& scene);
 /// docs/shadows.md tells how to read it.
 Document document(const ShadowResult& result);
 /// All scenes in one table, as docs/shadow-tables.md has it.
-Table shadow_table(const ShadowResult& result);
+Document shadow_paper(const ShadowResult& result);
 /// docs/shadows.md and shadows.schema.json describe it.
 std::string shadow_json(const ShadowResult& result);
 std::string shadow_json_schema();

@@ -44,7 +44,7 @@ Document document(const StabilityRow& row) {
 }
 
 Document document(const StabilityResult& result) {
-    Table table{"stability", "", columns_of("case<|what could break<|worst error<|bound<|reason of the bound<|verdict<"), {}, true};
+    Table table{"stability", "", columns_of("case<|what could break<|worst error<|bound<|reason of the bound<|verdict<"), {}, false, true};
     for (const StabilityRow& row : result.rows)
         table.rows.push_back({row.of->full_name(), row.of->could_break, fmt::format("{} ({})", measured(row), where(row)),
                               fmt::format("{:g} {}", row.of->bound, row.of->unit), row.of->reason, verdict(row)});

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace fernlicht {
 namespace {
@@ -259,7 +258,7 @@ std::string played_in_part(const StudyResult& result) {
                        range_over(result.cells, &CellResult::moments_of_drive), result.frames);
 }
 
-Document document(const StudyResult& result) {
+Document document(const StudyResult& result, const std::vector<std::string>& papers) {
     Section lamps = lamps_section(result), reach{"Reach over the drive", {}}, glare{"Glare over the drive", {}},
             maps{"Lux from above", {"All maps in one scale, 0.1 to 100 lx; below each pair the ratio of new to old."}}, cells{"Cells", {}};
     for (const StudyFigure& figure : result.figures)
@@ -271,14 +270,15 @@ Document document(const StudyResult& result) {
             if (figure.plot.name.starts_with(beginning))
                 section->blocks.emplace_back(figure.plot);
     cells.blocks.emplace_back(cells_table(result));
+    Listing files({Cell("study.json").linked("study.json"), Cell("study.csv").linked("study.csv")});
+    for (const std::string& paper : papers)
+        files.items.push_back(Cell((paper == papers.front() ? "for papers: " : "") + paper).linked(paper));
     const Section readings{
         "Readings that decide",
         {"A heading sorts, again the other way round. ± calc. is what calculation leaves open of the change, ± noise what three standard "
          "deviations of the noise of the lamps' tables would do, ± aim what 0.1° of aim would do. Each line is the row of its number in "
          "study.json and study.csv, which have all other readings too.",
-         Listing{{Cell("study.json").linked("study.json"), Cell("study.csv").linked("study.csv"),
-                  Cell("for papers: study.md").linked("study.md"), Cell("study.tex").linked("study.tex")}},
-         readings_table(result)}};
+         files, readings_table(result)}};
     Document document{short_text(result.study.title, 160), {verdict_section(result), largest_section(result)}};
     for (const Section& section : {lamps, reach, glare, readings, views_section(result), maps, cells})
         if (!section.blocks.empty())
@@ -345,33 +345,16 @@ std::string study_csv(const StudyResult& result) {
     std::string csv = "id,new,against,drive,technique,condition,reading,unit,old_value,new_value,change,uncertainty,by_tenth_degree,by_"
                       "noise,kind,decides,"
                       "new_cell,old_cell,why_not,old_bound,new_bound,change_bound\r\n";
-    const auto number = [](const std::optional<double>& value) { return value ? fmt::format("{}", *value) : std::string(); };
     for (std::size_t i = 0; i < result.changes.size(); ++i) {
         const Change& c = result.changes[i];
         const CellResult &now = result.cells[c.tested], &before = result.cells[c.against];
-        const std::vector<std::string> fields{fmt::format("c{}", i),
-                                              csv_text(result.study.lamps[now.cell.lamp].name),
-                                              csv_text(result.study.lamps[before.cell.lamp].name),
-                                              csv_text(now.drive),
-                                              csv_text(result.study.techniques[now.cell.technique]),
-                                              csv_text(now.cell.condition),
-                                              csv_text(name_of(c.reading)),
-                                              csv_text(c.unit()),
-                                              number(c.old_value.figure()),
-                                              number(c.new_value.figure()),
-                                              number(c.change().figure()),
-                                              number(c.uncertainty),
-                                              number(c.aim_effect),
-                                              number(c.noise_effect),
-                                              change_name(c.kind),
-                                              c.decides ? "yes" : "no",
-                                              csv_text(now.cell.name),
-                                              csv_text(before.cell.name),
-                                              csv_text(c.reason_unknown),
-                                              bound_name(c.old_value),
-                                              bound_name(c.new_value),
-                                              bound_name(c.change())};
-        csv += fmt::format("{}\r\n", fmt::join(fields, ","));
+        csv += csv_line(fmt::format("c{}", i), csv_text(result.study.lamps[now.cell.lamp].name),
+                        csv_text(result.study.lamps[before.cell.lamp].name), csv_text(now.drive),
+                        csv_text(result.study.techniques[now.cell.technique]), csv_text(now.cell.condition), csv_text(name_of(c.reading)),
+                        csv_text(c.unit()), csv_number(c.old_value.figure()), csv_number(c.new_value.figure()),
+                        csv_number(c.change().figure()), csv_number(c.uncertainty), csv_number(c.aim_effect), csv_number(c.noise_effect),
+                        change_name(c.kind), c.decides ? "yes" : "no", csv_text(now.cell.name), csv_text(before.cell.name),
+                        csv_text(c.reason_unknown), bound_name(c.old_value), bound_name(c.new_value), bound_name(c.change()));
     }
     return csv;
 }

@@ -6,8 +6,8 @@
 
 namespace fernlicht {
 
-/// The page: verdict, largest changes, lamps, plots, all deciding readings, pictures, cells.
-Document document(const StudyResult& result);
+/// The page: verdict, largest changes, lamps, plots, all deciding readings, pictures, cells. It leads to the files of `papers` beside it.
+Document document(const StudyResult& result, const std::vector<std::string>& papers = {});
 /// For a terminal: verdict, what differs between the lamps, the largest changes, what failed.
 Document study_summary(const StudyResult& result);
 /// The table of the deciding readings, for papers.

@@ -2,7 +2,7 @@
 
 #include "metrics/images/pixel_errors.h"
 #include "renderer/renderer.h"
-#include "runner/findings/shadow_figures.h"
+#include "runner/findings/figures.h"
 #include "runner/play/preparation.h"
 #include "runner/play/shadows/shadow_truth.h"
 #include "scenarios/drives/keys/story_drive.h"

@@ -17,7 +17,6 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <tuple>
 
@@ -238,18 +237,6 @@ TEST(ReadingWords, SayWhatANameSaysAndLeaveNothingOpen) {
         for (const ReadingKey& key :
              shapes_of({.quantity = row.quantity, .subject = "a", .lane = "own", .threshold = {5.0}, .distance_m = 50.0}))
             EXPECT_THAT(reading_label(key), testing::Not(testing::ContainsRegex("[{}_]|  |, ,|,$|^ "))) << name_of(key);
-}
-
-// docs/readings.md has the table that the program prints.
-
-TEST(ReadingsList, IsTheTableOfTheDocumentationAndSaysEachQuantityInWords) {
-    std::stringstream page;
-    page << std::ifstream(FERNLICHT_SOURCE_DIR "/docs/readings.md").rdbuf();
-    EXPECT_THAT(page.str(), testing::HasSubstr("<!-- readings: begin -->\n" + readings_markdown() + "<!-- readings: end -->"))
-        << "put what `fernlicht readings --markdown` prints between the two comments";
-    EXPECT_THAT(readings_text(), testing::HasSubstr("patch_dark_own[_max]_m\n    m: longest patch of a moment that is darker than its "
-                                                    "surroundings; lower is better\n"));
-    EXPECT_THAT(readings_text(), testing::HasSubstr("sensor_NAME_at_50m_lx\nsensor_NAME_max_lx\n"));
 }
 
 // The table of quantities: complete, in order, without double ids.

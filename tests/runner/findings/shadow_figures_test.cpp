@@ -1,5 +1,5 @@
 // Figures of shadows for people, and what sheets show.
-#include "runner/findings/shadow_figures.h"
+#include "runner/findings/figures.h"
 #include "runner/write/document.h"
 
 #include "runner/experiments/shadows/shadow_result.h"
@@ -55,7 +55,7 @@ TEST(ShadowFigures, MarkdownHasTheFormOfTheTables) {
     row.method = ShadowMethod::planar;
     row.why_not = "the ground is not one plane";
     scene.rows.push_back(row);
-    const std::string text = table_markdown(shadow_table(result));
+    const std::string text = document_markdown(shadow_paper(result));
     EXPECT_THAT(text, HasSubstr("\n| post | map | 5.1 | 0 | 101 | 0 | - | 0 \xE2\x88\x92"
                                 "2 +1 | 2 | - | 1 (182 px) | 0 | - | - | - | 4.0 | - | - |\n"));
     EXPECT_THAT(text, HasSubstr("\n| post | planar | refused | | | | | | | | | | | | | | | |\n"));

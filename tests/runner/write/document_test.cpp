@@ -1,10 +1,13 @@
 // A small experiment that nothing else knows: what it found, one function that tells it, and every output there is.
 #include "runner/files/picture_file.h"
 #include "runner/write/document.h"
+#include "runner/write/formats.h"
 #include "tests/runner/program.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <map>
+#include <set>
 
 namespace fernlicht {
 namespace {
@@ -82,18 +85,53 @@ TEST_F(ToyExperiment, BecomesAPage) {
     EXPECT_THAT(page, Not(HasSubstr("<script")));
 }
 
-TEST_F(ToyExperiment, BecomesTextForATerminal) {
-    const std::string text = document_text(document(result));
-    EXPECT_THAT(text, HasSubstr("\nError over tosses\nA coin <thrown> often.\n  on the front: by hand (2.0 %, 500 ms)\n  one coin\n"));
-    EXPECT_THAT(text, HasSubstr("How it fell\n               of all  of all\nside            share   count\n                    %\n"
-                                "heads | tails    37.5       -\nedge: not measured, it never stood\n"));
-    EXPECT_THAT(text, Not(HasSubstr("The same as a table"))) << "what a plot shows is not printed again";
+/// Every format there is, a new one too: it says all, writes each table to a file, and as exactly as its row here demands.
+TEST_F(ToyExperiment, BecomesEachFormat) {
+    const std::map<std::string, std::pair<std::string, std::string>> exactly{
+        {"csv", {"side,\"of all share, %\",of all count\r\nheads | tails,37.5,\r\nedge,\"not measured, it never stood\",\r\n", ""}},
+        {"markdown",
+         {"| side | of all share, % | of all count |\n|---|--:|--:|\n| heads \\| tails | 37.5 | - |\n| edge | not measured, it never "
+          "stood | |\n",
+          "# Coins & notes\n\n## Unfair\n\n| row | side | share |\n|--:|---|--:|\n| c0 | 50 % heads | 37.5 |\n"}},
+        {"tex",
+         {"edge & \\multicolumn{2}{l}{not measured, it never stood} \\\\\n",
+          "{rlr}\n\\toprule\nrow & side & share \\\\\n\\midrule\n$c0$ & 50 \\% heads & $37.5$ \\\\\n$c1$ & tails & -- "}},
+        {"text",
+         {"How it fell\n               of all  of all\nside            share   count\n                    %\n"
+          "heads | tails    37.5       -\nedge: not measured, it never stood\n",
+          "\nUnfair\nSeen\n  all\nshare of heads: +12.5 % (more); by chance; a coin\n"}}};
+    const Document toy = document(result);
+    const TemporaryFolder folder;
+    std::set<std::string> extensions;
+    for (const OutputFormat& format : output_formats()) {
+        SCOPED_TRACE(format.name);
+        EXPECT_TRUE(extensions.insert(format.extension).second && format.extension[0] == '.');
+        const auto row = exactly.find(format.name);
+        const auto [table, page] = row == exactly.end() ? std::pair<std::string, std::string>{} : row->second;
+        const auto holds = [](const std::string& exact) {
+            return AllOf(HasSubstr("37.5"), HasSubstr("heads"), HasSubstr("tails"), HasSubstr(exact));
+        };
+        ASSERT_TRUE(format.of_table || format.of_document);
+        if (format.of_table) {
+            EXPECT_THAT(format.of_table(std::get<Table>(toy.sections[0].blocks.back())), AllOf(holds(table), HasSubstr("it never stood")));
+            write_tables(toy, folder.path(), format);
+            for (const char* name : {"tables/toss", "tables/toss_error"})
+                EXPECT_TRUE(std::filesystem::exists(folder / (std::string(name) + format.extension))) << name;
+        }
+        if (format.of_document) {
+            EXPECT_THAT(format.of_document(toy), AllOf(HasSubstr("it never stood"), HasSubstr("often.")));
+            EXPECT_THAT(format.of_document(full_document()), holds(page));
+        }
+    }
+    write_document(toy, result, folder.path(), "coins");
+    for (const char* name : {"coins.html", "toss_error.svg", "toss_error.png"})
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
 }
 
-TEST_F(ToyExperiment, BecomesMarkdown) {
-    EXPECT_EQ(table_markdown(std::get<Table>(document(result).sections[0].blocks.back())),
-              "| side | of all share, % | of all count |\n|---|--:|--:|\n| heads \\| tails | 37.5 | - |\n| edge | not measured, it never "
-              "stood | |\n");
+TEST_F(ToyExperiment, SaysOnATerminalWhatItsPlotShows) {
+    const std::string text = document_text(document(result));
+    EXPECT_THAT(text, HasSubstr("\nError over tosses\nA coin <thrown> often.\n  on the front: by hand (2.0 %, 500 ms)\n  one coin\n"));
+    EXPECT_THAT(text, Not(HasSubstr("The same as a table"))) << "what a plot shows is not printed again";
 }
 
 TEST_F(ToyExperiment, SortsAndLinksOnAPage) {
@@ -104,22 +142,6 @@ TEST_F(ToyExperiment, SortsAndLinksOnAPage) {
           "<td class=\"text\" title=\"the eagle\">50 % heads</td><td class=\"n\" data-key=\"37.5\">37.5</td>",
           "<tr id=\"c1\" class=\"quiet\">", "<td class=\"n\" data-key=\"\"></td>", "<script>"})
         EXPECT_THAT(page, HasSubstr(part));
-}
-
-TEST_F(ToyExperiment, BecomesAPaper) {
-    EXPECT_THAT(document_markdown(full_document()),
-                HasSubstr("# Coins & notes\n\n## Unfair\n\n| row | side | share |\n|--:|---|--:|\n| c0 | 50 % heads | 37.5 |\n"));
-    EXPECT_THAT(document_latex(full_document()),
-                HasSubstr("{rlr}\n\\toprule\nrow & side & share \\\\\n\\midrule\n$c0$ & 50 \\% heads & $37.5$ \\\\\n$c1$ & tails & -- "));
-}
-
-TEST_F(ToyExperiment, LeavesAPageAndItsPlots) {
-    const TemporaryFolder folder;
-    write_document(document(result), result, folder.path(), "coins", TableFormat::tex);
-    write_tables(document(result), folder.path(), TableFormat::csv);
-    for (const char* name :
-         {"coins.html", "toss_error.svg", "toss_error.png", "tables/toss.tex", "tables/toss.csv", "tables/toss_error.csv"})
-        EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
 }
 
 TEST(DocumentPictures, StandInThePageAndLinkToFilesBelowIt) {

@@ -30,9 +30,13 @@ Table facts_table(const LampPairComparison& lamps) {
 }
 
 Table zones_table(const LampDifference& difference) {
-    Table table{
-        "zones", "Clearest first", columns_of("B over A, less 1 [%]|± [%]|H from [°]|H to [°]|V from [°]|V to [°]|directions"), {}, false,
-        true};
+    Table table{"zones",
+                "Clearest first",
+                columns_of("B over A, less 1 [%]|± [%]|H from [°]|H to [°]|V from [°]|V to [°]|directions"),
+                {},
+                false,
+                false,
+                true};
     const auto degrees_cell = [](double deg) { return Cell(figure(deg, 2), deg); };
     for (const BeamZone& zone : difference.zones)
         table.rows.push_back({{signed_figure(100.0 * zone.share, 2), 100.0 * zone.share},

@@ -5,7 +5,6 @@
 #include "runner/files/json_text.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace fernlicht {
@@ -82,16 +81,15 @@ std::string lamps_json(const LampPairComparison& lamps) {
 
 std::string lamps_csv(const LampPairComparison& lamps) {
     std::string csv = "table,name,unit,old_value,new_value,change,uncertainty,old_margin,new_margin,old_verdict,new_verdict\r\n";
-    const auto exact = [](const std::optional<double>& value) { return value ? fmt::format("{}", *value) : std::string(); };
-    const auto append = [&](const std::vector<std::string>& fields) { csv += fmt::format("{}\r\n", fmt::join(fields, ",")); };
     for (const LampFact& fact : lamps.facts)
-        append({"lamp", fact.name, fact.unit, exact(fact.before), exact(fact.now),
-                fact.before && fact.now ? fmt::format("{}", *fact.now - *fact.before) : "", exact(fact.uncertainty), "", "", "", ""});
+        csv += csv_line("lamp", fact.name, fact.unit, csv_number(fact.before), csv_number(fact.now),
+                        fact.before && fact.now ? fmt::format("{}", *fact.now - *fact.before) : "", csv_number(fact.uncertainty), "", "",
+                        "", "");
     for (const ComparedRow& row : lamps.rows) {
         const auto before = found_in(row.before), now = found_in(row.now);
-        append({csv_text(lamps.regulation->id), csv_text(row.id), csv_text(row.any().unit), exact(before), exact(now),
-                before && now ? fmt::format("{}", *now - *before) : "", "", exact(margin_in(row.before)), exact(margin_in(row.now)),
-                verdict_in(row.before), verdict_in(row.now)});
+        csv += csv_line(csv_text(lamps.regulation->id), csv_text(row.id), csv_text(row.any().unit), csv_number(before), csv_number(now),
+                        before && now ? fmt::format("{}", *now - *before) : "", "", csv_number(margin_in(row.before)),
+                        csv_number(margin_in(row.now)), verdict_in(row.before), verdict_in(row.now));
     }
     return csv;
 }

@@ -135,7 +135,7 @@ Section readings_section(const RunComparison& runs) {
             add_change(runs.drives[d].decides(change.reading) ? deciding : others, runs.drives[d], change, row_id(d, i));
         }
     others.caption = fmt::format("All other readings ({}): other lanes, edges, limits, percentiles", others.rows.size());
-    others.aside = true;
+    others.folded = true;
     return {"Readings",
             {"A heading sorts, again the other way round. ± calc. is what calculation (and where a run has them, repeats) leaves open of "
              "the change, ± noise what three standard "
@@ -253,6 +253,7 @@ Table frames_table(const DriveComparison& drive) {
                 columns_of("view<|at [s]|channel<|unit<|largest|RMSE|PSNR [dB]|pixels [%]|SSIM|FLIP"),
                 {},
                 true,
+                false,
                 true};
     for (const FramePair& frame : drive.frames)
         for (const LayerComparison& layer : frame.comparison.layers) {

@@ -5,7 +5,6 @@
 #include "runner/files/value_json.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace fernlicht {
@@ -94,32 +93,13 @@ Json run_json(const RunFolder& run) {
             {"cpu", run.cpu}};
 }
 
-std::string number(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : std::string(); }
-
-void append_line(std::string& csv, const std::vector<std::string>& fields) { csv += fmt::format("{}\r\n", fmt::join(fields, ",")); }
-
-std::vector<std::string> change_line(const std::string& id, const DriveComparison& drive, const ReadingChange& c, bool decides) {
-    return {id,
-            csv_text(drive.now.drive),
-            csv_text(drive.before.lamp_set),
-            csv_text(drive.now.lamp_set),
-            csv_text(drive.before.technique),
-            csv_text(drive.now.technique),
-            csv_text(name_of(c.reading)),
-            csv_text(c.unit()),
-            number(c.old_value.figure()),
-            number(c.new_value.figure()),
-            number(c.change().figure()),
-            number(c.relative()),
-            number(c.uncertainty),
-            number(c.aim_effect),
-            number(c.noise_effect),
-            change_name(c.kind),
-            decides ? "yes" : "no",
-            csv_text(c.reason_unknown),
-            bound_name(c.old_value),
-            bound_name(c.new_value),
-            bound_name(c.change())};
+std::string change_line(const std::string& id, const DriveComparison& drive, const ReadingChange& c, bool decides) {
+    return csv_line(id, csv_text(drive.now.drive), csv_text(drive.before.lamp_set), csv_text(drive.now.lamp_set),
+                    csv_text(drive.before.technique), csv_text(drive.now.technique), csv_text(name_of(c.reading)), csv_text(c.unit()),
+                    csv_number(c.old_value.figure()), csv_number(c.new_value.figure()), csv_number(c.change().figure()),
+                    csv_number(c.relative()), csv_number(c.uncertainty), csv_number(c.aim_effect), csv_number(c.noise_effect),
+                    change_name(c.kind), decides ? "yes" : "no", csv_text(c.reason_unknown), bound_name(c.old_value),
+                    bound_name(c.new_value), bound_name(c.change()));
 }
 
 } // namespace
@@ -154,11 +134,11 @@ std::string runs_csv(const RunComparison& runs) {
     for (std::size_t d = 0; d < runs.drives.size(); ++d) {
         const DriveComparison& drive = runs.drives[d];
         for (std::size_t i = 0; i < drive.changes.size(); ++i)
-            append_line(csv, change_line(row_id(d, i), drive, drive.changes[i], drive.decides(drive.changes[i].reading)));
+            csv += change_line(row_id(d, i), drive, drive.changes[i], drive.decides(drive.changes[i].reading));
     }
     for (const DriveComparison& drive : runs.drives) // last: they differ from run to run
         for (const TimeChange& time : drive.times)
-            append_line(csv, change_line("", drive, time, false));
+            csv += change_line("", drive, time, false);
     return csv;
 }
 
@@ -168,12 +148,11 @@ std::string frames_csv(const RunComparison& runs) {
         for (const FramePair& frame : drive.frames)
             for (const LayerComparison& layer : frame.comparison.layers)
                 for (const ComparedValue& v : layer.values)
-                    append_line(csv,
-                                {csv_text(drive.now.drive), csv_text(drive.before.lamp_set), csv_text(drive.now.lamp_set),
-                                 csv_text(frame.new_frame.view), std::to_string(frame.new_frame.tick),
-                                 fmt::format("{}", frame.new_frame.time_s), csv_text(frame.file(frame.new_frame)), csv_text(layer.name),
-                                 csv_text(v.name), csv_text(v.unit), number(v.value), v.place ? std::to_string(v.place->first) : "",
-                                 v.place ? std::to_string(v.place->second) : "", csv_text(v.value ? "" : v.why_not)});
+                    csv += csv_line(csv_text(drive.now.drive), csv_text(drive.before.lamp_set), csv_text(drive.now.lamp_set),
+                                    csv_text(frame.new_frame.view), std::to_string(frame.new_frame.tick),
+                                    fmt::format("{}", frame.new_frame.time_s), csv_text(frame.file(frame.new_frame)), csv_text(layer.name),
+                                    csv_text(v.name), csv_text(v.unit), csv_number(v.value), v.place ? std::to_string(v.place->first) : "",
+                                    v.place ? std::to_string(v.place->second) : "", csv_text(v.value ? "" : v.why_not));
     return csv;
 }
 

@@ -1,5 +1,4 @@
 #include "runner/experiments/bench/bench_result.h"
-#include "runner/write/aligned_table.h"
 #include "runner/write/document.h"
 #include "runner/write/plots/png.h"
 #include "scenarios/values/files.h"
@@ -105,7 +104,7 @@ TEST(BenchRows, WarnOfWhatMakesTimesDoubtful) {
     EXPECT_FALSE(summarise(result)[0].ratio);
 }
 
-TEST(BenchText, AlignsColumns) { EXPECT_EQ(aligned_table("<>", {"a", "long"}, {{"word", "1"}, {"x", ""}}), "a     long\nword     1\nx\n"); }
+TEST(BenchText, AlignsColumns) { EXPECT_EQ(aligned_table("<>", {{"a", "long"}, {"word", "1"}, {"x", ""}}), "a     long\nword     1\nx\n"); }
 
 TEST(BenchText, TablesStandBesideTheThesis) {
     const std::string text = document_text(document(sample_bench()));

@@ -113,14 +113,5 @@ TEST(BenchRun, EndsAfterARoundWhenInterrupted) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/INCOMPLETE"));
 }
 
-TEST(TechniquesCommand, PrintsItsPageInTheDocuments) {
-    const Outcome run = run_program("techniques --markdown");
-    EXPECT_EQ(run.exit_code, 0);
-    EXPECT_EQ(run.output, content_of(FERNLICHT_SOURCE_DIR "/docs/techniques.md"))
-        << "write it anew: fernlicht techniques --markdown > docs/techniques.md";
-    EXPECT_EQ(json::parse(run_program("techniques --json").output).at("techniques").size(), techniques().size());
-    EXPECT_EQ(run_program("techniques --json --markdown").exit_code, 2);
-}
-
 } // namespace
 } // namespace fernlicht

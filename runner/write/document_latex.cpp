@@ -1,25 +1,11 @@
 #include "runner/files/clean_text.h"
-#include "runner/files/durable_files.h"
-#include "runner/files/output_folder.h"
 #include "runner/write/document.h"
 
-#include <charconv>
 #include <fmt/format.h>
 #include <map>
 
 namespace fernlicht {
 namespace {
-
-/// "−1.5" and "+1.5" as programs read them; nothing where the cell is no figure.
-std::optional<std::string> plain_figure(std::string text) {
-    if (text.starts_with("\u2212"))
-        text.replace(0, 3, "-");
-    else if (text.starts_with('+'))
-        text.erase(0, 1);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size() ? std::optional(text) : std::nullopt;
-}
 
 /// For LaTeX in UTF-8, which knows most letters; signs that it knows in formulas alone become some.
 std::string latex_text(const std::string& words) {
@@ -30,13 +16,6 @@ std::string latex_text(const std::string& words) {
                                                                {">", "\\textgreater{}"},
                                                                {"|", "\\textbar{}"},
                                                                {"\"", "''"},
-                                                               {"&", "\\&"},
-                                                               {"%", "\\%"},
-                                                               {"$", "\\$"},
-                                                               {"#", "\\#"},
-                                                               {"_", "\\_"},
-                                                               {"{", "\\{"},
-                                                               {"}", "\\}"},
                                                                {"\u2212", "$-$"},
                                                                {"\u2264", "$\\le$"},
                                                                {"\u2265", "$\\ge$"},
@@ -53,6 +32,8 @@ std::string latex_text(const std::string& words) {
         std::size_t length = 1;
         while (at + length < clean.size() && (static_cast<unsigned char>(clean[at + length]) & 0xC0U) == 0x80U)
             ++length;
+        if (std::string_view("&%$#_{}").find(clean[at]) != std::string_view::npos)
+            out += '\\';
         const auto sign = signs.find(std::string_view(clean).substr(at, length));
         out += sign == signs.end() ? clean.substr(at, length) : sign->second;
         at += length;
@@ -102,33 +83,15 @@ std::string table_latex(const Table& table) {
     return out + "\\bottomrule\n\\end{tabular}\n";
 }
 
-std::string table_csv(const Table& table) {
-    std::string out;
-    const auto line = [&](const auto& entries, const auto& text_of) {
-        for (std::size_t i = 0; i < table.columns.size(); ++i)
-            out += (i == 0 ? "" : ",") + (i < entries.size() ? text_of(entries[i]) : std::string());
-        out += "\r\n";
-    };
-    line(table.columns, [](const Column& column) { return csv_text(head_of(column)); });
-    for (const std::vector<Cell>& row : table.rows)
-        line(row, [](const Cell& cell) { return plain_figure(cell.text).value_or(csv_text(cell.text)); });
-    return out;
-}
-
-void write_tables(const Document& document, const std::filesystem::path& folder, TableFormat format) {
-    if (format == TableFormat::none)
-        return;
-    make_folder(folder / "tables");
-    std::map<std::string, int> alike; // what is left of long names and odd letters
+std::string document_latex(const Document& document) {
+    std::string out = "% \\usepackage{booktabs,graphicx}; the table is as wide as the text\n";
     for (const Section& section : document.sections)
         for (const DocumentPart& block : section.blocks)
-            if (const auto* table = std::get_if<Table>(&block)) {
-                std::string name = file_name_of(table->name);
-                if (const int before = alike[name]++; before > 0)
-                    name += fmt::format("-{}", before + 1);
-                const bool csv = format == TableFormat::csv;
-                write_file(folder / "tables" / (name + (csv ? ".csv" : ".tex")), csv ? table_csv(*table) : table_latex(*table));
-            }
+            if (const auto* table = std::get_if<Table>(&block))
+                out += "\\resizebox{\\linewidth}{!}{%\n" + table_latex(*table) + "}\n";
+            else if (const auto* paragraph = std::get_if<std::string>(&block))
+                out += "% " + clean_text(*paragraph) + "\n";
+    return out;
 }
 
 } // namespace fernlicht

@@ -1,19 +1,21 @@
-// The table of techniques for people, machines and documents. Pure functions of the rows.
+// What there is to choose from, as documents: techniques, readings, signals of lamp control.
 #pragma once
 
 #include "renderer/technique.h"
+#include "runner/findings/document.h"
 #include "scenarios/drives/shadow_settings.h"
-
-#include <string>
 
 namespace fernlicht {
 
 const char* kind_name(TechniqueKind kind); ///< "as published", "as printed", "known", "ours"
 
 using ShadowMethods = std::span<const ShadowMethodName>;
-std::string techniques_text(std::span<const Technique> rows, ShadowMethods shadows);
+/// The tables of docs/techniques.md.
+Document techniques_document(std::span<const Technique> rows, ShadowMethods shadows);
 std::string techniques_json(std::span<const Technique> rows, ShadowMethods shadows);
-/// The whole of docs/techniques.md.
-std::string techniques_markdown(std::span<const Technique> rows, ShadowMethods shadows);
+/// The table of docs/readings.md.
+Document readings_document();
+Document signals_document();
+std::string signals_json();
 
 } // namespace fernlicht

@@ -1,0 +1,99 @@
+#include "runner/findings/lists.h"
+
+#include "metrics/readings/reading_key.h"
+#include "runner/files/json_text.h"
+#include "scenarios/control/signals.h"
+#include "scenarios/drives/keys/bus_keys.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace fernlicht {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+} // namespace
+
+const char* kind_name(TechniqueKind kind) {
+    static constexpr const char* names[] = {"as published", "as printed", "known", "ours"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+Document techniques_document(std::span<const Technique> rows, ShadowMethods shadows) {
+    Table all{
+        .name = "techniques", .caption = "", .columns = columns_of("#<|name`|kind<|computes<|ignores<|passes<|lux<|origin<"), .rows = {}};
+    for (const Technique& row : rows) {
+        std::vector<Cell>& cells = all.rows.emplace_back(std::vector<Cell>{"", row.name, kind_name(row.kind), row.computes, row.ignores,
+                                                                           fmt::format("{}", row.passes),
+                                                                           !row.illuminance ? "no"
+                                                                           : row.target     ? "surfaces, target"
+                                                                                            : "surfaces",
+                                                                           row.origin});
+        if (row.thesis_row > 0)
+            cells.front() = Cell(fmt::format("{}", row.thesis_row)).hinted(fmt::format("row of Table 6.1: {} frames/s", row.thesis_fps));
+    }
+    Table methods{.name = "shadow methods", .caption = "", .columns = columns_of("name`|computes<|ignores<|origin<"), .rows = {}};
+    for (const ShadowMethodName& row : shadows)
+        methods.rows.push_back({row.name, row.computes, row.ignores, row.origin});
+    all.prose = methods.prose = true;
+    return {"Techniques", {{"", {std::move(all)}}, {"Shadow methods", {std::move(methods)}}}};
+}
+
+std::string techniques_json(std::span<const Technique> rows, ShadowMethods shadows) {
+    Json list = Json::array();
+    for (const Technique& row : rows)
+        list.push_back({{"name", row.name},
+                        {"kind", kind_name(row.kind)},
+                        {"thesis_row", row.thesis_row > 0 ? Json(row.thesis_row) : Json(nullptr)},
+                        {"thesis_fps", row.thesis_fps.empty() ? Json(nullptr) : Json(row.thesis_fps)},
+                        {"origin", row.origin},
+                        {"computes", row.computes},
+                        {"ignores", row.ignores},
+                        {"passes", row.passes},
+                        {"illuminance", row.illuminance},
+                        {"target", row.target},
+                        {"luminance", row.luminance}});
+    Json methods = Json::array();
+    for (const ShadowMethodName& row : shadows)
+        methods.push_back({{"name", row.name}, {"origin", row.origin}, {"computes", row.computes}, {"ignores", row.ignores}});
+    return json_text(Json{{"schema", "fernlicht techniques"}, {"schema_version", 1}, {"techniques", list}, {"shadow_methods", methods}});
+}
+
+Document readings_document() {
+    Table all{.name = "readings", .caption = "", .columns = columns_of("reading`|unit<|better<|what it is<|equation<|source<"), .rows = {}};
+    all.prose = true;
+    for (const QuantityRow& row : quantities())
+        all.rows.push_back({fmt::format("{}", fmt::join(forms_in_words(row), ", ")), row.unit,
+                            row.better == Better::higher  ? "higher"
+                            : row.better == Better::lower ? "lower"
+                                                          : "",
+                            row.meaning, row.equation, row.source});
+    return {"Readings", {{"", {std::move(all)}}}};
+}
+
+Document signals_document() {
+    Table all{
+        .name = "signals", .caption = "", .columns = columns_of("signal`|unit<|least|greatest|written by<|from bus<|meaning<"), .rows = {}};
+    for (const SignalKind& kind : known_signals())
+        all.rows.push_back({kind.name, kind.unit, Cell(fmt::format("{:g}", kind.least), kind.least),
+                            Cell(fmt::format("{:g}", kind.greatest), kind.greatest), kind.writer, may_come_from_bus(kind) ? "yes" : "no",
+                            kind.meaning});
+    return {"Signals of lamp control", {{"", {std::move(all)}}}};
+}
+
+std::string signals_json() {
+    Json all = Json::array();
+    for (const SignalKind& kind : known_signals())
+        all.push_back({{"name", kind.name},
+                       {"unit", kind.unit},
+                       {"least", kind.least},
+                       {"greatest", std::isfinite(kind.greatest) ? Json(kind.greatest) : Json("inf")},
+                       {"written_by", kind.writer},
+                       {"from_bus", may_come_from_bus(kind)},
+                       {"meaning", kind.meaning}});
+    return all.dump(2) + "\n";
+}
+
+} // namespace fernlicht
