@@ -198,9 +198,12 @@ std::vector<ExtentSummary> summarise_extents(const PlayedCell& played, const Ext
     std::vector<ExtentSummary> summaries;
     for (const ExtentKey& key : extent_keys(played)) {
         Folding folding(key, parameters, key.surface == Surface::road ? played.no_road_lx : played.no_target_lx);
+        bool same_direction = true;
         for (const ExtentRow& row : played.extents) {
             const LaneExtent* const rendered = find_extent(row.rendered, key);
             const LaneExtent* const twin = find_extent(row.twin, key);
+            if (const LaneExtent* const lane = rendered ? rendered : twin)
+                same_direction = lane->same_direction;
             if (rendered)
                 folding.add(*rendered);
             if (rendered && twin)
@@ -209,6 +212,7 @@ std::vector<ExtentSummary> summarise_extents(const PlayedCell& played, const Ext
                 folding.add_uncertainty(row, twin);
         }
         summaries.push_back(folding.finish());
+        summaries.back().same_direction = same_direction;
     }
     return summaries;
 }
