@@ -44,7 +44,7 @@ void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>&
 
 int main(int argc, char** argv) {
     CLI::App app("plays scripted night drives offscreen and measures what the headlamps do", "fernlicht");
-    app.set_version_flag("--version", program_version);
+    app.set_version_flag("--version", fernlicht::program_version);
     app.require_subcommand(1);
     std::function<int()> chosen;
     const std::vector<std::string> command(argv, argv + argc);
