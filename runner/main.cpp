@@ -2,6 +2,7 @@
 #include "runner/commands/commands.h"
 #include "runner/commands/old_flags.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/version.h"
 
 #include <CLI/CLI.hpp>
 #include <exception>
@@ -42,7 +43,7 @@ void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>&
 
 int main(int argc, char** argv) {
     CLI::App app("plays scripted night drives offscreen and measures what the headlamps do", "fernlicht");
-    app.set_version_flag("--version", FERNLICHT_VERSION);
+    app.set_version_flag("--version", fernlicht::program_version);
     app.require_subcommand(1);
     std::function<int()> chosen;
     const std::vector<std::string> command(argv, argv + argc);

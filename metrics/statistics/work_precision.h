@@ -14,7 +14,7 @@ namespace fernlicht {
 struct Interval {
     double value = 0.0, low = 0.0, high = 0.0;
     std::size_t samples = 0; ///< of a repeated measurement: how many; 0 for what was not repeated
-    bool of_median = false;  ///< low to high holds the median of what the samples were drawn from with 95 %; else from least to most
+    bool of_median = false;  ///< low to high holds the median of what the samples were drawn from with 95 %; else from min to max
     bool operator==(const Interval&) const = default;
 };
 

@@ -16,9 +16,10 @@ void write_report(const Report& report, const std::filesystem::path& folder, con
     write_file(folder / "times.csv", times_csv(report));
     write_file(folder / "junit.xml", report_junit(report));
     write_file(folder / "report.json", report_json(report));
-    for (const PlayedCell& played : report.played)
-        if (const std::string moments = moments_csv(played); !moments.empty())
-            write_file(folder / moments_file(played), moments);
+    const std::vector<std::string> files = moments_files(report.played);
+    for (std::size_t i = 0; i < files.size(); ++i)
+        if (const std::string moments = moments_csv(report.played[i]); !moments.empty())
+            write_file(folder / files[i], moments);
     if (tables)
         write_tables(document(report), folder, *tables);
     write_file(folder / "report.html", report_html(report, folder));

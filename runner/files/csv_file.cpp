@@ -5,6 +5,7 @@
 #include "scenarios/values/files.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -67,6 +68,15 @@ double CsvFile::number(std::size_t row, std::size_t column) const {
     if (!number || !std::isfinite(*number))
         refuse(row, column, "a number");
     return *number;
+}
+
+int CsvFile::count(std::size_t row, std::size_t column) const {
+    const std::string& text = rows[row][column];
+    int count = -1;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+    if (error != std::errc() || end != text.data() + text.size() || count < 0)
+        refuse(row, column, "a whole number of at least 0");
+    return count;
 }
 
 void CsvFile::refuse(std::size_t row, std::size_t column, const std::string& expected) const {

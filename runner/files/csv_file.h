@@ -17,6 +17,7 @@ struct CsvFile {
     /// Each throws InputError with file, line and head: there is no such column; or the field is no text of that kind.
     std::size_t column(std::string_view head) const;
     double number(std::size_t row, std::size_t column) const;
+    int count(std::size_t row, std::size_t column) const; ///< from 0
     [[noreturn]] void refuse(std::size_t row, std::size_t column, const std::string& expected) const;
 };
 /// Reads a file of at most 1 GiB. Throws InputError where a line has more or fewer fields than the first.

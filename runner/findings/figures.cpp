@@ -60,7 +60,7 @@ std::string counted(std::size_t count, const std::string& what) { return fmt::fo
 std::string interval_name(const Interval& time) {
     if (time.samples == 0)
         return "";
-    return time.samples == 1 ? "one timing" : time.of_median ? "95 % interval of the median" : "least to most";
+    return time.samples == 1 ? "one timing" : time.of_median ? "95 % interval of the median" : "min to max";
 }
 
 std::string timings_text(const Interval& time) {
@@ -68,7 +68,7 @@ std::string timings_text(const Interval& time) {
         return "of one round, whose spread is unknown: nobody is surely faster";
     if (time.of_median)
         return fmt::format("medians of {} rounds with their 95 % intervals", time.samples);
-    return fmt::format("medians of {} rounds, bars from the least to the most{}", time.samples,
+    return fmt::format("medians of {} rounds, bars from min to max{}", time.samples,
                        time.samples < fewest_timings ? ": too few for anybody to be surely faster" : "");
 }
 

@@ -23,7 +23,7 @@ std::string time_text(double seconds);
 /// What a time and its bar come from: "medians of 7 rounds with their 95 % intervals", "medians of 4 rounds, bars from the least to the
 /// most", "of one round, so that nobody is surely faster". For `samples` > 0.
 std::string timings_text(const Interval& time);
-/// "95 % interval of the median", "least to most", "one timing"; "" for what was not timed repeatedly.
+/// "95 % interval of the median", "min to max", "one timing"; "" for what was not timed repeatedly.
 std::string interval_name(const Interval& time);
 /// "1 moment", "3 moments".
 std::string counted(std::size_t count, const std::string& what);

@@ -1,5 +1,7 @@
 #include "runner/findings/library_versions.h"
 
+#include "scenarios/values/version.h"
+
 #include <CLI/Version.hpp>
 #include <OpenImageIO/oiioversion.h>
 #include <fmt/format.h>
@@ -22,7 +24,7 @@ std::string dotted(unsigned long number, unsigned long major_unit, unsigned long
 
 std::vector<std::pair<std::string, std::string>> library_versions() {
     return {
-        {"fernlicht", FERNLICHT_VERSION},
+        {"fernlicht", program_version},
         {"compiler", "g++ " __VERSION__},
         {"CLI11", CLI11_VERSION},
         {"fmt", dotted(FMT_VERSION, 10000, 100)},

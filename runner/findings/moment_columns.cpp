@@ -111,8 +111,10 @@ void add_bus_input(Columns& columns, const BusSignalReport& signal, const std::v
 
 } // namespace
 
+std::size_t moment_count(const PlayedCell& played) { return std::max({played.extents.size(), played.speed_mps.size(), played.car.size()}); }
+
 std::vector<MomentColumn> moment_columns(const PlayedCell& played) {
-    const std::size_t moments = std::max({played.extents.size(), played.speed_mps.size(), played.car.size()});
+    const std::size_t moments = moment_count(played);
     Columns columns(moments);
     for (std::size_t i = 0; i < moments; ++i)
         columns.text("frame", i, fmt::format("{}", played.first_tick + static_cast<int>(i)));
@@ -140,6 +142,16 @@ std::vector<MomentColumn> moment_columns(const PlayedCell& played) {
     return columns.take();
 }
 
-std::string moments_file(const PlayedCell& played) { return "moments-" + file_name_of(played.drive + "-" + played.lamp_set) + ".csv"; }
+std::vector<std::string> moments_files(const std::vector<PlayedCell>& played) {
+    std::vector<std::string> files;
+    for (const PlayedCell& cell : played) {
+        const std::string stem = "moments-" + file_name_of(cell.drive + "-" + cell.lamp_set);
+        std::string file = stem + ".csv";
+        for (int n = 2; std::ranges::find(files, file) != files.end(); ++n)
+            file = fmt::format("{}-{}.csv", stem, n);
+        files.push_back(std::move(file));
+    }
+    return files;
+}
 
 } // namespace fernlicht

@@ -16,7 +16,10 @@ struct MomentColumn {
 /// "frame" and "time_s", then the others. Throws std::logic_error naming the column for a number that is NaN or infinite: whoever measured
 /// it owed a not_measured.
 std::vector<MomentColumn> moment_columns(const PlayedCell& played);
-/// Where they lie below the report's folder: "moments-DRIVE-LAMPS.csv".
-std::string moments_file(const PlayedCell& played);
+/// Rows of them.
+std::size_t moment_count(const PlayedCell& played);
+/// Where those of each cell lie below the report's folder: "moments-DRIVE-LAMPS.csv", with "-2", "-3" ... behind the lamps where a cell
+/// before it has that name.
+std::vector<std::string> moments_files(const std::vector<PlayedCell>& played);
 
 } // namespace fernlicht

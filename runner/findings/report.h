@@ -53,6 +53,7 @@ struct ExtentKey {
 /// What the moments' extents of one key add up to.
 struct ExtentSummary {
     ExtentKey key;
+    bool same_direction = true; ///< as LaneExtent has it
     std::map<ReadingKey, CensoredSamples> moments = {}; ///< of extent_figures(), without a statistic; widths by distance ahead
     std::size_t cut_off = 0;                            ///< moments whose reach is a lower bound, by road's end or grid's
 };
@@ -157,6 +158,7 @@ struct PlayedCell {
     std::string title;                                      ///< of the drive, for people
     std::vector<std::pair<std::string, std::string>> lamps; ///< lamp name -> file name
     int first_tick = 0, ticks_planned = 0, ticks_done = 0;
+    std::uint64_t moments_told = 0; ///< of a report that was read: how many its CSV of moments has
     std::vector<StoredFrame> frames;
     StoredFrame contact_sheet;                        ///< one moment drawn in every technique; without a PNG where none was asked for
     std::vector<StoredSheet> more_sheets;             ///< the same moment otherwise; only where contact_sheet is

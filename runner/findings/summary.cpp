@@ -101,6 +101,8 @@ std::vector<ExtentSummary> summarise_extents(const PlayedCell& played, const Ext
         for (const ExtentRow& row : played.extents) {
             moments.push_back({find_extent(row.rendered, key), find_extent(row.twin, key), find_extent(row.sensitivity, key),
                                find_extent(row.grid_errors, key)});
+            if (const LaneExtent* const lane = moments.back().rendered ? moments.back().rendered : moments.back().twin)
+                summary.same_direction = lane->same_direction;
             summary.cut_off += moments.back().rendered && moments.back().rendered->reach_is_cut_off ? 1U : 0U;
         }
         const std::string& not_drawn = key.surface == Surface::road ? played.no_road_lx : played.no_target_lx;

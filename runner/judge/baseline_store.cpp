@@ -219,12 +219,6 @@ Baseline load_baseline(const fs::path& store, const StoredBaseline& entry) {
     return baseline;
 }
 
-std::vector<StoredBaseline> with_prefix(const std::vector<StoredBaseline>& entries, const std::string& prefix) {
-    std::vector<StoredBaseline> found;
-    std::ranges::copy_if(entries, std::back_inserter(found), [&](const StoredBaseline& entry) { return entry.id.starts_with(prefix); });
-    return found;
-}
-
 std::vector<Stored> store_baselines(const fs::path& store, const std::vector<Baseline>& baselines, Acceptance how, const std::string& note,
                                     const std::string& played_utc) {
     make_folder(store);
@@ -270,34 +264,28 @@ Removal remove_baselines(const fs::path& store, const std::vector<std::string>& 
     return removal;
 }
 
-std::vector<StoredBaseline> choose_baselines(const std::filesystem::path& store, const std::string& word) {
+StoredBaseline choose_baseline(const std::filesystem::path& store, const std::string& word) {
     const std::vector<StoredBaseline> all = list_baselines(store);
     if (all.empty())
         throw InputError({store, 0, 0, {}}, "holds nothing that was accepted", "a folder that `fernlicht accept` made");
-    if (is_prefix(word))
-        if (std::vector<StoredBaseline> found = with_prefix(all, word); !found.empty())
-            return found;
     std::vector<StoredBaseline> found;
-    std::vector<std::string> cells;
-    for (const StoredBaseline& entry : all) {
-        cells.push_back(cell_text(entry.key));
-        if (means(word, cells.back()))
-            found.push_back(entry);
-    }
+    const auto take = [&](const auto& fits) { std::ranges::copy_if(all, std::back_inserter(found), fits); };
+    if (is_prefix(word))
+        take([&](const StoredBaseline& entry) { return entry.id.starts_with(word); });
+    if (found.empty())
+        take([&](const StoredBaseline& entry) { return means(word, cell_text(entry.key)); });
+    if (found.size() > 1)
+        throw InputError({store, 0, 0, {}}, fmt::format("'{}' means {}: {}", printable(word), found.size(), listed(found)),
+                         "more digits of one id");
     if (!found.empty())
-        return found;
+        return found.front();
+    std::vector<std::string> cells;
+    for (const StoredBaseline& entry : all)
+        cells.push_back(cell_text(entry.key));
     const std::string nearest = nearest_name(word, cells);
     throw InputError({store, 0, 0, {}}, "has nothing called '" + printable(word) + "'",
                      fmt::format("the first digits of an id, four or more, or DRIVE/LAMP SET/TECHNIQUE from the left{}",
                                  nearest.empty() ? "" : "; the nearest is " + printable(nearest)));
-}
-
-StoredBaseline choose_baseline(const std::filesystem::path& store, const std::string& word) {
-    std::vector<StoredBaseline> found = choose_baselines(store, word);
-    if (found.size() > 1)
-        throw InputError({store, 0, 0, {}}, fmt::format("'{}' means {}: {}", printable(word), found.size(), listed(found)),
-                         "more digits of one id");
-    return std::move(found.front());
 }
 
 } // namespace fernlicht

@@ -27,9 +27,6 @@ std::vector<StoredBaseline> list_baselines(const std::filesystem::path& store);
 /// The results behind an entry, their frames' paths set. Throws InputError where an object is missing or is not what was stored.
 Baseline load_baseline(const std::filesystem::path& store, const StoredBaseline& entry);
 
-/// The entries whose ids begin like this.
-std::vector<StoredBaseline> with_prefix(const std::vector<StoredBaseline>& entries, const std::string& prefix);
-
 enum class Acceptance {
     first,         ///< only where nothing else is accepted
     add,           ///< beside what is there: either will do
@@ -56,12 +53,9 @@ struct Removal {
 /// Throws InputError for a damaged index or a damaged object of an entry that stays, DeviceError when the folder cannot be written.
 Removal remove_baselines(const std::filesystem::path& store, const std::vector<std::string>& ids, bool dry);
 
-/// What a word of the command line means:
-/// entries whose id begins with `word` (at least four hexadecimal digits), or those whose cell (drive/lamp set/technique) or a part of it
-/// from the left is `word`: "straight", "straight/halogen". Throws InputError where there is none, naming the nearest, or no store.
-std::vector<StoredBaseline> choose_baselines(const std::filesystem::path& store, const std::string& word);
-
-/// The one entry that `word` means. Throws InputError that lists them where it means several.
+/// What a word of the command line means: the entry whose id begins with `word` (at least four hexadecimal digits), or that whose cell
+/// (drive/lamp set/technique) or a part of it from the left is `word`: "straight", "straight/halogen". Throws InputError where there is
+/// none, naming the nearest, where there are several, listing them, or no store.
 StoredBaseline choose_baseline(const std::filesystem::path& store, const std::string& word);
 
 } // namespace fernlicht

@@ -50,8 +50,8 @@ RunResults read_ray_folder(const std::filesystem::path& folder) {
     const CheckedJson json = CheckedJson::read(folder / description);
     if (const CheckedJson schema = json.at("schema"); schema.text() != "fernlicht-reference")
         schema.refuse("fernlicht-reference");
-    if (const CheckedJson version = json.at("version"); version.whole() != 1)
-        version.refuse("version 1");
+    if (const CheckedJson version = json.at("version"); version.whole() != 2)
+        version.refuse("version 2");
     if (const CheckedJson complete = json.at("complete"); !complete.truth())
         complete.refuse("a whole picture: `fernlicht reference --resume` goes on with it");
     const RunContext context = context_of(json.at("context"));

@@ -17,8 +17,8 @@ class RepeatFold {
     /// `folder` is where the frames of the first play lie.
     RepeatFold(const PlayedCell& first, std::filesystem::path folder, Told told);
 
-    /// True where nothing differs: readings and all else in report.json to the last bit, lux maps, the bytes of all stored files, and the
-    /// verdicts on limits. Times do not count, other than by a verdict that they turn.
+    /// True where nothing differs: readings, moments and all else in report.json to the last bit, lux maps, the bytes of all stored files,
+    /// and the verdicts on limits. Times do not count, other than by a verdict that they turn.
     bool add(const PlayedCell& again, const std::filesystem::path& folder);
 
     /// Sets `repeats` of the first play and adds the verdict "repeats": pass, flaky with what differs, or not measured where fewer than the

@@ -1,5 +1,7 @@
 #include "scenarios/models/model.h"
 
+#include "scenarios/values/version.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <glm/common.hpp>
@@ -17,7 +19,7 @@ template <class T> void put(std::string& bytes, const T& value) { bytes.append(r
 class GlbWriting {
   public:
     explicit GlbWriting(const Model& model, const std::vector<std::string>& pictures) : model_(model), pictures_(pictures) {
-        json_["asset"] = {{"version", "2.0"}, {"generator", "fernlicht " FERNLICHT_VERSION}};
+        json_["asset"] = {{"version", "2.0"}, {"generator", std::string("fernlicht ") + program_version}};
         json_["scene"] = 0;
         for (const char* key : {"scenes", "nodes", "meshes", "materials", "accessors", "bufferViews"})
             json_[key] = OrderedJson::array();

@@ -145,9 +145,12 @@ void DepthPass::compile(int width, int height) {
     const Texture scratch = make_texture(context_, GL_DEPTH_COMPONENT32F, width, height);
     gl.NamedFramebufferTexture(target_, GL_DEPTH_ATTACHMENT, scratch, 0);
     gl.NamedFramebufferDrawBuffer(target_, GL_NONE);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target_);
+    GLint bound = 0;
+    gl.GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target_);
     program_.use();
     list_.draw_nothing(glm::dvec3(0.0), moving_);
+    gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(bound));
     context_.check("compiling the shadow pass");
 }
 

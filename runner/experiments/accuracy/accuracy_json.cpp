@@ -68,9 +68,7 @@ JsonMembers interval_members(Interval& i) { return {{"value", i.value}, {"low", 
 JsonMembers time_members(Interval& time) {
     JsonPart interval = through([&] { return interval_name(time).empty() ? std::nullopt : std::optional(interval_name(time)); },
                                 [&](const std::optional<std::string>& name) { time.of_median = name && name->starts_with("95"); });
-    interval.schema = [] {
-        return nlohmann::ordered_json{{"enum", {"95 % interval of the median", "least to most", "one timing", nullptr}}};
-    };
+    interval.schema = [] { return nlohmann::ordered_json{{"enum", {"95 % interval of the median", "min to max", "one timing", nullptr}}}; };
     return joined(interval_members(time), JsonMembers{{"timings", time.samples}, {"interval", interval}});
 }
 
@@ -102,7 +100,7 @@ JsonMembers diagram_members(WorkPrecision& diagram) {
 JsonMembers accuracy_members(AccuracyResult& result) {
     return {
         {"schema", json_constant("fernlicht accuracy")},
-        {"schema_version", json_constant(1)},
+        {"schema_version", json_constant(2)},
         {"context", joined(context_members(result.context), JsonMembers{{"cores", result.cores}, {"other_cores", result.others.cores}})},
         {"interrupted", or_null(result.interrupted)},
         {"missing", result.missing},

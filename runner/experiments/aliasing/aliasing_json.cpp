@@ -117,7 +117,7 @@ std::vector<std::string> names_by_aliasing(const AliasingResult& result) {
 
 JsonMembers aliasing_members(AliasingResult& result) {
     return {{"schema", json_constant("fernlicht aliasing")},
-            {"schema_version", json_constant(2)},
+            {"schema_version", json_constant(3)},
             {"context", context_members(result.context)},
             {"interrupted", or_null(result.interrupted)},
             {"notes", result.notes},

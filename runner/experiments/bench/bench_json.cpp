@@ -119,7 +119,7 @@ std::string bench_json(const BenchResult& result) {
         orders.push_back(std::move(names));
     }
     return json_text(Json{{"schema", "fernlicht bench"},
-                          {"schema_version", 1},
+                          {"schema_version", 2},
                           {"context", machine_json(result)},
                           {"interrupted", result.interrupted.empty() ? Json(nullptr) : Json(result.interrupted)},
                           {"warnings", bench_warnings(result)},

@@ -69,7 +69,7 @@ nlohmann::ordered_json figures_json(const std::vector<ComparedFigure>& figures) 
 std::string pictures_json(const PicturesFound& found) {
     const auto& [comparison, pair] = std::tie(found.comparison, found.pair);
     return json_text({{"schema", "fernlicht comparison"},
-                      {"schema_version", 1},
+                      {"schema_version", 2},
                       {"kind", "pictures"},
                       {"notes", pair.notes},
                       {"reference", pair.reference.string()},

@@ -4,6 +4,7 @@
 #include "runner/files/output_folder.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
+#include "scenarios/values/version.h"
 
 #include <algorithm>
 #include <cstring>
@@ -98,7 +99,7 @@ std::string checkpoint_inputs(const ReferenceResult& result, const Drive& drive)
     std::string text;
     const auto add = [&](const std::string& name, const auto& value) { text += fmt::format("{}\t{}\n", name, value); };
     const std::string resolved = write_drive(drive);
-    add("version", FERNLICHT_VERSION);
+    add("version", program_version);
     add("--lamp-set", printable(result.lamp_set));
     add("--view", printable(result.view.name));
     add("width in pixels", result.view.width_px), add("height in pixels", result.view.height_px);

@@ -118,7 +118,7 @@ Json reference_json(const ReferenceResult& r) {
     for (const std::uint32_t count : r.image.samples.pixels())
         samples += count;
     return {{"schema", "fernlicht-reference"},
-            {"version", 1},
+            {"version", 2},
             {"drive", r.drive},
             {"title", r.title},
             {"lamp_set", r.lamp_set},

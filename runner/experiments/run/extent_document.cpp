@@ -72,7 +72,7 @@ std::vector<Column> extent_columns(const ComparedDrive& drive, const Axes& axes,
     for (const double at_m : axes.widths_at_m)
         add_heads(columns, drive, fmt::format("width at {:g} m", at_m), "m");
     add_heads(columns, drive, "area", "m\u00b2");
-    columns.push_back({"reach, least to most", "m"});
+    columns.push_back({"reach, min to max", "m"});
     if (own)
         columns.insert(columns.end(), {{"per 0.1° of aim", "m"}, {"per 10 % of flux", "m"}});
     columns.push_back({"twin off by ≤", "m"});

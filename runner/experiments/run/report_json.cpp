@@ -3,10 +3,10 @@
 #include "runner/experiments/bench/bench_result.h"
 #include "runner/experiments/run/run_report.h"
 #include "runner/files/clean_text.h"
-#include "runner/files/csv_file.h"
 #include "runner/files/json_text.h"
 #include "runner/findings/context_json.h"
 #include "runner/findings/extent_keys.h"
+#include "runner/findings/moment_columns.h"
 #include "runner/judge/verdict_json.h"
 #include "runner/play/display_pipeline.h"
 #include "runner/play/live/live_figures.h"
@@ -14,6 +14,7 @@
 #include "scenarios/drives/keys/shadow_keys.h"
 #include "scenarios/values/errors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
@@ -91,6 +92,7 @@ JsonMembers summary_members(ExtentSummary& summary) {
     const auto of_reach = [&](Aspect aspect, double share) { return moments_of(summary, Quantity::reach, aspect).quantile(share); };
     return joined({{"surface", one_of(summary.key.surface, names_of<Surface>(surface_name, 2))},
                    {"lane", summary.key.lane},
+                   {"same_direction", summary.same_direction},
                    {"threshold_lx", summary.key.threshold_lx},
                    {"moments", reach.count()},
                    {"moments_cut_off", summary.cut_off},
@@ -281,6 +283,9 @@ JsonMembers played_members(PlayedCell& played) {
                    {"inputs", played.input_hashes},
                    {"ticks_planned", played.ticks_planned},
                    {"ticks_done", played.ticks_done},
+                   {"readings", std::uint64_t{played.readings.size()}},
+                   {"moments", through([&played] { return std::max<std::uint64_t>(played.moments_told, moment_count(played)); },
+                                       [&played](std::uint64_t told) { played.moments_told = told; })},
                    {"repeats", repeats_members(played.repeats)},
                    {"verdicts", played.verdicts, verdict_members},
                    {"left_out", played.left_out},
@@ -400,8 +405,7 @@ void take_readings(const CsvFile& csv, Report& report) {
             csv.refuse(i, name, "the name of a reading");
         if (row[unit] != unit_of(*key))
             csv.refuse(i, unit, std::string("the unit ") + unit_of(*key));
-        Reading reading{*key, Value::not_measured(row[reason]), row[where],
-                        row[frame].empty() ? -1 : static_cast<int>(csv.number(i, frame))};
+        Reading reading{*key, Value::not_measured(row[reason]), row[where], row[frame].empty() ? -1 : csv.count(i, frame)};
         if (!row[value].empty()) {
             const double number = csv.number(i, value);
             reading.value = row[bound].empty()         ? Value(number)
@@ -413,6 +417,12 @@ void take_readings(const CsvFile& csv, Report& report) {
             if (clean_text(played.drive) == row[drive] && clean_text(played.lamp_set) == row[set])
                 played.readings.push_back(reading);
     }
+}
+
+/// A file that lost its end must not pass for a whole one.
+void check_count(const std::filesystem::path& file, std::size_t found, const std::string& of, std::uint64_t told) {
+    if (found != told)
+        throw InputError({file, 0, 0, {}}, fmt::format("found {} {}", found, of), fmt::format("{}, as report.json says", told));
 }
 
 } // namespace
@@ -438,7 +448,20 @@ Report read_report(const std::filesystem::path& folder) {
         complete.refuse("a complete run");
     Report report = from_json<Report>(json, report_members);
     take_readings(read_csv(folder / "readings.csv"), report);
+    const std::vector<CheckedJson> drives = json.at("drives").items();
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+        const PlayedCell& played = report.played[i];
+        check_count(folder / "readings.csv", played.readings.size(),
+                    fmt::format("readings of {} with {}", printable(played.drive), printable(played.lamp_set)),
+                    drives[i].at("readings").count());
+    }
     return report;
+}
+
+CsvFile read_moments(const std::filesystem::path& folder, const Report& report, std::size_t cell) {
+    CsvFile moments = read_csv(folder / moments_files(report.played)[cell]);
+    check_count(moments.file, moments.rows.size(), "moments", report.played[cell].moments_told);
+    return moments;
 }
 
 } // namespace fernlicht

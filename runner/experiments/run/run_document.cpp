@@ -41,7 +41,7 @@ Cell milliseconds(double seconds) { return {figure(1e3 * seconds, 2), 1e3 * seco
 
 Table passes_table(const ComparedDrive& drive) {
     Table table{
-        drive.name + "-times", "", columns_of("lamp<|pass<|median [ms]|5 % … 95 % [ms]|least … most [ms]|samples|warm-up dropped"), {}};
+        drive.name + "-times", "", columns_of("lamp<|pass<|median [ms]|5 % … 95 % [ms]|min … max [ms]|samples|warm-up dropped"), {}};
     for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i)
         for (const PassTime& pass : drive.lamp_sets[i]->passes)
             if (const std::optional<Spread> spread = spread_of(pass.seconds)) {

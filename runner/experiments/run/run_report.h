@@ -1,6 +1,7 @@
 // What a run tells: report.json, its document and page.
 #pragma once
 
+#include "runner/files/csv_file.h"
 #include "runner/findings/run_page.h"
 
 #include <filesystem>
@@ -16,8 +17,10 @@ std::string report_json_schema();
 nlohmann::ordered_json played_json(const PlayedCell& played);
 
 /// A complete run as it was written, without lux maps, summaries and what moments were like; readings come from readings.csv. Throws
-/// InputError for what is no such run.
+/// InputError for what is no such run, and where readings.csv has more or fewer than it says.
 Report read_report(const std::filesystem::path& folder);
+/// What the moments of one of its cells were like. Throws InputError where there are more or fewer than it says.
+CsvFile read_moments(const std::filesystem::path& folder, const Report& report, std::size_t cell);
 
 /// All of the page but what a document cannot hold: figures at a glance, the chooser of moments with its pictures and maps.
 Document document(const Report& report);

@@ -200,7 +200,8 @@ ShadowTally ShadowTrial::tally(const Moment& moment, const View& view, const Sha
 
 void judge_tally(Found& worst, const ShadowTally& tally, const std::string& where, Tried tried) {
     const bool nothing = tried == Tried::either ? tally.lit + tally.dark == 0 : tally.lit == 0 || tally.dark == 0;
-    worst.add(nothing ? std::numeric_limits<double>::quiet_NaN() : tally.wrong(), fmt::format("{}: {}", where, tally.text()));
+    worst.add(nothing ? std::numeric_limits<double>::quiet_NaN() : tally.wrong(), fmt::format("{}: {}", where, tally.text()),
+              tally.lit + tally.dark);
 }
 
 ShadowSettings shadows_by(ShadowMethod method) {

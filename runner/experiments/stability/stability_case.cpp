@@ -32,8 +32,9 @@ std::filesystem::path StabilityBench::write(const std::string& name, std::string
     return path;
 }
 
-void Found::add(double trial_error, const std::string& trial) {
+void Found::add(double trial_error, const std::string& trial, int values) {
     ++trials;
+    judged += values;
     if (!std::isfinite(error) && !where.empty())
         return;
     if (where.empty() || !(trial_error <= error)) {

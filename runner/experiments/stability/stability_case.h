@@ -48,9 +48,10 @@ struct Found {
     double error = 0.0; ///< in the case's unit
     std::string where;  ///< at which of the values tried it was worst
     int trials = 0;
+    int judged = 0; ///< pixels or other values in all of them
 
     /// Takes a trial's error when it is worse. One that is not finite is worse than all others and stays.
-    void add(double trial_error, const std::string& trial);
+    void add(double trial_error, const std::string& trial, int values = 1);
 };
 
 struct StabilityCase {

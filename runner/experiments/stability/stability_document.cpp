@@ -2,6 +2,7 @@
 
 #include "runner/files/json_text.h"
 #include "runner/findings/figures.h"
+#include "scenarios/values/version.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +41,8 @@ Document document(const StabilityRow& row) {
     return {of.full_name(),
             {{fmt::format("{:<12} {:<32} {} {} (bound {:g}), {:.1f} s", verdict(row), of.full_name(), measured(row), of.unit, of.bound,
                           row.seconds),
-              {Listing{std::vector<Cell>{"breaks:  " + of.could_break, "bound:   " + of.reason, "worst:   " + where(row)}}}}}};
+              {Listing{std::vector<Cell>{"breaks:  " + of.could_break, "bound:   " + of.reason, "worst:   " + where(row),
+                                         fmt::format("judged:  {} pixels or other values", row.found.judged)}}}}}};
 }
 
 Document document(const StabilityResult& result) {
@@ -62,11 +64,12 @@ std::string stability_json(const StabilityResult& result) {
                         {"reason", row.of->reason},
                         {"where", where(row)},
                         {"trials", row.found.trials},
+                        {"judged", row.found.judged},
                         {"verdict", verdict(row)}});
     }
     return json_text(Json{{"schema", "fernlicht stability"},
-                          {"schema_version", 1},
-                          {"fernlicht", FERNLICHT_VERSION},
+                          {"schema_version", 2},
+                          {"fernlicht", program_version},
                           {"device", result.device.empty() ? Json(nullptr) : Json(result.device)},
                           {"rows", list}});
 }

@@ -154,7 +154,7 @@ void read_cell_report(const fs::path& study_folder, CellResult& cell) {
         throw InputError({study_folder / folder / "report.json", 0, 0, "drives"}, fmt::format("found {}", report.played.size()),
                          "one drive with one lamp set");
     const PlayedCell& only = report.played.front();
-    PlayedResult played = played_result(only, read_csv(study_folder / folder / moments_file(only)), folder);
+    PlayedResult played = played_result(only, read_moments(study_folder / folder, report, 0), folder);
     static_cast<Steps&>(played) = cell; // the drive's, not the report's
     static_cast<PlayedResult&>(cell) = std::move(played);
 }

@@ -10,6 +10,7 @@
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/fields/write_fields.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/version.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -108,7 +109,7 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
 std::string write_drive(const Drive& drive) {
     const LampsAreOf lamps(drive);
     return fmt::format("# The resolved drive, written by fernlicht {}: running it again gives the same results.\nfernlicht: 1\n{}",
-                       FERNLICHT_VERSION, write_fields(drive_fields(), drive, 0));
+                       program_version, write_fields(drive_fields(), drive, 0));
 }
 
 std::string drive_bits(const Drive& drive) {

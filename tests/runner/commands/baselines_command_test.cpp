@@ -182,7 +182,7 @@ TEST_F(BaselinesCommand, AtOnceIsOneAfterTheOther) {
     EXPECT_EQ(run_shell("(" + line + " wait)").exit_code, 0);
     EXPECT_EQ(listed().size(), 4U) << "two lamp sets, two results each";
     for (const json& entry : listed())
-        EXPECT_NO_THROW(load_baseline(store, with_prefix(list_baselines(store), entry.at("id")).front()));
+        EXPECT_NO_THROW(load_baseline(store, choose_baseline(store, entry.at("id"))));
 }
 
 /// The worked example's lamp, 206.25 cd everywhere within 30 degrees, with 5 % less between 5 and 15 degrees to the right, 3 to 15 down.

@@ -78,7 +78,7 @@ std::vector<WorkPrecision> solver_diagrams(const std::vector<SolverRow>& rows) {
             made.time_name = "time of the run";
             made.floor_name = row.floor > 0.0 ? "what two tight runs differ by" : "";
             made.notes.push_back(
-                fmt::format("against {}; a number beside the solver is its tolerance; bars: least and most time", row.against));
+                fmt::format("against {}; a number beside the solver is its tolerance; bars: min and max of the times", row.against));
             diagram = diagrams.insert(diagrams.end(), std::move(made));
         }
         diagram->rows.push_back(row_of(row));

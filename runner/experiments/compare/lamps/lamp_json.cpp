@@ -66,7 +66,7 @@ std::string lamps_json(const LampPairComparison& lamps) {
                          {"not_measured", known ? Json(nullptr) : Json(fact.why_not)}});
     }
     return json_text({{"schema", "fernlicht comparison"},
-                      {"schema_version", 1},
+                      {"schema_version", 2},
                       {"kind", "lamps"},
                       {"reference", lamps.before.path.string()},
                       {"tested", lamps.now.path.string()},

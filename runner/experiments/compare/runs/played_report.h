@@ -32,7 +32,7 @@ struct PlayedResult : ReadingsOfCell {
     std::optional<double> frame_s;                        ///< a driver's view
 };
 
-/// Of one that was played; its frames' paths begin with `folder` ("" for none), its moments are those of moments_file().
+/// Of one that was played; its frames' paths begin with `folder` ("" for none), its moments are those of read_moments().
 PlayedResult played_result(const PlayedCell& played, const CsvFile& moments, const std::string& folder);
 
 } // namespace fernlicht

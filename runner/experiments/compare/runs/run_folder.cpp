@@ -3,7 +3,6 @@
 #include "runner/experiments/compare/runs/yaml_difference.h"
 #include "runner/experiments/run/run_report.h"
 #include "runner/files/output_folder.h"
-#include "runner/findings/moment_columns.h"
 #include "runner/play/capture.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/values/errors.h"
@@ -60,8 +59,8 @@ void read_resolved(const fs::path& folder, RunDrive& drive) {
             drive.road_hash = hash->second;
 }
 
-RunDrive read_drive_of(const fs::path& folder, const PlayedCell& played, const std::map<std::string, std::string>& hashes) {
-    const CsvFile moments = read_csv(folder / moments_file(played));
+RunDrive read_drive_of(const fs::path& folder, const PlayedCell& played, const CsvFile& moments,
+                       const std::map<std::string, std::string>& hashes) {
     RunDrive drive;
     static_cast<PlayedResult&>(drive) = played_result(played, moments, "");
     drive.folder = folder;
@@ -101,8 +100,8 @@ RunFolder read_run_folder(const fs::path& folder) {
     std::map<std::string, std::string> hashes;
     for (const FileRead& input : context.inputs)
         hashes[input.path.string()] = input.xxh128;
-    for (const PlayedCell& played : report.played)
-        run.drives.push_back(read_drive_of(folder, played, hashes));
+    for (std::size_t i = 0; i < report.played.size(); ++i)
+        run.drives.push_back(read_drive_of(folder, report.played[i], read_moments(folder, report, i), hashes));
     return run;
 }
 

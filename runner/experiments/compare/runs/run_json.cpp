@@ -114,7 +114,7 @@ std::string runs_json(const RunComparison& runs) {
         largest.push_back(row_id(drive, change));
     const bool judged = !runs.strictness_name.empty();
     return json_text({{"schema", "fernlicht comparison"},
-                      {"schema_version", 1},
+                      {"schema_version", 2},
                       {"kind", "runs"},
                       {"reference", runs.before.folder.string()},
                       {"tested", runs.now.folder.string()},

@@ -70,8 +70,10 @@ Found over_all(StabilityBench& bench, std::initializer_list<Strip> all, bool amp
         // Each rounding of a place counts length over width times where the rasteriser solves for its gradient.
         const double reach_m = 102.0 + (amplified ? length_m * length_m / width_m : 0.0);
         const AgainstTwin found = over_strips(bench, width_m, length_m, reach_m);
-        worst.add(found.error(), fmt::format("{} m by {} m: {}; {:.1e} relative over {} pixels", length_m, width_m, found.where,
-                                             found.worst_relative, found.compared));
+        worst.add(found.error(),
+                  fmt::format("{} m by {} m: {}; {:.1e} relative over {} pixels", length_m, width_m, found.where, found.worst_relative,
+                              found.compared),
+                  found.compared);
     }
     return worst;
 }
@@ -101,7 +103,8 @@ Found coplanar(StabilityBench& bench) {
     const AgainstTwin found =
         against_plane(frame, moment, view, 102.0, [](const glm::dvec3& p) { return p.x < 99.0 && std::abs(p.y) < 19.0; });
     Found worst;
-    worst.add(found.error(), fmt::format("lux: {}, {:.1e} relative over {} pixels", found.where, found.worst_relative, found.compared));
+    worst.add(found.error(), fmt::format("lux: {}, {:.1e} relative over {} pixels", found.where, found.worst_relative, found.compared),
+              found.compared);
     // Which of the surfaces is seen may not depend on anything but the scene.
     worst.add(frame.ids == drawn().ids ? 0.0 : std::numeric_limits<double>::infinity(), "the same surface twice");
     return worst;

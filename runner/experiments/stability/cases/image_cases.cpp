@@ -32,8 +32,10 @@ Found against_a_street(StabilityBench& bench, const std::vector<Size>& sizes) {
     for (const Size& size : sizes) {
         const AgainstTwin found =
             against_twin(renderer, scene, moment, camera({1.3, 0.35, 1.2}, 0.0, -0.05, size.fov_deg, size.width_px, size.height_px));
-        worst.add(found.error(), fmt::format("{} degrees, {} x {}: {}, {:.1e} relative over {} pixels", size.fov_deg, size.width_px,
-                                             size.height_px, found.where, found.worst_relative, found.compared));
+        worst.add(found.error(),
+                  fmt::format("{} degrees, {} x {}: {}, {:.1e} relative over {} pixels", size.fov_deg, size.width_px, size.height_px,
+                              found.where, found.worst_relative, found.compared),
+                  found.compared);
     }
     return worst;
 }

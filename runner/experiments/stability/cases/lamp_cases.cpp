@@ -24,7 +24,7 @@ Found distance(StabilityBench& bench) {
     for (double d = 1e-3; d < 1.01e4; d *= std::pow(10.0, 0.25)) {
         moment.lamps[0].pose.position_m.x = -d;
         const AgainstTwin found = against_twin(renderer, scene, moment, camera({-1.0, 0.05, 0.05}, 0.0, 0.0, 30.0, 32, 24));
-        worst.add(found.error(), fmt::format("{:.3g} m, {}: {:.1e} relative", d, found.where, found.worst_relative));
+        worst.add(found.error(), fmt::format("{:.3g} m, {}: {:.1e} relative", d, found.where, found.worst_relative), found.compared);
     }
     return worst;
 }
@@ -48,7 +48,8 @@ Found grazing(StabilityBench& bench) {
             const glm::dvec3 eye = glm::dvec3(20.0, 0.0, 0.0) + 2.0 * normal;
             const double yaw = std::atan2(-normal.y, -normal.x), pitch = std::asin(-normal.z);
             const AgainstTwin found = against_twin(renderer, scene, moment, camera(eye, yaw, pitch, 20.0, 24, 24));
-            worst.add(found.error(), fmt::format("{} degrees, rolled by {}: {:.1e} relative", graze_deg, roll_deg, found.worst_relative));
+            worst.add(found.error(), fmt::format("{} degrees, rolled by {}: {:.1e} relative", graze_deg, roll_deg, found.worst_relative),
+                      found.compared);
         }
     return worst;
 }
@@ -89,7 +90,8 @@ Found unequal_lamps(StabilityBench& bench) {
     Renderer renderer(bench.device(), scene, unshadowed());
     const AgainstTwin found = against_twin(renderer, scene, moment, camera({0.0, 0.0, 0.3}, 0.0, 0.0, 30.0, 64, 32));
     Found worst;
-    worst.add(found.error(), fmt::format("{}: {:.1e} relative over {} pixels", found.where, found.worst_relative, found.compared));
+    worst.add(found.error(), fmt::format("{}: {:.1e} relative over {} pixels", found.where, found.worst_relative, found.compared),
+              found.compared);
     return worst;
 }
 
@@ -125,7 +127,7 @@ Found beside_the_lamp(StabilityBench& bench) {
         Moment moment;
         moment.lamps = {lamp(cut_off_table(), {3.5, 0.0, 0.65}, radians(place.lamp_yaw_deg))};
         const AgainstTwin found = against_twin(renderer, scene, moment, camera(place.eye_m, radians(place.yaw_deg), -0.03, 40.0, 48, 32));
-        worst.add(found.error(), fmt::format("{}: {}, {:.1e} relative", place.name, found.where, found.worst_relative));
+        worst.add(found.error(), fmt::format("{}: {}, {:.1e} relative", place.name, found.where, found.worst_relative), found.compared);
     }
     return worst;
 }
@@ -141,7 +143,7 @@ Found far_from_the_origin(StabilityBench& bench) {
         moment.ego.position_m = origin;
         moment.lamps = {lamp(cut_off_table(), origin + glm::dvec3(3.5, 0.6, 0.65))};
         const AgainstTwin found = against_twin(renderer, scene, moment, camera({1.3, 0.35, 1.2}, 0.0, -0.03, 40.0, 48, 32));
-        worst.add(found.error(), fmt::format("{:.0e} m: {}, {:.1e} relative", far_m, found.where, found.worst_relative));
+        worst.add(found.error(), fmt::format("{:.0e} m: {}, {:.1e} relative", far_m, found.where, found.worst_relative), found.compared);
     }
     return worst;
 }

@@ -142,7 +142,8 @@ Found brightest(StabilityBench& bench) {
     Found worst;
     for (const glm::dvec3& eye : {glm::dvec3(-0.5, 0.0, 0.0), glm::dvec3(-5.0, 0.0, 1.0)}) {
         const AgainstTwin found = against_twin(renderer, scene, moment, camera(eye, 0.0, -0.1, 60.0, 32, 32));
-        worst.add(found.error(), fmt::format("seen from {} m: {}, {:.1e} relative", eye.x, found.where, found.worst_relative));
+        worst.add(found.error(), fmt::format("seen from {} m: {}, {:.1e} relative", eye.x, found.where, found.worst_relative),
+                  found.compared);
     }
     return worst;
 }

@@ -136,7 +136,8 @@ Found wall_edge_on(StabilityBench& bench) {
         moment.lamps = {lamp(constant_table(1000.0), {0.0, beside_m, 0.65})};
         const AgainstTwin found = against_twin(renderer, scene, moment, camera({0.0, -3.0, 1.2}, 0.15, 0.0, 40.0, 48, 32));
         worst.add(found.error(),
-                  fmt::format("lamp {} m beside the wall's plane: {}, {:.1e} relative", beside_m, found.where, found.worst_relative));
+                  fmt::format("lamp {} m beside the wall's plane: {}, {:.1e} relative", beside_m, found.where, found.worst_relative),
+                  found.compared);
     }
     return worst;
 }

@@ -70,7 +70,8 @@ Found steep_steps(StabilityBench& bench) {
     moment.lamps = {lamp(through_a_file(bench, "steps", table_of(axis(-10.0, 0.1, 201), axis(-10.0, 0.1, 201), cd)), {0.0, 0.0, 0.0})};
     const AgainstTwin found = against_twin(renderer, scene, moment, camera({0.0, 0.0, 0.0}, 0.0, 0.0, 20.0, 64, 48));
     Found worst;
-    worst.add(found.error(), fmt::format("{}: {:.1e} relative over {} pixels", found.where, found.worst_relative, found.compared));
+    worst.add(found.error(), fmt::format("{}: {:.1e} relative over {} pixels", found.where, found.worst_relative, found.compared),
+              found.compared);
     return worst;
 }
 

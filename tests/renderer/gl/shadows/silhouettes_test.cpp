@@ -161,6 +161,49 @@ TEST(Silhouettes, HullsHoldWhatTheLampDoesNotSeeAndNothingElse) {
     EXPECT_GT(seen, 100);
 }
 
+/// Whatever is wrong with a mesh: its hulls are closed, and hold what is behind its triangles and nothing else.
+TEST(Silhouettes, DegenerateBodiesCastFromTheirTriangles) {
+    const Soup whole = cube();
+    const glm::vec3 a = whole[0], b = whole[1], middle = 0.5F * (a + b);
+    const auto with = [](Soup body, const Soup& more) {
+        body.insert(body.end(), more.begin(), more.end());
+        return body;
+    };
+    const auto turned = [](Soup body, std::initializer_list<std::size_t> triangles) {
+        for (const std::size_t t : triangles)
+            std::swap(body[3 * t + 1], body[3 * t + 2]);
+        return body;
+    };
+    const Soup inside_out = turned(whole, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+    Soup cracked = with(whole, {middle, b, whole[2]}), mirrored = whole;
+    cracked[1] = middle;
+    for (const glm::vec3& p : inside_out)
+        mirrored.push_back(p + 1.0F);
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> somewhere(-3.0, 5.0);
+    for (const auto& [name, body] : {std::pair<const char*, Soup>("a crack without a triangle in it", cracked),
+                                     {"a crack filled by a triangle without area", with(cracked, {a, b, middle})},
+                                     {"five triangles twice", with(whole, Soup(whole.begin(), whole.begin() + 15))},
+                                     {"all triangles twice", with(whole, whole)},
+                                     {"from both sides", with(whole, inside_out)},
+                                     {"a fin on an edge", with(whole, {a, b, glm::vec3(-0.7F, -0.6F, 1.3F)})},
+                                     {"three triangles turned round", turned(whole, {0, 3, 7})},
+                                     {"inside out", inside_out},
+                                     {"triangles with corners in one place", with(whole, {a, a, a, a, a, whole[2]})},
+                                     {"and its mirror image inside out at one corner", mirrored}})
+        for (const glm::dvec3& lamp : {glm::dvec3(-4.1, 0.3, 0.65), glm::dvec3(5.2, -2.1, 3.3), glm::dvec3(0.6, 0.7, 0.45)}) {
+            SCOPED_TRACE(testing::Message() << name << ", lamp at " << lamp.x);
+            const std::vector<glm::vec4> corners = hulls(Silhouettes(body), lamp);
+            EXPECT_TRUE(is_closed(corners));
+            for (int i = 0; i < 200; ++i) {
+                const glm::dvec3 point(somewhere(random), somewhere(random), somewhere(random));
+                const double turns = winding(corners, lamp, point);
+                EXPECT_EQ(crossed(body, lamp, point) > 0, turns > 0.5) << turns;
+                EXPECT_NEAR(turns, std::round(turns), 1e-3);
+            }
+        }
+}
+
 // Warps of a lamp's map in double precision: what is seen, and the homographies against the constructions that they stand for.
 
 Corners box_of(const glm::dvec3& low, const glm::dvec3& high) {

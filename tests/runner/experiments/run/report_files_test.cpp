@@ -1,5 +1,7 @@
 #include "runner/commands/run_files.h"
+#include "runner/experiments/run/run_report.h"
 #include "runner/files/clean_text.h"
+#include "runner/findings/moment_columns.h"
 #include "runner/write/report_texts.h"
 #include "scenarios/values/errors.h"
 #include "tests/runner/program.h"
@@ -7,10 +9,12 @@
 #include "tests/runner/sample_report.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -133,6 +137,44 @@ TEST(ReportJson, ComesBackAsItWasWritten) {
     for (PlayedCell& one : report.played)
         one.extent_summaries.clear(); // moments are not read back, so that they add up to nothing
     EXPECT_EQ(json::parse(report_json(read)), json::parse(report_json(report)));
+}
+
+TEST(ReportJson, RefusesFilesThatLostTheirEndAndFramesThatAreNone) {
+    const TemporaryFolder folder;
+    Report report = tests::sample_report(3);
+    report.played[0].technique = "photometric";
+    write_report(report, folder.path());
+    const auto refused = [&](const std::string& file, const auto& change, const char* sentence) {
+        const std::string good = content_of(folder / file);
+        std::string bad = good;
+        change(bad);
+        std::ofstream(folder / file, std::ios::binary) << bad;
+        EXPECT_THAT([&] { read_moments(folder.path(), read_report(folder.path()), 1); },
+                    testing::ThrowsMessage<InputError>(testing::AllOf(HasSubstr(file), HasSubstr(sentence))));
+        std::ofstream(folder / file, std::ios::binary) << good;
+    };
+    const auto lose_a_line = [](std::string& text) { text.erase(text.rfind("\r\n", text.size() - 3) + 2); };
+    refused("moments-country_road-xenon.csv", lose_a_line, "found 2 moments, expected 3, as report.json says");
+    const std::size_t readings = report.played[1].readings.size();
+    refused("readings.csv", lose_a_line,
+            fmt::format("found {} readings of country road with xenon, expected {}, as report.json says", readings - 1, readings).c_str());
+    for (const std::string frame : {"1.5", "-1", "1e3", "2147483648", "nan"})
+        refused(
+            "readings.csv", [&](std::string& text) { text.insert(text.find(",photometric,") + 13, frame); },
+            "expected a whole number of at least 0");
+    EXPECT_EQ(read_moments(folder.path(), read_report(folder.path()), 1).rows.size(), 3U);
+}
+
+TEST(MomentsCsv, EachCellHasAFileOfItsOwn) {
+    std::vector<PlayedCell> played(6);
+    const std::string wide(90, 'x');
+    const std::pair<std::string, std::string> cells[] = {{"a-b", "c"},   {"a", "b-c"}, {"a", "b c"},
+                                                         {"a", "b-c-2"}, {wide, "c"},  {wide, "d"}};
+    for (std::size_t i = 0; i < played.size(); ++i)
+        std::tie(played[i].drive, played[i].lamp_set) = cells[i];
+    const std::string cut = "moments-" + wide.substr(0, 80);
+    EXPECT_THAT(moments_files(played), ElementsAre("moments-a-b-c.csv", "moments-a-b-c-2.csv", "moments-a-b_c.csv", "moments-a-b-c-2-2.csv",
+                                                   cut + ".csv", cut + "-2.csv"));
 }
 
 TEST(MomentsCsv, HasAColumnForEachFigure) {

@@ -1,11 +1,13 @@
 // Every case of `fernlicht stability`, judged as the command judges it; and the judging itself.
 #include "runner/experiments/stability/equations.h"
-#include "runner/experiments/stability/stability_case.h"
+#include "runner/experiments/stability/trial.h"
 #include "runner/write/document.h"
+#include "scenarios/light/light.h"
 #include "scenarios/values/errors.h"
 #include "tests/runner/program.h"
 
 #include <algorithm>
+#include <cmath>
 #include <gmock/gmock.h>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -54,7 +56,13 @@ Found found(double error) {
 }
 
 TEST(StabilityJudging, ComparesWithTheBound) {
-    EXPECT_TRUE(judged(1.0, [](auto&) { return found(1.0); }).passed);
+    const StabilityRow row = judged(1.0, [](auto&) {
+        Found both = found(1.0);
+        both.add(0.5, "there", 400);
+        return both;
+    });
+    EXPECT_TRUE(row.passed);
+    EXPECT_THAT(document_text(document(row)), testing::HasSubstr("judged:  401 pixels"));
     EXPECT_FALSE(judged(1.0, [](auto&) { return found(1.0000001); }).passed);
     EXPECT_TRUE(judged(0.0, [](auto&) { return found(0.0); }).passed);
 }
@@ -120,9 +128,15 @@ TEST(StabilityEquations, AreAllExaminedAndSayWhatIsHeld) {
 }
 
 TEST(StabilityEquations, AreCalledByTheirNumbers) {
-    // E = I / d^2 from 1 mm to 10 km; the dark end of the sRGB curve: 12.92 c.
-    for (double d = 1e-3; d < 1.01e4; d *= 1.1)
-        EXPECT_DOUBLE_EQ(equation_in_double(10, {1000.0, 0.0, 0.0, 0.0, 0.0, d, 0.0})[0], 1000.0 / (d * d));
+    // E = I / d^2 from 1 mm to 10 km, by the twin, too; the dark end of the sRGB curve: 12.92 c.
+    Moment moment;
+    moment.lamps = {stability::lamp(stability::constant_table(1000.0), {})};
+    for (double d = 1e-3; d < 1.01e4; d *= 1.1) {
+        const double truth = 1000.0 / (d * d);
+        EXPECT_DOUBLE_EQ(equation_in_double(10, {1000.0, 0.0, 0.0, 0.0, 0.0, d, 0.0})[0], truth);
+        EXPECT_NEAR(target_illuminance_lx(moment, {d, 0.0, 0.0}) / truth, 1.0, 1e-14) << d; // some 20 roundings of a double
+        EXPECT_NEAR(surface_illuminance_lx(moment, {d, 0.0, 0.0}, {-1.0, 0.0, 0.0}) / truth, 1.0, 1e-14) << d;
+    }
     EXPECT_DOUBLE_EQ(equation_in_double(28, {0.001})[0], 0.01292);
     EXPECT_EQ(equation_in_float(10, {3.0F, 0.0F, 0.0F, 0.0F, 0.0F, 2.0F, 0.0F})[0], 0.75F);
     Device device = open_device("auto");
@@ -144,6 +158,51 @@ TEST(StabilityEquations, TheSearchFindsWhatFloatsLose) {
     EXPECT_GT(found.in_float.error, 1e-7);
     EXPECT_LT(found.in_float.error, 1e-6);
     EXPECT_EQ(found.in_float.at, examination().in_float.at) << "same seed, same search";
+}
+
+/// Sun and fog where they are hardest, on a road with a board across it.
+class StabilityWeather : public testing::Test {
+  protected:
+    StabilityWeather() {
+        stability::add_sheet(scene, "road", 0, {-50.0, -50.0, 0.0}, {150.0, 0.0, 0.0}, {0.0, 100.0, 0.0});
+        stability::add_sheet(scene, "board", 1, {30.0, 3.0, 0.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 3.0});
+    }
+
+    const View ahead = stability::camera({1.3, 0.35, 1.2}, 0.0, -0.02, 30.0, 24, 16);
+    Scene scene = stability::empty_scene();
+    Device device = open_device("auto");
+};
+
+/// At and below the horizon, at the zenith, faint as nothing and brightest.
+TEST_F(StabilityWeather, SunEverywhere) {
+    Renderer renderer(device, scene, stability::unshadowed());
+    for (const double elevation_deg : {90.0, 89.999, 30.0, 0.01, 0.0, -0.01, -30.0})
+        for (const double azimuth_deg : {0.0, 90.0, 359.999})
+            for (const double lx : {1e-6, 0.2, 150'000.0}) {
+                Moment moment;
+                moment.daylight.sun = {radians(azimuth_deg), radians(elevation_deg), lx};
+                const stability::AgainstTwin against = stability::against_twin(renderer, scene, moment, ahead);
+                EXPECT_LE(against.error(), 1.0) << lx << " lx at " << elevation_deg << ", azimuth " << azimuth_deg << "; " << against.where;
+            }
+}
+
+/// All that is drawn is a number, from within a lamp too, and without lamps and sky the air is black.
+TEST_F(StabilityWeather, FogOfAllDensities) {
+    Renderer renderer(device, scene, stability::unshadowed());
+    const CandelaTable table = stability::cut_off_table();
+    for (const double extinction : {1e-9, 1e-4, 0.03, 1.0, 10.0})
+        for (const double g : {0.0, 0.9})
+            for (const glm::dvec3& at : {glm::dvec3(3.4, 0.6, 0.65), glm::dvec3(1.3, 0.35, 1.2), glm::dvec3(25.0, 0.35, 1.2)}) {
+                Moment moment;
+                moment.weather = {extinction, 1.0, g, 0.0};
+                moment.lamps = {stability::lamp(table, at)};
+                const Frame lit = renderer.draw(moment, ahead, {.luminance = true});
+                moment.lamps.clear();
+                const Frame dark = renderer.draw(moment, ahead, {.luminance = true});
+                const auto is_light = [](float cdm2) { return std::isfinite(cdm2) && cdm2 >= 0.0F; };
+                EXPECT_TRUE(std::ranges::all_of(lit.luminance_cdm2.pixels(), is_light)) << extinction << " " << g << " " << at.x;
+                EXPECT_TRUE(std::ranges::all_of(dark.luminance_cdm2.pixels(), [](float cdm2) { return cdm2 == 0.0F; })) << extinction;
+            }
 }
 
 TEST(StabilityCommand, TriesWhatItIsAskedFor) {
