@@ -93,6 +93,7 @@ int run(const RunFlags& flags, const std::vector<std::string>& command) {
     options.write = [tables = table_format(flags.tables)](const Report& report, const std::filesystem::path& folder) {
         write_report(report, folder, tables);
     };
+    options.write_plot = [&options](const Plot& plot) { write_plot(plot, options.folder / plot.name); };
     options.command = command;
     const DriveEdits edits = edits_of(flags);
     std::vector<Drive> drives;

@@ -33,6 +33,9 @@ enum class TableFormat { none, csv, tex };
 /// Each table as tables/NAME.csv or .tex, those that a page folds away too.
 void write_tables(const Document& document, const std::filesystem::path& folder, TableFormat format);
 
+/// As SVG, unless it is kept as PNG alone, and PNG. `place`: without extension.
+void write_plot(const Plot& plot, const std::filesystem::path& place);
+
 /// STEM.html, tables as asked for, and each plot as SVG and PNG, each as a whole or not at all. Figures for programs are the caller's, and
 /// come first.
 void write_document(const Document& document, const Findings& findings, const std::filesystem::path& folder, const std::string& stem,
