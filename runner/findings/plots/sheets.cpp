@@ -4,11 +4,6 @@
 #include <cmath>
 
 namespace fernlicht {
-namespace {
-
-constexpr double signed_decades = 3.0;
-
-} // namespace
 
 double rounded_up(double value) {
     if (!(value > 0.0))
@@ -21,8 +16,7 @@ double rounded_up(double value) {
 }
 
 SheetLegend legend_of(const plots::Axis& axis) {
-    SheetLegend legend{
-        axis.unit.empty() ? axis.label : axis.label + " [" + axis.unit + "]", false, {}};
+    SheetLegend legend{axis.unit.empty() ? axis.label : axis.label + " [" + axis.unit + "]", false, {}};
     for (const plots::Tick& tick : plots::ticks_of(axis, 12))
         legend.ticks.emplace_back(plots::position(axis, tick.value), tick.label);
     return legend;
@@ -30,7 +24,7 @@ SheetLegend legend_of(const plots::Axis& axis) {
 
 double SignedScale::position(double difference) const {
     const double size = std::abs(difference) / top;
-    const double t = size > 0.0 ? std::clamp(1.0 + std::log10(size) / signed_decades, 0.0, 1.0) : 0.0;
+    const double t = size > 0.0 ? std::clamp(1.0 + std::log10(size) / plots::signed_decades, 0.0, 1.0) : 0.0;
     return difference < 0.0 ? -t : t;
 }
 
@@ -42,7 +36,7 @@ SheetLegend SignedScale::legend(const std::string& label, const std::string& uni
         legend.ticks.emplace_back(0.5 + 0.5 * position(decade * top), "+" + plots::number(decade * top));
         legend.ticks.emplace_back(0.5 - 0.5 * position(decade * top), "-" + plots::number(decade * top));
     }
-    legend.ticks.emplace_back(0.5, "0 \u00b1 " + plots::number(top * std::pow(10.0, -signed_decades)));
+    legend.ticks.emplace_back(0.5, "0 \u00b1 " + plots::number(top * std::pow(10.0, -plots::signed_decades)));
     return legend;
 }
 
