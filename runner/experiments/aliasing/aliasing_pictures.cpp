@@ -56,15 +56,6 @@ template <class T> Image<T> cut(const Image<T>& picture, const Crop& crop) {
     return out;
 }
 
-/// Square pixels, `factor` of them each way for one.
-Image<Colour> enlarged(const Image<Colour>& picture, int factor) {
-    Image<Colour> out(picture.width() * factor, picture.height() * factor);
-    for (int y = 0; y < out.height(); ++y)
-        for (int x = 0; x < out.width(); ++x)
-            out.at(x, y) = picture.at(x / factor, y / factor);
-    return out;
-}
-
 /// The row whose aliasing is most visible somewhere: colours of all rows mean the same as its own.
 const AliasingRow& worst_row(const AliasingResult& result) {
     const std::vector<std::size_t> measured = ranked(result);

@@ -49,13 +49,6 @@ struct SheetGround {
     double top_of(std::size_t tile) const { return top + static_cast<double>(tile / across) * (tile_height + caption_px); }
 };
 
-Image<plots::Colour> pixels_of(const Image<Rgb8>& picture) {
-    Image<plots::Colour> out(picture.width(), picture.height());
-    for (std::size_t i = 0; i < picture.size(); ++i)
-        out.pixels()[i] = {picture.pixels()[i].r, picture.pixels()[i].g, picture.pixels()[i].b};
-    return out;
-}
-
 /// "as published, row 4"
 std::string kind_text(const Technique& row) {
     return std::string(kind_name(row.kind)) + (row.thesis_row > 0 ? fmt::format(", row {} of Table 6.1", row.thesis_row) : "");

@@ -21,10 +21,6 @@ template <class From, class Value> Pixels coloured(const Image<From>& image, con
     return out;
 }
 
-Pixels shown(const Image<Rgb8>& picture) {
-    return coloured(picture, [](const Rgb8& p) { return Colour{p.r, p.g, p.b}; });
-}
-
 /// Left half of one, right half of the other, a white line between.
 Pixels split(const Pixels& left, const Pixels& right) {
     Pixels out = left;
@@ -54,7 +50,7 @@ class DifferencePictures {
     DifferencePictures(const PicturePair& pair, const TakePlot& take) : take_(take), names_(names_of(pair)) {}
 
     void display(const PicturePair& pair, const LayerComparison& layer) {
-        const Pixels a = shown(pair.reference_display), b = shown(pair.tested_display);
+        const Pixels a = pixels_of(pair.reference_display), b = pixels_of(pair.tested_display);
         beside("", "Side by side", a, b, {});
         sheet("split", {"Split: A left, B right", names_, {{"A | B", split(a, b)}}});
         difference("", "Difference of the channel that differs most", layer);

@@ -5,6 +5,20 @@
 
 namespace fernlicht {
 
+Image<plots::Colour> pixels_of(const Image<Rgb8>& picture) {
+    Image<plots::Colour> out(picture.width(), picture.height());
+    std::ranges::transform(picture.pixels(), out.data(), [](const Rgb8& p) { return plots::Colour{p.r, p.g, p.b}; });
+    return out;
+}
+
+Image<plots::Colour> enlarged(const Image<plots::Colour>& picture, int factor) {
+    Image<plots::Colour> out(picture.width() * factor, picture.height() * factor);
+    for (int y = 0; y < out.height(); ++y)
+        for (int x = 0; x < out.width(); ++x)
+            out.at(x, y) = picture.at(x / factor, y / factor);
+    return out;
+}
+
 double rounded_up(double value) {
     if (!(value > 0.0))
         return 1.0;

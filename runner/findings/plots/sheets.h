@@ -57,6 +57,11 @@ struct TileSheet {
     std::vector<TileSection> sections;
 };
 
+Image<plots::Colour> pixels_of(const Image<Rgb8>& picture);
+
+/// Square pixels, `factor` of them each way for one.
+Image<plots::Colour> enlarged(const Image<plots::Colour>& picture, int factor);
+
 /// The least of 1, 2, 5 times a power of ten that is at least `value`; 1 for 0.
 double rounded_up(double value);
 

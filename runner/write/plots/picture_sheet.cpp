@@ -16,16 +16,6 @@ constexpr double edge_px = 16.0, gap_px = 12.0, caption_px = 26.0, head_px = 54.
 constexpr double plain_letters_px = 560.0, largest_letters = 1.8;
 constexpr int min_width_px = 320, max_width_px = 1024;
 
-Image<Colour> magnified(const Image<Colour>& pixels, int factor) {
-    if (factor == 1)
-        return pixels;
-    Image<Colour> out(pixels.width() * factor, pixels.height() * factor);
-    for (int y = 0; y < out.height(); ++y)
-        for (int x = 0; x < out.width(); ++x)
-            out.at(x, y) = pixels.at(x / factor, y / factor);
-    return out;
-}
-
 /// At the line's right end, of dashed ones at the left: of lines beside each other both can be read.
 void draw_label(Drawing& canvas, const SheetLine& line, double scale, double width, double letters) {
     const bool left = !line.dash.empty();
@@ -39,7 +29,7 @@ void draw_label(Drawing& canvas, const SheetLine& line, double scale, double wid
 
 void draw_panel(Drawing& canvas, const SheetPanel& panel, double left, double top, double scale, double letters) {
     const double width = panel.pixels.width() * scale, height = panel.pixels.height() * scale;
-    canvas.picture(left, top, width, height, scale > 1.0 ? magnified(panel.pixels, static_cast<int>(scale)) : panel.pixels);
+    canvas.picture(left, top, width, height, scale > 1.0 ? enlarged(panel.pixels, static_cast<int>(scale)) : panel.pixels);
     canvas.begin_window(left, top, width, height);
     for (const SheetLine& line : panel.lines) {
         plots::Polyline points = line.points;

@@ -86,9 +86,7 @@ void draw_tiles(Drawing& canvas, const TileSection& section, double top) {
         const PictureTile& tile = section.tiles[i];
         const double left = sheet_edge_px + static_cast<double>(i % tiles_across) * (tile_px + tile_gap_px),
                      at = top + static_cast<double>(i / tiles_across) * pitch;
-        Image<plots::Colour> pixels(tile.picture.width(), tile.picture.height());
-        std::ranges::transform(tile.picture.pixels(), pixels.data(), [](const Rgb8& p) { return plots::Colour{p.r, p.g, p.b}; });
-        canvas.picture(left, at, tile_px, height, pixels);
+        canvas.picture(left, at, tile_px, height, pixels_of(tile.picture));
         const double next = draw_lines(canvas, left, at + height + 15.0, tile_line_px, name_lines(tile),
                                        {.size_px = tile_name_px, .colour = tile_ink, .bold = true});
         draw_lines(canvas, left, next, tile_line_px, caption_lines(tile), {.size_px = tile_words_px, .colour = tile_faint});
