@@ -53,6 +53,7 @@ int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
         write_file(request.folder / "bench.csv", bench_csv(result));
         write_document(document(result), result, request.folder, "bench", flags.tables);
     };
+    request.write_plot = [&](const Plot& plot) { write_plot(plot, request.folder / plot.name); };
     const BenchResult result = run_bench(request);
     fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "bench.html").string());
     return result.interrupted.empty() ? 0 : 1;

@@ -56,6 +56,9 @@ class Results {
     }
     bool are_kept() const { return folder_.has_value(); }
     const std::filesystem::path& folder() const { return folder_->path(); }
+    TakePlot take() const {
+        return [this](const Plot& plot) { write_plot(plot, folder() / plot.name); };
+    }
 
     /// The page, the other files, all of them complete; then what is printed. `files`: by name, compare.json first.
     template <class Found> void finish(const Found& found, const std::vector<std::pair<std::string, std::string>>& files) {
@@ -97,7 +100,7 @@ int compare_two_pictures(const CompareFlags& flags, const std::vector<std::strin
     Results results(flags);
     found.comparison = compare_pictures(found.pair, density, strictness ? &*strictness : nullptr);
     if (results.are_kept())
-        found.pictures = write_comparison_pictures(found.comparison, found.pair, results.folder());
+        found.pictures = draw_difference(found.comparison, found.pair, results.take());
     results.finish(found, {{"compare.json", pictures_json(found)}});
     return found.comparison.passed() ? 0 : 1;
 }
@@ -126,7 +129,7 @@ int compare_two_runs(const CompareFlags& flags, const std::vector<std::string>& 
     RunComparison runs = compare_runs(std::move(before), std::move(now), options);
     runs.context = command_context(command);
     if (results.are_kept())
-        draw_runs(runs, options, pictured, results.folder());
+        draw_runs(runs, options, pictured, results.take());
     results.finish(runs, {{"compare.json", runs_json(runs)}, {"compare.csv", runs_csv(runs)}, {"frames.csv", frames_csv(runs)}});
     return runs.passed() ? 0 : 1;
 }

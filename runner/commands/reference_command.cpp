@@ -5,7 +5,6 @@
 #include "runner/experiments/reference/reference_run.h"
 #include "runner/findings/run_context.h"
 #include "runner/write/document.h"
-#include "runner/write/plots/png.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -118,7 +117,7 @@ int draw_reference(const ReferenceFlags& flags, const std::vector<std::string>& 
     request.command = command;
     request.write = [&request](const ReferenceResult& found) {
         for (const Plot& plot : false_colours(found))
-            write_file(request.folder / (plot.name + ".png"), plots::png_of_svg(plot_svg(plot), plot.scale));
+            write_plot(plot, request.folder / plot.name);
     };
     const ReferenceResult result = run_reference(request);
     fmt::print("{}", document_text(document(result)));

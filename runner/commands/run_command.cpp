@@ -92,6 +92,7 @@ int run(const RunFlags& flags, const std::vector<std::string>& command) {
     options.accuracy = !flags.no_accuracy;
     options.known = take(flags.judging, options);
     options.write = [&](const Report& report, const std::filesystem::path& folder) { write_report(report, folder, flags.tables); };
+    options.write_plot = [&options](const Plot& plot) { write_plot(plot, options.folder / plot.name); };
     options.command = command;
     const DriveEdits edits = edits_of(flags);
     std::vector<Drive> drives;

@@ -3,8 +3,10 @@
 
 #include "metrics/statistics/work_precision.h"
 #include "runner/findings/plots/figure.h"
+#include "runner/findings/plots/sheets.h"
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -87,18 +89,20 @@ struct PictureOverlay {
     std::array<std::string, 2> names, paths; ///< the one that lies over the other first; PNGs below the document's folder
 };
 
-/// A picture in SVG that the experiment drew itself.
-struct Drawing {
-    std::string svg;
-};
+/// Two in one plot, the second to the right.
+using FiguresBeside = std::pair<plots::Figure, plots::Figure>;
 
 struct Plot {
     std::string name; ///< of its files, without extension: "methods-kerb"; with a folder before it, "figures/reach", taken as it is
-    std::variant<WorkPrecision, Drawing, plots::Figure> figure;
+    std::variant<WorkPrecision, plots::Drawing, plots::Figure, FiguresBeside, Sheet, TileSheet> figure;
     std::vector<std::string> captions = {}; ///< one sentence each, without full stop
     double scale = 1.0;                     ///< pixels of its PNG for one of the SVG
     bool beside = false;                    ///< small enough that others stand beside it
+    bool png_alone = false;                 ///< made of pixels: no SVG is kept
 };
+
+/// Takes a plot that stands in no document, or that a document names by its files, to be written at once as NAME.png and .svg.
+using TakePlot = std::function<void(const Plot&)>;
 
 struct Picture {
     std::string file; ///< PNG, below the document's folder or absolute

@@ -5,7 +5,7 @@
 #include "runner/write/formats.h"
 #include "runner/write/plots/png.h"
 #include "runner/write/plots/svg.h"
-#include "runner/write/plots/work_precision_plot.h"
+#include "scenarios/values/files.h"
 
 #include <fmt/format.h>
 #include <map>
@@ -18,11 +18,7 @@ std::string head_of(const Column& column) {
 }
 
 std::string plot_svg(const Plot& plot) {
-    if (const auto* diagram = std::get_if<WorkPrecision>(&plot.figure))
-        return work_precision_svg(*diagram);
-    if (const auto* figure = std::get_if<plots::Figure>(&plot.figure))
-        return plots::svg_of(*figure);
-    return std::get<Drawing>(plot.figure).svg;
+    return std::visit([](const auto& figure) { return plots::svg_of(figure); }, plot.figure);
 }
 
 std::string place_of(const Plot& plot) { return plot.name.find('/') == std::string::npos ? file_name_of(plot.name) : plot.name; }
@@ -40,17 +36,21 @@ void write_tables(const Document& document, const std::filesystem::path& folder,
             }
 }
 
+void write_plot(const Plot& plot, const std::filesystem::path& place) {
+    std::error_code ignored; // a folder that cannot be made shows in the first file below it
+    std::filesystem::create_directories(place.parent_path(), ignored);
+    const std::string svg = plot_svg(plot);
+    if (!plot.png_alone)
+        write_file(place.string() + ".svg", svg);
+    write_file(place.string() + ".png", plots::png_of_svg(svg, plot.scale));
+}
+
 void write_document(const Document& document, const Findings& findings, const std::filesystem::path& folder, const std::string& stem,
                     const OutputFormat* tables) {
     for (const Section& section : document.sections)
         for (const DocumentPart& block : section.blocks)
-            if (const auto* plot = std::get_if<Plot>(&block)) {
-                const std::string svg = plot_svg(*plot), place = (folder / place_of(*plot)).string();
-                std::error_code ignored; // a folder that cannot be made shows in the first file below it
-                std::filesystem::create_directories(std::filesystem::path(place).parent_path(), ignored);
-                write_file(place + ".svg", svg);
-                write_file(place + ".png", plots::png_of_svg(svg, plot->scale));
-            }
+            if (const auto* plot = std::get_if<Plot>(&block))
+                write_plot(*plot, folder / place_of(*plot));
     if (tables)
         write_tables(document, folder, *tables);
     write_file(folder / (stem + ".html"), document_html(document, findings, folder));

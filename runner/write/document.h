@@ -37,6 +37,9 @@ struct OutputFormat; // formats.h
 /// Each table as tables/NAME with the format's extension, those that a page folds away too. The format has to be one of tables.
 void write_tables(const Document& document, const std::filesystem::path& folder, const OutputFormat& format);
 
+/// As SVG, unless it is kept as PNG alone, and PNG. `place`: without extension.
+void write_plot(const Plot& plot, const std::filesystem::path& place);
+
 /// STEM.html, tables as asked for, and each plot as SVG and PNG, each as a whole or not at all. Figures for programs are the caller's, and
 /// come first.
 void write_document(const Document& document, const Findings& findings, const std::filesystem::path& folder, const std::string& stem,

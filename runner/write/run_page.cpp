@@ -1,9 +1,10 @@
 #include "report_files.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
+#include "runner/findings/lux_figure.h"
 #include "runner/write/page_base.h"
-#include "runner/write/plots/lux_map.h"
 #include "runner/write/plots/png.h"
+#include "runner/write/plots/svg.h"
 #include "runner/write/report_texts.h"
 #include "scenarios/values/errors.h"
 
@@ -115,8 +116,8 @@ data maps_at(const ComparedDrive& drive, const PicturedMoment& moment) {
     for (const PlayedCell* const played : drive.lamp_sets)
         for (const LuxMap& map : played->maps)
             if (map.tick == moment.tick)
-                if (std::string svg = plots::lux_map_svg(map, played->lamp_set); !svg.empty())
-                    maps.push_back(std::move(svg));
+                if (const auto figure = lux_map_figure(map, played->lamp_set))
+                    maps.push_back(plots::svg_of(*figure));
     return maps;
 }
 

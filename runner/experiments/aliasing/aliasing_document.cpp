@@ -123,9 +123,9 @@ Document document(const AliasingResult& result) {
     const auto& [shown, shown_s] = result.moments.at(result.shown);
     Document document{"Aliasing", {}};
     Section& top = document.sections.emplace_back(Section{result.title + (result.lamp_set.empty() ? "" : ", " + result.lamp_set), {}});
-    const auto add_drawing = [](Section& section, const std::string& name, std::string svg) {
-        if (!svg.empty())
-            section.blocks.emplace_back(Plot{name, Drawing{std::move(svg)}, {}});
+    const auto add_drawing = [](Section& section, const std::string& name, const auto& drawn) {
+        if (drawn)
+            section.blocks.emplace_back(Plot{name, *drawn});
     };
     top.blocks.emplace_back(
         (first == last ? fmt::format("Frame {} at {:.3f} s", first, first_s)
@@ -142,7 +142,7 @@ Document document(const AliasingResult& result) {
                   result.supersample)
             : "Frames without finer ones to hold them against: measured is how points of the scene change their brightness from frame to "
               "frame. What of it is light that really changes within a quarter of a second is not told apart.");
-    add_drawing(top, "ranking", ranking_svg(result));
+    add_drawing(top, "ranking", ranking_sheet(result));
     if (const std::vector<std::size_t> order = ranked(result); order.size() > 1) {
         std::string names;
         for (const std::size_t i : order)
@@ -151,20 +151,20 @@ Document document(const AliasingResult& result) {
     }
     if (result.supersample > 0)
         top.blocks.emplace_back(space_table(result));
-    const std::string flicker = temporal_plot_svg(result);
-    if (!flicker.empty())
+    const std::optional<plots::Figure> flicker = temporal_plot(result);
+    if (flicker)
         top.blocks.emplace_back(time_table(result));
     for (const std::string& note : notes_of(result))
         top.blocks.emplace_back(note + ".");
     Section& pictures = document.sections.emplace_back();
     for (const std::size_t i : ranked(result))
-        add_drawing(pictures, fmt::format("{:02}-{}", i + 1, name_of(result.rows[i].configuration)),
-                    aliasing_sheet_svg(result, result.rows[i]));
+        pictures.blocks.emplace_back(
+            Plot{fmt::format("{:02}-{}", i + 1, name_of(result.rows[i].configuration)), aliasing_sheet(result, result.rows[i])});
     if (!ranked(result).empty())
-        add_drawing(pictures, "bands", spatial_plot_svg(result));
+        pictures.blocks.emplace_back(Plot{"bands", spatial_plot(result)});
     add_drawing(pictures, "flicker", flicker);
     if (!result.flows.empty()) {
-        add_drawing(pictures, "flow", flow_svg(result));
+        add_drawing(pictures, "flow", flow_sheet(result));
         pictures.blocks.emplace_back(flow_table(result));
     }
     return document;

@@ -1,6 +1,4 @@
 #include "runner/experiments/aliasing/aliasing_result.h"
-#include "runner/write/plots/canvas.h"
-#include "runner/write/plots/svg.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,15 +56,6 @@ template <class T> Image<T> cut(const Image<T>& picture, const Crop& crop) {
     return out;
 }
 
-/// Square pixels, `factor` of them each way for one.
-Image<Colour> enlarged(const Image<Colour>& picture, int factor) {
-    Image<Colour> out(picture.width() * factor, picture.height() * factor);
-    for (int y = 0; y < out.height(); ++y)
-        for (int x = 0; x < out.width(); ++x)
-            out.at(x, y) = picture.at(x / factor, y / factor);
-    return out;
-}
-
 /// The row whose aliasing is most visible somewhere: colours of all rows mean the same as its own.
 const AliasingRow& worst_row(const AliasingResult& result) {
     const std::vector<std::size_t> measured = ranked(result);
@@ -104,11 +93,11 @@ Crop crop_of(const AliasingResult& result, const AliasingRow& row) {
     return crop;
 }
 
-void letter(plots::Canvas& canvas, double left, double base, const std::string& text) {
+void letter(plots::Drawing& canvas, double left, double base, const std::string& text) {
     canvas.text(left, base, text, {.size_px = lettering_px});
 }
 
-void draw_legend(plots::Canvas& canvas, double left, double top, double limit) {
+void draw_legend(plots::Drawing& canvas, double left, double top, double limit) {
     constexpr int steps = 201;
     Image<Colour> strip(steps, 1);
     for (int i = 0; i < steps; ++i)
@@ -121,12 +110,12 @@ void draw_legend(plots::Canvas& canvas, double left, double top, double limit) {
 
 } // namespace
 
-std::string aliasing_sheet_svg(const AliasingResult& result, const AliasingRow& row) {
+plots::Drawing aliasing_sheet(const AliasingResult& result, const AliasingRow& row) {
     const double white = nearly_largest(worst_row(result).picture, 1000);
     const double limit = nearly_largest(worst_row(result).spatial.aliasing_picture, 100);
     const double height = half_width_px * result.view.height_px / result.view.width_px, quarter = (half_width_px - gap_px) / 2.0;
     const double first_top = 64.0, second_top = first_top + height + 68.0, middle = 2.0 * gap_px + half_width_px;
-    plots::Canvas canvas(2.0 * half_width_px + 3.0 * gap_px, second_top + quarter + gap_px, name_of(row.configuration));
+    plots::Drawing canvas{2.0 * half_width_px + 3.0 * gap_px, second_top + quarter + gap_px, name_of(row.configuration)};
     canvas.text(gap_px, 24.0, name_of(row.configuration), {.size_px = 16.0, .bold = true});
     letter(canvas, gap_px, 48.0, fmt::format("Luminance, white is {:.3g} cd/m\xC2\xB2", white));
     letter(canvas, middle, 48.0,
@@ -151,13 +140,13 @@ std::string aliasing_sheet_svg(const AliasingResult& result, const AliasingRow& 
         letter(canvas, x, second_top - 8.0, crops[i].first);
         canvas.picture(x, second_top, quarter, quarter * crop.height / crop.width, enlarged(crops[i].second, 6));
     }
-    return canvas.finish();
+    return canvas;
 }
 
-std::string ranking_svg(const AliasingResult& result) {
+std::optional<plots::Drawing> ranking_sheet(const AliasingResult& result) {
     const std::vector<std::size_t> order = ranked(result);
     if (order.size() < 2)
-        return {};
+        return std::nullopt;
     std::vector<Crop> places; // where each way differs most from the first, in the order they were asked for
     for (const AliasingRow& row : result.rows) {
         if (!measured_over_space(row) || &row == &first_row(result, row) || places.size() == max_places)
@@ -168,9 +157,9 @@ std::string ranking_svg(const AliasingResult& result) {
         places.back().why = row.configuration.varied;
     }
     const double side = 208.0, left = 350.0, first_top = 84.0;
-    plots::Canvas canvas(left + static_cast<double>(places.size()) * (side + gap_px),
-                         first_top + static_cast<double>(order.size()) * (side + gap_px),
-                         "Ways to draw, by what an eye sees of their aliasing");
+    plots::Drawing canvas{left + static_cast<double>(places.size()) * (side + gap_px),
+                          first_top + static_cast<double>(order.size()) * (side + gap_px),
+                          "Ways to draw, by what an eye sees of their aliasing"};
     canvas.text(gap_px, 24.0, "Ways to draw, least aliasing first", {.size_px = 16.0, .bold = true});
     letter(canvas, gap_px, 46.0,
            fmt::format("{} x {} pixels, at the places where each way differs most from the first", places.front().width,
@@ -200,16 +189,16 @@ std::string ranking_svg(const AliasingResult& result) {
         if (row.temporal)
             letter(canvas, gap_px, y + 102.0, fmt::format("flicker {:.3g} %", row.temporal->flicker_percent));
     }
-    return canvas.finish();
+    return canvas;
 }
 
-std::string flow_svg(const AliasingResult& result) {
+std::optional<plots::Drawing> flow_sheet(const AliasingResult& result) {
     if (result.flows.empty())
-        return {};
+        return std::nullopt;
     const FlowComparison& flow = result.flows.front();
     const double side = (2.0 * half_width_px - gap_px) / 3.0, height = side * result.view.height_px / result.view.width_px, top = 74.0;
     const double max_motion = std::max(1.0, nearly_largest(flow.known_px, 20)), max_off = 2.0;
-    plots::Canvas canvas(3.0 * side + 4.0 * gap_px, top + height + 44.0, "Motion by optical flow");
+    plots::Drawing canvas{3.0 * side + 4.0 * gap_px, top + height + 44.0, "Motion by optical flow"};
     canvas.text(gap_px, 24.0, fmt::format("Motion by optical flow: {}, of {}", method_name(flow.method), flow.pictures),
                 {.size_px = 16.0, .bold = true});
     letter(canvas, gap_px, 44.0,
@@ -237,10 +226,10 @@ std::string flow_svg(const AliasingResult& result) {
         letter(canvas, x + side - 106.0, top + height + 22.0, fmt::format("{:.3g} px and more", most));
         x += side + gap_px;
     }
-    return canvas.finish();
+    return canvas;
 }
 
-std::string spatial_plot_svg(const AliasingResult& result) {
+plots::Figure spatial_plot(const AliasingResult& result) {
     plots::Figure figure;
     figure.title = "Aliasing by spatial frequency";
     figure.subtitle =
@@ -263,10 +252,10 @@ std::string spatial_plot_svg(const AliasingResult& result) {
     figure.x = plots::axis_around("spatial frequency", "cycles per degree", frequencies, plots::Scale::logarithmic);
     figure.y = plots::axis_around("contrast", "%", values, plots::Scale::linear, true);
     figure.marks.push_back({plots::Mark::Across::at_x, 0.5 * result.pixels_per_degree, "limit"});
-    return plots::svg_of(figure);
+    return figure;
 }
 
-std::string temporal_plot_svg(const AliasingResult& result) {
+std::optional<plots::Figure> temporal_plot(const AliasingResult& result) {
     plots::Figure figure;
     figure.title = "Aliasing by temporal frequency";
     figure.subtitle = "along the paths of points of the scene, r.m.s. over them, each frequency alone";
@@ -285,11 +274,11 @@ std::string temporal_plot_svg(const AliasingResult& result) {
         figure.series.push_back(std::move(series));
     }
     if (figure.series.empty())
-        return {};
+        return std::nullopt;
     figure.x = plots::axis_around("temporal frequency", "Hz", frequencies, plots::Scale::linear, true);
     figure.y = plots::axis_around("contrast", "%", values, plots::Scale::linear, true);
     figure.marks.push_back({plots::Mark::Across::at_x, crawl_below_hz, "crawl | flicker"});
-    return plots::svg_of(figure);
+    return figure;
 }
 
 } // namespace fernlicht

@@ -90,13 +90,13 @@ bool measured_over_space(const AliasingRow& row);
 /// Rows measured over space, by what an eye sees of them, least first.
 std::vector<std::size_t> ranked(const AliasingResult& result);
 /// The picture, its aliasing in false colours, and where it is worst of all rows enlarged beside what should be there.
-std::string aliasing_sheet_svg(const AliasingResult& result, const AliasingRow& row);
-/// Ways to draw, least aliasing first, each at the places where one of them differs most; "" for fewer than two.
-std::string ranking_svg(const AliasingResult& result);
-/// Motion that is known, as estimated, and how far that is off; "" where it was not asked for.
-std::string flow_svg(const AliasingResult& result);
-std::string spatial_plot_svg(const AliasingResult& result);
-/// "" where nothing was measured over time.
-std::string temporal_plot_svg(const AliasingResult& result);
+plots::Drawing aliasing_sheet(const AliasingResult& result, const AliasingRow& row);
+/// Ways to draw, least aliasing first, each at the places where one of them differs most; nullopt for fewer than two.
+std::optional<plots::Drawing> ranking_sheet(const AliasingResult& result);
+/// Motion that is known, as estimated, and how far that is off; nullopt where it was not asked for.
+std::optional<plots::Drawing> flow_sheet(const AliasingResult& result);
+plots::Figure spatial_plot(const AliasingResult& result);
+/// nullopt where nothing was measured over time.
+std::optional<plots::Figure> temporal_plot(const AliasingResult& result);
 
 } // namespace fernlicht

@@ -1,7 +1,6 @@
 #include "runner/experiments/bench/bench_result.h"
 #include "runner/findings/figures.h"
 #include "runner/findings/plots/axes.h"
-#include "runner/write/plots/canvas.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -72,8 +71,6 @@ template <class Count> Count typical(const std::vector<Work>& work, Count Work::
     return values[(values.size() - 1) / 2];
 }
 
-using plots::Canvas;
-
 constexpr plots::Colour ink{51, 51, 51}, faint{110, 110, 110}, grid{222, 224, 228};
 constexpr double width_px = 900.0, bar_px = 16.0, step_px = 24.0, top_px = 74.0, bottom_px = 46.0, gap_px = 12.0;
 
@@ -110,7 +107,7 @@ struct PlotGround {
     double x(double value) const { return left + width * plots::position(axis, value); }
 };
 
-void draw_bar(Canvas& canvas, const BenchRow& row, const PlotGround& ground, double y) {
+void draw_bar(plots::Drawing& canvas, const BenchRow& row, const PlotGround& ground, double y) {
     const double middle = y + 0.5 * bar_px, end = ground.x(1e3 * row.frame.median);
     const double low = ground.x(1e3 * row.frame.p05), high = ground.x(1e3 * row.frame.p95);
     canvas.text(ground.left - 8.0, middle + 4.0, label_of(row), {.size_px = 12.0, .colour = ink, .anchor = "end"});
@@ -121,7 +118,7 @@ void draw_bar(Canvas& canvas, const BenchRow& row, const PlotGround& ground, dou
     canvas.text(std::max(end, high) + 8.0, middle + 4.0, value_of(row), {.size_px = 12.0, .colour = faint});
 }
 
-void draw_axis(Canvas& canvas, const PlotGround& ground, double bottom) {
+void draw_axis(plots::Drawing& canvas, const PlotGround& ground, double bottom) {
     for (const plots::Tick& tick : plots::ticks_of(ground.axis, 8)) {
         const double x = ground.x(tick.value);
         canvas.line({{x, top_px - 6.0}, {x, bottom}}, {.colour = grid});
@@ -148,7 +145,7 @@ Document document(const BenchResult& result) {
         section.blocks.emplace_back(fmt::format("GPU times are not measured: {}.", result.gpu_not_measured));
     for (const std::string& warning : bench_warnings(result))
         section.blocks.emplace_back("warning: " + warning + ".");
-    section.blocks.emplace_back(Plot{"bench", Drawing{bench_svg(result)}, {}, 2.0});
+    section.blocks.emplace_back(Plot{"bench", bench_plot(result), {}, 2.0});
     for (Table table : {speed_table(rows, true), speed_table(rows, false), cost_table(rows)})
         if (!table.rows.empty())
             section.blocks.emplace_back(std::move(table));
@@ -224,7 +221,7 @@ std::vector<std::string> bench_warnings(const BenchResult& result) {
     return warnings;
 }
 
-std::string bench_svg(const BenchResult& result) {
+plots::Drawing bench_plot(const BenchResult& result) {
     const std::vector<BenchRow> rows = summarise(result);
     std::vector<double> highest{0.0};
     for (const BenchRow& row : rows)
@@ -236,7 +233,7 @@ std::string bench_svg(const BenchResult& result) {
     const bool split = std::ranges::any_of(rows, [](const BenchRow& row) { return row.benched->row.thesis_row > 0; }) &&
                        std::ranges::any_of(rows, [](const BenchRow& row) { return row.benched->row.thesis_row == 0; });
     const double bottom = top_px + step_px * static_cast<double>(rows.size()) + (split ? gap_px : 0.0);
-    Canvas canvas(width_px, bottom + bottom_px, "Frame times by technique");
+    plots::Drawing canvas{width_px, bottom + bottom_px, "Frame times by technique"};
     canvas.rectangle(0.0, 0.0, width_px, bottom + bottom_px, {.fill = "#ffffff"});
     canvas.text(16.0, 24.0, "Frame times by technique", {.size_px = 16.0, .colour = ink, .bold = true});
     canvas.text(16.0, 42.0,
@@ -252,7 +249,7 @@ std::string bench_svg(const BenchResult& result) {
             y += gap_px;
         draw_bar(canvas, rows[i], ground, y);
     }
-    return canvas.finish();
+    return canvas;
 }
 
 } // namespace fernlicht

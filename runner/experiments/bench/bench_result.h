@@ -66,6 +66,6 @@ std::string bench_json(const BenchResult& result);
 /// RFC 4180, one line per technique and round.
 std::string bench_csv(const BenchResult& result);
 /// Bars of the median time a frame with spread, in the tables' order, the ratio beside each.
-std::string bench_svg(const BenchResult& result);
+plots::Drawing bench_plot(const BenchResult& result);
 
 } // namespace fernlicht

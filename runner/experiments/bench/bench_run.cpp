@@ -9,7 +9,6 @@
 #include "runner/play/progress.h"
 #include "runner/play/shadows/choose_shadows.h"
 #include "runner/play/stage.h"
-#include "runner/write/plots/png.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -163,7 +162,7 @@ BenchResult run_bench(const BenchRequest& request) {
         ContactSheet sheet = new_sheet(stage, lamp_set, moments[moments.size() / 2]);
         for (Renderer& renderer : renderers)
             add_tile(sheet, renderer);
-        write_file(request.folder / "contact-sheet.png", plots::png_of_svg(contact_sheet_svg(sheet)));
+        request.write_plot(contact_sheet(sheet));
     }
     if (result.interrupted.empty())
         folder.finish();

@@ -19,6 +19,7 @@ struct BenchRequest {
     std::vector<std::string> command;
     bool quiet = false;
     std::function<void(const BenchResult&)> write; ///< takes what was found, also when it was interrupted; the folder is there
+    TakePlot write_plot;                           ///< takes the contact sheet, after it
 };
 
 /// Holds the contest and writes its files. Ends after a round when interrupted. Throws InputError and DeviceError.

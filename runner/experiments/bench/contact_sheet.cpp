@@ -3,9 +3,8 @@
 #include "runner/files/clean_text.h"
 #include "runner/findings/lists.h"
 #include "runner/findings/plots/axes.h"
+#include "runner/findings/technique_list.h"
 #include "runner/play/extent_fold.h"
-#include "runner/write/plots/canvas.h"
-#include "runner/write/plots/svg.h"
 #include "scenarios/drives/play/camera.h"
 #include "scenarios/light/light.h"
 #include "scenarios/values/errors.h"
@@ -37,7 +36,7 @@ std::optional<glm::dvec2> pixel_of(const glm::dvec3& point_m, const Moment& mome
     return seen ? std::optional(at) : std::nullopt;
 }
 
-using plots::Canvas;
+using plots::Drawing;
 
 constexpr int across = 5;
 constexpr plots::Colour sheet_ink{24, 24, 32}, sheet_faint{100, 100, 108}, empty{232, 233, 236}, cross{255, 255, 255};
@@ -51,13 +50,6 @@ struct SheetGround {
     double left_of(std::size_t tile) const { return edge_px + static_cast<double>(tile % across) * (tile_width + between_px); }
     double top_of(std::size_t tile) const { return top + static_cast<double>(tile / across) * (tile_height + caption_px); }
 };
-
-Image<plots::Colour> pixels_of(const Image<Rgb8>& picture) {
-    Image<plots::Colour> out(picture.width(), picture.height());
-    for (std::size_t i = 0; i < picture.size(); ++i)
-        out.pixels()[i] = {picture.pixels()[i].r, picture.pixels()[i].g, picture.pixels()[i].b};
-    return out;
-}
 
 /// "as published, row 4"
 std::string kind_text(const Technique& row) {
@@ -73,20 +65,20 @@ std::string spot_text(const ContactSheet& sheet, const SheetTile& tile) {
     return lux_text(*tile.spot_lx) + (sheet.twin_lx > 0.0 ? fmt::format(", x {:.2f}", *tile.spot_lx / sheet.twin_lx) : "");
 }
 
-void draw_caption(Canvas& canvas, const SheetGround& ground, std::size_t i, const SheetTile& tile, const std::string& words) {
+void draw_caption(Drawing& canvas, const SheetGround& ground, std::size_t i, const SheetTile& tile, const std::string& words) {
     const double left = ground.left_of(i), below = ground.top_of(i) + ground.tile_height;
     canvas.text(left, below + 15.0, std::string(tile.row.name), {.size_px = 13.0, .colour = sheet_ink, .bold = true});
     canvas.text(left, below + 30.0, words, {.size_px = 12.0, .colour = sheet_faint});
 }
 
-void draw_empty(Canvas& canvas, const SheetGround& ground, std::size_t i, const char* words) {
+void draw_empty(Drawing& canvas, const SheetGround& ground, std::size_t i, const char* words) {
     const double left = ground.left_of(i), top = ground.top_of(i);
     canvas.rectangle(left, top, ground.tile_width, ground.tile_height, {.fill = css(empty)});
     canvas.text(left + 0.5 * ground.tile_width, top + 0.5 * ground.tile_height, words,
                 {.size_px = 13.0, .colour = sheet_faint, .anchor = "middle"});
 }
 
-void draw_pictures(Canvas& canvas, const ContactSheet& sheet, const SheetGround& ground) {
+void draw_pictures(Drawing& canvas, const ContactSheet& sheet, const SheetGround& ground) {
     for (std::size_t i = 0; i < sheet.tiles.size(); ++i) {
         const SheetTile& tile = sheet.tiles[i];
         if (tile.not_drawn.empty())
@@ -97,14 +89,14 @@ void draw_pictures(Canvas& canvas, const ContactSheet& sheet, const SheetGround&
     }
 }
 
-void draw_cross(Canvas& canvas, double x, double y) {
+void draw_cross(Drawing& canvas, double x, double y) {
     for (const auto& [colour, width] : {std::pair(sheet_ink, 3.0), std::pair(cross, 1.2)}) {
         canvas.line({{x - 5.0, y}, {x + 5.0, y}}, {.colour = colour, .width_px = width});
         canvas.line({{x, y - 5.0}, {x, y + 5.0}}, {.colour = colour, .width_px = width});
     }
 }
 
-void draw_lux(Canvas& canvas, const ContactSheet& sheet, const SheetGround& ground) {
+void draw_lux(Drawing& canvas, const ContactSheet& sheet, const SheetGround& ground) {
     for (std::size_t i = 0; i < sheet.tiles.size(); ++i) {
         const SheetTile& tile = sheet.tiles[i];
         const double left = ground.left_of(i), top = ground.top_of(i);
@@ -119,7 +111,7 @@ void draw_lux(Canvas& canvas, const ContactSheet& sheet, const SheetGround& grou
     }
 }
 
-void draw_bar(Canvas& canvas, double right, double top) {
+void draw_bar(Drawing& canvas, double right, double top) {
     const plots::Axis axis = lux_axis();
     Image<plots::Colour> colours(static_cast<int>(scale_px), 1);
     for (int x = 0; x < colours.width(); ++x)
@@ -173,12 +165,12 @@ void add_all_techniques(std::vector<ContactSheet>& sheets, const Stage& stage, D
     }
 }
 
-std::string contact_sheet_svg(const ContactSheet& sheet) {
+Plot contact_sheet(const ContactSheet& sheet) {
     const auto rows = static_cast<double>((sheet.tiles.size() + across - 1) / across);
     SheetGround ground{static_cast<double>(sheet.view.width_px), static_cast<double>(sheet.view.height_px), head_px};
     const double part_px = head_px + rows * (ground.tile_height + caption_px);
     const double width_px = 2.0 * edge_px + across * ground.tile_width + (across - 1) * between_px, height_px = 2.0 * part_px;
-    Canvas canvas(width_px, height_px, "Contact sheet of the techniques");
+    Drawing canvas{width_px, height_px, "Contact sheet of the techniques"};
     canvas.rectangle(0.0, 0.0, width_px, height_px, {.fill = "#ffffff"});
     const auto head = [&](double top, const std::string& title, const std::string& words) {
         canvas.text(edge_px, top + 26.0, title, {.size_px = 17.0, .colour = sheet_ink, .bold = true});
@@ -196,7 +188,7 @@ std::string contact_sheet_svg(const ContactSheet& sheet) {
     draw_bar(canvas, width_px - edge_px - 14.0, part_px + 16.0);
     ground.top = part_px + head_px;
     draw_lux(canvas, sheet, ground);
-    return canvas.finish();
+    return {.name = "contact-sheet", .figure = std::move(canvas), .png_alone = true};
 }
 
 } // namespace fernlicht

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/renderer.h"
+#include "runner/findings/document.h"
 #include "runner/play/stage.h"
 
 #include <glm/vec2.hpp>
@@ -40,7 +41,7 @@ void add_tile(ContactSheet& sheet, Renderer& renderer);
 void add_all_techniques(std::vector<ContactSheet>& sheets, const Stage& stage, Device& device, RendererSettings settings);
 
 /// Pictures above, below them lux images in one false-colour scale, 0.1 to 100 lx, with its bar and a cross at the spot; five across,
-/// names below. The same sheet gives the same bytes.
-std::string contact_sheet_svg(const ContactSheet& sheet);
+/// names below.
+Plot contact_sheet(const ContactSheet& sheet);
 
 } // namespace fernlicht

@@ -1,8 +1,4 @@
 #include "runner/experiments/compare/picture_comparison.h"
-#include "runner/write/plots/canvas.h"
-#include "runner/write/plots/picture_sheet.h"
-#include "runner/write/plots/png.h"
-#include "runner/write/plots/svg.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -23,10 +19,6 @@ template <class From, class Value> Pixels coloured(const Image<From>& image, con
     for (std::size_t i = 0; i < out.size(); ++i)
         out.pixels()[i] = value(image.pixels()[i]);
     return out;
-}
-
-Pixels shown(const Image<Rgb8>& picture) {
-    return coloured(picture, [](const Rgb8& p) { return Colour{p.r, p.g, p.b}; });
 }
 
 /// Left half of one, right half of the other, a white line between.
@@ -53,12 +45,12 @@ std::string names_of(const PicturePair& pair) {
                        printable(ends(pair.tested, parts).string(), 120));
 }
 
-class PictureWriter {
+class DifferencePictures {
   public:
-    PictureWriter(const PicturePair& pair, std::filesystem::path folder) : folder_(std::move(folder)), names_(names_of(pair)) {}
+    DifferencePictures(const PicturePair& pair, const TakePlot& take) : take_(take), names_(names_of(pair)) {}
 
     void display(const PicturePair& pair, const LayerComparison& layer) {
-        const Pixels a = shown(pair.reference_display), b = shown(pair.tested_display);
+        const Pixels a = pixels_of(pair.reference_display), b = pixels_of(pair.tested_display);
         beside("", "Side by side", a, b, {});
         sheet("split", {"Split: A left, B right", names_, {{"A | B", split(a, b)}}});
         difference("", "Difference of the channel that differs most", layer);
@@ -89,7 +81,7 @@ class PictureWriter {
         histogram(prefix, layer);
     }
 
-    std::vector<std::string> finish() { return std::move(written_); }
+    std::vector<std::string> finish() { return std::move(drawn_); }
 
   private:
     static std::string plain(const std::string& channel) {
@@ -99,17 +91,15 @@ class PictureWriter {
         return name;
     }
 
-    void write(const std::string& name, const std::string& png) {
-        write_file(folder_ / (name + ".png"), png);
-        written_.push_back(name + ".png");
+    void sheet(const std::string& name, Sheet sheet) {
+        take_({.name = name, .figure = std::move(sheet), .png_alone = true});
+        drawn_.push_back(name + ".png");
     }
     /// What is made of lines is kept as lines, too.
-    void write_lines(const std::string& name, const std::string& svg) {
-        write(name, plots::png_of_svg(svg));
-        write_file(folder_ / (name + ".svg"), svg);
-        written_.push_back(name + ".svg");
+    void lines(const std::string& name, decltype(Plot::figure) figure) {
+        take_({.name = name, .figure = std::move(figure)});
+        drawn_.insert(drawn_.end(), {name + ".png", name + ".svg"});
     }
-    void sheet(const std::string& name, const Sheet& sheet) { write(name, png_of_sheet(sheet)); }
 
     void beside(const std::string& prefix, const std::string& title, const Pixels& a, const Pixels& b, std::optional<SheetLegend> legend) {
         sheet(prefix + "side-by-side", {title, names_, {{"A", a}, {"B", b}}, std::move(legend)});
@@ -147,10 +137,8 @@ class PictureWriter {
             drawn += any ? (drawn.empty() ? "" : ", ") + plots::number(level) : "";
         }
         panel.caption = drawn.empty() ? "no light reaches 0.25 lx" : "lines at " + drawn + " lx, over A in grey";
-        write_lines(
-            prefix + "isolux",
-            svg_of_sheet(
-                {"Isolux lines of " + pair.name, names_, {panel}, {}, {{"A", {{}, line_of_a, ""}}, {"B", {{}, line_of_b, "5 3"}}}}));
+        lines(prefix + "isolux",
+              Sheet{"Isolux lines of " + pair.name, names_, {panel}, {}, {{"A", {{}, line_of_a, ""}}, {"B", {{}, line_of_b, "5 3"}}}});
     }
 
     static bool add_isolines(SheetPanel& panel, const Image<float>& values, double level, Colour colour, const std::string& dash) {
@@ -197,25 +185,24 @@ class PictureWriter {
                     .scale = plots::Scale::logarithmic};
         figure.y = {.label = "pixels", .unit = "%", .from = std::min(least, 0.1), .to = 100.0, .scale = plots::Scale::logarithmic};
         figure.series.push_back({.points = std::move(steps), .colour = plots::series_colour(0)});
-        write_lines(prefix + "histogram", plots::svg_of(figure));
+        lines(prefix + "histogram", std::move(figure));
     }
 
-    std::filesystem::path folder_;
+    const TakePlot& take_;
     std::string names_;
-    std::vector<std::string> written_;
+    std::vector<std::string> drawn_;
 };
 
 } // namespace
 
-std::vector<std::string> write_comparison_pictures(const PictureComparison& comparison, const PicturePair& pair,
-                                                   const std::filesystem::path& folder) {
-    PictureWriter writer(pair, folder);
+std::vector<std::string> draw_difference(const PictureComparison& comparison, const PicturePair& pair, const TakePlot& take) {
+    DifferencePictures pictures(pair, take);
     if (pair.is_display())
-        writer.display(pair, comparison.layers.at(0));
+        pictures.display(pair, comparison.layers.at(0));
     for (std::size_t i = 0; i < pair.linear.size(); ++i)
         if (pair.linear[i].unit == "lx" || pair.linear[i].unit == "cd/m2") // light; a difference of depths is told in numbers
-            writer.linear(pair.linear[i], comparison.layers.at(i));
-    return writer.finish();
+            pictures.linear(pair.linear[i], comparison.layers.at(i));
+    return pictures.finish();
 }
 
 } // namespace fernlicht

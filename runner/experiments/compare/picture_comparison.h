@@ -14,13 +14,13 @@
 
 namespace fernlicht {
 
-/// A figure of a comparison, drawn.
+/// A figure of a comparison.
 struct ComparedFigure {
     std::string name;  ///< of its files below figures/, without extension
     std::string title; ///< for people
-    std::string svg;
+    decltype(Plot::figure) figure;
     std::string place() const { return "figures/" + name; }
-    Plot plot() const { return {place(), Drawing{svg}, {}, 2.0}; }
+    Plot plot() const { return {place(), figure, {}, 2.0}; }
 };
 nlohmann::ordered_json figures_json(const std::vector<ComparedFigure>& figures);
 
@@ -80,9 +80,7 @@ std::string why_no_flip_at(double pixels_per_degree);
 /// not taken at the pixels per degree of others, it is not measured.
 PictureComparison compare_pictures(const PicturePair& pair, double pixels_per_degree, const StrictnessClass* strictness);
 
-/// PNG files that show the difference, and SVG files of what is made of lines, in `folder`, which exists; their names. Throws DeviceError
-/// where they cannot be written.
-std::vector<std::string> write_comparison_pictures(const PictureComparison& comparison, const PicturePair& pair,
-                                                   const std::filesystem::path& folder);
+/// Draws what shows the difference, for a folder of its own; the names of the files there.
+std::vector<std::string> draw_difference(const PictureComparison& comparison, const PicturePair& pair, const TakePlot& take);
 
 } // namespace fernlicht

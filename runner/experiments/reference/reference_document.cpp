@@ -74,10 +74,14 @@ Document document(const ReferenceResult& r) {
 std::vector<Plot> false_colours(const ReferenceResult& r) {
     const plots::Axis lux{.label = "illuminance", .unit = "lx", .from = 0.1, .to = 100.0, .scale = plots::Scale::logarithmic},
         percent{.label = "standard error", .unit = "%", .from = 0.001, .to = 10.0, .scale = plots::Scale::logarithmic};
-    return {{"illuminance", in_false_colours(r.image.illuminance_lx.mean, lux, "Illuminance on the surfaces seen", place_of(r))},
-            {"error", in_false_colours(relative_error_percent(r.image.illuminance_lx, r.settings.floor_lx), percent,
-                                       "Standard error of the illuminance",
-                                       place_of(r) + fmt::format("; of the mean or of {} lx", r.settings.floor_lx))}};
+    return {{.name = "illuminance",
+             .figure = in_false_colours(r.image.illuminance_lx.mean, lux, "Illuminance on the surfaces seen", place_of(r)),
+             .png_alone = true},
+            {.name = "error",
+             .figure = in_false_colours(relative_error_percent(r.image.illuminance_lx, r.settings.floor_lx), percent,
+                                        "Standard error of the illuminance",
+                                        place_of(r) + fmt::format("; of the mean or of {} lx", r.settings.floor_lx)),
+             .png_alone = true}};
 }
 
 } // namespace fernlicht

@@ -86,13 +86,14 @@ DisplaySheet display_sheet(const Stage& stage, const LampSet& lamp_set, const Mo
     return sheet;
 }
 
-std::string display_sheet_svg(const DisplaySheet& sheet) {
+TileSheet tiles_of(const DisplaySheet& sheet) {
     const std::string where = fmt::format(
         "{}, {}: after {:.2f} s, {:.1f} m along the route; keeps: of a small contrast at 0.1, 1 and 10 cd/m2; colours that "
         "sRGB does not hold keep their luminance, here and below",
         short_text(sheet.title.empty() ? sheet.drive : sheet.title, 60), short_text(sheet.lamp_set, 40), sheet.time_s, sheet.distance_m);
-    return tile_sheet_svg("Contact sheet of tone mappers and eyes", {{"One moment through every tone mapper", where, sheet.mappers},
-                                                                     {"Through windscreen and eye", "each stage alone", sheet.eyes}});
+    return {
+        "Contact sheet of tone mappers and eyes",
+        {{"One moment through every tone mapper", where, sheet.mappers}, {"Through windscreen and eye", "each stage alone", sheet.eyes}}};
 }
 
 } // namespace fernlicht

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "renderer/renderer.h"
+#include "runner/findings/document.h"
 #include "runner/play/stage.h"
-#include "runner/write/plots/tile_sheet.h"
 #include "scenarios/display/tone_mapper.h"
 
 #include <string>
@@ -22,7 +22,6 @@ struct DisplaySheet {
 DisplaySheet display_sheet(const Stage& stage, const LampSet& lamp_set, const Moment& moment, Device& device,
                            const RendererSettings& settings);
 
-/// The same sheet gives the same bytes.
-std::string display_sheet_svg(const DisplaySheet& sheet);
+TileSheet tiles_of(const DisplaySheet& sheet);
 
 } // namespace fernlicht

@@ -101,7 +101,7 @@ void add_accuracy(const ComparedDrive& drive, Sections& sections) {
         section.blocks.emplace_back(std::move(errors));
     if (!reaches.rows.empty())
         section.blocks.emplace_back(std::move(reaches));
-    add_plot(section, drive.name + "-error", error_svg(drive));
+    add_plot(section, drive.name + "-error", error_figure(drive));
 }
 
 } // namespace fernlicht

@@ -17,7 +17,7 @@ constexpr int bins_a_decade = 10;
 constexpr plots::Colour ink{0, 114, 178}, outage_ink{213, 94, 0};
 
 /// Stairs, each bin as wide as it is on the axis.
-std::string histogram_svg(const LiveFigures& live) {
+plots::Figure histogram_figure(const LiveFigures& live) {
     const double longest_s = std::max(2.0 * shortest_s, LiveFigures::quantile(live.late_s, 1.0));
     const int bins = static_cast<int>(std::ceil(bins_a_decade * std::log10(longest_s / shortest_s))) + 1;
     std::vector<double> counts(static_cast<std::size_t>(bins), 0.0);
@@ -52,11 +52,11 @@ std::string histogram_svg(const LiveFigures& live) {
                                 .label = name});
     if (1e3 * live.period_s < figure.x.to)
         figure.marks.push_back({.across = plots::Mark::Across::at_x, .value = 1e3 * live.period_s, .label = "a whole period"});
-    return plots::svg_of(figure);
+    return figure;
 }
 
 /// The worst of each part of the drive; a point for each of 24000 ticks would say no more.
-std::string over_drive_svg(const LiveFigures& live) {
+plots::Figure over_drive_figure(const LiveFigures& live) {
     constexpr std::size_t max_points = 400;
     const std::size_t ticks = live.late_s.size(), step = (ticks + max_points - 1) / max_points;
     plots::Series line{.name = "worst of each part", .colour = ink, .width_px = 1.2};
@@ -80,7 +80,7 @@ std::string over_drive_svg(const LiveFigures& live) {
                                     .value = 1e-9 * static_cast<double>(outage.from_ns),
                                     .label = outage.kind == CanOutage::Kind::bus_off ? "bus-off" : "interface away",
                                     .colour = outage_ink});
-    return plots::svg_of(figure);
+    return figure;
 }
 
 std::string live_summary(const LiveFigures& live) {
@@ -150,10 +150,10 @@ std::string outage_words(const CanOutage& outage) {
 
 } // namespace
 
-std::vector<std::string> live_svgs(const LiveFigures& live) {
+std::vector<plots::Figure> lateness_figures(const LiveFigures& live) {
     if (live.late_s.empty() || !live.waited)
         return {};
-    return {histogram_svg(live), over_drive_svg(live)};
+    return {histogram_figure(live), over_drive_figure(live)};
 }
 
 Section live_section(const LiveFigures& live) {
@@ -167,7 +167,7 @@ Section live_section(const LiveFigures& live) {
             outages.items.push_back(outage_words(outage));
     if (!outages.items.empty())
         section.blocks.emplace_back(std::move(outages));
-    add_plots(section, "live", live_svgs(live));
+    add_plots(section, "live", lateness_figures(live));
     if (!live.replay.empty())
         section.blocks.emplace_back(fmt::format("Recorded in `{}`; the same drive from it: `{}`", live.recording.string(), live.replay));
     return section;

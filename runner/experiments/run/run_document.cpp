@@ -85,27 +85,27 @@ void add_reaches(const ComparedDrive& drive, Sections& sections) {
     for (const Surface surface : {Surface::road, Surface::target})
         for (const double threshold_lx : plotted_thresholds_lx(drive))
             add_plot(section, fmt::format("{}-reach-{:g}lx-{}", drive.name, threshold_lx, surface_name(surface)),
-                     reach_svg(drive, surface, threshold_lx));
+                     reach_figure(drive, surface, threshold_lx));
     if (section.blocks.size() == 1)
         return;
-    add_plot(section, drive.name + "-speed", speed_svg(drive));
-    add_plots(section, drive.name + "-car", car_svgs(drive));
+    add_plot(section, drive.name + "-speed", speed_figure(drive));
+    add_plots(section, drive.name + "-car", car_figures(drive));
     sections.push_back(std::move(section));
 }
 
 void add_if_plotted(Sections& sections, const std::string& title, const std::string& words, const std::string& name,
-                    const std::vector<std::string>& svgs) {
-    if (!svgs.empty())
-        add_plots(sections.emplace_back(Section{title, {words}, 3}), name, svgs);
+                    std::vector<plots::Figure> figures) {
+    if (!figures.empty())
+        add_plots(sections.emplace_back(Section{title, {words}, 3}), name, std::move(figures));
 }
 
 void add_costs(const ComparedDrive& drive, Sections& sections) {
-    const std::string plot = timing_svg(drive);
+    std::optional<plots::Figure> plot = timing_figure(drive);
     Table passes = passes_table(drive);
-    if (plot.empty() && passes.rows.empty())
+    if (!plot && passes.rows.empty())
         return;
     Section& section = sections.emplace_back(Section{"What it cost", {}, 3});
-    add_plot(section, drive.name + "-times", plot);
+    add_plot(section, drive.name + "-times", std::move(plot));
     section.blocks.emplace_back(std::move(passes));
     section.blocks.emplace_back("Only frames drawn with nothing beside them give times: the first after the warm-up, then every tenth of a "
                                 "kind. Stages of `display` are timed in every stored picture, while the next moments are drawn.");
@@ -164,12 +164,12 @@ void add_course(const ComparedDrive& drive, Sections& sections) {
     add_if_plotted(sections, "Lamps that move",
                    "What the laws and actuators of the drive’s `control` did, and what it was worth against the same lamps held still: "
                    "calculated in double precision from the candela tables, without shadows. Bends are those of less than 1500 m radius.",
-                   drive.name + "-control", control_svgs(drive));
+                   drive.name + "-control", control_figures(drive));
     add_signals(drive, sections);
     add_if_plotted(sections, "Seeing and glare",
                    "Calculated in double precision from the candela tables, without shadows of trees and houses; a crest of the road hides "
                    "lamps.",
-                   drive.name + "-seeing", seeing_svgs(drive));
+                   drive.name + "-seeing", seeing_figures(drive));
     add_costs(drive, sections);
 }
 

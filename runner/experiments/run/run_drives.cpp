@@ -19,7 +19,6 @@
 #include "runner/play/progress.h"
 #include "runner/play/shadows/choose_shadows.h"
 #include "runner/play/stage.h"
-#include "runner/write/plots/png.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/bus_recording.h"
 #include "scenarios/drives/play/bus_report.h"
@@ -188,18 +187,18 @@ void add_contact_sheets(const Stage& stage, Device& device, const RendererSettin
     for (std::size_t i = 0; i < played.size(); ++i) {
         const ContactSheet& sheet = sheets[i];
         const LampSet& lamp_set = stage.drive.lamp_sets[i];
-        const auto stored = [&](const char* kind, const std::string& svg) {
-            const std::string file = kind + ("-" + file_name_of(sheet.drive + "-" + sheet.lamp_set)) + ".png";
-            write_file(options.folder / file, plots::png_of_svg(svg));
-            return StoredFrame{sheet.moment.tick, sheet.moment.time_s, "driver", file, ""};
+        const auto stored = [&](const char* kind, decltype(Plot::figure) drawn) {
+            const std::string name = kind + ("-" + file_name_of(sheet.drive + "-" + sheet.lamp_set));
+            options.write_plot({.name = name, .figure = std::move(drawn), .png_alone = true});
+            return StoredFrame{sheet.moment.tick, sheet.moment.time_s, "driver", name + ".png", ""};
         };
         const auto left_out = [&](const std::string& what, const std::string& why) {
             played[i].notes.push_back(fmt::format("the moment {} is left out: {}", what, why));
         };
-        const auto add_sheet = [&](const std::string& what, const char* kind, const auto& svg_of) {
+        const auto add_sheet = [&](const std::string& what, const char* kind, const auto& drawn) {
             try {
-                if (const std::string svg = svg_of(); !svg.empty())
-                    played[i].more_sheets.push_back({what, stored(kind, svg)});
+                if (std::optional<TileSheet> tiles = drawn())
+                    played[i].more_sheets.push_back({what, stored(kind, std::move(*tiles))});
             } catch (const InputError& error) { // more than a method can draw
                 left_out(what, error.what());
             }
@@ -207,14 +206,14 @@ void add_contact_sheets(const Stage& stage, Device& device, const RendererSettin
         for (const SheetTile& tile : sheet.tiles)
             if (!tile.not_drawn.empty())
                 left_out(fmt::format("in technique {}", tile.row.name), tile.not_drawn);
-        played[i].contact_sheet = stored("contact-sheet", contact_sheet_svg(sheet));
-        add_sheet("by every tone mapper and eye", "display-sheet", [&]() -> std::string {
+        played[i].contact_sheet = stored("contact-sheet", contact_sheet(sheet).figure);
+        add_sheet("by every tone mapper and eye", "display-sheet", [&] {
             const DisplaySheet shown = display_sheet(stage, lamp_set, sheet.moment, device, plain);
-            return shown.mappers.empty() ? "" : display_sheet_svg(shown);
+            return shown.mappers.empty() ? std::nullopt : std::optional(tiles_of(shown));
         });
         if (plain.technique == "photometric")
             add_sheet("in every shadow method", "shadow-sheet",
-                      [&] { return shadow_sheet_svg(shadow_moment(stage, lamp_set, sheet.moment, device, plain)); });
+                      [&] { return std::optional(shadow_sheet(shadow_moment(stage, lamp_set, sheet.moment, device, plain))); });
     }
 }
 

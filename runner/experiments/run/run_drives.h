@@ -1,6 +1,7 @@
 // A whole run: each drive with each of its lamp sets, on one device, into one report.
 #pragma once
 
+#include "runner/findings/document.h"
 #include "runner/judge/known_failures.h"
 #include "runner/play/play.h"
 
@@ -23,6 +24,7 @@ struct RunOptions {
     bool contact_sheet = false; ///< add one moment of each lamp set, drawn in every technique
     std::vector<std::string> command;
     std::function<void(const Report&, const std::filesystem::path& folder)> write; ///< at the end, or what was done until then
+    TakePlot write_plot;                                                           ///< takes contact sheets
 };
 
 /// Plays the drives and hands the report over to be written, also when interrupted (SIGINT, SIGTERM) or stopped by an error, in which case

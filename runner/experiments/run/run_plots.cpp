@@ -2,7 +2,6 @@
 
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
-#include "runner/write/plots/svg.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,8 +81,8 @@ void set_axes(plots::Figure& figure, const std::string& x_label, const std::stri
 }
 
 /// One quantity of the car over time. `value`: none where a lamp set has no such actuator.
-std::string car_svg(const ComparedDrive& drive, const char* title, const char* label, const char* unit,
-                    const std::function<std::optional<double>(const CarRow&)>& value) {
+std::optional<plots::Figure> car_figure(const ComparedDrive& drive, const char* title, const char* label, const char* unit,
+                                        const std::function<std::optional<double>(const CarRow&)>& value) {
     plots::Figure figure;
     for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
         plots::Series series{short_text(drive.lamp_sets[i]->lamp_set, 24), {}, plots::lamp_colour(i), 1.6, "", false};
@@ -95,7 +94,7 @@ std::string car_svg(const ComparedDrive& drive, const char* title, const char* l
             figure.series.push_back(std::move(series));
     }
     if (figure.series.empty())
-        return {};
+        return std::nullopt;
     const plots::Polyline& first = figure.series.front().points;
     const bool alike =
         figure.series.size() == drive.lamp_sets.size() && std::ranges::all_of(figure.series, [&](const plots::Series& series) {
@@ -111,7 +110,7 @@ std::string car_svg(const ComparedDrive& drive, const char* title, const char* l
     figure.width_px = 640.0;
     figure.height_px = 240.0;
     set_axes(figure, "time", "s", label, unit);
-    return plots::svg_of(figure);
+    return figure;
 }
 
 /// Light from far away and light that is none look alike on a page: nothing below this share of the largest value is drawn.
@@ -130,7 +129,7 @@ plots::Polyline line_of(const SeeingSeries& series, const SeeingSeries::Column& 
     return line;
 }
 
-std::string figure_of(const ComparedDrive& drive, const SeeingSeries& subject, std::size_t column) {
+std::optional<plots::Figure> figure_of(const ComparedDrive& drive, const SeeingSeries& subject, std::size_t column) {
     const SeeingSeries::Column& what = subject.columns[column];
     plots::Figure figure;
     std::vector<double> x, y;
@@ -148,36 +147,36 @@ std::string figure_of(const ComparedDrive& drive, const SeeingSeries& subject, s
             {short_text(drive.lamp_sets[i]->lamp_set, 24), std::move(line), plots::lamp_colour(i), 2.0, "", series->at_m.size() == 1});
     }
     if (y.empty())
-        return {};
+        return std::nullopt;
     figure.title = short_text(subject.title, 60) + ": " + short_text(what.label, 60);
     figure.width_px = 640.0;
     figure.height_px = 300.0;
     figure.x = plots::axis_around(subject.over, "m", x);
     const bool logarithmic = what.logarithmic && *std::ranges::max_element(y) > 0.0;
     figure.y = plots::axis_around(what.label, what.unit, y, logarithmic ? plots::Scale::logarithmic : plots::Scale::linear, !logarithmic);
-    return plots::svg_of(figure);
+    return figure;
 }
 
-std::vector<std::string> figures_of(const ComparedDrive& drive, bool control) {
-    std::vector<std::string> figures;
+std::vector<plots::Figure> figures_of(const ComparedDrive& drive, bool control) {
+    std::vector<plots::Figure> figures;
     for (const SeeingSeries& subject : drive.lamp_sets.front()->seeing)
         for (std::size_t column = 0; (subject.subject == "control") == control && column < subject.columns.size(); ++column)
             if (subject.columns[column].drawn)
-                if (std::string svg = figure_of(drive, subject, column); !svg.empty())
-                    figures.push_back(std::move(svg));
+                if (std::optional<plots::Figure> figure = figure_of(drive, subject, column))
+                    figures.push_back(std::move(*figure));
     return figures;
 }
 
 } // namespace
 
-void add_plot(Section& section, const std::string& name, std::string svg) {
-    if (!svg.empty())
-        section.blocks.emplace_back(Plot{name, Drawing{std::move(svg)}, {}, 1.0, true});
+void add_plot(Section& section, const std::string& name, std::optional<plots::Figure> figure) {
+    if (figure)
+        section.blocks.emplace_back(Plot{.name = name, .figure = std::move(*figure), .beside = true});
 }
 
-void add_plots(Section& section, const std::string& name, const std::vector<std::string>& svgs) {
-    for (std::size_t i = 0; i < svgs.size(); ++i)
-        add_plot(section, fmt::format("{}-{}", name, i + 1), svgs[i]);
+void add_plots(Section& section, const std::string& name, std::vector<plots::Figure> figures) {
+    for (std::size_t i = 0; i < figures.size(); ++i)
+        add_plot(section, fmt::format("{}-{}", name, i + 1), std::move(figures[i]));
 }
 
 std::vector<double> plotted_thresholds_lx(const ComparedDrive& drive) {
@@ -197,7 +196,7 @@ std::vector<double> plotted_thresholds_lx(const ComparedDrive& drive) {
     return {limits.front(), limits.back()};
 }
 
-std::string reach_svg(const ComparedDrive& drive, Surface surface, double threshold_lx) {
+std::optional<plots::Figure> reach_figure(const ComparedDrive& drive, Surface surface, double threshold_lx) {
     const ExtentKey key{surface, "own", threshold_lx};
     const bool distance = by_distance(drive);
     plots::Figure figure;
@@ -219,42 +218,44 @@ std::string reach_svg(const ComparedDrive& drive, Surface surface, double thresh
             figure.series.push_back({name + ", twin", std::move(twin), darker(plots::lamp_colour(i)), 1.1, "2 4", lone});
     }
     if (!measured)
-        return {};
+        return std::nullopt;
     figure.title = fmt::format("Reach at {:g} lx on {}", threshold_lx, surface == Surface::road ? "the road" : "a facing target");
     figure.width_px = 640.0;
     figure.height_px = 340.0;
     set_axes(figure, distance ? "distance along the route" : "time", distance ? "m" : "s", "reach, own lane", "m");
-    return plots::svg_of(figure);
+    return figure;
 }
 
-std::string speed_svg(const ComparedDrive& drive) {
+std::optional<plots::Figure> speed_figure(const ComparedDrive& drive) {
     plots::Figure figure;
     plots::Series speed;
     speed.colour = {60, 60, 60};
     for (const auto& [time_s, mps] : drive.lamp_sets.front()->speed_mps)
         speed.points.push_back({time_s, mps * 3.6});
     if (!has_value(speed.points))
-        return {};
+        return std::nullopt;
     speed.markers = speed.points.size() == 1;
     figure.series.push_back(std::move(speed));
     figure.title = "Speed";
     figure.width_px = 640.0;
     figure.height_px = 240.0;
     set_axes(figure, "time", "s", "speed", "km/h");
-    return plots::svg_of(figure);
+    return figure;
 }
 
-std::vector<std::string> car_svgs(const ComparedDrive& drive) {
-    std::vector<std::string> svgs{
-        car_svg(drive, "Pitch of the body against the road", "pitch, nose up", "deg", [](const CarRow& row) { return row.pitch_deg; }),
-        car_svg(drive, "Lift of the body over the rear axle", "lift", "mm", [](const CarRow& row) { return row.rear_lift_mm; }),
-        car_svg(drive, "Levelling", "lamps up", "deg", [](const CarRow& row) { return row.levelling_deg; }),
-        car_svg(drive, "Swivel", "lamps to the left", "deg", [](const CarRow& row) { return row.swivel_deg; })};
-    std::erase(svgs, "");
-    return svgs;
+std::vector<plots::Figure> car_figures(const ComparedDrive& drive) {
+    std::vector<plots::Figure> figures;
+    for (auto& figure :
+         {car_figure(drive, "Pitch of the body against the road", "pitch, nose up", "deg", [](const CarRow& row) { return row.pitch_deg; }),
+          car_figure(drive, "Lift of the body over the rear axle", "lift", "mm", [](const CarRow& row) { return row.rear_lift_mm; }),
+          car_figure(drive, "Levelling", "lamps up", "deg", [](const CarRow& row) { return row.levelling_deg; }),
+          car_figure(drive, "Swivel", "lamps to the left", "deg", [](const CarRow& row) { return row.swivel_deg; })})
+        if (figure)
+            figures.push_back(*figure);
+    return figures;
 }
 
-std::string timing_svg(const ComparedDrive& drive) {
+std::optional<plots::Figure> timing_figure(const ComparedDrive& drive) {
     plots::Figure figure;
     for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i)
         for (const PassTime& pass : drive.lamp_sets[i]->passes) {
@@ -271,16 +272,16 @@ std::string timing_svg(const ComparedDrive& drive) {
             figure.marks.push_back(median);
         }
     if (figure.series.empty())
-        return {};
+        return std::nullopt;
     figure.title = "Time per frame";
     figure.subtitle = "frames drawn with nothing beside them; broken lines: medians";
     figure.width_px = 640.0;
     figure.height_px = 340.0;
     set_axes(figure, "sample", "", "time", "ms");
-    return plots::svg_of(figure);
+    return figure;
 }
 
-std::string error_svg(const ComparedDrive& drive) {
+std::optional<plots::Figure> error_figure(const ComparedDrive& drive) {
     plots::Figure figure;
     std::vector<double> times, errors;
     double floor = 0.0;
@@ -305,7 +306,7 @@ std::string error_svg(const ComparedDrive& drive) {
         errors.insert(errors.end(), {low, high});
     }
     if (figure.series.empty() || *std::ranges::max_element(errors) <= 0.0)
-        return {};
+        return std::nullopt;
     figure.title = fmt::format("Error against run time: {}", short_text(drive.lamp_sets.front()->technique, 24));
     figure.width_px = 640.0;
     figure.height_px = 300.0;
@@ -320,10 +321,10 @@ std::string error_svg(const ComparedDrive& drive) {
                                 {floor, floor},
                                 {150, 156, 163},
                                 0.35});
-    return plots::svg_of(figure);
+    return figure;
 }
 
-std::vector<std::string> seeing_svgs(const ComparedDrive& drive) { return figures_of(drive, false); }
-std::vector<std::string> control_svgs(const ComparedDrive& drive) { return figures_of(drive, true); }
+std::vector<plots::Figure> seeing_figures(const ComparedDrive& drive) { return figures_of(drive, false); }
+std::vector<plots::Figure> control_figures(const ComparedDrive& drive) { return figures_of(drive, true); }
 
 } // namespace fernlicht

@@ -1,7 +1,6 @@
 #include "runner/experiments/run/run_plots.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
-#include "runner/write/plots/svg.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -66,7 +65,7 @@ plots::Polyline inside(const plots::Axis& axis, plots::Polyline line) {
     return line;
 }
 
-std::string signal_svg(const BusReport& bus, const BusSignalReport& signal) {
+plots::Figure signal_figure(const BusReport& bus, const BusSignalReport& signal) {
     plots::Figure figure;
     figure.title = short_text(signal.name, 60);
     figure.subtitle = short_text(signal.source + (signal.also.empty() ? "" : ", also " + signal.also), 80);
@@ -81,12 +80,12 @@ std::string signal_svg(const BusReport& bus, const BusSignalReport& signal) {
         figure.series.push_back({"as received", inside(figure.y, bus_line(bus, signal.received)), {150, 150, 150}, 1.2, "3 3", lone});
     if (!numbers(signal.value).empty())
         figure.series.push_back({differs ? "as used" : "", bus_line(bus, signal.value), {30, 90, 150}, 2.0, "", lone});
-    return plots::svg_of(figure);
+    return figure;
 }
 
 /// A line for each lamp set over time. `value`: time and value of a lamp set.
-std::string figure_over_time(const ComparedDrive& drive, const std::string& title, const std::string& label, const std::string& unit,
-                             const std::function<plots::Polyline(const PlayedCell&)>& line_of) {
+std::optional<plots::Figure> figure_over_time(const ComparedDrive& drive, const std::string& title, const std::string& label,
+                                              const std::string& unit, const std::function<plots::Polyline(const PlayedCell&)>& line_of) {
     plots::Figure figure;
     std::vector<double> all;
     for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
@@ -102,16 +101,16 @@ std::string figure_over_time(const ComparedDrive& drive, const std::string& titl
             figure.series.push_back({short_text(drive.lamp_sets[i]->lamp_set, 24), std::move(line), plots::lamp_colour(i), 2.0, "", lone});
     }
     if (figure.series.empty())
-        return {};
+        return std::nullopt;
     figure.title = title;
     figure.width_px = 640.0;
     figure.height_px = 260.0;
     figure.x = time_axis(bus_of(drive));
     figure.y = plots::axis_around(label, unit, all, plots::Scale::linear, true);
-    return plots::svg_of(figure);
+    return figure;
 }
 
-std::string reach_over_time(const ComparedDrive& drive, double threshold_lx) {
+std::optional<plots::Figure> reach_over_time(const ComparedDrive& drive, double threshold_lx) {
     const ExtentKey key{Surface::target, "own", threshold_lx};
     return figure_over_time(drive, fmt::format("Reach at {:g} lx on a facing target", threshold_lx), "reach, own lane", "m",
                             [&](const PlayedCell& played) {
@@ -125,7 +124,7 @@ std::string reach_over_time(const ComparedDrive& drive, double threshold_lx) {
                             });
 }
 
-std::string glare_over_time(const ComparedDrive& drive) {
+std::optional<plots::Figure> glare_over_time(const ComparedDrive& drive) {
     const BusReport& bus = bus_of(drive);
     return figure_over_time(drive, "Light in oncoming eyes, 50 m ahead", "illuminance", "lx", [&](const PlayedCell& played) {
         plots::Polyline line;
@@ -178,21 +177,22 @@ void add_signals(const ComparedDrive& drive, std::vector<Section>& sections) {
     const BusReport& bus = bus_of(drive);
     if (bus.signals.empty() || bus.time_s.empty())
         return;
-    std::vector<std::string> svgs;
+    std::vector<plots::Figure> figures;
     for (const double threshold_lx : plotted_thresholds_lx(drive))
-        svgs.push_back(reach_over_time(drive, threshold_lx));
-    svgs.push_back(glare_over_time(drive));
-    std::erase(svgs, "");
+        if (auto reach = reach_over_time(drive, threshold_lx))
+            figures.push_back(std::move(*reach));
+    if (auto glare = glare_over_time(drive))
+        figures.push_back(std::move(*glare));
     Section& section = sections.emplace_back(Section{"Signals", {}, 3});
     section.blocks.emplace_back(fmt::format(
         "What a CAN bus said over the drive{}. {} frames of {} came until the drive’s end, and inputs read {} of them; {} were sent. Bands "
         "show where a signal was not fresh; a gap in the line is a lost signal.",
-        svgs.empty() ? "" : ", and reach and glare over the same time", bus.frames, bus.log.empty() ? "the bus" : bus.log, bus.read,
+        figures.empty() ? "" : ", and reach and glare over the same time", bus.frames, bus.log.empty() ? "the bus" : bus.log, bus.read,
         bus.sent));
     section.blocks.emplace_back(signals_table(drive));
     for (const BusSignalReport& signal : bus.signals)
-        add_plot(section, fmt::format("{}-signal-{}", drive.name, signal.name), signal_svg(bus, signal));
-    add_plots(section, drive.name + "-signals", svgs);
+        add_plot(section, fmt::format("{}-signal-{}", drive.name, signal.name), signal_figure(bus, signal));
+    add_plots(section, drive.name + "-signals", std::move(figures));
 }
 
 } // namespace fernlicht

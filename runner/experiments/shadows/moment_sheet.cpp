@@ -4,7 +4,6 @@
 #include "runner/experiments/shadows/scene_study.h"
 #include "runner/experiments/shadows/sheet_picture.h"
 #include "runner/play/shadows/shadow_truth.h"
-#include "runner/write/plots/tile_sheet.h"
 
 #include <algorithm>
 

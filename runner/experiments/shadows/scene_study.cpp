@@ -6,7 +6,6 @@
 #include "runner/experiments/shadows/sheet_picture.h"
 #include "runner/play/lux_map.h"
 #include "runner/play/shadows/shadow_truth.h"
-#include "runner/write/plots/tile_sheet.h"
 #include "scenarios/drives/play/camera.h"
 #include "scenarios/values/errors.h"
 

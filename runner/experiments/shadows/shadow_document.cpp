@@ -118,7 +118,7 @@ Section scene_section(const ShadowSceneResult& scene, const std::vector<WorkPrec
     section.blocks.emplace_back(costs_table(scene));
     section.blocks.emplace_back(details_table(scene));
     if (scene.luminance_cdm2.size() > 0)
-        section.blocks.emplace_back(Plot{"methods-" + scene.name, Drawing{shadow_sheet_svg(scene)}, {}});
+        section.blocks.emplace_back(Plot{"methods-" + scene.name, shadow_sheet(scene)});
     for (const WorkPrecision& diagram : diagrams)
         if (diagram.name == "shadows-" + scene.name)
             section.blocks.push_back(work_precision_section(diagram).blocks.front());

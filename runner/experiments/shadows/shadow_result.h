@@ -71,7 +71,7 @@ std::optional<double> cpu_time(const ShadowRow& row);
 /// where there are several.
 std::vector<WorkPrecision> shadow_diagrams(const ShadowResult& result);
 /// One moment in all methods beside the picture by rays, and where they are wrong.
-std::string shadow_sheet_svg(const ShadowSceneResult& scene);
+TileSheet shadow_sheet(const ShadowSceneResult& scene);
 
 /// docs/shadows.md tells how to read it.
 Document document(const ShadowResult& result);

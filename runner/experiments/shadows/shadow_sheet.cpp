@@ -2,7 +2,7 @@
 #include "runner/files/clean_text.h"
 #include "runner/findings/figures.h"
 #include "runner/findings/plots/colour.h"
-#include "runner/write/plots/tile_sheet.h"
+#include "runner/findings/shadow_figures.h"
 #include "scenarios/photometry.h"
 
 #include <algorithm>
@@ -61,7 +61,7 @@ std::string cost_words(const ShadowRow& row) {
 
 } // namespace
 
-std::string shadow_sheet_svg(const ShadowSceneResult& scene) {
+TileSheet shadow_sheet(const ShadowSceneResult& scene) {
     const double white = scene.white_cdm2;
     TileSection seen{
         short_text(scene.title, 90),
@@ -83,7 +83,7 @@ std::string shadow_sheet_svg(const ShadowSceneResult& scene) {
             seen.tiles.push_back({method, cost_words(row), seen_picture(row.luminance_cdm2, white)});
             wrong.tiles.push_back({method, share_words(row.view_px), wrong_picture(row.wrong, scene.degree)});
         }
-    return tile_sheet_svg("Shadow methods: " + scene.title, {seen, wrong});
+    return {"Shadow methods: " + scene.title, {seen, wrong}};
 }
 
 } // namespace fernlicht

@@ -8,7 +8,6 @@
 #include "runner/findings/extent_keys.h"
 #include "runner/play/lux_map.h"
 #include "runner/play/stage.h"
-#include "runner/write/plots/lux_map.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -154,8 +153,8 @@ void add_maps(const StudyResult& result, const std::vector<std::size_t>& group, 
     for (const std::size_t cell : group)
         if (std::optional<LuxMap> map = map_of(result.cells[cell], folder)) {
             const std::string place = place_of(result, group), &lamp = result.lamp_of(cell);
-            figures.push_back(with_files("lux_" + result.cells[cell].cell.name, lamp + ": " + place,
-                                         Drawing{plots::lux_map_svg(*map, lamp + ", " + place)}, {cell}));
+            if (auto figure = lux_map_figure(*map, lamp + ", " + place))
+                figures.push_back(with_files("lux_" + result.cells[cell].cell.name, lamp + ": " + place, std::move(*figure), {cell}));
             maps.emplace(cell, std::move(*map));
         }
     for (const StudyComparison& pair : result.study.comparisons)
@@ -163,9 +162,9 @@ void add_maps(const StudyResult& result, const std::vector<std::size_t>& group, 
             if (!maps.contains(a) || !maps.contains(b))
                 continue;
             const std::string title = fmt::format("{} over {}, {}", pair.tested, pair.against, place_of(result, group));
-            if (std::string svg = lux_ratio_svg(maps.at(a), maps.at(b), title); !svg.empty())
+            if (auto figure = lux_ratio_figure(maps.at(a), maps.at(b), title))
                 figures.push_back(with_files(fmt::format("lux-difference_{}_{}-{}", group_name(result, group), pair.tested, pair.against),
-                                             title, Drawing{std::move(svg)}, {a, b}));
+                                             title, std::move(*figure), {a, b}));
         }
 }
 

@@ -52,8 +52,6 @@ std::vector<Tick> logarithmic_ticks(double low, double high, int most) {
 
 bool has_place(double value, Scale scale) { return std::isfinite(value) && (scale != Scale::logarithmic || value > 0.0); }
 
-constexpr double signed_decades = 3.0;
-
 /// The ends, a tenth and a hundredth of them, and 0.
 std::vector<Tick> signed_ticks(double top) {
     std::vector<Tick> ticks;

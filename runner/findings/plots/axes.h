@@ -9,6 +9,7 @@ namespace fernlicht::plots {
 /// signed_logarithmic: for differences, logarithmic to both sides of 0, with three decades below each end; smaller values stand at 0. The
 /// axis runs from -to to `to`.
 enum class Scale { linear, logarithmic, signed_logarithmic };
+inline constexpr double signed_decades = 3.0;
 
 struct Axis {
     std::string label; ///< "reach over the drive"

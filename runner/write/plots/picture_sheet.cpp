@@ -1,6 +1,4 @@
-#include "runner/write/plots/picture_sheet.h"
-
-#include "runner/write/plots/png.h"
+#include "runner/write/plots/svg.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,28 +7,17 @@
 namespace fernlicht {
 namespace {
 
-using plots::Canvas;
 using plots::Colour;
+using plots::Drawing;
 
 constexpr Colour sheet_ink{24, 24, 32}, sheet_faint{100, 100, 108};
 constexpr double edge_px = 16.0, gap_px = 12.0, caption_px = 26.0, head_px = 54.0, key_px = 22.0, legend_px = 112.0;
 /// Letters grow with wide panels: such sheets are shown smaller than they are.
 constexpr double plain_letters_px = 560.0, largest_letters = 1.8;
 constexpr int min_width_px = 320, max_width_px = 1024;
-constexpr double signed_decades = 3.0;
-
-Image<Colour> magnified(const Image<Colour>& pixels, int factor) {
-    if (factor == 1)
-        return pixels;
-    Image<Colour> out(pixels.width() * factor, pixels.height() * factor);
-    for (int y = 0; y < out.height(); ++y)
-        for (int x = 0; x < out.width(); ++x)
-            out.at(x, y) = pixels.at(x / factor, y / factor);
-    return out;
-}
 
 /// At the line's right end, of dashed ones at the left: of lines beside each other both can be read.
-void draw_label(Canvas& canvas, const SheetLine& line, double scale, double width, double letters) {
+void draw_label(Drawing& canvas, const SheetLine& line, double scale, double width, double letters) {
     const bool left = !line.dash.empty();
     const auto [leftmost, rightmost] = std::ranges::minmax_element(line.points, {}, &plots::Point::x);
     const plots::Point& end = left ? *leftmost : *rightmost;
@@ -40,9 +27,9 @@ void draw_label(Canvas& canvas, const SheetLine& line, double scale, double widt
                 {.size_px = 11.0 * letters, .colour = line.colour, .anchor = left ? "end" : "start", .halo = "#000000"});
 }
 
-void draw_panel(Canvas& canvas, const SheetPanel& panel, double left, double top, double scale, double letters) {
+void draw_panel(Drawing& canvas, const SheetPanel& panel, double left, double top, double scale, double letters) {
     const double width = panel.pixels.width() * scale, height = panel.pixels.height() * scale;
-    canvas.picture(left, top, width, height, scale > 1.0 ? magnified(panel.pixels, static_cast<int>(scale)) : panel.pixels);
+    canvas.picture(left, top, width, height, scale > 1.0 ? enlarged(panel.pixels, static_cast<int>(scale)) : panel.pixels);
     canvas.begin_window(left, top, width, height);
     for (const SheetLine& line : panel.lines) {
         plots::Polyline points = line.points;
@@ -57,11 +44,13 @@ void draw_panel(Canvas& canvas, const SheetPanel& panel, double left, double top
     canvas.text(left, top + height + 17.0 * letters, panel.caption, {.size_px = 13.0 * letters, .colour = sheet_ink});
 }
 
-void draw_legend(Canvas& canvas, const SheetLegend& legend, double left, double top, double height, double letters) {
+void draw_legend(Drawing& canvas, const SheetLegend& legend, double left, double top, double height, double letters) {
     constexpr int steps = 256;
     Image<Colour> bar(1, steps);
-    for (int i = 0; i < steps; ++i)
-        bar.at(0, i) = legend.colour(1.0 - (i + 0.5) / steps);
+    for (int i = 0; i < steps; ++i) {
+        const double t = 1.0 - (i + 0.5) / steps;
+        bar.at(0, i) = legend.diverging ? plots::diverging(2.0 * t - 1.0) : plots::sequential(t);
+    }
     canvas.picture(left, top, 14.0, height, bar);
     canvas.rectangle(left, top, 14.0, height, {.stroke = css(sheet_ink)});
     double widest = 0.0;
@@ -77,7 +66,7 @@ void draw_legend(Canvas& canvas, const SheetLegend& legend, double left, double 
 
 } // namespace
 
-std::string svg_of_sheet(const Sheet& sheet) {
+std::string plots::svg_of(const Sheet& sheet) {
     const Image<Colour>& first = sheet.panels.at(0).pixels;
     const double scale = first.width() < min_width_px   ? std::ceil(static_cast<double>(min_width_px) / first.width())
                          : first.width() > max_width_px ? static_cast<double>(max_width_px) / first.width()
@@ -87,8 +76,8 @@ std::string svg_of_sheet(const Sheet& sheet) {
     const double top = letters * (head_px + (sheet.key.empty() ? 0.0 : key_px));
     const double across = static_cast<double>(sheet.panels.size()) * (width + gap_px) - gap_px;
     const double heading = std::max(plots::text_width(sheet.title, 16.0 * letters), plots::text_width(sheet.subtitle, 12.0 * letters));
-    Canvas canvas(2.0 * edge_px + std::max(across + (sheet.legend ? legend_px * letters : 0.0), heading),
-                  top + height + letters * caption_px + 8.0, sheet.title);
+    Drawing canvas{2.0 * edge_px + std::max(across + (sheet.legend ? legend_px * letters : 0.0), heading),
+                   top + height + letters * caption_px + 8.0, sheet.title};
     canvas.text(edge_px, 24.0 * letters, sheet.title, {.size_px = 16.0 * letters, .colour = sheet_ink, .bold = true});
     canvas.text(edge_px, 42.0 * letters, sheet.subtitle, {.size_px = 12.0 * letters, .colour = sheet_faint});
     double at = edge_px;
@@ -103,45 +92,7 @@ std::string svg_of_sheet(const Sheet& sheet) {
         draw_panel(canvas, sheet.panels[i], edge_px + static_cast<double>(i) * (width + gap_px), top, scale, letters);
     if (sheet.legend)
         draw_legend(canvas, *sheet.legend, edge_px + across + 14.0, top, height, letters);
-    return canvas.finish();
-}
-
-std::string png_of_sheet(const Sheet& sheet) { return plots::png_of_svg(svg_of_sheet(sheet)); }
-
-double rounded_up(double value) {
-    if (!(value > 0.0))
-        return 1.0;
-    const double power = std::pow(10.0, std::floor(std::log10(value)));
-    for (const double digit : {1.0, 2.0, 5.0})
-        if (value <= digit * power * (1.0 + 1e-12))
-            return digit * power;
-    return 10.0 * power;
-}
-
-SheetLegend legend_of(const plots::Axis& axis) {
-    SheetLegend legend{
-        axis.unit.empty() ? axis.label : axis.label + " [" + axis.unit + "]", [](double t) { return plots::sequential(t); }, {}};
-    for (const plots::Tick& tick : plots::ticks_of(axis, 12))
-        legend.ticks.emplace_back(plots::position(axis, tick.value), tick.label);
-    return legend;
-}
-
-double SignedScale::position(double difference) const {
-    const double size = std::abs(difference) / top;
-    const double t = size > 0.0 ? std::clamp(1.0 + std::log10(size) / signed_decades, 0.0, 1.0) : 0.0;
-    return difference < 0.0 ? -t : t;
-}
-
-plots::Colour SignedScale::colour(double difference) const { return plots::diverging(position(difference)); }
-
-SheetLegend SignedScale::legend(const std::string& label, const std::string& unit) const {
-    SheetLegend legend{label + " [" + unit + "], log scale", [](double t) { return plots::diverging(2.0 * t - 1.0); }, {}};
-    for (const double decade : {1.0, 0.1, 0.01}) {
-        legend.ticks.emplace_back(0.5 + 0.5 * position(decade * top), "+" + plots::number(decade * top));
-        legend.ticks.emplace_back(0.5 - 0.5 * position(decade * top), "-" + plots::number(decade * top));
-    }
-    legend.ticks.emplace_back(0.5, "0 \u00b1 " + plots::number(top * std::pow(10.0, -signed_decades)));
-    return legend;
+    return svg_of(canvas);
 }
 
 } // namespace fernlicht

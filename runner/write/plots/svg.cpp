@@ -1,8 +1,5 @@
 #include "runner/write/plots/svg.h"
 
-#include "runner/write/plots/canvas.h"
-#include "runner/write/plots/png.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -91,7 +88,7 @@ Area area_of(const Figure& f, const Legend& legend) {
     return a;
 }
 
-void draw_heading(Canvas& c, const Figure& f, const Legend& legend, const Area& a) {
+void draw_heading(Drawing& c, const Figure& f, const Legend& legend, const Area& a) {
     double y = 24.0;
     if (!f.title.empty())
         c.text(a.left, y, f.title, {.size_px = 16.0, .colour = ink, .bold = true});
@@ -109,7 +106,7 @@ void draw_heading(Canvas& c, const Figure& f, const Legend& legend, const Area& 
     }
 }
 
-void draw_axes(Canvas& c, const Figure& f, const Area& a) {
+void draw_axes(Drawing& c, const Figure& f, const Area& a) {
     c.rectangle(a.left, a.top, a.width, a.height, {.stroke = css(ink)});
     for (const Tick& t : ticks_of(f.x, ticks_along(a.width, 64.0))) {
         const double x = a.left + a.width * position(f.x, t.value);
@@ -126,7 +123,7 @@ void draw_axes(Canvas& c, const Figure& f, const Area& a) {
     c.text(across, a.top + 0.5 * a.height, label_of(f.y), {.size_px = 13.0, .colour = ink, .anchor = "middle", .turn_deg = -90.0});
 }
 
-void draw_colour_bar(Canvas& c, const ColourBar& bar, const Area& a) {
+void draw_colour_bar(Drawing& c, const ColourBar& bar, const Area& a) {
     const Axis& axis = bar.axis;
     constexpr int steps = 128;
     Image<Colour> colours(1, steps);
@@ -147,7 +144,7 @@ void draw_colour_bar(Canvas& c, const ColourBar& bar, const Area& a) {
 /// Drawing inside the plot area: values to pixels of the area, cut at its edges.
 class Inside {
   public:
-    Inside(Canvas& canvas, const Figure& figure, const Area& area) : c_(canvas), f_(figure), a_(area) {}
+    Inside(Drawing& canvas, const Figure& figure, const Area& area) : c_(canvas), f_(figure), a_(area) {}
 
     void draw() {
         for (const Raster& r : f_.rasters)
@@ -312,7 +309,7 @@ class Inside {
     static std::string halo_for(Colour c) { return luminance(c) > 0.4 ? "#202028" : css(halo); }
     std::string halo_colour() const { return f_.rasters.empty() ? css(f_.background) : "none"; }
 
-    Canvas& c_;
+    Drawing& c_;
     const Figure& f_;
     const Area& a_;
 };
@@ -326,7 +323,7 @@ std::string svg_of(const Figure& f) {
         check(f.colour_bar->axis);
     const Legend legend = legend_of(f);
     const Area area = area_of(f, legend);
-    Canvas canvas(f.width_px, f.height_px, f.title);
+    Drawing canvas{f.width_px, f.height_px, f.title};
     canvas.rectangle(0.0, 0.0, f.width_px, f.height_px, {.fill = css(f.background)});
     canvas.begin_window(area.left, area.top, area.width, area.height);
     Inside(canvas, f, area).draw();
@@ -335,7 +332,19 @@ std::string svg_of(const Figure& f) {
     draw_heading(canvas, f, legend, area);
     if (f.colour_bar)
         draw_colour_bar(canvas, *f.colour_bar, area);
-    return canvas.finish();
+    return svg_of(canvas);
+}
+
+std::string svg_of(const FiguresBeside& figures) {
+    const auto& [left, right] = figures;
+    const auto placed = [](std::string svg, double x) {
+        return svg.replace(svg.find("<svg "), 5, fmt::format("<svg x=\"{}\" y=\"0\" ", x));
+    };
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n<rect width=\"{0}\" "
+        "height=\"{1}\" fill=\"#ffffff\"/>\n{2}{3}</svg>\n",
+        left.width_px + right.width_px, std::max(left.height_px, right.height_px), placed(svg_of(left), 0.0),
+        placed(svg_of(right), left.width_px));
 }
 
 } // namespace fernlicht::plots

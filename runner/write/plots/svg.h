@@ -1,13 +1,24 @@
-// A plot's SVG. No scripts, no outside resources, all text escaped; the same figure gives the same bytes. Several may be put into one HTML
+// Plots as SVG. No scripts, no outside resources, all text escaped; the same value gives the same bytes. Several may be put into one HTML
 // page: there are no ids to clash.
 #pragma once
 
-#include "runner/findings/plots/figure.h"
+#include "runner/findings/document.h"
 
 namespace fernlicht::plots {
 
-/// The figure as a complete SVG document of its size. Throws std::invalid_argument when an axis is empty (from == to, not finite,
-/// or not above 0 on a logarithmic scale).
+std::string svg_of(const Drawing& drawing);
+
+/// Complete and of the figure's size. Throws std::invalid_argument when an axis is empty (from == to, not finite, or not above 0 on a
+/// logarithmic scale).
 std::string svg_of(const Figure& figure);
+std::string svg_of(const FiguresBeside& figures);
+
+/// Small pictures are magnified by whole numbers without smoothing, large ones shrunk to 1024 pixels across.
+std::string svg_of(const Sheet& sheet);
+/// Three tiles across.
+std::string svg_of(const TileSheet& sheet);
+
+/// Error over run time, both logarithmic: rows with their bars, the front as a line, the floor shaded, dominated rows hollow.
+std::string svg_of(const WorkPrecision& diagram);
 
 } // namespace fernlicht::plots

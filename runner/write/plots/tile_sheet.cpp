@@ -1,13 +1,11 @@
-#include "runner/write/plots/tile_sheet.h"
-
-#include "runner/write/plots/canvas.h"
+#include "runner/write/plots/svg.h"
 
 #include <algorithm>
 
 namespace fernlicht {
 namespace {
 
-using plots::Canvas;
+using plots::Drawing;
 
 constexpr int tiles_across = 3;
 constexpr plots::Colour tile_ink{24, 24, 32}, tile_faint{100, 100, 108};
@@ -50,7 +48,7 @@ std::vector<std::string> sheet_lines(const std::string& text, double size_px, do
 }
 
 /// Returns where the next line goes.
-double draw_lines(Canvas& canvas, double left, double baseline, double pitch_px, const std::vector<std::string>& lines,
+double draw_lines(Drawing& canvas, double left, double baseline, double pitch_px, const std::vector<std::string>& lines,
                   const plots::Lettering& lettering) {
     for (const std::string& line : lines) {
         canvas.text(left, baseline, line, lettering);
@@ -82,15 +80,13 @@ double section_height(const TileSection& section) {
     return over_tiles(section) + rows * (tile_height(section) + under_tiles(section));
 }
 
-void draw_tiles(Canvas& canvas, const TileSection& section, double top) {
+void draw_tiles(Drawing& canvas, const TileSection& section, double top) {
     const double height = tile_height(section), pitch = height + under_tiles(section);
     for (std::size_t i = 0; i < section.tiles.size(); ++i) {
         const PictureTile& tile = section.tiles[i];
         const double left = sheet_edge_px + static_cast<double>(i % tiles_across) * (tile_px + tile_gap_px),
                      at = top + static_cast<double>(i / tiles_across) * pitch;
-        Image<plots::Colour> pixels(tile.picture.width(), tile.picture.height());
-        std::ranges::transform(tile.picture.pixels(), pixels.data(), [](const Rgb8& p) { return plots::Colour{p.r, p.g, p.b}; });
-        canvas.picture(left, at, tile_px, height, pixels);
+        canvas.picture(left, at, tile_px, height, pixels_of(tile.picture));
         const double next = draw_lines(canvas, left, at + height + 15.0, tile_line_px, name_lines(tile),
                                        {.size_px = tile_name_px, .colour = tile_ink, .bold = true});
         draw_lines(canvas, left, next, tile_line_px, caption_lines(tile), {.size_px = tile_words_px, .colour = tile_faint});
@@ -99,22 +95,22 @@ void draw_tiles(Canvas& canvas, const TileSection& section, double top) {
 
 } // namespace
 
-std::string tile_sheet_svg(const std::string& title, const std::vector<TileSection>& sections) {
+std::string plots::svg_of(const TileSheet& sheet) {
     double height_px = 0.0;
-    for (const TileSection& section : sections)
+    for (const TileSection& section : sheet.sections)
         height_px += section_height(section);
     const double width_px = 2.0 * sheet_edge_px + inner_px;
-    Canvas canvas(width_px, height_px, title);
+    Drawing canvas{width_px, height_px, sheet.title};
     canvas.rectangle(0.0, 0.0, width_px, height_px, {.fill = "#ffffff"});
     double top = 0.0;
-    for (const TileSection& section : sections) {
+    for (const TileSection& section : sheet.sections) {
         canvas.text(sheet_edge_px, top + 26.0, section.title, {.size_px = section_title_px, .colour = tile_ink, .bold = true});
         draw_lines(canvas, sheet_edge_px, top + 46.0, words_line_px, sheet_lines(section.words, words_px, inner_px),
                    {.size_px = words_px, .colour = tile_faint});
         draw_tiles(canvas, section, top + over_tiles(section));
         top += section_height(section);
     }
-    return canvas.finish();
+    return svg_of(canvas);
 }
 
 } // namespace fernlicht

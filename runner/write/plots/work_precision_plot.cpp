@@ -1,9 +1,6 @@
-#include "runner/write/plots/work_precision_plot.h"
-
 #include "metrics/statistics/statistics.h"
 #include "runner/findings/figures.h"
-#include "runner/findings/plots/axes.h"
-#include "runner/write/plots/canvas.h"
+#include "runner/write/plots/svg.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +9,7 @@
 namespace fernlicht {
 namespace {
 
-using plots::Canvas;
+using plots::Drawing;
 using plots::Point;
 
 constexpr plots::Colour ink{51, 51, 51}, faint{110, 110, 110}, grid{222, 224, 228}, band{198, 203, 209};
@@ -82,7 +79,7 @@ PlotGround ground_for(const WorkPrecision& diagram, double height) {
     return ground;
 }
 
-void draw_ground(Canvas& canvas, const PlotGround& ground, const WorkPrecision& diagram) {
+void draw_ground(Drawing& canvas, const PlotGround& ground, const WorkPrecision& diagram) {
     const double right = left_px + plot_width_px, floor = typical_floor(diagram);
     if (floor > 0.0) {
         canvas.rectangle(left_px, ground.y(floor), plot_width_px, ground.bottom() - ground.y(floor), {.fill = css(band), .opacity = 0.45});
@@ -108,7 +105,7 @@ void draw_ground(Canvas& canvas, const PlotGround& ground, const WorkPrecision& 
 }
 
 /// Steps down from point to point of the front: what can be had for at most so much time.
-void draw_front(Canvas& canvas, const PlotGround& ground, const WorkPrecision& diagram, const std::vector<Standing>& standing) {
+void draw_front(Drawing& canvas, const PlotGround& ground, const WorkPrecision& diagram, const std::vector<Standing>& standing) {
     std::vector<std::pair<double, double>> points;
     for (std::size_t i = 0; i < diagram.rows.size(); ++i)
         if (standing[i].on_front)
@@ -125,7 +122,7 @@ void draw_front(Canvas& canvas, const PlotGround& ground, const WorkPrecision& d
     canvas.line(line, {.colour = plots::series_colour(0), .width_px = 1.6, .opacity = 0.8});
 }
 
-void draw_row(Canvas& canvas, const PlotGround& ground, const WorkPrecisionRow& row, bool on_front) {
+void draw_row(Drawing& canvas, const PlotGround& ground, const WorkPrecisionRow& row, bool on_front) {
     const plots::Colour colour = on_front ? plots::series_colour(0) : faint;
     const double x = ground.x(1e3 * row.seconds->value), y = ground.y(row.claimed_error());
     const auto bar = [&](const plots::Polyline& line) { canvas.line(line, {.colour = colour, .width_px = 1.1, .opacity = 0.8}); };
@@ -179,7 +176,7 @@ std::string ranges_text(std::vector<std::size_t> numbers) {
 
 /// The rows' numbers beside their points, one label for points that touch, where it hides no point and no other label as long as such a
 /// place is found.
-void draw_numbers(Canvas& canvas, const PlotGround& ground, const WorkPrecision& diagram) {
+void draw_numbers(Drawing& canvas, const PlotGround& ground, const WorkPrecision& diagram) {
     std::vector<Box> taken;
     for (const WorkPrecisionRow& row : diagram.rows)
         if (row.measured()) {
@@ -207,7 +204,7 @@ void draw_numbers(Canvas& canvas, const PlotGround& ground, const WorkPrecision&
     }
 }
 
-double draw_list(Canvas& canvas, const WorkPrecision& diagram, const std::vector<Standing>& standing) {
+double draw_list(Drawing& canvas, const WorkPrecision& diagram, const std::vector<Standing>& standing) {
     const plots::Lettering heading{.size_px = letter_px, .colour = faint};
     const auto right_aligned = [&](double x, const std::string& text) {
         canvas.text(list_px + x, top_px - 6.0, text, {.size_px = heading.size_px, .colour = heading.colour, .anchor = "end"});
@@ -233,13 +230,13 @@ double draw_list(Canvas& canvas, const WorkPrecision& diagram, const std::vector
 
 } // namespace
 
-std::string work_precision_svg(const WorkPrecision& diagram) {
+std::string plots::svg_of(const WorkPrecision& diagram) {
     const std::vector<Standing> standing = standings(diagram.rows);
     const double list_bottom = top_px + line_px * static_cast<double>(diagram.rows.size()) + 8.0,
                  height = std::max(min_height_px, list_bottom - top_px), total_width = list_px + 500.0,
                  total_height = top_px + height + bottom_px;
     const PlotGround ground = ground_for(diagram, height);
-    Canvas canvas(total_width, total_height, diagram.title);
+    Drawing canvas{total_width, total_height, diagram.title};
     canvas.rectangle(0.0, 0.0, total_width, total_height, {.fill = "#ffffff"});
     canvas.text(16.0, title_px, diagram.title, {.size_px = 16.0, .colour = ink, .bold = true});
     canvas.text(16.0, title_px + 18.0,
@@ -253,7 +250,7 @@ std::string work_precision_svg(const WorkPrecision& diagram) {
                 draw_row(canvas, ground, diagram.rows[i], front);
     draw_numbers(canvas, ground, diagram);
     draw_list(canvas, diagram, standing);
-    return canvas.finish();
+    return svg_of(canvas);
 }
 
 } // namespace fernlicht

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "metrics/beam/lamp_difference.h"
-#include "runner/write/plots/svg.h"
+#include "runner/findings/plots/figure.h"
 #include "scenarios/lamps/lamp_file.h"
 
 #include <nlohmann/json_fwd.hpp>

@@ -2,9 +2,6 @@
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/plots/isocandela.h"
-#include "runner/write/plots/canvas.h"
-#include "runner/write/plots/picture_sheet.h"
-#include "runner/write/plots/svg.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -27,19 +24,6 @@ AngleWindow common_window(const LampPairComparison& lamps) {
 
 double common_peak_cd(const LampPairComparison& lamps) { return std::max(lamps.before.description.peak.cd, lamps.now.description.peak.cd); }
 
-/// Two drawings in one, the second to the right.
-std::string beside(const Figure& left, const Figure& right) {
-    const std::string a = plots::svg_of(left), b = plots::svg_of(right);
-    const auto placed = [](std::string svg, double x) {
-        return svg.replace(svg.find("<svg "), 5, fmt::format("<svg x=\"{}\" y=\"0\" ", x));
-    };
-    const double width = left.width_px + right.width_px, height = std::max(left.height_px, right.height_px);
-    return fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n<rect width=\"{0}\" "
-        "height=\"{1}\" fill=\"#ffffff\"/>\n{2}{3}</svg>\n",
-        width, height, placed(a, 0.0), placed(b, left.width_px));
-}
-
 ComparedFigure side_by_side(const LampPairComparison& lamps) {
     const AngleWindow window = common_window(lamps);
     const double peak_cd = common_peak_cd(lamps);
@@ -49,7 +33,7 @@ ComparedFigure side_by_side(const LampPairComparison& lamps) {
         figure->width_px = 760.0;
         plots::fit_height(*figure, window);
     }
-    return {"isocandela-side-by-side", "Isocandela diagrams, in one scale", beside(a, b)};
+    return {"isocandela-side-by-side", "Isocandela diagrams, in one scale", FiguresBeside(a, b)};
 }
 
 Figure over_window(const AngleWindow& window, const std::string& title) {
@@ -82,7 +66,7 @@ ComparedFigure overlay(const LampPairComparison& lamps) {
     const Peak &peak_a = lamps.before.description.peak, &peak_b = lamps.now.description.peak;
     figure.notes.push_back({peak_a.h_deg, peak_a.v_deg, "", old_colour, true});
     figure.notes.push_back({peak_b.h_deg, peak_b.v_deg, "", new_colour, true});
-    return {"isocandela-overlay", figure.title, plots::svg_of(figure)};
+    return {"isocandela-overlay", figure.title, figure};
 }
 
 ComparedFigure difference(const LampPairComparison& lamps) {
@@ -108,7 +92,7 @@ ComparedFigure difference(const LampPairComparison& lamps) {
     figure.rasters.push_back({plots::difference_map(values, figure.colour_bar->axis, {200, 200, 200}), window.left_deg, window.right_deg,
                               window.top_deg, window.bottom_deg});
     add_axes(figure);
-    return {"difference", figure.title, plots::svg_of(figure)};
+    return {"difference", figure.title, figure};
 }
 
 ComparedFigure ratio(const LampPairComparison& lamps) {
@@ -119,7 +103,7 @@ ComparedFigure ratio(const LampPairComparison& lamps) {
     figure.x.unit = figure.y.unit = "°";
     add_axes(figure);
     figure.subtitle = short_text(figure.subtitle, 140);
-    return {"ratio", figure.title, plots::svg_of(figure)};
+    return {"ratio", figure.title, figure};
 }
 
 /// Where vertical scans find the edge.
@@ -152,7 +136,7 @@ std::optional<ComparedFigure> cut_offs(const LampPairComparison& lamps) {
     figure.x = {"H, right positive", "°", -10.0, 10.0};
     figure.y = plots::axis_around("V, up positive", "°", ys);
     add_axes(figure);
-    return ComparedFigure{"cut-off", figure.title, plots::svg_of(figure)};
+    return ComparedFigure{"cut-off", figure.title, figure};
 }
 
 } // namespace

@@ -74,9 +74,9 @@ struct RunCompareOptions {
 /// compared, with the reason.
 RunComparison compare_runs(RunFolder before, RunFolder now, const RunCompareOptions& options);
 
-/// Draws below `folder`, in frames/, pictures of `pictured` moments of each drive and view that differ: spread evenly, and the one that
+/// Draws, below frames/, pictures of `pictured` moments of each drive and view that differ: spread evenly, and the one that
 /// differs most. Fills in what was drawn, and every drive's figures.
-void draw_runs(RunComparison& runs, const RunCompareOptions& options, std::size_t pictured, const std::filesystem::path& folder);
+void draw_runs(RunComparison& runs, const RunCompareOptions& options, std::size_t pictured, const TakePlot& take);
 
 Document document(const RunComparison& runs);
 /// compare.schema.json describes it.

@@ -3,7 +3,6 @@
 #include "runner/files/clean_text.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/extent_keys.h"
-#include "runner/write/plots/svg.h"
 #include "scenarios/studies/study.h"
 
 #include <algorithm>
@@ -12,8 +11,6 @@
 
 namespace fernlicht {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// A line each for old and new over the way; nothing where neither has a point.
 void add_lines(DriveComparison& drive, const std::string& name, const std::string& title, const plots::Polyline& old_line,
@@ -36,7 +33,7 @@ void add_lines(DriveComparison& drive, const std::string& name, const std::strin
                      {short_text(drive.new_label(), 40), new_line, plots::series_colour(1), 1.6, "6 3", new_line.size() == 1}};
     figure.x = plots::axis_around(along, "m", xs);
     figure.y = plots::axis_around(what, unit, ys, scale, scale == plots::Scale::linear);
-    drive.figures.push_back({fmt::format("{}_{}", name, drive.name), title + ": " + figure.subtitle, plots::svg_of(figure)});
+    drive.figures.push_back({fmt::format("{}_{}", name, drive.name), title + ": " + figure.subtitle, figure});
 }
 
 plots::Polyline line_of(const std::vector<double>& x, const std::vector<double>& y) {
@@ -80,8 +77,10 @@ void add_maps(DriveComparison& drive, const RunComparison& runs, const FramePair
     const std::string old_label = short_text(drive.old_label(), 40), new_label = short_text(drive.new_label(), 40);
     const std::string place = short_text(drive.now.title, 60);
     const std::string lines = "Isolux lines from above: " + place, ratio = new_label + " over " + old_label + ": " + place;
-    drive.figures.push_back({"lux-lines_" + name, lines, lux_lines_svg(*now, *before, lines, new_label, old_label)});
-    drive.figures.push_back({"lux-ratio_" + name, ratio, lux_ratio_svg(*now, *before, ratio)});
+    if (auto figure = lux_lines_figure(*now, *before, lines, new_label, old_label))
+        drive.figures.push_back({"lux-lines_" + name, lines, std::move(*figure)});
+    if (auto figure = lux_ratio_figure(*now, *before, ratio))
+        drive.figures.push_back({"lux-ratio_" + name, ratio, std::move(*figure)});
 }
 
 /// The moments of a view to be drawn: `pictured` of those that differ, evenly spread, and the one that differs most.
@@ -112,7 +111,7 @@ std::set<int> drawn_moments(const DriveComparison& drive, const std::string& vie
 }
 
 void draw_frames(DriveComparison& drive, const RunComparison& runs, const RunCompareOptions& options, std::size_t pictured,
-                 const fs::path& folder) {
+                 const TakePlot& take) {
     std::map<std::string, std::set<int>> drawn;
     for (FramePair& frame : drive.frames) {
         const std::string& view = frame.new_frame.view;
@@ -123,9 +122,10 @@ void draw_frames(DriveComparison& drive, const RunComparison& runs, const RunCom
         const PicturePair pair = frame_pictures(frame, runs);
         const PictureComparison comparison = compare_pictures(pair, frame_density(frame, options), options.strictness);
         frame.folder = fmt::format("frames/{}/{}-{:06}", drive.name, file_name_of(view), frame.new_frame.tick);
-        std::error_code ignored; // a folder that cannot be made shows in the first file below it
-        fs::create_directories(folder / frame.folder, ignored);
-        frame.files = write_comparison_pictures(comparison, pair, folder / frame.folder);
+        frame.files = draw_difference(comparison, pair, [&](Plot plot) {
+            plot.name = frame.folder + "/" + plot.name;
+            take(plot);
+        });
         if (!frame.is_display && frame.view.projection == Projection::map)
             add_maps(drive, runs, frame);
     }
@@ -133,11 +133,11 @@ void draw_frames(DriveComparison& drive, const RunComparison& runs, const RunCom
 
 } // namespace
 
-void draw_runs(RunComparison& runs, const RunCompareOptions& options, std::size_t pictured, const fs::path& folder) {
+void draw_runs(RunComparison& runs, const RunCompareOptions& options, std::size_t pictured, const TakePlot& take) {
     for (DriveComparison& drive : runs.drives) {
         add_reaches(drive);
         add_glares(drive);
-        draw_frames(drive, runs, options, pictured, folder);
+        draw_frames(drive, runs, options, pictured, take);
     }
 }
 

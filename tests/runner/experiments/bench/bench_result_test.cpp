@@ -1,6 +1,7 @@
 #include "runner/experiments/bench/bench_result.h"
 #include "runner/write/document.h"
 #include "runner/write/plots/png.h"
+#include "runner/write/plots/svg.h"
 #include "scenarios/values/files.h"
 #include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
@@ -161,13 +162,13 @@ TEST(BenchCsv, HasALinePerTechniqueAndRound) {
 }
 
 TEST(BenchPlot, ShowsEachWithItsTimeAndRatio) {
-    const std::string svg = bench_svg(sample_bench());
+    const std::string svg = plots::svg_of(bench_plot(sample_bench()));
     for (const char* text : {">4. full<", ">20.00 ms, x 2.00<", ">light-map<", ">1.00 ms, x 0.10<", "[ms]", "llvmpipe &lt;&amp;&gt;"})
         EXPECT_THAT(svg, HasSubstr(text));
     EXPECT_LT(svg.find(">4. full<"), svg.find(">light-map<"));
     EXPECT_EQ(plots::png_of_svg(svg).substr(1, 3), "PNG");
-    EXPECT_EQ(svg, bench_svg(sample_bench()));
-    EXPECT_THAT(bench_svg({}), HasSubstr("</svg>"));
+    EXPECT_EQ(svg, plots::svg_of(bench_plot(sample_bench())));
+    EXPECT_THAT(plots::svg_of(bench_plot({})), HasSubstr("</svg>"));
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // Contact sheets: the layout of made-up tiles, and whole sheets through the program.
 #include "runner/experiments/bench/contact_sheet.h"
 
+#include "runner/write/document.h"
 #include "scenarios/drives/play/camera.h"
 #include "tests/runner/program.h"
 
@@ -40,6 +41,8 @@ ContactSheet sheet_of(std::span<const Technique> rows) {
     return sheet;
 }
 
+std::string svg_of(const ContactSheet& sheet) { return plot_svg(contact_sheet(sheet)); }
+
 std::size_t count(const std::string& text, const std::string& part) {
     std::size_t n = 0;
     for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size()))
@@ -48,7 +51,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 }
 
 TEST(ContactSheet, NamesEveryTechniqueTwiceAndSaysWhereNothingIsMeasured) {
-    const std::string svg = contact_sheet_svg(sheet_of(techniques()));
+    const std::string svg = svg_of(sheet_of(techniques()));
     const auto with_lux = static_cast<std::size_t>(std::ranges::count_if(techniques(), &Technique::illuminance));
     ASSERT_GT(with_lux, 0U);
     ASSERT_LT(with_lux, techniques().size());
@@ -63,21 +66,21 @@ TEST(ContactSheet, NamesEveryTechniqueTwiceAndSaysWhereNothingIsMeasured) {
     EXPECT_THAT(svg, HasSubstr(">as published, row 4 of Table 6.1</text>"));
     for (const char* tick : {">0.1</text>", ">1</text>", ">10</text>", ">100</text>"})
         EXPECT_THAT(svg, HasSubstr(tick));
-    EXPECT_EQ(svg, contact_sheet_svg(sheet_of(techniques())));
+    EXPECT_EQ(svg, svg_of(sheet_of(techniques())));
 }
 
 TEST(ContactSheet, ATechniqueThatCannotDrawTheMomentIsLeftOutWithItsReason) {
     ContactSheet sheet = sheet_of(techniques().first(2));
-    const std::size_t drawn = count(contact_sheet_svg(sheet), "<image ");
+    const std::size_t drawn = count(svg_of(sheet), "<image ");
     sheet.tiles[0] = {techniques()[0], {}, {}, {}, "10 lamps are mounted"};
-    const std::string svg = contact_sheet_svg(sheet);
+    const std::string svg = svg_of(sheet);
     EXPECT_EQ(count(svg, "<image "), drawn - (techniques()[0].illuminance ? 2 : 1));
     EXPECT_EQ(count(svg, ">10 lamps are mounted</text>"), 1U);
     EXPECT_EQ(count(svg, ">not drawn</text>"), 2U);
 }
 
 TEST(ContactSheet, LaysTilesFiveAcross) {
-    const std::string svg = contact_sheet_svg(sheet_of(techniques().first(6)));
+    const std::string svg = svg_of(sheet_of(techniques().first(6)));
     // 16 px edge, tiles of 4 with gaps of 12; rows of 3 below a head of 62 with captions of 44.
     EXPECT_THAT(svg, HasSubstr("width=\"100\" height=\"312\""));
     for (const char* place : {"translate(16 62)", "translate(32 62)", "translate(80 62)", "translate(16 109)"})
@@ -89,7 +92,7 @@ TEST(ContactSheet, MeasuresNothingInTheDarkAgainstNothing) {
     ContactSheet sheet = sheet_of(techniques().subspan(3, 1));
     sheet.twin_lx = 0.0;
     sheet.tiles[0].spot_lx = 0.0;
-    EXPECT_THAT(contact_sheet_svg(sheet), HasSubstr(">0.00 lx</text>"));
+    EXPECT_THAT(svg_of(sheet), HasSubstr(">0.00 lx</text>"));
 }
 
 TEST(ContactSheet, ItsCrossStandsOnTheSpot) {

@@ -1,5 +1,6 @@
 // The sheet of tone mappers and eyes: each stage by itself, told apart by what it does.
 #include "runner/experiments/run/display_sheet.h"
+#include "runner/write/plots/svg.h"
 
 #include "runner/play/preparation.h"
 #include "scenarios/drives/play/advance.h"
@@ -54,7 +55,7 @@ TEST(DisplaySheets, EveryStageHasATileOfItsOwn) {
         }
     // 40 degrees on 240 rows: 2 atan(tan(20 degrees) / 240) = 10.43'
     EXPECT_THAT(sheet.eyes[5].words, testing::HasSubstr("10.4\u2032"));
-    const std::string svg = display_sheet_svg(sheet);
+    const std::string svg = plots::svg_of(tiles_of(sheet));
     EXPECT_THAT(svg, testing::AllOf(testing::HasSubstr(">colours at night</text>"), testing::HasSubstr(">sharpness at night</text>")));
 }
 

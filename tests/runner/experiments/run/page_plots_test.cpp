@@ -1,5 +1,6 @@
 // Figures of the page, by what stands on their axes.
 #include "runner/experiments/run/run_plots.h"
+#include "runner/write/plots/svg.h"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +8,6 @@ namespace fernlicht {
 namespace {
 
 using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::Not;
 
 /// Lit as far as 50 m at each moment, a moment a second, at these places.
@@ -32,7 +32,7 @@ PlayedCell at(const std::vector<double>& distances_m) {
 std::string reach_of(const PlayedCell& played) {
     ComparedDrive drive;
     drive.lamp_sets = {&played};
-    return reach_svg(drive, Surface::road, 1.0);
+    return plots::svg_of(reach_figure(drive, Surface::road, 1.0).value());
 }
 
 TEST(PagePlots, ReachIsOverTimeWhereTheCarStandsStillOrMovesOnSprings) {
@@ -49,18 +49,18 @@ TEST(PagePlots, ErrorOverTimeHasAPointALampSetAndTheFloor) {
     played.technique = "photometric";
     ComparedDrive drive;
     drive.lamp_sets = {&played};
-    EXPECT_THAT(error_svg(drive), IsEmpty()); // neither error nor time
+    EXPECT_FALSE(error_figure(drive)); // neither error nor time
     PixelErrors errors;
     errors.pixels = 100;
     errors.error.p95 = 0.03;
     errors.floor.p95 = 0.01;
     played.error.road = errors;
     played.error.road_p95 = {0.02, 0.04};
-    EXPECT_THAT(error_svg(drive), IsEmpty()); // no time
+    EXPECT_FALSE(error_figure(drive)); // no time
     played.passes = {{"frame", {0.010, 0.012, 0.011}}};
     for (const char* part :
          {"xenon", "time a frame, driver&#39;s view alone [ms]", "lux error on the road, 95 % [%]", "noise", "photometric"})
-        EXPECT_THAT(error_svg(drive), HasSubstr(part));
+        EXPECT_THAT(plots::svg_of(error_figure(drive).value()), HasSubstr(part));
 }
 
 } // namespace

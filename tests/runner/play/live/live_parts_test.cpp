@@ -169,15 +169,15 @@ TEST(LiveFigures, JsonSaysWhatWasLost) {
 }
 
 TEST(LiveFigures, HistogramCountsEveryTick) {
-    const std::vector<std::string> svgs = live_svgs(sample_figures());
-    ASSERT_EQ(svgs.size(), 2U);
-    EXPECT_THAT(svgs.front(), HasSubstr("101 ticks every 10 ms"));
-    EXPECT_TRUE(live_svgs({}).empty());
+    const std::vector<plots::Figure> figures = lateness_figures(sample_figures());
+    ASSERT_EQ(figures.size(), 2U);
+    EXPECT_EQ(figures.front().subtitle, "101 ticks every 10 ms");
+    EXPECT_TRUE(lateness_figures({}).empty());
     LiveFigures punctual = sample_figures();
     punctual.late_s.assign(5, 0.0); // as without waiting
-    EXPECT_EQ(live_svgs(punctual).size(), 2U);
+    EXPECT_EQ(lateness_figures(punctual).size(), 2U);
     punctual.waited = false;
-    EXPECT_TRUE(live_svgs(punctual).empty());
+    EXPECT_TRUE(lateness_figures(punctual).empty());
     EXPECT_TRUE(live_json(punctual)["lateness_s"].is_null());
     EXPECT_THAT(live_text(punctual), testing::Not(HasSubstr("late")));
 }

@@ -1,4 +1,3 @@
-#include "runner/write/plots/canvas.h"
 #include "runner/write/plots/png.h"
 #include "runner/write/plots/svg.h"
 

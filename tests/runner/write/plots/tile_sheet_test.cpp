@@ -1,6 +1,5 @@
 // Captions of contact sheets: all of their words, and none beyond the picture's edge or its neighbour.
-#include "runner/write/plots/canvas.h"
-#include "runner/write/plots/tile_sheet.h"
+#include "runner/write/plots/svg.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -37,7 +36,7 @@ TEST(TileSheet, LongCaptionsAreWrappedWhole) {
         words += (i ? " word" : "word") + std::to_string(i);
     for (int i = 0; i < 20; ++i)
         caption += (i ? " caption" : "caption") + std::to_string(i);
-    const std::string name(70, 'W'), svg = tile_sheet_svg("sheet", {section(words, name, caption), section("last", "a", "b")});
+    const std::string name(70, 'W'), svg = plots::svg_of(TileSheet{"sheet", {section(words, name, caption), section("last", "a", "b")}});
     const double width = number_after(svg, "width=\""), height = number_after(svg, "height=\"");
     std::string all, unbroken;
     double last_y = 0.0;
@@ -58,8 +57,8 @@ TEST(TileSheet, LongCaptionsAreWrappedWhole) {
 
 /// A longer heading moves what is below it down by a line each, and nothing else.
 TEST(TileSheet, WhatIsShortTakesTwoLinesAsBefore) {
-    const std::string one = tile_sheet_svg("sheet", {section("words", "a", "b")});
-    const std::string more = tile_sheet_svg("sheet", {section(std::string(150, 'w'), "a", "b")});
+    const std::string one = plots::svg_of(TileSheet{"sheet", {section("words", "a", "b")}});
+    const std::string more = plots::svg_of(TileSheet{"sheet", {section(std::string(150, 'w'), "a", "b")}});
     EXPECT_DOUBLE_EQ(number_after(more, "height=\"") - number_after(one, "height=\""), 17.0);
     EXPECT_DOUBLE_EQ(number_after(one, "height=\""), 62.0 + 2.0 * (200.0 + 44.0));
 }

@@ -1,11 +1,10 @@
-// Pictures beside each other with captions, lines over them and one legend: a sheet, drawn as SVG or PNG.
+// Sheets of pictures as plain values: panels with captions, lines over them and one legend; small tiles under headings.
 #pragma once
 
 #include "runner/findings/plots/axes.h"
-#include "runner/write/plots/canvas.h"
-#include "scenarios/values/image.h"
+#include "runner/findings/plots/drawing.h"
+#include "scenarios/drives/play/frame.h"
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,7 +28,7 @@ struct SheetPanel {
 /// What colours mean, beside the panels.
 struct SheetLegend {
     std::string label;                                 ///< with its unit
-    std::function<plots::Colour(double)> colour;       ///< 0 at the bottom to 1 at the top
+    bool diverging = false;                            ///< colours from the bottom to the top by diverging(), else by sequential()
     std::vector<std::pair<double, std::string>> ticks; ///< 0..1 and what stands there
 };
 
@@ -40,9 +39,28 @@ struct Sheet {
     std::vector<std::pair<std::string, SheetLine>> key = {}; ///< what lines mean
 };
 
-/// Small pictures are magnified by whole numbers without smoothing, large ones shrunk to 1024 pixels across.
-std::string svg_of_sheet(const Sheet& sheet);
-std::string png_of_sheet(const Sheet& sheet);
+struct PictureTile {
+    std::string name, words; ///< caption, two lines
+    Image<Rgb8> picture;     ///< as an sRGB display is told; of a section all of one size, tile_px wide
+};
+
+struct TileSection {
+    std::string title, words; ///< heading, two lines
+    std::vector<PictureTile> tiles;
+};
+
+inline constexpr int tile_px = 320;
+
+/// Small pictures side by side under headings, each with its name: whatever is compared.
+struct TileSheet {
+    std::string title;
+    std::vector<TileSection> sections;
+};
+
+Image<plots::Colour> pixels_of(const Image<Rgb8>& picture);
+
+/// Square pixels, `factor` of them each way for one.
+Image<plots::Colour> enlarged(const Image<plots::Colour>& picture, int factor);
 
 /// The least of 1, 2, 5 times a power of ten that is at least `value`; 1 for 0.
 double rounded_up(double value);
