@@ -3,7 +3,6 @@
 #include "runner/files/clean_text.h"
 #include "runner/findings/lists.h"
 #include "runner/findings/plots/axes.h"
-#include "runner/findings/technique_list.h"
 #include "runner/play/extent_fold.h"
 #include "scenarios/drives/play/camera.h"
 #include "scenarios/light/light.h"
