@@ -19,7 +19,7 @@ struct CsvFile {
     double number(std::size_t row, std::size_t column) const;
     [[noreturn]] void refuse(std::size_t row, std::size_t column, const std::string& expected) const;
 };
-/// Reads a file of at most 1 GiB. Throws InputError where a line has more or fewer fields than the first.
+/// Reads a file of at most 1 GiB. Throws InputError where a line has more or fewer fields than the first, or a quote does not end.
 CsvFile read_csv(const std::filesystem::path& file);
 
 } // namespace fernlicht
