@@ -130,6 +130,8 @@ fs::path target(const MigrateFlags& flags, const fs::path& file) {
     return target;
 }
 
+constexpr const char* unchanged = "has today's names already";
+
 /// "changed in line 2, 5"; names are put otherwise within their lines.
 std::string changes(const std::string& before, const std::string& now) {
     std::istringstream old_lines(before), lines(now);
@@ -137,7 +139,7 @@ std::string changes(const std::string& before, const std::string& now) {
     for (int n = 1; std::getline(old_lines, old_line) && std::getline(lines, line); ++n)
         if (line != old_line)
             told += fmt::format("{} {}", told.empty() ? "changed in line" : ",", n);
-    return told.empty() ? "has today's names already" : told;
+    return told.empty() ? unchanged : told;
 }
 
 int migrate(const MigrateFlags& flags) {
@@ -169,8 +171,13 @@ int migrate(const MigrateFlags& flags) {
             fmt::print("{}: {}\n", targets[i].string(), changes(before, texts[i]));
         }
     for (const fs::path& file : flags.files)
-        if (is_baselines(file))
+        if (is_baselines(file)) {
+            FilesRead opened;
+            const fs::path index = store_of(file) / "index.json";
+            const std::string before = fs::exists(index) ? read_file(index, opened) : "";
             std::ranges::move(convert_baselines(store_of(file), cells_in(files)), std::back_inserter(unmatched));
+            fmt::print("{}: {}\n", file.string(), read_file(index, opened) == before ? unchanged : "changed");
+        }
     for (const std::string& one : unmatched)
         fmt::print(stderr, "fernlicht: {}\n", one);
     return unmatched.empty() ? 0 : 1;
