@@ -39,7 +39,7 @@ void check_names(const Drive& drive, const Readings& others) {
     check_subjects(drive);
     for (const Limit& limit : drive.limits)
         if (const auto key = key_of(limit.reading); !key || !can_be_read(drive, others, *key))
-            throw InputError({drive.file, 0, 0, "limits"}, "found reading '" + printable(limit.reading) + "'",
+            throw InputError({drive.file, limit.line, 0, "limits"}, "found reading '" + printable(limit.reading) + "'",
                              "a name as reach_5lx_road_own_m, width_3lx_target_all_at_50m_m, probe_NAME_lx of a probe of this drive or "
                              "frame_time_median_ms");
 }

@@ -14,6 +14,7 @@
 #include <iterator>
 #include <memory>
 #include <set>
+#include <sstream>
 
 namespace fernlicht {
 namespace {
@@ -74,13 +75,19 @@ std::string converted_known_failures(const std::string& text, const YamlValue& t
     return edited(text, std::move(edits), unmatched);
 }
 
-/// A YAML file of whichever kind; `unmatched` gets "FILE:LINE: ...".
+constexpr std::string_view old_log = "variant,tick,", log_of_today = "lamp_set,tick,"; ///< the logs that runs write of their drives
+bool is_drive_log(const std::string& text) { return text.starts_with(old_log) || text.starts_with(log_of_today); }
+
+/// A file of whichever kind; `unmatched` gets "FILE:LINE: ...".
 std::string converted(const fs::path& file, std::vector<std::string>& unmatched) {
     FilesRead opened;
     const std::string text = read_file(file, opened, largest_bytes);
+    if (is_drive_log(text))
+        return text.starts_with(old_log) ? std::string(log_of_today).append(text, old_log.size()) : text;
     const YamlValue tree = parse_yaml(text, file);
     if (!is_study(tree) && !is_known_failures(tree) && !find_member(tree, "fernlicht"))
-        throw InputError({file, 0, 0, {}}, "is no drive, study or list of known failures", "one of these, or a folder of baselines");
+        throw InputError({file, 0, 0, {}}, "is no drive, study, list of known failures or drive's log",
+                         "one of these, or a folder of baselines");
     std::vector<std::string> found;
     std::string now =
         is_known_failures(tree) ? converted_known_failures(text, tree, found) : renamed_keys(text, file, Naming::today, found);
@@ -95,7 +102,10 @@ std::vector<Drive> cells_in(const std::vector<fs::path>& files) {
     std::vector<Drive> cells;
     for (const fs::path& file : files) {
         FilesRead opened;
-        const YamlValue tree = parse_yaml(read_file(file, opened, largest_bytes), file);
+        const std::string text = read_file(file, opened, largest_bytes);
+        if (is_drive_log(text))
+            continue;
+        const YamlValue tree = parse_yaml(text, file);
         if (is_study(tree)) {
             const Study study = read_study(file);
             for (const StudyCell& cell : cells_of(study))
@@ -120,6 +130,18 @@ fs::path target(const MigrateFlags& flags, const fs::path& file) {
     return target;
 }
 
+constexpr const char* unchanged = "has today's names already";
+
+/// "changed in line 2, 5"; names are put otherwise within their lines.
+std::string changes(const std::string& before, const std::string& now) {
+    std::istringstream old_lines(before), lines(now);
+    std::string told, old_line, line;
+    for (int n = 1; std::getline(old_lines, old_line) && std::getline(lines, line); ++n)
+        if (line != old_line)
+            told += fmt::format("{} {}", told.empty() ? "changed in line" : ",", n);
+    return told.empty() ? unchanged : told;
+}
+
 int migrate(const MigrateFlags& flags) {
     if (flags.in_place && !flags.out.empty())
         throw InputError({{}, 0, 0, "--in-place"}, "found --out beside it", "one of them");
@@ -139,13 +161,23 @@ int migrate(const MigrateFlags& flags) {
     if (!flags.out.empty())
         make_folder(flags.out);
     for (std::size_t i = 0; i < files.size(); ++i)
-        if (targets[i].empty())
+        if (targets[i].empty()) {
             fmt::print("{}", texts[i]);
-        else if (FilesRead opened; !flags.in_place || read_file(files[i], opened) != texts[i])
-            write_file(targets[i], texts[i]);
+        } else {
+            FilesRead opened;
+            const std::string before = read_file(files[i], opened);
+            if (!flags.in_place || before != texts[i])
+                write_file(targets[i], texts[i]);
+            fmt::print("{}: {}\n", targets[i].string(), changes(before, texts[i]));
+        }
     for (const fs::path& file : flags.files)
-        if (is_baselines(file))
+        if (is_baselines(file)) {
+            FilesRead opened;
+            const fs::path index = store_of(file) / "index.json";
+            const std::string before = fs::exists(index) ? read_file(index, opened) : "";
             std::ranges::move(convert_baselines(store_of(file), cells_in(files)), std::back_inserter(unmatched));
+            fmt::print("{}: {}\n", file.string(), read_file(index, opened) == before ? unchanged : "changed");
+        }
     for (const std::string& one : unmatched)
         fmt::print(stderr, "fernlicht: {}\n", one);
     return unmatched.empty() ? 0 : 1;
@@ -156,7 +188,7 @@ int migrate(const MigrateFlags& flags) {
 void add_migrate_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto flags = std::make_shared<MigrateFlags>();
     CLI::App* sub = app.add_subcommand("migrate", "convert files of version 0.1 to today's names; printed unless a flag is given");
-    sub->add_option("FILE", flags->files, "drives, studies, lists of known failures, and folders of baselines")->required();
+    sub->add_option("FILE", flags->files, "drives, studies, lists of known failures, logs of drives, and folders of baselines")->required();
     sub->add_flag("--in-place", flags->in_place, "write over the files");
     sub->add_option("--out", flags->out, "folder for the converted files");
     sub->callback([flags, &chosen] { chosen = [flags] { return migrate(*flags); }; });

@@ -13,7 +13,8 @@ namespace fernlicht {
 namespace {
 
 /// From `at` on, which then stands behind the field and its comma.
-std::string next_field(std::string_view text, std::size_t& at, bool& ends_line) {
+std::string next_field(std::string_view text, std::size_t& at, bool& ends_line, const std::filesystem::path& file) {
+    const std::string_view before = text.substr(0, at);
     std::string field;
     bool quoted = false;
     for (; at < text.size(); ++at) {
@@ -27,6 +28,9 @@ std::string next_field(std::string_view text, std::size_t& at, bool& ends_line) 
         else if (quoted || c != '\r')
             field += c;
     }
+    if (quoted)
+        throw InputError({file, static_cast<std::size_t>(std::ranges::count(before, '\n')) + 1, 0, {}}, "found a quote that does not end",
+                         "a quote at the end of the field");
     ends_line = at >= text.size() || text[at] == '\n';
     ++at;
     if (field.size() > 1 && field[0] == '\'' && std::string_view("=+-@").find(field[1]) != std::string_view::npos)
@@ -43,7 +47,7 @@ CsvFile read_csv(const std::filesystem::path& file) {
     for (std::size_t at = 0, line = 1; at < text.size(); ++line) {
         std::vector<std::string> fields;
         for (bool ends_line = false; !ends_line;)
-            fields.push_back(next_field(text, at, ends_line));
+            fields.push_back(next_field(text, at, ends_line, file));
         if (line == 1) {
             csv.heads = std::move(fields);
             continue;

@@ -20,7 +20,7 @@ struct CsvFile {
     int count(std::size_t row, std::size_t column) const; ///< from 0
     [[noreturn]] void refuse(std::size_t row, std::size_t column, const std::string& expected) const;
 };
-/// Reads a file of at most 1 GiB. Throws InputError where a line has more or fewer fields than the first.
+/// Reads a file of at most 1 GiB. Throws InputError where a line has more or fewer fields than the first, or a quote does not end.
 CsvFile read_csv(const std::filesystem::path& file);
 
 } // namespace fernlicht

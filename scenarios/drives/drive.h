@@ -72,8 +72,9 @@ struct ExtentParameters {
 struct Limit {
     std::string reading; ///< name of a row, e.g. "reach_5lx_road_own_m"
     std::optional<double> at_least, at_most;
+    std::size_t line = 0; ///< of the drive's file; 0: from elsewhere
 
-    bool operator==(const Limit&) const = default;
+    bool operator==(const Limit& other) const { return reading == other.reading && at_least == other.at_least && at_most == other.at_most; }
 };
 
 struct Capture {

@@ -1,6 +1,8 @@
 #include "scenarios/fields/field.h"
 #include "scenarios/values/pose.h"
 
+#include <fmt/format.h>
+#include <stdexcept>
 #include <utility>
 
 namespace fernlicht {
@@ -21,7 +23,10 @@ double from_kmh(double value) { return value / 3.6; }
 
 } // namespace
 
-const Field& field_named(const Group& group, std::string_view key) { return *find_field(group, key); }
+const Field& field_named(const Group& group, std::string_view key) {
+    const Field* const found = find_field(group, key);
+    return found ? *found : throw std::logic_error(fmt::format("no field '{}' is described", key));
+}
 
 std::vector<std::string_view> keys_of(const Field& field) {
     if (field.kind == FieldKind::inlined)

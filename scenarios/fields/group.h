@@ -104,7 +104,7 @@ struct Group {
     std::string_view definition = {}; ///< of groups that stand in several places: schema and reference have them once, by this name
 };
 
-const Field& field_named(const Group& group, std::string_view key); ///< which may be of an inlined group
+const Field& field_named(const Group& group, std::string_view key); ///< may be of an inlined group; throws std::logic_error for none
 /// Keys by which a field may be given, with those of inlined groups.
 std::vector<std::string_view> keys_of(const Field& field);
 std::vector<std::string_view> keys_of(const Group& group);

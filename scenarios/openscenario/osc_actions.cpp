@@ -138,7 +138,7 @@ bool RunningAction::step(const SpeedProfileAction& /*action*/, World& world, dou
     return true;
 }
 
-void RunningAction::begin(const LaneChangeAction& action, World& world, PlayedStory& /*played*/) {
+void RunningAction::begin(const LaneChangeAction& action, World& world, PlayedStory& played) {
     EntityState& car = state(world);
     Spot& spot = car.spot;
     if (!spot.on_network)
@@ -154,8 +154,16 @@ void RunningAction::begin(const LaneChangeAction& action, World& world, PlayedSt
     }
     const Road& road = world.network().roads[spot.road];
     const bool forward = spot.with_s();
-    if (!lane_of(road, target_lane_, spot.s_m))
+    if (!lane_of(road, target_lane_, spot.s_m)) {
+        std::vector<int> there;
+        for (const Lane& lane : section_at(road, spot.s_m).lanes)
+            if (lane.id != 0)
+                there.push_back(lane.id);
+        played.notes.push_back(fmt::format("at {:.6g} s: {} cannot change to lane {}, road '{}' has {} there; it stays on lane {}",
+                                           world.time_s, printable(car.entity->name), target_lane_, printable(road.id),
+                                           fmt::join(there, ", "), spot.lane));
         target_lane_ = spot.lane;
+    }
     const double offset = spot.t_m - lane_centre_t(road, target_lane_, spot.s_m);
     spot = world.on_lane(spot.road, target_lane_, spot.s_m, offset, forward ? 0.0 : pi);
     transition_ = Transition(action.dynamics, offset, action.target_offset_m);
@@ -290,10 +298,9 @@ void RunningAction::begin(const FollowTrajectoryAction& action, World& world, Pl
     path_s_ = action.initial_offset_m;
     const PathPoint start = path_->at(path_s_);
     path_time_s_ = start.time_s.value_or(0.0);
-    car.spot = world.at_point({start.x_m, start.y_m, start.z_m}, path_->has_z, start.heading_rad, {}, {},
-                              car.spot.on_network ? std::optional(car.spot.road) : std::nullopt);
+    car.stand_at(world.at_point({start.x_m, start.y_m, start.z_m}, path_->has_z, start.heading_rad, {}, {},
+                                car.spot.on_network ? std::optional(car.spot.road) : std::nullopt));
     car.path.reset();
-    car.present = true;
     if (action.timed && path_->timed && path_->points.size() > 1) {
         const PathPoint& a = path_->points[0];
         const PathPoint& b = path_->points[1];
@@ -379,8 +386,7 @@ bool RunningAction::step(const AcquirePositionAction& /*action*/, World& world, 
 
 void RunningAction::begin(const TeleportAction& action, World& world, PlayedStory& /*played*/) {
     EntityState& car = state(world);
-    car.spot = world.spot(action.position);
-    car.present = true;
+    car.stand_at(world.spot(action.position));
     car.path.reset();
     car.end_of_road = false;
 }

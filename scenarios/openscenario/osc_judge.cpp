@@ -217,7 +217,11 @@ bool JudgedTrigger::by_entity(const ByEntity& condition, const World& world) {
     for (const std::string& name : condition.entities) {
         const std::size_t entity = world.index_of(name);
         const EntityState& self = world.entities()[entity];
-        const bool is = self.present && std::visit(Asked{world, self}, condition.condition);
+        bool is = false;
+        try {
+            is = self.present && std::visit(Asked{world, self}, condition.condition);
+        } catch (const NoPlaceYet&) { // false, as a condition about an entity that is not there
+        }
         any = any || is;
         all = all && is;
         if (is)

@@ -168,11 +168,18 @@ struct Placing {
         const int lane = nearest_lane(on, s, p.t_m);
         return along_lane(at, lane, s, p.t_m - lane_centre_t(on, lane, s));
     }
+    const Spot& spot_of(const std::string& entity) const {
+        const EntityState& state = world.entity(entity);
+        if (!state.placed)
+            throw NoPlaceYet{
+                {fmt::format("found a position relative to '{}', which has no place", printable(entity)), "an entity that has one by then"},
+                entity};
+        return state.spot;
+    }
     /// A place `ds` on from an entity along its road's reference line, over the borders of roads; offset and lane kept.
     Spot onwards(const Spot& from, double ds_m) const { return move_along(world, from, ds_m, false, nullptr).spot; }
     Spot operator()(const RelativeLanePosition& p) const {
-        const Spot from = world.entity(p.entity).spot;
-        const Spot there = onwards(from, p.ds_m);
+        const Spot there = onwards(spot_of(p.entity), p.ds_m);
         const Road& on = world.network().roads[there.road];
         // The driver's left is the higher lane when he travels with s.
         int lane = there.lane + p.lanes * (there.with_s() ? 1 : -1);
@@ -182,14 +189,14 @@ struct Placing {
         return oriented(world.on_lane(there.road, lane, there.s_m, p.offset_m, heading));
     }
     Spot operator()(const RelativeRoadPosition& p) const {
-        const Spot there = onwards(world.entity(p.entity).spot, p.ds_m);
+        const Spot there = onwards(spot_of(p.entity), p.ds_m);
         const Road& on = world.network().roads[there.road];
         const double t = there.t_m + p.dt_m;
         const int lane = nearest_lane(on, there.s_m, t);
         return oriented(world.on_lane(there.road, lane, there.s_m, t - lane_centre_t(on, lane, there.s_m), there.with_s() ? 0.0 : pi));
     }
     Spot operator()(const RelativePosition& p) const {
-        const Spot& from = world.entity(p.entity).spot;
+        const Spot& from = spot_of(p.entity);
         const glm::dvec3 by(p.dx_m, p.dy_m, p.dz_m);
         const glm::dvec3 at = p.in_world ? from.pose.position_m + by : to_parent(from.pose, by);
         double heading = from.heading_rad();
@@ -201,7 +208,7 @@ struct Placing {
     }
     Spot operator()(const RoutePosition& p) const {
         if (!p.current_entity.empty())
-            return oriented(world.entity(p.current_entity).spot);
+            return oriented(spot_of(p.current_entity));
         // The route's first waypoint says where it begins and which way; along it roads are followed with the least turn.
         const Spot start = world.spot(p.route->waypoints.front());
         const Spot there = onwards(start, p.s_m);

@@ -14,6 +14,10 @@ inline constexpr double small = 1e-6;
 struct PlaceError {
     std::string found, expected;
 };
+/// A position relative to an entity that never had a place so far.
+struct NoPlaceYet : PlaceError {
+    std::string entity;
+};
 
 /// What `call` gives; where it cannot be placed, an InputError at this element.
 template <class Call> auto placed(const std::filesystem::path& file, std::size_t line, const std::string& element, const Call& call) {
@@ -54,6 +58,7 @@ struct RoadPath {
 struct EntityState {
     const Entity* entity = nullptr;
     bool present = false, visible = true;
+    bool placed = false; ///< ever; one that was deleted keeps its last place for what is relative to it
     Spot spot;
     double speed_mps = 0.0; ///< along its heading; negative backwards
     double travelled_m = 0.0;
@@ -62,6 +67,11 @@ struct EntityState {
     std::optional<double> end_of_road_since_s, offroad_since_s, still_since_s;
     std::optional<RoadPath> path;      ///< of AssignRoute or AcquirePosition
     std::optional<double> settle_to_m; ///< offset that it glides to beside its way: a lane left for its route's sake
+
+    void stand_at(const Spot& at) {
+        spot = at;
+        present = placed = true;
+    }
 };
 
 class World {

@@ -33,6 +33,25 @@ template <class Visit> void walk(Element& element, const Visit& visit) {
         walk(*child, visit);
 }
 
+/// "" for an action of the world as a whole.
+const std::string& entity_of(const InitAction& init) {
+    const auto* global = std::get_if<GlobalAction>(&init.action.what);
+    const auto* added = global ? std::get_if<EntityAction>(global) : nullptr;
+    return added ? added->entity : init.entity;
+}
+
+[[noreturn]] void refuse_waiting(const std::filesystem::path& file, const InitAction& init,
+                                 const std::map<std::string, std::string>& waits_for) {
+    std::vector<std::string> way{entity_of(init)};
+    while (waits_for.contains(way.back()) && std::ranges::count(way, way.back()) == 1)
+        way.push_back(waits_for.at(way.back()));
+    std::string names;
+    for (const std::string& name : way)
+        names += fmt::format("{}'{}'", names.empty() ? "" : " > ", printable(name));
+    throw InputError({file, init.action.line, 0, init.action.name}, "needs the place of an entity that has none: " + names,
+                     "an entity that Init places without it");
+}
+
 } // namespace
 
 StoryTree::StoryTree(const Storyboard& storyboard, World& world, PlayedStory& played)
@@ -122,19 +141,42 @@ bool StoryTree::step_run(RunningAction& run, const Action& action, double dt_s, 
     return placed(storyboard_->file, action.line, action.name, [&] { return run.step(*world_, dt_s, moved[run.entity()]); });
 }
 
+void StoryTree::begin_init(const InitAction& init) {
+    if (init.entity.empty())
+        return act_on_world(init.action);
+    RunningAction fresh(std::get<PrivateAction>(init.action.what), world_->index_of(init.entity));
+    fresh.begin(*world_, *played_);
+    init_.push_back({&init.action, {std::move(fresh), false}});
+}
+
+/// In the order of the file, those of the world first; but what needs the place of an entity that has none yet waits for it, and all later
+/// actions of the same entity with it.
 void StoryTree::start() {
+    std::vector<const InitAction*> left;
     for (const bool global : {true, false})
-        for (const InitAction& init : storyboard_->init) {
-            if (init.entity.empty() != global)
-                continue;
-            if (global) {
-                act_on_world(std::get<GlobalAction>(init.action.what));
-                continue;
-            }
-            init_.push_back(
-                {&init.action, {RunningAction(std::get<PrivateAction>(init.action.what), world_->index_of(init.entity)), false}});
-            run(init_.back().run.action, init.action);
+        for (const InitAction& init : storyboard_->init)
+            if (init.entity.empty() == global)
+                left.push_back(&init);
+    while (!left.empty()) {
+        std::vector<const InitAction*> waiting;
+        std::map<std::string, std::string> waits_for;
+        for (const InitAction* init : left) {
+            const std::string& name = entity_of(*init);
+            if (!waits_for.contains(name))
+                placed(storyboard_->file, init->action.line, init->action.name, [&] {
+                    try {
+                        begin_init(*init);
+                    } catch (const NoPlaceYet& error) {
+                        waits_for[name] = error.entity;
+                    }
+                });
+            if (waits_for.contains(name))
+                waiting.push_back(init);
         }
+        if (waiting.size() == left.size())
+            refuse_waiting(storyboard_->file, *waiting.front(), waits_for);
+        left = std::move(waiting);
+    }
     root_.state = ElementState::running;
     for (const auto& story : root_.children)
         start(*story);
@@ -200,8 +242,8 @@ void StoryTree::start_action(Element& element, const std::vector<std::size_t>& a
     element.runs.clear();
     set(element, ElementState::running, "startTransition");
     ++element.executions;
-    if (const auto* global = std::get_if<GlobalAction>(&element.action->what))
-        return act_on_world(*global);
+    if (std::holds_alternative<GlobalAction>(element.action->what))
+        return placed(storyboard_->file, element.action->line, element.action->name, [&] { act_on_world(*element.action); });
     const auto& what = std::get<PrivateAction>(element.action->what);
     for (const std::size_t actor : actors) {
         element.runs.push_back({RunningAction(what, actor), false});
@@ -299,7 +341,8 @@ bool StoryTree::all_over() const {
            std::all_of(root_.children.begin(), root_.children.end(), [](const auto& story) { return complete(*story); });
 }
 
-void StoryTree::act_on_world(const GlobalAction& action) {
+void StoryTree::act_on_world(const Action& of) {
+    const auto& action = std::get<GlobalAction>(of.what);
     if (const auto* environment = std::get_if<EnvironmentAction>(&action)) {
         Environment merged = world_->environment.value_or(Environment{});
         const Environment& by = environment->environment;
@@ -324,9 +367,10 @@ void StoryTree::act_on_world(const GlobalAction& action) {
         played_->environment.push_back({world_->time_s, merged, world_->environment_since_s});
     } else if (const auto* entity = std::get_if<EntityAction>(&action)) {
         EntityState& state = world_->entity(entity->entity);
-        state.present = entity->add_at.has_value();
         if (entity->add_at)
-            state.spot = placed(storyboard_->file, 0, "AddEntityAction", [&] { return world_->spot(*entity->add_at); });
+            state.stand_at(world_->spot(*entity->add_at));
+        else
+            state.present = false;
     } else if (const auto* value = std::get_if<SetValueAction>(&action)) {
         auto& values = value->variable ? world_->variables : world_->parameters;
         std::string& known = values[value->name];

@@ -58,9 +58,10 @@ class StoryTree {
     void end(Element& element);
     void propagate(Element& element);
     static void reset(Element& element);
+    void begin_init(const InitAction& init);
     void run(RunningAction& run, const Action& action);
     bool step_run(RunningAction& run, const Action& action, double dt_s, std::vector<unsigned>& moved);
-    void act_on_world(const GlobalAction& action);
+    void act_on_world(const Action& action);
     void end_conflicting(const RunningAction& fresh, const Element* of);
 
     const Storyboard* storyboard_;

@@ -75,13 +75,14 @@ std::vector<std::size_t> line_starts(const std::string& text) {
 
 /// Where `key` stands as a key, from `at` on; not in a comment, a value or another key.
 std::size_t key_in(const std::string& text, std::string_view key, std::size_t at) {
-    for (at = text.find(key, at); at != std::string::npos; at = text.find(key, at + 1)) {
+    const std::size_t comment = text.find(" #", at);
+    for (at = text.find(key, at); at < comment && at != std::string::npos; at = text.find(key, at + 1)) {
         const std::size_t after = text.find_first_not_of(" \"'", at + key.size());
         if ((at == 0 || std::string_view(" \t\n{,\"'").find(text[at - 1]) != std::string_view::npos) && after != std::string::npos &&
             text[after] == ':')
-            break;
+            return at;
     }
-    return at;
+    return std::string::npos;
 }
 
 } // namespace

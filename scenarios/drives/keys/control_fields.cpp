@@ -59,7 +59,9 @@ std::string windows_text(const SegmentedLamp& lamp) {
 const Fields<LevellingParameters>& law_levelling_fields() {
     static const Fields<LevellingParameters> fields = [] {
         Fields<LevellingParameters> of = levelling_fields();
-        of.fields[1].group = shared_group(law_actuator_fields());
+        for (Field& field : of.fields)
+            if (field.group.get() == &actuator_fields())
+                field.group = shared_group(law_actuator_fields());
         return of;
     }();
     return fields;

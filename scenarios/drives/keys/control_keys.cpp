@@ -82,10 +82,10 @@ ModeParameters read_modes(const YamlEntry& given, const LampSet& lamp_set, LampC
     check_lamps(given, "lamps", lamp_set);
     read_group(modes_fields(), of, &modes);
     default_lamps(modes.lamps, lamp_set, [](const std::string& name) { return !is_cornering_lamp(name) && !is_high_beam(name); });
-    for (std::size_t i = 0; i < modes.settings.size(); ++i)
-        if (const auto mode = of.find(modes_fields().fields[1 + i].key))
+    for (const Field& field : modes_fields().fields)
+        if (const auto mode = field.group.get() == &mode_fields() ? of.find(field.key) : std::nullopt)
             if (const auto file = mode->map(keys_of(mode_fields())).find("file"))
-                modes.settings[i].file = cache.lamp(file->path(), {}, &*file);
+                static_cast<BeamModeSettings*>(field.member->look(&modes))->file = cache.lamp(file->path(), {}, &*file);
     return modes;
 }
 

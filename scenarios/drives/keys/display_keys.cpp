@@ -120,14 +120,14 @@ const Fields<ToneMapper>& tone_mapper_fields() {
 
 std::string tone_mapper_schema() {
     ToneMapper scratch;
-    return fmt::format(R"({{"anyOf": [{}, {}]}})", schema_of(tone_mapper_fields().fields.front()),
+    return fmt::format(R"({{"anyOf": [{}, {}]}})", schema_of(field_named(tone_mapper_fields(), "kind")),
                        schemas_by_word(tone_mapper_fields(), &scratch));
 }
 
 void read_tone_mapper(const YamlEntry& given, ToneMapper& mapper) {
     const Fields<ToneMapper>& fields = tone_mapper_fields();
     if (given.is_scalar()) {
-        mapper.kind = static_cast<ToneMapperKind>(given.choice(fields.fields.front().rule.words));
+        mapper.kind = static_cast<ToneMapperKind>(given.choice(field_named(fields, "kind").rule.words));
         return;
     }
     if (given.value().kind != YamlValue::Kind::map)

@@ -3,6 +3,7 @@
 #include "scenarios/can/bus_mapping.h"
 #include "scenarios/drives/keys/bus_keys.h"
 #include "scenarios/drives/keys/control_fields.h"
+#include "scenarios/drives/keys/lamp_keys.h"
 #include "scenarios/drives/keys/shadow_keys.h"
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/field_bits.h"
@@ -226,7 +227,12 @@ const Fields<Drive>& drive_fields() {
         }
             .block(), "what is measured"),
             list("limits", 37, &Drive::limits, 0, 1000, Fields<Limit>{
-            field("reading", 1, &Limit::reading, any(), "its name, as in readings.csv").required(),
+            field("reading", 1, &Limit::reading, any(), "its name, as in readings.csv")
+                .read_by([](const YamlEntry& entry, Limit& limit) {
+                    limit.reading = entry.text();
+                    limit.line = entry.value().line;
+                })
+                .required(),
             field("at_least", 2, &Limit::at_least, range(-1.0e12, 1.0e12), "in the reading's unit"),
             field("at_most", 3, &Limit::at_most, range(-1.0e12, 1.0e12), "in the reading's unit"),
         }

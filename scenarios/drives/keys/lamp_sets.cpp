@@ -251,7 +251,7 @@ Car read_car(const YamlMap& drive_keys, Drive& drive) {
             std::erase_if(car.mounts, [&](const LampMount& mount) { return mount.name == name; });
             LampMount& mount = car.mounts.emplace_back(LampMount{name, {}, {}});
             if (place.is_list())
-                read_value(mount_fields().fields.front(), place, &mount);
+                read_value(field_named(mount_fields(), "position_m"), place, &mount);
             else
                 read_group(mount_fields(), place, &mount);
         }

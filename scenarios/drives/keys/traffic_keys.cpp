@@ -28,7 +28,8 @@ const Fields<TrafficRow>& gap_fields() {
 const Fields<Route::Start>& lane_fields() {
     static const Fields<Route::Start> fields = [] {
         Fields<Route::Start> of = start_fields();
-        of.fields[1].is_required = true;
+        for (Field& field : of.fields)
+            field.is_required = field.key == "lane";
         return of;
     }();
     return fields;

@@ -156,7 +156,9 @@ DriveLog read_drive_log(const std::filesystem::path& path, FilesRead& opened) {
         const std::string_view row = std::string_view(text).substr(at, end - at);
         at = end + 1;
         if (line == 0 && row != drive_log_header)
-            reader.refuse(1, fmt::format("found '{}'", printable(std::string(row))), drive_log_header);
+            reader.refuse(1, fmt::format("found '{}'", printable(std::string(row))),
+                          fmt::format("{}{}", drive_log_header,
+                                      row.starts_with("variant,") ? "; `fernlicht migrate --in-place` writes logs of version 0.1 so" : ""));
         if (line > 0 && !row.empty())
             reader.row(row, line + 1);
     }

@@ -23,7 +23,9 @@ class Migrate : public testing::Test {
         EXPECT_EQ(printed.exit_code, 0);
         EXPECT_EQ(content_of(file), old) << "printed only";
         for (int time = 1; time <= 2; ++time) {
-            EXPECT_EQ(run_program("migrate --in-place " + file).exit_code, 0);
+            const Outcome run = run_program("migrate --in-place " + file);
+            EXPECT_EQ(run.exit_code, 0);
+            EXPECT_THAT(run.output, HasSubstr(name + (time == 1 && old != now ? ": changed in line " : ": has today's names already\n")));
             EXPECT_EQ(content_of(file), now) << time;
         }
     }
@@ -83,6 +85,11 @@ TEST_F(Migrate, ListsWhatItCannotMatch) {
                                   HasSubstr("known.yaml:2: no verdict is called 'reach'")));
     EXPECT_EQ(content_of(folder_ / "out/drive.yaml"), content_of(drive));
     EXPECT_EQ(run_program("migrate --out " + (folder_ / "out ") + drive).exit_code, 2) << "is there already";
+    const std::string escaped = "fernlicht: 1\n\"vari\\x61nts\": {a: {}} # variants: of lamps\n";
+    const Outcome beside = run_program("migrate --in-place " + written("escaped.yaml", escaped));
+    EXPECT_EQ(beside.exit_code, 1);
+    EXPECT_THAT(beside.output, HasSubstr("escaped.yaml:2: 'variants' is not written out here"));
+    EXPECT_EQ(content_of(folder_ / "escaped.yaml"), escaped) << "the comment is no key";
 }
 
 TEST_F(Migrate, RefusesWhatItCannotRead) {

@@ -1,5 +1,8 @@
 #include "runner/files/clean_text.h"
 
+#include "runner/files/csv_file.h"
+#include "tests/trial.h"
+
 #include <gtest/gtest.h>
 
 namespace fernlicht {
@@ -38,6 +41,16 @@ TEST(CsvText, QuotesAndDisarmsFormulas) {
     EXPECT_EQ(csv_text("=HYPERLINK(\"x\")"), "\"'=HYPERLINK(\"\"x\"\")\"");
     for (const char* const start : {"+1", "-1", "@x", "=x"})
         EXPECT_EQ(csv_text(start), std::string("'") + start);
+}
+
+TEST(CsvFile, ReadsWhatIsWrittenAndRefusesAnOpenQuote) {
+    const std::string text = "name,note\na,\"two\nlines\"\nb," + csv_text("=x \"1\"") + '\n';
+    const CsvFile csv = read_csv(tests::written("good.csv", text));
+    EXPECT_EQ(csv.rows, (std::vector<std::vector<std::string>>{{"a", "two\nlines"}, {"b", "=x \"1\""}}));
+    EXPECT_NE(tests::refusal_of([&] {
+                  read_csv(tests::written("open.csv", text + "c,\"open\nd,e\n"));
+              }).find("open.csv:5: found a quote that does not end, expected a quote at the end of the field"),
+              std::string::npos);
 }
 
 TEST(RelativeLink, CannotLeaveOrNameAScheme) {

@@ -158,20 +158,13 @@ TEST_F(Schema, AgreesWithTheReader) {
 }
 
 TEST_F(Schema, EveryKeyOfTheExampleMisspeltIsRefusedByBoth) {
-    std::filesystem::create_directories(folder / "library/roads");
-    std::filesystem::create_directories(folder / "library/lamps");
+    for (const char* part : {"roads", "lamps", "models", "displays", "can"})
+        std::filesystem::create_directories(folder / "library" / part);
     write_file(folder / "library/roads/country.xodr", "<OpenDRIVE/>");
     for (const char* file : {"halogen-low", "halogen-high", "xenon-low", "xenon-high", "street-6000lm"})
         write_file(folder / "library/lamps" / (std::string(file) + ".ies"), ies_text(1.0));
-    std::filesystem::create_directories(folder / "library/models");
-    std::filesystem::copy_file(scenarios / "library/models/shelter.gltf", folder / "library/models/shelter.gltf",
-                               std::filesystem::copy_options::overwrite_existing);
-    std::filesystem::create_directories(folder / "library/displays");
-    std::filesystem::copy_file(scenarios / "library/displays/projector.yaml", folder / "library/displays/projector.yaml",
-                               std::filesystem::copy_options::overwrite_existing);
-    std::filesystem::create_directories(folder / "library/can");
-    for (const char* const file : {"mock-up.dbc", "s-bend.log"})
-        std::filesystem::copy_file(scenarios / "library/can" / file, folder / "library/can" / file,
+    for (const char* file : {"models/shelter.gltf", "displays/projector.yaml", "can/mock-up.dbc", "can/s-bend.log"})
+        std::filesystem::copy_file(scenarios / "library" / file, folder / "library" / file,
                                    std::filesystem::copy_options::overwrite_existing);
     const std::string example = content(scenarios / "drive.example.yaml");
     ASSERT_EQ(refusal(example), "not refused");

@@ -112,6 +112,8 @@ TEST(Fields, RefusesWithPlaceAndNearestKey) {
     EXPECT_THAT(refusal("{tilt_deg: 3, tilt_rad: 0.1}"), HasSubstr("'tilt_rad' beside 'tilt_deg', expected one of them"));
     EXPECT_THAT(refusal("tilt_deg: 11"), HasSubstr("expected a number from -10 to 10"));
     EXPECT_THAT(refusal("cups: {a: {height_m: 2}}"), HasSubstr("table.cups.a.height_m: found '2', expected a number from 0.01 to 1"));
+    EXPECT_EQ(field_named(table_fields(), "drop_m").id, 5);
+    EXPECT_THROW(field_named(table_fields(), "drop"), std::logic_error) << "a word of our own, no user's";
     EXPECT_THAT(refusal("own_cup: 3"), HasSubstr("expected true or false"));
     EXPECT_THAT(refusal("folds: true"), HasSubstr("two legs that fold"));
     EXPECT_THAT(refusal("{shape: round, corner_m: 0.1}"), HasSubstr("a key that shape 'round' does not use, expected none but shape"));

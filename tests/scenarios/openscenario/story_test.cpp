@@ -48,11 +48,19 @@ TEST(Story, SpeedShapesLastAsTheirLargestRateSays) {
 }
 
 TEST(Story, LaneChangeEndsInTheOtherLane) {
-    const std::string action =
-        "<PrivateAction><LateralAction><LaneChangeAction><LaneChangeActionDynamics dynamicsShape=\"sinusoidal\" dynamicsDimension=\"time\" "
-        "value=\"3\"/><LaneChangeTarget><AbsoluteTargetLane "
-        "value=\"1\"/></LaneChangeTarget></LaneChangeAction></LateralAction></PrivateAction>";
-    const PlayedStory played = play_text(scenario_text(begin, story(event("e", action, at_time(1.0))) + stop_at(6.0)));
+    const auto played_to = [](int lane) {
+        const std::string action = fmt::format(
+            R"(<PrivateAction><LateralAction><LaneChangeAction><LaneChangeActionDynamics dynamicsShape="sinusoidal" dynamicsDimension="time"
+value="3"/><LaneChangeTarget><AbsoluteTargetLane value="{}"/></LaneChangeTarget></LaneChangeAction></LateralAction></PrivateAction>)",
+            lane);
+        return play_text(scenario_text(begin, story(event("e", action, at_time(1.0))) + stop_at(6.0)));
+    };
+    const PlayedStory nowhere = played_to(-7);
+    EXPECT_THAT(nowhere.notes, testing::ElementsAre(testing::AllOf(HasSubstr("s: Ego cannot change to lane -7, road '1' has "),
+                                                                   HasSubstr("-1"), HasSubstr(" there; it stays on lane -1"))));
+    EXPECT_EQ(nowhere.entities[0].samples[420].lane, -1);
+    const PlayedStory played = played_to(1);
+    EXPECT_TRUE(played.notes.empty());
     const auto& ego = played.entities[0].samples;
     const double from = ego[0].t_m, to = -from;
     EXPECT_NEAR(ego[252].t_m, 0.5 * (from + to), 0.05); // the middle after 1.5 s
@@ -63,6 +71,36 @@ TEST(Story, LaneChangeEndsInTheOtherLane) {
     for (std::size_t i = 1; i <= 500; ++i)
         way += std::hypot(ego[i].position_m.x - ego[i - 1].position_m.x, ego[i].position_m.y - ego[i - 1].position_m.y);
     EXPECT_NEAR(way, 100.0, 0.05);
+}
+
+TEST(Story, InitPlacesEntitiesInTheOrderThatTheirPositionsNeed) {
+    const std::string beside = teleport(R"(<RelativeLanePosition entityRef="Ego" dLane="0" ds="30"/>)");
+    const std::string added = R"(<GlobalAction><EntityAction entityRef="Other"><AddEntityAction><Position>
+<RelativeRoadPosition entityRef="Ego" ds="30" dt="0"/></Position></AddEntityAction></EntityAction></GlobalAction>)";
+    for (const std::string& other : {of("Other", beside + speed("3")), added + of("Other", speed("3"))}) {
+        const EntitySample at = play_text(scenario_text(other + begin, stop_at(1.0))).entities[1].samples[0];
+        EXPECT_TRUE(at.present);
+        EXPECT_NEAR(at.s_m, 80.0, 1e-9);
+        EXPECT_EQ(at.lane, -1);
+        EXPECT_EQ(at.speed_mps, 3.0);
+    }
+}
+
+TEST(Story, PositionsThatNeedAPlaceWhichIsNotThereAreRefusedWithTheNames) {
+    const auto beside = [](const std::string& entity) {
+        return teleport(fmt::format(R"(<RelativeObjectPosition entityRef="{}" dx="5" dy="0"/>)", entity));
+    };
+    const auto refused = [](const std::string& init, const std::string& events) {
+        return tests::refusal_of([&] { play_text(scenario_text(init, events + stop_at(1.0))); }, "played");
+    };
+    const std::string needs = "story.xosc:11: PrivateAction: needs the place of an entity that has none: ";
+    EXPECT_THAT(refused(of("Other", beside("Ego")), ""),
+                HasSubstr(needs + "'Other' > 'Ego', expected an entity that Init places without it"));
+    EXPECT_THAT(refused(of("Ego", beside("Ego")), ""), HasSubstr(needs + "'Ego' > 'Ego'"));
+    EXPECT_THAT(refused(of("Ego", beside("Other")) + of("Other", beside("Ego")), ""), HasSubstr(needs + "'Ego' > 'Other' > 'Ego'"));
+    EXPECT_THAT(refused(begin, story(event("e", beside("Other"), at_time(0.5)))),
+                HasSubstr("story.xosc:11: a: found a position relative to 'Other', which has no place, expected an entity that has one"));
+    EXPECT_EQ(refused(begin, story(event("e", beside("Ego"), at_time(0.5)))), "played") << "5 m on from where it is";
 }
 
 /// A rising edge needs a judgement before it: what is true from the start never rises.

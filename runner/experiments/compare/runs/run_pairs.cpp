@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -64,13 +65,25 @@ class Pairing {
         });
         match([](const RunDrive& a, const RunDrive& b) { return a.drive == b.drive && a.lamp_set == b.lamp_set; });
         match([&](const RunDrive& a, const RunDrive& b) { return a.drive == b.drive && is_last(old_, a.drive) && is_last(new_, b.drive); });
-        for (const RunDrive* drive : old_)
-            runs_.left_out.push_back(shown_name(*drive) + " is in A alone");
-        for (const RunDrive* drive : new_)
-            runs_.left_out.push_back(shown_name(*drive) + " is in B alone");
+        for (const auto& [left, others, run] : {std::tuple(&old_, &new_, 'A'), std::tuple(&new_, &old_, 'B')})
+            for (const RunDrive* drive : *left) {
+                const std::string told = std::ranges::find(*others, drive->drive, &RunDrive::drive) == others->end()
+                                             ? fmt::format("{} is in {} alone", shown_name(*drive), run)
+                                             : fmt::format("{} has the lamp sets {} in A and {} in B", drive->drive,
+                                                           lamp_sets_of(runs_.before, drive->drive), lamp_sets_of(runs_.now, drive->drive));
+                if (std::ranges::find(runs_.left_out, told) == runs_.left_out.end())
+                    runs_.left_out.push_back(told);
+            }
     }
 
   private:
+    static std::string lamp_sets_of(const RunFolder& run, const std::string& drive) {
+        std::vector<std::string> names;
+        for (const RunDrive& played : run.drives)
+            if (played.drive == drive && std::ranges::find(names, played.lamp_set) == names.end())
+                names.push_back(printable(played.lamp_set));
+        return fmt::format("{}", fmt::join(names, ", "));
+    }
     static bool is_last(const std::vector<const RunDrive*>& left, const std::string& name) {
         return std::ranges::count(left, name, [](const RunDrive* drive) { return drive->drive; }) == 1;
     }

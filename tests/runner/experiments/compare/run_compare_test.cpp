@@ -278,6 +278,8 @@ TEST_F(RunCompare, WrongInputIsOneSentenceAndTwo) {
         EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
     };
     refused("halogen", "faster", "", "another speed in B");
+    play("both", library_file("drives/straight.yaml"), "");
+    refused("halogen", "both", "", "straight-1 has the lamp sets halogen-low in A and halogen, xenon in B, expected a run of drives");
     refused("halogen", "empty", "", "has no report.json");
     std::filesystem::create_directories(at("study/cells/straight_new"));
     refused("halogen", "study", "", "is a study's folder, expected one of its cells");

@@ -148,6 +148,7 @@ TEST_F(DriveFile, DaylightStepSpeedAndTheRest) {
     EXPECT_FALSE(drive.extent);
     EXPECT_THAT(drive.probes, ElementsAre(Probe{"p", 7.0, 0.0, 0.0}));
     EXPECT_THAT(drive.limits, ElementsAre(Limit{"p_lx", std::nullopt, 3.0}));
+    EXPECT_EQ(drive.limits.front().line, 13U);
     EXPECT_EQ(drive.seed, 7U);
 }
 

@@ -1,4 +1,7 @@
 // The resolved drive: what write_drive writes, read_drive reads back, to the last bit.
+#include "scenarios/drives/keys/drive_keys.h"
+#include "scenarios/drives/keys/lamp_keys.h"
+#include "scenarios/fields/write_fields.h"
 #include "tests/scenarios/drives/drive_fixture.h"
 
 #include <algorithm>
@@ -331,6 +334,17 @@ TEST_F(WriteDrive, ADriveWithFlagsAppliedComesBack) {
     edits.capture_all = true;
     const Drive drive = read(minimal + "changes: [{at_s: 1, file: low.ies, source: arc, level: 0.5}]\n", edits);
     expect_same(drive, back(drive));
+}
+
+TEST_F(WriteDrive, LampsAreOfTheDriveWhoseTextIsWrittenLast) {
+    const Drive outer = read(minimal);
+    std::string text = minimal;
+    const Drive inner = read(text.replace(text.find("low.ies"), 7, "other.ies"));
+    const LampsAreOf lamps(outer);
+    const std::string alone = write_fields(drive_fields(), outer, 0);
+    EXPECT_THAT(alone, testing::HasSubstr("low.ies"));
+    EXPECT_THAT(write_drive(inner), testing::HasSubstr("other.ies")) << "while those of another are told";
+    EXPECT_EQ(write_fields(drive_fields(), outer, 0), alone) << "which go on";
 }
 
 TEST_F(WriteDrive, DegreesWhereTheyAreExact) {
