@@ -73,12 +73,15 @@ std::optional<double> fall_between(const ReceivedBeam& beam, const ScanLine& lin
     return (line.vertical ? 1.0 : -1.0) * (std::log10(*low) - std::log10(*high));
 }
 
-/// A file coarser than what G needs tells its edge's place to half a step: the middle of its steepest step.
+/// A file coarser than what G needs tells its edge's place to half a step: the middle of its steepest step. Somewhere within a stretch G is
+/// at least its mean there, so a mean that aiming accepts proves an edge. Over less than half a degree noise would have such a mean, and so
+/// would the dark end of a step that was divided along a straight line of cd; over the whole of a smooth beam's step there is none.
 void place_coarsely(CutOffScan& scan, const AimedLamp& lamp, const ScanLine& line) {
+    constexpr double shortest_stretch_deg = 0.5, per_deg = 0.1;
     const std::vector<double>& axis = line.vertical ? lamp.table->v_deg : lamp.table->h_deg;
     const double turned = line.vertical ? lamp.turned.v_deg : lamp.turned.h_deg;
     const ReceivedBeam beam({lamp}, {});
-    double steepest = 0.0;
+    double steepest = 0.0, middle = 0.0, width = 0.0;
     for (std::size_t i = 1; i < axis.size(); ++i) {
         const double a = axis[i - 1] + turned, b = axis[i] + turned;
         if (a < line.from_deg || b > line.to_deg)
@@ -86,10 +89,27 @@ void place_coarsely(CutOffScan& scan, const AimedLamp& lamp, const ScanLine& lin
         const auto fall = fall_between(beam, line, a, b);
         if (fall && *fall / (b - a) > steepest) {
             steepest = *fall / (b - a);
-            scan.inflection_deg = (a + b) / 2.0;
-            scan.position_error_deg = (b - a) / 2.0;
+            middle = (a + b) / 2.0;
+            width = b - a;
         }
     }
+    const std::string coarse = "is coarser than the 0.1 degrees over which G is taken";
+    if (width == 0.0) {
+        scan.reason =
+            fmt::format("the file's step of {:.3g} degrees {}, and none that lies within the scan falls", scan.table_step_deg, coarse);
+        return;
+    }
+    const double stretch = std::max(width, shortest_stretch_deg);
+    const double mean = per_deg * fall_between(beam, line, middle - stretch / 2.0, middle + stretch / 2.0).value_or(0.0) / stretch;
+    if (mean < min_sharpness) {
+        scan.reason = fmt::format("no edge can be told: the file's step of {:.3g} degrees {}, whose mean over {:.3g} degrees is at most "
+                                  "{:.3f}, and aiming needs {:.2f}",
+                                  scan.table_step_deg, coarse, stretch, mean, min_sharpness);
+        return;
+    }
+    scan.reason = fmt::format("the file's step of {:.3g} degrees at the edge {}", scan.table_step_deg, coarse);
+    scan.inflection_deg = middle;
+    scan.position_error_deg = width / 2.0;
 }
 
 CutOffScan scan_along(const AimedLamp& lamp, const ScanLine& line, const CutOffOptions& options) {
@@ -116,8 +136,6 @@ CutOffScan scan_along(const AimedLamp& lamp, const ScanLine& line, const CutOffO
     const double turned = line.vertical ? lamp.turned.v_deg : lamp.turned.h_deg;
     scan.table_step_deg = coarsest_step(line.vertical ? lamp.table->v_deg : lamp.table->h_deg, b - turned, b + 0.1 - turned);
     if (scan.table_step_deg > 0.1 + 1e-6) {
-        scan.reason = fmt::format("the file's step of {:.3g} degrees at the edge is coarser than the 0.1 degrees over which G is taken",
-                                  scan.table_step_deg);
         place_coarsely(scan, lamp, line);
         return scan;
     }

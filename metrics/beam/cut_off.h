@@ -51,7 +51,7 @@ struct CutOffFigures {
 
 /// The steepest fall of log E between two V. Sharpness is missing where the file's own steps across it exceed 0.1 degrees, over which G is
 /// taken: between such samples a G would be made up. Where the greatest G is below 0.08, the least that any aim accepts, there is no edge
-/// and no inflection.
+/// and no inflection; nor where the file is too coarse for G and its mean over the steepest step (at least half a degree) is below that.
 CutOffScan vertical_scan(const AimedLamp& lamp, double h_deg, double v_from_deg, double v_to_deg, const CutOffOptions& options = {});
 
 /// Looks for the edge from 3 D to 2 U. All that cannot be had is missing with its reason.

@@ -135,7 +135,7 @@ std::vector<Regulation> fmvss108_regulations() {
                 r.title += aim == AimRule::vol ? ", aimed by the cut-off on the left (VOL)" : ", aimed by the cut-off on the right (VOR)";
             } else {
                 r.title += ", aimed mechanically";
-                r.notes.emplace_back("aimed mechanically: the file's H-V is the lamp's mechanical axis");
+                r.aim_note = "aimed mechanically: the file's H-V is the lamp's mechanical axis";
             }
             r.notes.emplace_back("rows without an end in the text (to L, to R) are taken to 90 degrees");
             add_column(r, table_19(), column);
@@ -144,7 +144,7 @@ std::vector<Regulation> fmvss108_regulations() {
     }
     for (std::size_t column = 0; column < upper_columns.size(); ++column) {
         Regulation r = made(upper_columns[column], "upper beam", AimRule::as_is);
-        r.notes = {"as aimed with the lower beam or mechanically; a separate one aimed by eye: `--aim maximum`"};
+        r.aim_note = "as aimed with the lower beam or mechanically; a separate one aimed by eye: `--aim maximum`";
         add_column(r, table_18(), column);
         all.push_back(std::move(r));
     }

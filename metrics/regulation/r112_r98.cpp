@@ -80,7 +80,7 @@ Regulation driving(const char* id, const char* title, bool d, double imax, doubl
               point("H-2.5R", 2.5, 0, at_least(at_2_5)),
               point("H-5L", -5, 0, at_least(at_5)),
               point("H-5R", 5, 0, at_least(at_5))};
-    r.notes = {"aimed by its own maximum, as a lamp with a driving beam alone; `--aim-by PASSING` keeps the passing beam's aim"};
+    r.aim_note = "aimed by its own maximum, as a lamp with a driving beam alone; `--aim-by PASSING` keeps the passing beam's aim";
     return r;
 }
 

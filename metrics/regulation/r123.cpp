@@ -86,7 +86,7 @@ Regulation passing_beam(std::string id, const std::string& title, char letter, c
     if (aimed)
         r.re_aim = {0.5, 0.75, 0.25};
     else
-        r.notes.emplace_back("not aimed by itself: it keeps the aim of class C in the neutral state; `--aim-by CLASS_C` takes it over");
+        r.aim_note = "not aimed by itself: it keeps the aim of class C in the neutral state; `--aim-by CLASS_C` takes it over";
     for (const auto& [row, of] : table_1()) {
         std::optional<Limits> limits = of[std::string_view("CVEW").find(letter)];
         for (const auto& [changed, by] : changes)
@@ -155,7 +155,8 @@ Regulation adaptive(const std::string& id, const std::string& title, std::vector
          {point("50R", 1.72, -0.86, at_least(5100)), point("50V", 0, -0.86, at_least(5100)), point("50L", -3.43, -0.86, at_least(2550)),
           point("25LL", -16, -1.72, at_least(1180)), point("25RR", 11, -1.72, at_least(1180))})
         r.rows.push_back(noted(row, note));
-    r.notes = {"one state of the adaptation, and the file is the beam in that state; it keeps the aim of the driving beam"};
+    r.notes = {"one state of the adaptation, and the file is the beam in that state"};
+    r.aim_note = "not aimed by itself: it keeps the aim of the driving beam";
     return r;
 }
 

@@ -84,8 +84,8 @@ Regulation driving(const Driving& d) {
     both_sides(6, "H-6L", "H-6R", d.at_6);
     both_sides(9, "H-9L", "H-9R", d.at_9);
     both_sides(12, "H-12L", "H-12R", d.at_12);
-    r.notes = {
-        "aimed by its own maximum, as a driving beam that can be adjusted by itself; `--aim-by PASSING` keeps the passing beam's aim"};
+    r.aim_note =
+        "aimed by its own maximum, as a driving beam that can be adjusted by itself; `--aim-by PASSING` keeps the passing beam's aim";
     return r;
 }
 

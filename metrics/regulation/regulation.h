@@ -74,6 +74,7 @@ struct Regulation {
     bool mirrors = true;         ///< has a form for left-hand traffic
     std::vector<RegulationRow> rows = {};
     std::vector<std::string> notes = {};
+    std::string aim_note = {}; ///< what `aim` means here; "" where it needs no word
 };
 
 /// All tables, in the order of `regulation_ids()`.

@@ -234,7 +234,7 @@ int lamp_command(const LampRequest& request) {
 void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto request = std::make_shared<LampRequest>();
     CLI::App* command = app.add_subcommand("lamp", "describe a lamp file; scale, mirror, add, convert or plot it");
-    command->add_option("FILE", request->file, "IES LM-63, EULUMDAT, beam matrix (CSV) or beam texture (image)");
+    command->add_option("FILE", request->file, lamp_format_list());
     command->add_option("--model", request->model, "built-in model instead of a file: halogen-low, halogen-high, xenon-low, xenon-high");
     command->add_flag("--json", request->json, "print JSON");
     command->add_option("--picture", request->picture,

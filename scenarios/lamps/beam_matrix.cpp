@@ -222,18 +222,10 @@ LampFile read_beam_matrix(const std::filesystem::path& path, std::string_view te
         for (std::size_t v = 0; v < grid.v_deg.size(); ++v)
             for (std::size_t h = 0; h < grid.h_deg.size(); ++h)
                 grid.cd[v * grid.h_deg.size() + h] *= cd_per_lux(header, grid.h_deg[h], grid.v_deg[v]);
-    refuse_negative(grid, path, lamp.notes, [&](std::size_t at) { return row_lines[at / grid.h_deg.size()]; });
-    put_in_order(grid, path, lamp.notes);
-    CandelaTable table{grid.h_deg, grid.v_deg, grid.cd, {}, options.rule};
+    check_and_order(grid, path, lamp.notes, [&](std::size_t at) { return row_lines[at / grid.h_deg.size()]; });
     check_angles(grid, header, path); // repeated angles may have left a single one
-    if (header.gaps)
-        mark_written_gaps(*header.gaps, table, {path, header.gaps_line, 0, "gaps_deg"});
-    else
-        mark_padding(table, lamp.notes);
-    if (header.flat_angles)
-        bring_onto_goniometer(std::move(table), flat_screen(), lamp);
-    else
-        lamp.table = std::move(table);
+    finish(grid, options, header.gaps ? &*header.gaps : nullptr, {path, header.gaps_line, 0, "gaps_deg"},
+           header.flat_angles ? std::optional(flat_screen()) : std::nullopt, lamp);
     return lamp;
 }
 

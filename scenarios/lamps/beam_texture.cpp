@@ -150,10 +150,10 @@ Image<float> rendered(const CandelaTable& table, const EvenAxis& h, const EvenAx
 
 } // namespace
 
-bool looks_like_beam_texture(const std::string& bytes) { return bytes.starts_with("\x89PNG") || bytes.starts_with("\x76\x2f\x31\x01"); }
+bool looks_like_beam_texture(std::string_view bytes) { return bytes.starts_with("\x89PNG") || bytes.starts_with("\x76\x2f\x31\x01"); }
 
-LampFile read_beam_texture(const std::filesystem::path& path, const std::string& bytes, const LampReadOptions& options, FilesRead opened) {
-    const TextureImage image = decode_texture(path, bytes, max_made_samples);
+LampFile read_beam_texture(const std::filesystem::path& path, std::string_view bytes, const LampReadOptions& options, FilesRead opened) {
+    const TextureImage image = decode_texture(path, std::string(bytes), max_made_samples);
     const Metadata metadata(path, image.attributes);
     LampFile lamp{.name = path.stem().string(), .format = "beam texture", .opened = std::move(opened)};
     take_texts(metadata, lamp);
@@ -171,14 +171,12 @@ LampFile read_beam_texture(const std::filesystem::path& path, const std::string&
     grid.v_deg =
         pixel_centres(extent(options.texture_v_extent_deg, "v_extent_deg"), image.value.height(), 90.0, metadata.where("v_extent_deg"));
     grid.cd = intensities(image.value, scale * distance * distance, path);
-    refuse_negative(grid, path, lamp.notes, [](std::size_t) { return std::size_t{0}; });
+    check_and_order(grid, path, lamp.notes, [](std::size_t) { return std::size_t{0}; });
     if (image.was_coloured)
         lamp.notes.push_back("The picture is coloured: its luminance is taken.");
     if (image.pixel_type == "uint8")
         lamp.notes.push_back(fmt::format("8-bit pixels: steps of {:.3g} cd.", scale * distance * distance / 255.0));
-    lamp.table = {grid.h_deg, grid.v_deg, grid.cd, {}, options.rule};
-    if (const std::string* gaps = metadata.text("gaps_deg"))
-        mark_written_gaps(*gaps, lamp.table, metadata.where("gaps_deg"));
+    finish(grid, options, metadata.text("gaps_deg"), metadata.where("gaps_deg"), std::nullopt, lamp); // an even axis has no padding
     return lamp;
 }
 

@@ -356,8 +356,7 @@ LampFile read_ies(const std::filesystem::path& path, std::string_view text, cons
     for (double& cd : p.grid.cd)
         cd *= tilt;
     const std::size_t planes = p.grid.h_deg.size();
-    refuse_negative(p.grid, path, lamp.notes, [&](std::size_t at) { return p.lines[at % planes * p.grid.v_deg.size() + at / planes]; });
-    put_in_order(p.grid, path, lamp.notes);
+    check_and_order(p.grid, path, lamp.notes, [&](std::size_t at) { return p.lines[at % planes * p.grid.v_deg.size() + at / planes]; });
     lamp.format = fmt::format("IES LM-63-{}, type {}", header.edition, p.type);
     lamp.declared_flux_lm = p.lamp_flux_lm;
     lamp.labels = std::move(header.labels);
@@ -371,13 +370,12 @@ LampFile read_ies(const std::filesystem::path& path, std::string_view text, cons
     }
     if (p.grid.h_deg.front() == 0.0)
         p.grid = laterally_completed(p.grid, lamp.notes);
-    CandelaTable table{p.grid.h_deg, p.grid.v_deg, p.grid.cd, {}, options.rule};
-    if (!take_written_gaps(lamp.labels, table, path))
-        mark_padding(table, lamp.notes);
-    if (p.type == 'B')
-        bring_onto_goniometer(std::move(table), type_b(), lamp);
-    else
-        lamp.table = std::move(table);
+    const auto gaps = std::ranges::find(lamp.labels, gaps_key, &std::pair<std::string, std::string>::first);
+    const bool written = gaps != lamp.labels.end();
+    finish(p.grid, options, written ? &gaps->second : nullptr, {path, 0, 0, gaps_key},
+           p.type == 'B' ? std::optional(type_b()) : std::nullopt, lamp);
+    if (written)
+        lamp.labels.erase(gaps);
     return lamp;
 }
 

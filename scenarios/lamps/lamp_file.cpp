@@ -6,35 +6,45 @@
 #include "scenarios/lamps/lamp_text.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace fernlicht {
 namespace {
 
 LampFile read_as_it_is(const std::filesystem::path& path, const LampReadOptions& options) {
-    struct Format {
-        bool (*looks_so)(std::string_view);
-        const char* extension;
-        LampFile (*read)(const std::filesystem::path&, std::string_view, const LampReadOptions&, FilesRead);
-    };
-    static constexpr Format formats[]{{looks_like_ies, ".IES", read_ies},
-                                      {looks_like_beam_matrix, ".CSV", read_beam_matrix},
-                                      {looks_like_eulumdat, ".LDT", read_eulumdat}};
     FilesRead opened;
-    const std::string bytes = read_file(path, opened, max_lamp_text_bytes);
-    if (looks_like_beam_texture(bytes))
-        return read_beam_texture(path, bytes, options, std::move(opened));
-    const std::string text = lamp_text(bytes, path);
-    // By content first; a file whose content says nothing is what its name says, so that its reader can tell what is wrong with it.
-    const auto* format = std::ranges::find_if(formats, [&](const Format& f) { return f.looks_so(text); });
-    if (format == std::end(formats))
-        format = std::ranges::find(formats, uppercase(path.extension().string()), &Format::extension);
-    if (format == std::end(formats))
-        throw InputError({path, 0, 0, {}}, "is no lamp file that we know",
-                         "IES LM-63, EULUMDAT, a beam matrix or a beam texture (PNG, EXR)");
-    return format->read(path, text, options, std::move(opened));
+    std::string content = read_file(path, opened, max_lamp_text_bytes);
+    const auto all = lamp_formats();
+    auto format = std::ranges::find_if(all, [&](const LampFormat& f) { return f.picture && f.looks_so(content); });
+    if (format == all.end()) {
+        content = lamp_text(content, path);
+        format = std::ranges::find_if(all, [&](const LampFormat& f) { return !f.picture && f.looks_so(content); });
+    }
+    // A text whose content says nothing is what its name says, so that its reader can tell what is wrong with it.
+    if (format == all.end())
+        format = std::ranges::find_if(
+            all, [&](const LampFormat& f) { return !f.picture && uppercase(f.extensions) == uppercase(path.extension().string()); });
+    if (format == all.end())
+        throw InputError({path, 0, 0, {}}, "is no lamp file that we know", lamp_format_list());
+    return format->read(path, content, options, std::move(opened));
 }
 
 } // namespace
+
+std::span<const LampFormat> lamp_formats() {
+    static constexpr LampFormat formats[]{{"IES LM-63", ".ies", looks_like_ies, read_ies},
+                                          {"beam matrix", ".csv", looks_like_beam_matrix, read_beam_matrix},
+                                          {"EULUMDAT", ".ldt", looks_like_eulumdat, read_eulumdat},
+                                          {"beam texture", ".png, .exr", looks_like_beam_texture, read_beam_texture, true}};
+    return formats;
+}
+
+std::string lamp_format_list() {
+    std::vector<std::string> names;
+    for (const LampFormat& f : lamp_formats())
+        names.push_back(fmt::format("{} ({})", f.name, f.extensions));
+    return fmt::format("{} or {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+}
 
 LampFile read_lamp(const std::filesystem::path& path, const LampReadOptions& options) {
     LampFile lamp = read_as_it_is(path, options);

@@ -5,7 +5,9 @@
 #include "scenarios/values/files.h"
 
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace fernlicht {
@@ -36,6 +38,16 @@ struct LampFile {
     std::vector<std::string> notes = {}; ///< what was odd and how it was taken ("angles descend: sorted"), one sentence each
     FilesRead opened = {};
 };
+
+struct LampFormat {
+    std::string_view name, extensions; ///< "beam texture"; ".png, .exr"
+    bool (*looks_so)(std::string_view content);
+    LampFile (*read)(const std::filesystem::path&, std::string_view content, const LampReadOptions&, FilesRead);
+    bool picture = false; ///< its content is the file's bytes; of all others it is their text as UTF-8
+};
+/// In the order in which a file's content is held against them: the first line of some is free text.
+std::span<const LampFormat> lamp_formats();
+std::string lamp_format_list(); ///< "IES LM-63 (.ies), ... or beam texture (.png, .exr)"
 
 /// Reads any supported lamp file, told by content first and extension second. Throws InputError.
 LampFile read_lamp(const std::filesystem::path& path, const LampReadOptions& options = {});

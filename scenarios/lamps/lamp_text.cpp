@@ -56,6 +56,15 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
+std::vector<std::string_view> words_of(std::string_view line, std::string_view separators) {
+    std::vector<std::string_view> words;
+    for (std::size_t begin = 0, end = 0; (begin = line.find_first_not_of(separators, end)) != std::string_view::npos;) {
+        end = std::min(line.find_first_of(separators, begin), line.size());
+        words.push_back(line.substr(begin, end - begin));
+    }
+    return words;
+}
+
 std::string uppercase(std::string_view text) {
     std::string out(text);
     for (char& c : out)
@@ -115,20 +124,20 @@ void refuse_decimal_commas(std::string_view text, std::size_t lines_before, cons
     bool beside_others = false; // "0,90" alone on its line may as well be two numbers
     LineReader lines(text);
     for (std::string_view line; lines.next(line);) {
-        std::size_t numbers = 0;
+        const std::vector<std::string_view> numbers = words_of(line);
         bool comma = false;
-        for (std::size_t begin = 0, end = 0; (begin = line.find_first_not_of(blanks, end)) != std::string_view::npos; ++numbers) {
-            end = std::min(line.find_first_of(blanks, begin), line.size());
-            const std::string_view number = line.substr(begin, end - begin);
+        for (const std::string_view number : numbers) {
             if (const auto pointed = with_point(number)) {
                 comma = true;
                 if (!first)
-                    first = {{path, lines_before + lines.number(), begin + 1, {}}, number, *pointed};
+                    first = {{path, lines_before + lines.number(), static_cast<std::size_t>(number.data() - line.data()) + 1, {}},
+                             number,
+                             *pointed};
             } else if (number.find_first_of(",.") != std::string_view::npos) {
                 return; // commas separate here, or points are known
             }
         }
-        beside_others = beside_others || (comma && numbers > 1);
+        beside_others = beside_others || (comma && numbers.size() > 1);
     }
     if (first && beside_others)
         refuse_comma(first->where, first->number, first->pointed);

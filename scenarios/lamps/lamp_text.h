@@ -35,6 +35,8 @@ class LineReader {
 std::string lamp_text(const std::string& bytes, const std::filesystem::path& path);
 
 std::string_view trimmed(std::string_view text);
+/// What blanks, or other `separators`, part; none is empty.
+std::vector<std::string_view> words_of(std::string_view line, std::string_view separators = {" \t\v\f\0", 5});
 std::string uppercase(std::string_view text);
 /// Control characters, which would end the line, as blanks.
 std::string on_one_line(std::string text);

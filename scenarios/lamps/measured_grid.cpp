@@ -1,9 +1,11 @@
 #include "scenarios/lamps/measured_grid.h"
 
+#include "scenarios/lamps/goniometer.h"
 #include "scenarios/lamps/lamp_text.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 #include <numeric>
 
 namespace fernlicht {
@@ -68,24 +70,9 @@ template <class Dark> Padding padding_of(const std::vector<double>& axis, Dark d
 
 std::vector<double> four_numbers(std::string_view text) {
     std::vector<double> out;
-    while (!(text = trimmed(text)).empty()) {
-        const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
-        const std::optional<double> value = number_in(text.substr(0, end));
-        if (!value || out.size() == 4)
-            return {};
-        out.push_back(*value);
-        text.remove_prefix(end);
-    }
+    for (const std::string_view word : words_of(text))
+        out.push_back(number_in(word).value_or(std::numeric_limits<double>::quiet_NaN())); // refused as not ascending
     return out;
-}
-
-} // namespace
-
-void put_in_order(MeasuredGrid& grid, const std::filesystem::path& file, Notes& notes) {
-    put_rows_in_order(grid, "vertical", file, notes);
-    grid = transposed(grid);
-    put_rows_in_order(grid, "horizontal", file, notes);
-    grid = transposed(grid);
 }
 
 void refuse_negative(MeasuredGrid& grid, const std::filesystem::path& file, Notes& notes,
@@ -111,6 +98,70 @@ void refuse_negative(MeasuredGrid& grid, const std::filesystem::path& file, Note
                                 line > 0 ? fmt::format(" in line {}", line) : ""));
     std::replace_if(
         grid.cd.begin(), grid.cd.end(), [](double cd) { return cd < 0.0; }, 0.0);
+}
+
+/// Marks the cells between the angles that `text` names. Throws InputError when it does not read as gaps_text writes it.
+void mark_written_gaps(const std::string& text, CandelaTable& table, const InputError::Where& where) {
+    if (trimmed(text) == "none")
+        return;
+    const std::size_t columns = table.h_deg.size() - 1, rows = table.v_deg.size() - 1;
+    // The first cell whose middle lies above the angle, so that rounded angles still name the same cells.
+    const auto first_above = [](const std::vector<double>& axis, double angle) {
+        std::size_t low = 0, high = axis.size() - 1;
+        while (low < high) {
+            const std::size_t middle = (low + high) / 2;
+            (axis[middle] + axis[middle + 1]) / 2.0 > angle ? high = middle : low = middle + 1;
+        }
+        return low;
+    };
+    // Each rectangle as four corners, then summed up: time does not grow with rectangles times cells.
+    std::vector<long> corners((rows + 1) * (columns + 1), 0);
+    const auto corner = [&](std::size_t y, std::size_t x) -> long& { return corners[y * (columns + 1) + x]; };
+    std::string_view rest = text;
+    while (!rest.empty()) {
+        const std::size_t end = std::min(rest.find(';'), rest.size());
+        const std::vector<double> g = four_numbers(rest.substr(0, end));
+        if (g.size() != 4 || !(g[0] < g[1]) || !(g[2] < g[3]))
+            throw InputError(where, fmt::format("found '{}'", printable(std::string(rest.substr(0, std::min<std::size_t>(end, 200))))),
+                             "none, or angles h0 h1 v0 v1 with h0 < h1 and v0 < v1");
+        const std::size_t x0 = first_above(table.h_deg, g[0]), x1 = first_above(table.h_deg, g[1]);
+        const std::size_t y0 = first_above(table.v_deg, g[2]), y1 = first_above(table.v_deg, g[3]);
+        ++corner(y0, x0);
+        ++corner(y1, x1);
+        --corner(y0, x1);
+        --corner(y1, x0);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    table.gaps.assign(rows * columns, 0);
+    for (std::size_t y = 0; y < rows; ++y)
+        for (std::size_t x = 0; x < columns; ++x) {
+            corner(y, x) += (x > 0 ? corner(y, x - 1) : 0) + (y > 0 ? corner(y - 1, x) : 0) - (x > 0 && y > 0 ? corner(y - 1, x - 1) : 0);
+            table.gaps[y * columns + x] = corner(y, x) > 0;
+        }
+}
+
+} // namespace
+
+void check_and_order(MeasuredGrid& grid, const std::filesystem::path& file, Notes& notes,
+                     const std::function<std::size_t(std::size_t)>& line_of) {
+    refuse_negative(grid, file, notes, line_of);
+    put_rows_in_order(grid, "vertical", file, notes);
+    grid = transposed(grid);
+    put_rows_in_order(grid, "horizontal", file, notes);
+    grid = transposed(grid);
+}
+
+void finish(const MeasuredGrid& grid, const LampReadOptions& options, const std::string* written, const InputError::Where& where,
+            std::optional<AngleSystem> system, LampFile& lamp) {
+    CandelaTable table{grid.h_deg, grid.v_deg, grid.cd, {}, options.rule};
+    if (written)
+        mark_written_gaps(*written, table, where);
+    else
+        mark_padding(table, lamp.notes);
+    if (system)
+        bring_onto_goniometer(std::move(table), std::move(*system), lamp);
+    else
+        lamp.table = std::move(table);
 }
 
 void mark_padding(CandelaTable& table, Notes& notes) {
@@ -167,54 +218,6 @@ std::string gaps_text(const CandelaTable& table) {
                 fmt::format("{}{} {} {} {}", out.empty() ? "" : "; ", table.h_deg[x], table.h_deg[right], table.v_deg[y], table.v_deg[top]);
         }
     return out.empty() ? "none" : out;
-}
-
-void mark_written_gaps(const std::string& text, CandelaTable& table, const InputError::Where& where) {
-    if (trimmed(text) == "none")
-        return;
-    const std::size_t columns = table.h_deg.size() - 1, rows = table.v_deg.size() - 1;
-    // The first cell whose middle lies above the angle, so that rounded angles still name the same cells.
-    const auto first_above = [](const std::vector<double>& axis, double angle) {
-        std::size_t low = 0, high = axis.size() - 1;
-        while (low < high) {
-            const std::size_t middle = (low + high) / 2;
-            (axis[middle] + axis[middle + 1]) / 2.0 > angle ? high = middle : low = middle + 1;
-        }
-        return low;
-    };
-    // Each rectangle as four corners, then summed up: time does not grow with rectangles times cells.
-    std::vector<long> corners((rows + 1) * (columns + 1), 0);
-    const auto corner = [&](std::size_t y, std::size_t x) -> long& { return corners[y * (columns + 1) + x]; };
-    std::string_view rest = text;
-    while (!rest.empty()) {
-        const std::size_t end = std::min(rest.find(';'), rest.size());
-        const std::vector<double> g = four_numbers(rest.substr(0, end));
-        if (g.size() != 4 || !(g[0] < g[1]) || !(g[2] < g[3]))
-            throw InputError(where, fmt::format("found '{}'", printable(std::string(rest.substr(0, std::min<std::size_t>(end, 200))))),
-                             "none, or angles h0 h1 v0 v1 with h0 < h1 and v0 < v1");
-        const std::size_t x0 = first_above(table.h_deg, g[0]), x1 = first_above(table.h_deg, g[1]);
-        const std::size_t y0 = first_above(table.v_deg, g[2]), y1 = first_above(table.v_deg, g[3]);
-        ++corner(y0, x0);
-        ++corner(y1, x1);
-        --corner(y0, x1);
-        --corner(y1, x0);
-        rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-    table.gaps.assign(rows * columns, 0);
-    for (std::size_t y = 0; y < rows; ++y)
-        for (std::size_t x = 0; x < columns; ++x) {
-            corner(y, x) += (x > 0 ? corner(y, x - 1) : 0) + (y > 0 ? corner(y - 1, x) : 0) - (x > 0 && y > 0 ? corner(y - 1, x - 1) : 0);
-            table.gaps[y * columns + x] = corner(y, x) > 0;
-        }
-}
-
-bool take_written_gaps(std::vector<std::pair<std::string, std::string>>& labels, CandelaTable& table, const std::filesystem::path& path) {
-    const auto found = std::find_if(labels.begin(), labels.end(), [](const auto& label) { return label.first == gaps_key; });
-    if (found == labels.end())
-        return false;
-    mark_written_gaps(found->second, table, {path, 0, 0, gaps_key});
-    labels.erase(found);
-    return true;
 }
 
 } // namespace fernlicht

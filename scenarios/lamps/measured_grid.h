@@ -19,14 +19,16 @@ struct MeasuredGrid {
     std::size_t v_line = 0;
 };
 
-/// Brings both axes into ascending order. Repeated angles with the same intensities are dropped; with others they are an InputError.
-void put_in_order(MeasuredGrid& grid, const std::filesystem::path& file, Notes& notes);
-
 /// Negative intensities down to -0.1 % of the peak are a meter's noise about zero and become 0; below that they are an InputError.
-/// So are intensities above max_intensity_cd. The grid is in the file's order: `line_of` gives the line of cd[index], 0 where there is
-/// none.
-void refuse_negative(MeasuredGrid& grid, const std::filesystem::path& file, Notes& notes,
+/// So are intensities above max_intensity_cd: `line_of` gives the line of cd[index] in the file's order, 0 where there is none. Then brings
+/// both axes into ascending order. Repeated angles with the same intensities are dropped; with others they are an InputError.
+void check_and_order(MeasuredGrid& grid, const std::filesystem::path& file, Notes& notes,
                      const std::function<std::size_t(std::size_t)>& line_of);
+
+/// Ends every reader but those of C planes: the lamp's table, with the gaps that `written` names (as gaps_text does; `where` it stands) or
+/// else those of mark_padding, brought onto H and V from another `system`.
+void finish(const MeasuredGrid& grid, const LampReadOptions& options, const std::string* written, const InputError::Where& where,
+            std::optional<AngleSystem> system, LampFile& lamp);
 
 /// Marks as gap the outermost rows and columns of cells that only pad the file: more than eight times as wide as their neighbour and
 /// ending in zeros all along (a goniometer's range of -5..7 degrees, say, closed by zeros at -90 and 90). Light does not fade over such
@@ -38,11 +40,5 @@ inline constexpr const char* gaps_key = "_GAPS_DEG";
 
 /// "none", or "h0 h1 v0 v1; h0 h1 v0 v1; ...": the cells between these angles have no data.
 std::string gaps_text(const CandelaTable& table);
-
-/// Marks the cells between the angles that `text` names. Throws InputError when it does not read as gaps_text writes it.
-void mark_written_gaps(const std::string& text, CandelaTable& table, const InputError::Where& where);
-
-/// Takes the label `gaps_key`, if there is one, out of the labels and marks what it says. False: the file does not say.
-bool take_written_gaps(std::vector<std::pair<std::string, std::string>>& labels, CandelaTable& table, const std::filesystem::path& path);
 
 } // namespace fernlicht

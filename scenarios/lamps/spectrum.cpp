@@ -91,15 +91,7 @@ glm::dvec3 linear_srgb(const VisualIntegrals& i) {
 constexpr std::size_t max_samples = 100000;
 constexpr double needed_from_nm = 400.0, needed_to_nm = 700.0, coarsest_nm = 20.0;
 
-std::vector<std::string_view> fields_of(std::string_view line) {
-    constexpr std::string_view separators = ",;\t \r";
-    std::vector<std::string_view> fields;
-    for (std::size_t begin = 0, end = 0; (begin = line.find_first_not_of(separators, end)) != std::string_view::npos;) {
-        end = std::min(line.find_first_of(separators, begin), line.size());
-        fields.push_back(line.substr(begin, end - begin));
-    }
-    return fields;
-}
+constexpr std::string_view field_separators = ",;\t \r";
 
 std::optional<double> number_of(std::string_view field) {
     double value = 0.0;
@@ -113,7 +105,7 @@ std::string quoted(std::string_view text) { return "'" + printable(std::string(t
 
 /// One line of the file; false when it is one to be skipped.
 bool add_sample(std::string_view line, const InputError::Where& where, Spectrum& s, bool names_allowed) {
-    const auto fields = fields_of(line);
+    const auto fields = words_of(line, field_separators);
     if (fields.empty() || fields[0].front() == '#')
         return false;
     const std::optional<double> nm = number_of(fields[0]);
@@ -161,7 +153,7 @@ Spectrum read_spectrum_file(const std::filesystem::path& path, FilesRead& opened
         ++line_number;
         const bool may_be_names = s.power.empty() && !names_seen;
         const bool sample = add_sample(line, {path, line_number, 0, {}}, s, may_be_names);
-        const auto fields = fields_of(line);
+        const auto fields = words_of(line, field_separators);
         names_seen = names_seen || (!sample && !fields.empty() && fields[0].front() != '#');
         begin = end + 1;
     }

@@ -56,7 +56,8 @@ struct Tally {
 int main(int argc, char** argv) {
     const int beams = argc > 1 ? std::atoi(argv[1]) : 70; // of each shape
     const std::string only = argc > 2 ? argv[2] : "";     // a rule
-    const Regulation no_rows;
+    Regulation no_rows;
+    no_rows.aim = AimRule::automatic; // which `auto` asks for
     bool held = true;
     fmt::print("| rule | steps | found | off in H, 99 % | its largest bound | off in V, 99 % | its largest bound | beyond a bound |\n"
                "|---|---|---|---|---|---|---|---|\n");

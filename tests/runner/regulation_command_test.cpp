@@ -136,6 +136,12 @@ TEST(RegulationCommand, ADrivingBeamKeepsThePassingBeamsAim) {
     const json j = json::parse(run_program(lamp("halogen-high") + "--regulation r112-driving-b --json " + aim_by).output);
     EXPECT_THAT(j["aim"][0]["how"].get<std::string>(), HasSubstr("by the passing beam: cut-off found"));
     EXPECT_NEAR(j["aim"][0]["turned_deg"][1].get<double>(), 0.011, 0.005);
+    EXPECT_THAT(j["notes"][0].get<std::string>(),
+                HasSubstr("aimed as asked for, not in the regulation's own way: aimed by its own maximum"));
+    const std::string check = lamp("halogen-high") + "--regulation r112-driving-b --aim ";
+    EXPECT_THAT(run_program(check + "as-is").output, ContainsRegex("\nnote +aimed as asked for, not in the regulation's own way: "));
+    for (const char* own : {"auto", "maximum"})
+        EXPECT_THAT(run_program(check + own).output, ContainsRegex("\nnote +aimed by its own maximum")) << own;
 }
 
 TEST(RegulationCommand, ListNamesEveryTableAndItsRows) {

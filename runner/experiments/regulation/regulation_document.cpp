@@ -148,6 +148,16 @@ const char* name_of(AimRule rule) {
     return "as-is";
 }
 
+std::vector<std::string> notes_of(const RegulationFound& found) {
+    std::vector<std::string> notes = found.regulation.notes;
+    const std::string& own_way = found.regulation.aim_note;
+    if (!own_way.empty())
+        notes.insert(notes.begin(), found.check.aims.front().rule == found.regulation.aim
+                                        ? own_way
+                                        : "aimed as asked for, not in the regulation's own way: " + own_way);
+    return notes;
+}
+
 std::vector<const RowResult*> narrowest(const RegulationCheck& check, std::size_t count) {
     std::vector<const RowResult*> rows;
     for (const RowResult& row : check.rows)
@@ -177,7 +187,7 @@ Document document(const RegulationFound& found) {
     }
     if (check.was_re_aimed)
         tell("re-aimed", turned_text(check.re_aimed) + " more, within what the edition allows a lamp that fails");
-    for (const std::string& note : r.notes)
+    for (const std::string& note : notes_of(found))
         tell("note", note);
     Document document{r.title, {{"", {facts}}, {"Rows", {rows_table("rows", check.rows)}}}};
     if (!check.as_filed.empty())

@@ -101,7 +101,7 @@ std::string regulation_json(const RegulationFound& found) {
            {"half_sum", r.half_sum || lamps.size() == 2},
            {"receiver", {{"shape", r.receiver.shape == Receiver::Shape::square ? "square" : "disc"}, {"size_deg", r.receiver.size_deg}}},
            {"aim", aims},
-           {"notes", r.notes},
+           {"notes", notes_of(found)},
            {"rows", rows},
            {"narrowest", nearest},
            {"as_filed", {{"verdict", name_of(check.verdict_as_filed)}, {"rows_changed", as_filed}}},

@@ -39,6 +39,8 @@ plots::Figure cut_off_figure(const CutOffFound& found);
 
 const char* name_of(RowVerdict verdict); ///< "pass", "fail", "not_measured"
 const char* name_of(AimRule rule);       ///< "auto", "cut-off-line"
+/// The regulation's notes. That on its aim says so where the lamp was aimed in another way.
+std::vector<std::string> notes_of(const RegulationFound& found);
 /// At most `count` of the rows that were measured, the smallest margin first.
 std::vector<const RowResult*> narrowest(const RegulationCheck& check, std::size_t count);
 

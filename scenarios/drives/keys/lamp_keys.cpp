@@ -107,6 +107,7 @@ std::string file_text(const LampFile* file) {
 
 const Fields<LampFile>& lamp_file_fields() {
     static const Fields<LampFile> fields = [] {
+        static const std::string meaning = lamp_format_list() + "; relative to the drive file";
         FieldOf<LampFile> options;
         options.id = 2;
         options.kind = FieldKind::inlined;
@@ -114,8 +115,7 @@ const Fields<LampFile>& lamp_file_fields() {
         options.group = shared_group(option_fields());
         return Fields<LampFile>{
             own<LampFile>(
-                "file", 1, nullptr, [](const LampFile& file) { return file_text(&file); }, file_schema,
-                "IES LM-63, EULUMDAT, beam matrix (CSV) or beam texture; relative to the drive file"),
+                "file", 1, nullptr, [](const LampFile& file) { return file_text(&file); }, file_schema, meaning),
             options,
         };
     }();

@@ -102,6 +102,31 @@ TEST(CutOff, ACoarseFileHasNoSharpnessButAPlace) {
     EXPECT_NEAR(c.level.position_error_deg, 0.1, 1e-9);
 }
 
+// A street luminaire: a cosine's power, and a batwing whose two lobes stand 60 degrees from the nadir and end at the horizon.
+TEST(CutOff, ASmoothLuminaireInCoarseStepsHasNone) {
+    const auto cosine = [](double h, double v) { return 4000.0 * std::pow(std::cos(std::hypot(h, v) * 3.14159265358979 / 180.0), 30.0); };
+    const auto batwing = [](double, double v) { return 20.0 + 2000.0 * std::exp(-0.5 * std::pow((v + 30.0) / 12.0, 2)); };
+    for (const double step : {0.25, 1.0, 2.5, 5.0}) {
+        const std::vector<double> angles = tests::steps(-60.0, 60.0, step);
+        for (const CandelaTable& t : {tests::table_of(angles, angles, cosine), tests::table_of(angles, angles, batwing)}) {
+            SCOPED_TRACE(step);
+            const CutOffFigures c = measure_cut_off({&t, {}});
+            for (const CutOffScan* scan : {&c.level, &c.level_inner, &c.level_outer, &c.rise[0], &c.rise[1], &c.rise[2]}) {
+                EXPECT_FALSE(scan->sharpness);
+                EXPECT_FALSE(scan->inflection_deg);
+                EXPECT_THAT(scan->reason, HasSubstr("coarser than the 0.1 degrees"));
+            }
+            EXPECT_FALSE(c.linearity_deg);
+            for (const AimRule rule : {AimRule::automatic, AimRule::cut_off, AimRule::elbow, AimRule::vol, AimRule::vor}) {
+                const Aim aim = aim_of(t, rule);
+                EXPECT_FALSE(aim.found);
+                EXPECT_EQ(aim.turned, Direction{});
+                EXPECT_THAT(aim.how, HasSubstr("left as filed"));
+            }
+        }
+    }
+}
+
 TEST(CutOff, WhereThereIsNoneItSaysSo) {
     const CandelaTable flat = edge_table({}, [](double) { return 500.0; });
     EXPECT_FALSE(measure_cut_off({&flat, {}}).level.inflection_deg);
@@ -237,7 +262,7 @@ TEST(Elbow, AShortRiseIsNoStraightLineAndIsAimedByTheElbowAlone) {
         const RegulationCheck check = check_regulation(regulation("r112-b"), {lamp}, options);
         return std::ranges::find(check.rows, "75R", &RowResult::id)->found;
     };
-    CheckOptions not_re_aimed{.re_aim = false};
+    CheckOptions not_re_aimed{.aim = std::nullopt, .re_aim = false};
     EXPECT_NEAR(found(t, not_re_aimed) / found(aimed, {.aim = AimRule::as_is}), 1.0, 0.05);
 }
 
@@ -262,7 +287,7 @@ TEST(Elbow, AnyAngleIsTurnedAtOnceInBothTraffics) {
         Regulation limitless;
         limitless.aim = AimRule::automatic;
         const Aim aim = check_regulation(limitless, {right}, {}).aims.front();
-        const Aim other = check_regulation(limitless, {left}, {.left_hand_traffic = true}).aims.front();
+        const Aim other = check_regulation(limitless, {left}, {.aim = std::nullopt, .left_hand_traffic = true}).aims.front();
         ASSERT_TRUE(aim.found) << aim.how;
         EXPECT_NEAR(aim.turned.v_deg, -0.57 - c.level_v_deg, aim.bound.v_deg);
         EXPECT_LE(std::abs(aim.residual.v_deg), aim.bound.v_deg);
