@@ -56,11 +56,11 @@ std::string with_unit(const Value& value, const std::string& unit) {
     return value.measured() ? with_bound(value, fmt::format("{:.4g} {}", *value.figure(), unit_label(unit))) : "not measured";
 }
 
-/// "reach at 5 lx ...: 40 m -> 50 m, +10.00 m (+25.0 %) ±0.57; new against old on straight-1 (night)"
+/// "reach at 5 lx ...: 40 m → 50 m, +10.00 m (+25.0 %) ±0.57; new against old on straight-1 (night)"
 std::string change_sentence(const StudyResult& result, const Change& change) {
     const Value found = change.change();
     const CellResult& cell = result.cells[change.tested];
-    return fmt::format("{}: {} -> {}, {} {}{} ±{:.2g}; {} against {} on {} ({})", reading_label(change.reading),
+    return fmt::format("{}: {} → {}, {} {}{} ±{:.2g}; {} against {} on {} ({})", reading_label(change.reading),
                        with_unit(change.old_value, change.unit()), with_unit(change.new_value, change.unit()),
                        with_bound(found, fmt::format("{:+.2f}", found.figure().value_or(0.0))), unit_label(change.unit()),
                        change.relative() ? fmt::format(" ({:+.1f} %)", 100.0 * *change.relative()) : "", change.uncertainty.value_or(0.0),
@@ -69,18 +69,18 @@ std::string change_sentence(const StudyResult& result, const Change& change) {
 
 Card card_of(const StudyResult& result, std::size_t index) {
     const Change& change = result.changes[index];
-    const std::string unit = unit_label(change.unit());
+    const std::string label = change.unit() == "1" ? "" : unit_label(change.unit()), unit = label.empty() ? "" : " " + label;
     std::string detail =
-        fmt::format("{} {} {} → {} {} {}; ±{} {} by calculation", result.lamp_of(change.against), two_decimals(change.old_value).text, unit,
+        fmt::format("{} {}{} → {} {}{}; ±{}{} by calculation", result.lamp_of(change.against), two_decimals(change.old_value).text, unit,
                     result.lamp_of(change.tested), two_decimals(change.new_value).text, unit, open_cell(change.uncertainty).text, unit);
     if (change.noise_effect.value_or(0.0) > 0.0)
-        detail += fmt::format(", ±{} {} by noise", open_cell(change.noise_effect).text, unit);
+        detail += fmt::format(", ±{}{} by noise", open_cell(change.noise_effect).text, unit);
     if (change.aim_effect)
-        detail += fmt::format(", ±{} {} by 0.1° of aim", figure(*change.aim_effect, 2), unit);
+        detail += fmt::format(", ±{}{} by 0.1° of aim", figure(*change.aim_effect, 2), unit);
     const CellResult& cell = result.cells[change.tested];
     return {reading_label(change.reading),
             change_cell(change.change()).text,
-            unit,
+            label,
             change.relative() ? fmt::format("({} %)", signed_figure(100.0 * *change.relative(), 1)) : "",
             detail,
             Cell(cell.drive + ", " + cell.cell.condition).linked(fmt::format("#c{}", index))};

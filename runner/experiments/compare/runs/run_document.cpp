@@ -63,13 +63,13 @@ void add_change(Table& table, const DriveComparison& drive, const ReadingChange&
                           unit_label(change.unit()), Cell(change_name(change.kind)).hinted(change.reason_unknown)});
 }
 
-/// "reach at 1 lx on the road, own lane: 29.35 -> 33.27 m, +3.923 (+13.4 %), ±0.095".
+/// "reach at 1 lx on the road, own lane: 29.35 → 33.27 m, +3.923 (+13.4 %), ±0.095".
 std::string change_text(const ReadingChange& c) {
     const auto short_value = [](const Value& value) {
         return value.measured() ? with_bound(value, fmt::format("{:.4g}", *value.figure())) : "not measured";
     };
     const Value change = c.change();
-    std::string text = fmt::format("{}: {} -> {} {}, {}", reading_label(c.reading), short_value(c.old_value), short_value(c.new_value),
+    std::string text = fmt::format("{}: {} → {} {}, {}", reading_label(c.reading), short_value(c.old_value), short_value(c.new_value),
                                    unit_label(c.unit()), with_bound(change, fmt::format("{:+.4g}", change.figure().value_or(0.0))));
     if (c.relative())
         text += fmt::format(" ({:+.1f} %)", 100.0 * *c.relative());
@@ -97,7 +97,7 @@ Section first_section(const RunComparison& runs) {
     Section section{
         is_judged ? fmt::format("{}: {}", runs.strictness_name, runs.passed() ? "kept" : "not kept")
                   : (real == 0 ? "No" : fmt::format("{}", real)) + (real == 1 ? " real change" : " real changes"),
-        {"old A  " + runs.before.folder.string(), "new B  " + runs.now.folder.string(), "differences are B - A", runs_sentence(runs)},
+        {"A, old: " + runs.before.folder.string(), "B, new: " + runs.now.folder.string(), "differences are B − A", runs_sentence(runs)},
         2,
         false,
         !is_judged      ? "none"
