@@ -60,7 +60,7 @@ void compare_lamp_files(DriveComparison& drive) {
             const LampFile tested = read_as_played(drive.now, lamp.value), against = read_as_played(drive.before, *other);
             drive.lamp_files.push_back({lamp.key, old_file, file, difference_of(tested, against, 0.0)});
             plots::Figure figure = difference_figure(tested, against, drive.lamp_files.back().difference);
-            drive.figures.push_back({fmt::format("lamps_{}_{}", drive.name, drive.lamp_files.size()), figure.title, plots::svg_of(figure)});
+            drive.figures.push_back({fmt::format("lamps_{}_{}", drive.name, drive.lamp_files.size()), figure.title, figure});
         } catch (const InputError& error) {
             drive.left_out.push_back(fmt::format("the tables of the lamp {}, and their noise: {}", printable(lamp.key), error.what()));
         }
