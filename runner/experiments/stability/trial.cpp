@@ -9,7 +9,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <limits>
 
 namespace fernlicht::stability {
 namespace {
@@ -53,11 +52,17 @@ RendererSettings unshadowed() {
     return settings;
 }
 
+Moment moment_of(LitLamp lamp) {
+    Moment moment;
+    moment.lamps.push_back(std::move(lamp));
+    return moment;
+}
+
 std::size_t not_finite(const Frame& frame) {
     return bad_pixels(frame.illuminance_lx) + bad_pixels(frame.target_lx) + bad_pixels(frame.luminance_cdm2) + bad_pixels(frame.depth_m);
 }
 
-double AgainstTwin::error() const { return not_finite > 0 || compared == 0 ? std::numeric_limits<double>::infinity() : of_bound; }
+double AgainstTwin::error() const { return not_finite > 0 || compared == 0 ? unbounded : of_bound; }
 
 double rounding_bound_lx(const LitLamp& lamp, const glm::dvec3& to_lamp, const glm::dvec3& normal, double reach_m) {
     const double d = glm::length(to_lamp), cosine = glm::dot(normal, to_lamp) / d;
@@ -95,8 +100,7 @@ AgainstTwin against_plane(const Frame& frame, const Moment& moment, const View& 
             if (truth > 0.0)
                 result.worst_relative = std::max(result.worst_relative, off / truth);
             const bool hole = frame.ids.at(x, y) == 0;
-            if (const double ratio = hole ? std::numeric_limits<double>::infinity() : off / bound;
-                result.where.empty() || ratio > result.of_bound) {
+            if (const double ratio = hole ? unbounded : off / bound; result.where.empty() || ratio > result.of_bound) {
                 result.of_bound = ratio;
                 result.where = fmt::format("{} {} {}", hole ? "hole at pixel" : "pixel", x, y);
             }
@@ -127,8 +131,7 @@ AgainstTwin against_twin(Renderer& renderer, const Scene& scene, const Moment& m
             if (truth.illuminance_lx > 0.0)
                 result.worst_relative = std::max(result.worst_relative, off / truth.illuminance_lx);
             const bool other_surface = frame.ids.at(x, y) != truth.id;
-            if (const double ratio = other_surface ? std::numeric_limits<double>::infinity() : off / bound;
-                result.where.empty() || ratio > result.of_bound) {
+            if (const double ratio = other_surface ? unbounded : off / bound; result.where.empty() || ratio > result.of_bound) {
                 result.of_bound = ratio;
                 result.where = fmt::format("pixel {} {}", x, y);
             }
@@ -154,6 +157,18 @@ std::string road_text(double length_m, const std::string& plan, const std::strin
 <lanes><laneSection s="0"><center><lane id="0"/></center><right>{}</right></laneSection></lanes></road></OpenDRIVE>
 )",
                        length_m, plan, profiles, lanes);
+}
+
+double area_of(const Scene& scene, const std::set<SurfaceKind>& kinds) {
+    double area_m2 = 0.0;
+    for (const Mesh& mesh : scene.meshes)
+        for (const Batch& batch : mesh.batches)
+            for (std::uint32_t i = batch.first; i + 2 < batch.first + batch.count; i += 3) {
+                const auto corner = [&](std::uint32_t k) { return glm::dvec3(mesh.vertices[mesh.indices[i + k]].position_m); };
+                if (kinds.contains(scene.materials[batch.material].kind))
+                    area_m2 += 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+            }
+    return area_m2;
 }
 
 std::filesystem::path write_drive_file(StabilityBench& bench, const std::string& name, const std::string& more, const std::string& time) {

@@ -49,8 +49,7 @@ struct OnAPlane {
     }
 };
 
-Found on_a_plane(StabilityBench& bench) {
-    Found worst;
+void on_a_plane(StabilityBench& bench, Found& worst) {
     for (const auto& [name, height_m, slope, moved_m] :
          {std::tuple("lamp 2 mm above the plane", 0.002, 0.0, glm::dvec3(0.0)),
           std::tuple("lamp 5 cm above the plane", 0.05, 0.0, glm::dvec3(0.0)), std::tuple("level", 0.65, 0.0, glm::dvec3(0.0)),
@@ -71,12 +70,10 @@ Found on_a_plane(StabilityBench& bench) {
                 planar_shadow_tolerance()));
         judge_tally(worst, all, name);
     }
-    return worst;
 }
 
 /// Polygons under a car: the ground within its outline.
-Found under_cars(StabilityBench& bench) {
-    Found worst;
+void under_cars(StabilityBench& bench, Found& worst) {
     const glm::dvec3 half(2.2, 0.9, 0.7);
     for (const glm::dvec3& moved_m : {glm::dvec3(0.0), glm::dvec3(500123.4, 5400567.8, 312.5)}) {
         Scene scene = empty_scene();
@@ -120,7 +117,6 @@ Found under_cars(StabilityBench& bench) {
                       fmt::format("{}, moved by {} m: {} of {} pixels", name, moved_m.x, wrong, dark + lit));
         }
     }
-    return worst;
 }
 
 struct ShadowWay {
@@ -141,7 +137,8 @@ std::vector<ShadowWay> shadow_ways() {
 }
 
 /// Some boxes on a road, drawn by each method at a place.
-Found by_all_methods(StabilityBench& bench, double lamp_height_m, double box_height_m, const glm::dvec3& moved_m, const View& view) {
+void by_all_methods(StabilityBench& bench, Found& worst, double lamp_height_m, double box_height_m, const glm::dvec3& moved_m,
+                    const View& view) {
     Scene scene = empty_scene();
     add_sheet(scene, "road", 0, moved_m + glm::dvec3(-10.0, -50.0, 0.0), {300.0, 0.0, 0.0}, {0.0, 100.0, 0.0});
     for (int i = 0; i < 5; ++i)
@@ -151,26 +148,23 @@ Found by_all_methods(StabilityBench& bench, double lamp_height_m, double box_hei
     Moment moment;
     moment.ego.position_m = moved_m;
     moment.lamps = {lamp(level_beam(), moved_m + glm::dvec3(0.0, 0.0, lamp_height_m))};
-    Found worst;
     for (const ShadowWay& one : shadow_ways()) {
         ShadowTrial trial(bench, scene, shadows_by(one.method));
         judge_tally(worst, trial.tally(moment, view, one.tolerance), std::string(name(one.method)));
     }
-    return worst;
 }
 
-Found grazing_by_all(StabilityBench& bench) {
-    return by_all_methods(bench, 0.2, 0.6, {}, camera({-1.5, 1.3, 6.0}, -0.02, -0.04, 8.0, 48, 64));
+void grazing_by_all(StabilityBench& bench, Found& worst) {
+    by_all_methods(bench, worst, 0.2, 0.6, {}, camera({-1.5, 1.3, 6.0}, -0.02, -0.04, 8.0, 48, 64));
 }
 
-Found far_by_all(StabilityBench& bench) {
-    Found worst;
+void far_by_all(StabilityBench& bench, Found& worst) {
     for (const glm::dvec3& moved_m : {glm::dvec3(-100000.0, 0.0, 0.0), glm::dvec3(500123.456, 5400567.891, 812.345)}) {
-        const Found found = by_all_methods(bench, 0.65, 0.8, moved_m, camera({-1.5, 0.3, 1.25}, 0.0, -0.04, 25.0, 64, 48));
+        Found found;
+        by_all_methods(bench, found, 0.65, 0.8, moved_m, camera({-1.5, 0.3, 1.25}, 0.0, -0.04, 25.0, 64, 48));
         worst.trials += found.trials - 1;
         worst.add(found.error, fmt::format("{} m, {} m: {}", moved_m.x, moved_m.y, found.where));
     }
-    return worst;
 }
 
 } // namespace

@@ -40,29 +40,23 @@ TEST_P(Stability, HoldsItsBound) {
 
 INSTANTIATE_TEST_SUITE_P(Cases, Stability, testing::ValuesIn(all_cases()), test_name);
 
-StabilityRow judged(double bound, const std::function<Found(StabilityBench&)>& measure) {
+StabilityRow judged(double bound, const StabilityCase::Measure& measure) {
     static StabilityCase one;
     one = {"trial", "case", "nothing", bound, "units", "none", measure};
     StabilityBench bench("auto", "unused", false);
     return judge(one, bench);
 }
 
-Found found(double error) {
-    Found result;
-    result.add(error, "here");
-    return result;
-}
-
 TEST(StabilityJudging, ComparesWithTheBound) {
-    EXPECT_TRUE(judged(1.0, [](auto&) { return found(1.0); }).passed);
-    EXPECT_FALSE(judged(1.0, [](auto&) { return found(1.0000001); }).passed);
-    EXPECT_TRUE(judged(0.0, [](auto&) { return found(0.0); }).passed);
+    EXPECT_TRUE(judged(1.0, [](auto&, Found& worst) { worst.add(1.0, "here"); }).passed);
+    EXPECT_FALSE(judged(1.0, [](auto&, Found& worst) { worst.add(1.0000001, "here"); }).passed);
+    EXPECT_TRUE(judged(0.0, [](auto&, Found& worst) { worst.add(0.0, "here"); }).passed);
 }
 
 TEST(StabilityJudging, WhatIsNoNumberFails) {
-    EXPECT_FALSE(judged(1e300, [](auto&) { return found(std::numeric_limits<double>::quiet_NaN()); }).passed);
-    EXPECT_FALSE(judged(1e300, [](auto&) { return found(std::numeric_limits<double>::infinity()); }).passed);
-    const StabilityRow thrown = judged(1.0, [](auto&) -> Found { throw std::logic_error("a bug"); });
+    EXPECT_FALSE(judged(1e300, [](auto&, Found& worst) { worst.add(std::numeric_limits<double>::quiet_NaN(), "here"); }).passed);
+    EXPECT_FALSE(judged(1e300, [](auto&, Found& worst) { worst.add(std::numeric_limits<double>::infinity(), "here"); }).passed);
+    const StabilityRow thrown = judged(1.0, [](auto&, Found&) { throw std::logic_error("a bug"); });
     EXPECT_FALSE(thrown.passed);
     EXPECT_EQ(thrown.found.where, "thrown: a bug");
     StabilityResult result;
