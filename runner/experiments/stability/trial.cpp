@@ -44,12 +44,31 @@ double reach_of(const Scene& scene, const Moment& moment, const View& view) {
     return reach;
 }
 
+/// `wrong`: it shows another surface, or none.
+void add_pixel(AgainstTwin& result, float drawn_lx, double truth_lx, double bound_lx, bool wrong, const std::string& where) {
+    ++result.compared;
+    const double off = std::abs(static_cast<double>(drawn_lx) - truth_lx), ratio = wrong ? unbounded : off / bound_lx;
+    if (truth_lx > 0.0)
+        result.worst_relative = std::max(result.worst_relative, off / truth_lx);
+    if (result.where.empty() || ratio > result.of_bound) {
+        result.of_bound = ratio;
+        result.where = where;
+    }
+}
+
 } // namespace
 
 RendererSettings unshadowed() {
     RendererSettings settings;
     settings.shadows.method = ShadowMethod::none;
     return settings;
+}
+
+Scene scene_of_sheet(const std::string& name, std::uint32_t material, const glm::dvec3& corner_m, const glm::dvec3& edge_a,
+                     const glm::dvec3& edge_b) {
+    Scene scene = empty_scene();
+    add_sheet(scene, name, material, corner_m, edge_a, edge_b);
+    return scene;
 }
 
 Moment moment_of(LitLamp lamp) {
@@ -88,7 +107,6 @@ AgainstTwin against_plane(const Frame& frame, const Moment& moment, const View& 
             const glm::dvec3 point = ray.origin_m - ray.direction * (ray.origin_m.z / ray.direction.z);
             if (!(ray.direction.z < 0.0) || !inside(point))
                 continue;
-            ++result.compared;
             double bound = 1e-30, truth = 0.0;
             for (const LitLamp& lamp : moment.lamps) {
                 const glm::dvec3 to_lamp = lamp.pose.position_m - moment.ego.position_m - point, up(0.0, 0.0, 1.0);
@@ -96,14 +114,9 @@ AgainstTwin against_plane(const Frame& frame, const Moment& moment, const View& 
                          glm::dot(to_lamp, to_lamp);
                 bound += rounding_bound_lx(lamp, to_lamp, up, reach_m);
             }
-            const double drawn = static_cast<double>(frame.illuminance_lx.at(x, y)), off = std::abs(drawn - truth);
-            if (truth > 0.0)
-                result.worst_relative = std::max(result.worst_relative, off / truth);
             const bool hole = frame.ids.at(x, y) == 0;
-            if (const double ratio = hole ? unbounded : off / bound; result.where.empty() || ratio > result.of_bound) {
-                result.of_bound = ratio;
-                result.where = fmt::format("{} {} {}", hole ? "hole at pixel" : "pixel", x, y);
-            }
+            add_pixel(result, frame.illuminance_lx.at(x, y), truth, bound, hole,
+                      fmt::format("{} {} {}", hole ? "hole at pixel" : "pixel", x, y));
         }
     return result;
 }
@@ -123,18 +136,11 @@ AgainstTwin against_twin(Renderer& renderer, const Scene& scene, const Moment& m
                     inner = inner && twin.pixel(moment, view, x + dx, y + dy).id == truth.id;
             if (!inner)
                 continue;
-            ++result.compared;
             double bound = 1e-30 + truth.illuminance_lx * light_roundings * rounding;
             for (const LitLamp& lamp : moment.lamps)
                 bound += rounding_bound_lx(lamp, lamp.pose.position_m - moment.ego.position_m - truth.point_m, truth.normal, reach);
-            const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - truth.illuminance_lx);
-            if (truth.illuminance_lx > 0.0)
-                result.worst_relative = std::max(result.worst_relative, off / truth.illuminance_lx);
-            const bool other_surface = frame.ids.at(x, y) != truth.id;
-            if (const double ratio = other_surface ? unbounded : off / bound; result.where.empty() || ratio > result.of_bound) {
-                result.of_bound = ratio;
-                result.where = fmt::format("pixel {} {}", x, y);
-            }
+            add_pixel(result, frame.illuminance_lx.at(x, y), truth.illuminance_lx, bound, frame.ids.at(x, y) != truth.id,
+                      fmt::format("pixel {} {}", x, y));
         }
     return result;
 }

@@ -17,6 +17,9 @@ using namespace small_scenes;
 /// Without shadows, which the comparisons with twin and plane leave out; the shadow cases have them.
 RendererSettings unshadowed();
 
+/// add_sheet() to an empty scene.
+Scene scene_of_sheet(const std::string& name, std::uint32_t material, const glm::dvec3& corner_m, const glm::dvec3& edge_a,
+                     const glm::dvec3& edge_b);
 /// Lit by this lamp alone.
 Moment moment_of(LitLamp lamp);
 

@@ -23,8 +23,7 @@ struct Size {
 
 StabilityCase::Measure against_a_street(const std::vector<Size>& sizes) {
     return [sizes](StabilityBench& bench, Found& worst) {
-        Scene scene = empty_scene();
-        add_sheet(scene, "road", 0, {-20.0, -30.0, 0.0}, {120.0, 0.0, 0.0}, {0.0, 60.0, 0.0});
+        Scene scene = scene_of_sheet("road", 0, {-20.0, -30.0, 0.0}, {120.0, 0.0, 0.0}, {0.0, 60.0, 0.0});
         add_sheet(scene, "board", 1, {30.0, 1.0, 0.5}, {0.0, -2.0, 0.0}, {0.0, 0.0, 1.5});
         Renderer renderer(bench.device(), scene, unshadowed());
         const Moment moment = moment_of(lamp(cut_off_table(), {3.5, 0.6, 0.65}));

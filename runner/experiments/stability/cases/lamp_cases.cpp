@@ -15,8 +15,7 @@ using namespace stability;
 
 /// A wall of 1 m at the car, a lamp before it at each distance. The car stands at the wall: what is far is the lamp.
 void distance(StabilityBench& bench, Found& worst) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "wall", 0, {0.0, 0.5, -0.5}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}); // faces -x
+    Scene scene = scene_of_sheet("wall", 0, {0.0, 0.5, -0.5}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}); // faces -x
     Renderer renderer(bench.device(), scene, unshadowed());
     Moment moment = moment_of(lamp(constant_table(1000.0), {}));
     for (double d = 1e-3; d < 1.01e4; d *= std::pow(10.0, 0.25)) {
@@ -34,8 +33,7 @@ void grazing(StabilityBench& bench, Found& worst) {
             const double a = radians(graze_deg);
             // Along the light and a little across it; the normal leans towards the lamp by the angle.
             const glm::dvec3 along = axes * glm::dvec3(std::cos(a), 0.0, std::sin(a)), across = axes * glm::dvec3(0.0, 1.0, 0.0);
-            Scene scene = empty_scene();
-            add_sheet(scene, "sheet", 0, glm::dvec3(20.0, 0.0, 0.0) - 0.5 * along - 0.05 * across, along, 0.1 * across);
+            Scene scene = scene_of_sheet("sheet", 0, glm::dvec3(20.0, 0.0, 0.0) - 0.5 * along - 0.05 * across, along, 0.1 * across);
             Renderer renderer(bench.device(), scene, unshadowed());
             Moment moment = moment_of(lamp(constant_table(1000.0), {0.0, 0.0, 0.0}));
             // Seen from above the sheet, so that pixels show its surface well.
@@ -49,8 +47,7 @@ void grazing(StabilityBench& bench, Found& worst) {
 
 /// A lamp in the middle of a sheet, exactly where a pixel's centre looks, and within rounding errors of it.
 void lamp_on_a_surface(StabilityBench& bench, Found& worst) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "wall", 0, {2.0, 1.0, -1.0}, {0.0, -2.0, 0.0}, {0.0, 0.0, 2.0});
+    Scene scene = scene_of_sheet("wall", 0, {2.0, 1.0, -1.0}, {0.0, -2.0, 0.0}, {0.0, 0.0, 2.0});
     Renderer renderer(bench.device(), scene, unshadowed());
     for (const double before_m : {0.0, 1e-300, 1e-45, 1e-30, 1e-12, 1e-7, 1e-6})
         for (const double yaw : {0.0, pi}) {
@@ -68,8 +65,7 @@ void lamp_on_a_surface(StabilityBench& bench, Found& worst) {
 
 /// One lamp lights a wall with 1e5 lx, another the wall beside it with 1 lx, in one frame.
 void unequal_lamps(StabilityBench& bench, Found& worst) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "bright wall", 0, {10.0, 3.0, -1.0}, {0.0, -2.9, 0.0}, {0.0, 0.0, 2.0});
+    Scene scene = scene_of_sheet("bright wall", 0, {10.0, 3.0, -1.0}, {0.0, -2.9, 0.0}, {0.0, 0.0, 2.0});
     add_sheet(scene, "dim wall", 0, {10.0, -0.1, -1.0}, {0.0, -2.9, 0.0}, {0.0, 0.0, 2.0});
     add_sheet(scene, "board", 1, {9.0, 0.1, 1.2}, {0.0, -0.2, 0.0}, {0.0, 0.0, 0.2});
     Moment moment;
@@ -84,8 +80,7 @@ void unequal_lamps(StabilityBench& bench, Found& worst) {
 
 /// A road, a retroreflecting board over it and a wall behind the lamp.
 Scene street(const glm::dvec3& origin_m) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "road", 0, origin_m + glm::dvec3(-20.0, -10.0, 0.0), {120.0, 0.0, 0.0}, {0.0, 20.0, 0.0});
+    Scene scene = scene_of_sheet("road", 0, origin_m + glm::dvec3(-20.0, -10.0, 0.0), {120.0, 0.0, 0.0}, {0.0, 20.0, 0.0});
     add_sheet(scene, "board", 1, origin_m + glm::dvec3(30.0, 1.0, 0.5), {0.0, -2.0, 0.0}, {0.0, 0.0, 1.5});
     add_sheet(scene, "back wall", 1, origin_m + glm::dvec3(-10.0, -5.0, 0.0), {0.0, 10.0, 0.0}, {0.0, 0.0, 5.0});
     return scene;

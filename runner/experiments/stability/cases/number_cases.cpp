@@ -80,8 +80,7 @@ void float_rules(StabilityBench& bench, Found& worst) {
         worst.add(static_cast<double>(broken.size()), broken.empty() ? "every rule holds " + at : fmt::format("{} {}", broken.front(), at));
     };
     add("at first");
-    Scene scene = empty_scene();
-    add_sheet(scene, "wall", 0, {10.0, 3.0, -3.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 6.0});
+    Scene scene = scene_of_sheet("wall", 0, {10.0, 3.0, -3.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 6.0});
     Moment moment = moment_of(lamp(constant_table(1000.0), {0.0, 0.0, 0.0}));
     const View view = camera({0.0, 0.0, 0.0}, 0.0, 0.0, 30.0, 32, 32);
     Renderer renderer(bench.device(), scene, unshadowed());
@@ -106,8 +105,7 @@ void float_rules(StabilityBench& bench, Found& worst) {
 
 /// Lamps so weak that their light is denormal in float, or none.
 void denormals(StabilityBench& bench, Found& worst) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "wall", 1, {10.0, 3.0, -3.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 6.0});
+    Scene scene = scene_of_sheet("wall", 1, {10.0, 3.0, -3.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 6.0});
     Renderer renderer(bench.device(), scene, unshadowed());
     for (const double cd : {1e-300, 1e-45, 1e-42, 1e-38, 1e-36, 1e-30}) {
         Moment moment = moment_of(lamp(constant_table(cd), {0.0, 0.0, 0.0}));
@@ -125,8 +123,7 @@ void denormals(StabilityBench& bench, Found& worst) {
 
 /// The brightest lamps that a file may hold, eight of them, at a millimetre and at ten metres.
 void brightest(StabilityBench& bench, Found& worst) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "wall", 1, {0.001, 3.0, -3.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 6.0});
+    Scene scene = scene_of_sheet("wall", 1, {0.001, 3.0, -3.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 6.0});
     add_sheet(scene, "road", 0, {-20.0, -10.0, -1.0}, {40.0, 0.0, 0.0}, {0.0, 20.0, 0.0});
     Renderer renderer(bench.device(), scene, unshadowed());
     Moment moment;

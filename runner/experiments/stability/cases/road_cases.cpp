@@ -106,8 +106,7 @@ void walls(StabilityBench& bench, Found& worst) {
 
 /// Light on a vertical wall whose plane passes through the lamp or nearly so, and just before and behind it.
 void wall_edge_on(StabilityBench& bench, Found& worst) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "wall", 0, {5.0, 0.0, 0.0}, {40.0, 0.0, 0.0}, {0.0, 0.0, 3.0}); // in the plane y = 0, faces -y
+    Scene scene = scene_of_sheet("wall", 0, {5.0, 0.0, 0.0}, {40.0, 0.0, 0.0}, {0.0, 0.0, 3.0}); // in the plane y = 0, faces -y
     Renderer renderer(bench.device(), scene, unshadowed());
     for (const double beside_m : {-1.0, -1e-3, -1e-6, -1e-30, 0.0, 1e-30, 1e-6, 1e-3, 1.0}) {
         Moment moment = moment_of(lamp(constant_table(1000.0), {0.0, beside_m, 0.65}));

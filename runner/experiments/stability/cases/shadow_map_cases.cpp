@@ -14,14 +14,9 @@ namespace {
 
 using namespace stability;
 
+/// Of the beam: of a map of 1024 x 512 texels the coarser axis is across.
 constexpr double half_width_deg = 30.0, half_height_deg = 10.0;
 
-/// 30 degrees to each side and 10 up and down: of a map of 1024 x 512 texels the coarser axis is across.
-CandelaTable even_beam() {
-    CandelaTable table = even_table(half_width_deg);
-    table.v_deg = {-half_height_deg, half_height_deg};
-    return table;
-}
 double texel_of(int width, int height) {
     return std::max(2.0 * std::tan(radians(half_width_deg)) / (width - 2),
                     2.0 * 1.75 * std::tan(radians(half_height_deg)) / (height - 2)); // the window is so much higher
@@ -29,8 +24,7 @@ double texel_of(int width, int height) {
 
 /// Posts, a board and a wall on a level road, from 6 m on.
 Scene row_of_posts(double low_m = 0.0) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "road", 0, {-50.0, -100.0, 0.0}, {400.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
+    Scene scene = scene_of_sheet("road", 0, {-50.0, -100.0, 0.0}, {400.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
     for (int i = 0; i < 6; ++i)
         add_triangles(scene, fmt::format("post {}", i), 1, {6.0 + 9.0 * i, (i % 2 == 0 ? 0.9 : -1.4) * (1.0 + 0.5 * i), low_m + 0.6},
                       box({0.1, 0.1 + 0.05 * i, 0.6}, 0.3 * i));
@@ -41,7 +35,7 @@ Scene row_of_posts(double low_m = 0.0) {
 
 Moment lit_by(const std::vector<glm::dvec3>& lamps, double yaw_rad = 0.0) {
     Moment moment;
-    static const LitLamp one = lamp(even_beam(), {}); // one table: shaders are compiled for each
+    static const LitLamp one = lamp(even_table(half_width_deg, half_height_deg), {}); // one table: shaders are compiled for each
     for (const glm::dvec3& at : lamps) {
         moment.lamps.push_back(one);
         moment.lamps.back().pose = {at, axes_from_angles(yaw_rad, 0.0, 0.0)};
@@ -49,7 +43,7 @@ Moment lit_by(const std::vector<glm::dvec3>& lamps, double yaw_rad = 0.0) {
     return moment;
 }
 
-const glm::dvec3 own_lamp_m(0.0, 0.0, 0.65);
+constexpr glm::dvec3 own_lamp_m(0.0, 0.0, 0.65);
 
 View driver_of_posts() { return camera({-1.5, 0.3, 1.25}, 0.0, -0.03, 30.0, 64, 48); }
 
@@ -95,8 +89,7 @@ void warp_search(StabilityBench& bench, Found& worst) {
 }
 
 void texels_of_maps(StabilityBench& bench, Found& worst) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "road", 0, {-50.0, -100.0, 0.0}, {400.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
+    Scene scene = scene_of_sheet("road", 0, {-50.0, -100.0, 0.0}, {400.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
     add_triangles(scene, "board", 1, {20.0, -3.0, 3.0}, box({0.05, 4.0, 3.0}));
     add_triangles(scene, "wall", 1, {40.0, 0.0, 3.0}, box({0.2, 20.0, 3.0}));
     for (const ShadowMethod method : {ShadowMethod::map, ShadowMethod::one_map, ShadowMethod::light_space_map, ShadowMethod::soft_map})
@@ -153,8 +146,7 @@ void soft_near(StabilityBench& bench, Found& worst) {
     constexpr double radius_m = 0.5;
     constexpr int rays = 256;
     for (const double caster_m : {0.1, 0.3, 0.5}) {
-        Scene scene = empty_scene();
-        add_sheet(scene, "wall", 1, {12.0, 5.0, -4.0}, {0.0, -10.0, 0.0}, {0.0, 0.0, 8.0});
+        Scene scene = scene_of_sheet("wall", 1, {12.0, 5.0, -4.0}, {0.0, -10.0, 0.0}, {0.0, 0.0, 8.0});
         add_triangles(scene, "plate", 1, {caster_m, 0.1, 0.0}, box({0.01, 0.2, 0.2}));
         const Moment moment = lit_by({{0.0, 0.0, 0.0}});
         const View view = camera({3.0, 0.0, 0.0}, 0.0, 0.0, 25.0, 24, 18);

@@ -14,11 +14,7 @@ namespace {
 
 using namespace stability;
 
-CandelaTable level_beam() {
-    CandelaTable table = even_table(30.0);
-    table.v_deg = {-10.0, 10.0};
-    return table;
-}
+CandelaTable level_beam() { return even_table(30.0, 10.0); }
 constexpr double beam_texel = 1.3e-3; // of 1024 x 512 texels
 
 ShadowTolerance planar_shadow_tolerance() {
@@ -76,8 +72,7 @@ void on_a_plane(StabilityBench& bench, Found& worst) {
 void under_cars(StabilityBench& bench, Found& worst) {
     const glm::dvec3 half(2.2, 0.9, 0.7);
     for (const glm::dvec3& moved_m : {glm::dvec3(0.0), glm::dvec3(500123.4, 5400567.8, 312.5)}) {
-        Scene scene = empty_scene();
-        add_sheet(scene, "road", 0, moved_m + glm::dvec3(-20.0, -50.0, 0.0), {150.0, 0.0, 0.0}, {0.0, 100.0, 0.0});
+        Scene scene = scene_of_sheet("road", 0, moved_m + glm::dvec3(-20.0, -50.0, 0.0), {150.0, 0.0, 0.0}, {0.0, 100.0, 0.0});
         add_triangles(scene, "car", 1, {0.0, 0.0, 0.8}, box(half));
         scene.meshes.back().body = 0;
         RendererSettings settings;
@@ -139,8 +134,7 @@ std::vector<ShadowWay> shadow_ways() {
 /// Some boxes on a road, drawn by each method at a place.
 void by_all_methods(StabilityBench& bench, Found& worst, double lamp_height_m, double box_height_m, const glm::dvec3& moved_m,
                     const View& view) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "road", 0, moved_m + glm::dvec3(-10.0, -50.0, 0.0), {300.0, 0.0, 0.0}, {0.0, 100.0, 0.0});
+    Scene scene = scene_of_sheet("road", 0, moved_m + glm::dvec3(-10.0, -50.0, 0.0), {300.0, 0.0, 0.0}, {0.0, 100.0, 0.0});
     for (int i = 0; i < 5; ++i)
         add_triangles(scene, fmt::format("box {}", i), 1,
                       moved_m + glm::dvec3(8.0 + 24.0 * i, 0.3 * i * (i % 2 == 0 ? 1.0 : -1.0), 0.5 * box_height_m),

@@ -53,8 +53,7 @@ Triangles any_body(Chance& chance, double size_m) {
 }
 
 Scene crowd_of_bodies(Chance& chance, int bodies, std::vector<glm::dvec3>& places) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "road", 0, {-50.0, -100.0, 0.0}, {200.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
+    Scene scene = scene_of_sheet("road", 0, {-50.0, -100.0, 0.0}, {200.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
     for (int i = 0; i < bodies; ++i) {
         const double size_m = std::exp(chance.between(std::log(0.05), std::log(4.0)));
         places.push_back({chance.between(2.0, 40.0), chance.between(-8.0, 8.0), chance.between(0.1, 1.0) * (size_m + 1.0)});
@@ -69,7 +68,7 @@ void shadow_crowds(StabilityBench& bench, Found& worst) {
         std::vector<glm::dvec3> places;
         const Scene scene = crowd_of_bodies(chance, 10, places);
         ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::volumes));
-        Moment moment = moment_of(lamp(even_table(40.0), {}));
+        Moment moment = moment_of(lamp(even_table(40.0, 40.0), {}));
         ShadowTally all;
         for (int k = 0; k < 8; ++k) {
             const bool within = chance.below(3) == 0; // a body, or its shadow
@@ -89,14 +88,13 @@ void shadow_crowds(StabilityBench& bench, Found& worst) {
 
 /// A road 200 m long, and one body on it.
 Scene street_with(const glm::dvec3& at, const Triangles& body) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "road", 0, {-50.0, -100.0, 0.0}, {200.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
+    Scene scene = scene_of_sheet("road", 0, {-50.0, -100.0, 0.0}, {200.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
     add_triangles(scene, "body", 1, at, body);
     return scene;
 }
 
 Moment lit_from(const glm::dvec3& lamp_m) {
-    static const LitLamp one = lamp(even_table(40.0), {}); // one table: shaders are compiled for each
+    static const LitLamp one = lamp(even_table(40.0, 40.0), {}); // one table: shaders are compiled for each
     Moment moment = moment_of(one);
     moment.lamps.front().pose.position_m = lamp_m;
     return moment;
@@ -140,8 +138,7 @@ void near_planes(StabilityBench& bench, Found& worst) {
 
 /// Fronts must not shade themselves, however their depth is rounded: walls along the light, seen from near, far and aside.
 void long_walls(StabilityBench& bench, Found& worst) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "road", 0, {-50.0, -100.0, 0.0}, {400.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
+    Scene scene = scene_of_sheet("road", 0, {-50.0, -100.0, 0.0}, {400.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
     add_triangles(scene, "wall", 1, {140.0, -3.0, 1.0}, box({138.0, 0.2, 1.0}, 0.004));
     for (int i = 1; i < 12; ++i)
         add_triangles(scene, fmt::format("post {}", i), 1, {20.0 * i, -1.5, 0.5}, box({0.1, 0.1, 0.5}));

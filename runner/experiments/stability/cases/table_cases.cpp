@@ -61,8 +61,7 @@ void four_thousand(StabilityBench& bench, Found& worst) {
 /// On a wall at 25 m, drawn and held against the twin.
 void steep_steps(StabilityBench& bench, Found& worst) {
     const auto cd = [](std::size_t x, std::size_t y) { return (x + y) % 2 == 0 ? 1e5 : 1.0; };
-    Scene scene = empty_scene();
-    add_sheet(scene, "wall", 0, {25.0, 40.0, -40.0}, {0.0, -80.0, 0.0}, {0.0, 0.0, 80.0});
+    Scene scene = scene_of_sheet("wall", 0, {25.0, 40.0, -40.0}, {0.0, -80.0, 0.0}, {0.0, 0.0, 80.0});
     Renderer renderer(bench.device(), scene, unshadowed());
     Moment moment =
         moment_of(lamp(through_a_file(bench, "steps", table_of(axis(-10.0, 0.1, 201), axis(-10.0, 0.1, 201), cd)), {0.0, 0.0, 0.0}));
@@ -74,8 +73,7 @@ void steep_steps(StabilityBench& bench, Found& worst) {
 void poles(StabilityBench& bench, Found& worst) {
     const CandelaTable table =
         through_a_file(bench, "poles", table_of(axis(-90.0, 1.0, 181), axis(-90.0, 1.0, 181), [](auto, auto) { return 1000.0; }));
-    Scene scene = empty_scene();
-    add_sheet(scene, "floor", 0, {-3.0, -3.0, -1.0}, {6.0, 0.0, 0.0}, {0.0, 6.0, 0.0});
+    Scene scene = scene_of_sheet("floor", 0, {-3.0, -3.0, -1.0}, {6.0, 0.0, 0.0}, {0.0, 6.0, 0.0});
     add_sheet(scene, "ceiling", 0, {-3.0, -3.0, 1.0}, {0.0, 6.0, 0.0}, {6.0, 0.0, 0.0});
     Renderer renderer(bench.device(), scene, unshadowed());
     for (const double pitch : {-0.5 * pi, 0.5 * pi})

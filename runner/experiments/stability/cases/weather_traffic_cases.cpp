@@ -11,8 +11,7 @@ namespace {
 using namespace stability;
 
 Scene road_and_board() {
-    Scene scene = empty_scene();
-    add_sheet(scene, "road", 0, {-50.0, -50.0, 0.0}, {150.0, 0.0, 0.0}, {0.0, 100.0, 0.0});
+    Scene scene = scene_of_sheet("road", 0, {-50.0, -50.0, 0.0}, {150.0, 0.0, 0.0}, {0.0, 100.0, 0.0});
     add_sheet(scene, "board", 1, {30.0, 3.0, 0.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 3.0});
     return scene;
 }
@@ -62,8 +61,7 @@ void street_lamp_on_the_ground(StabilityBench& bench, Found& worst) {
 
 /// A road, a board that returns light, and a wall that does not: what is lit by fragment and what by vertex.
 Scene lit_by_others() {
-    Scene scene = empty_scene();
-    add_sheet(scene, "road", 0, {-50.0, -50.0, 0.0}, {250.0, 0.0, 0.0}, {0.0, 100.0, 0.0});
+    Scene scene = scene_of_sheet("road", 0, {-50.0, -50.0, 0.0}, {250.0, 0.0, 0.0}, {0.0, 100.0, 0.0});
     add_sheet(scene, "board", 1, {30.0, 3.0, 0.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 3.0});
     Material wall;
     wall.name = "wall";
