@@ -7,7 +7,7 @@
 //
 // "Float: e of x, condition c.": evaluated in float, a value differs from the double one by at most e, measured by x; a relative change of an
 // argument changes it by at most c times as much, by the same measure. Domains, derivations and the search for the worst arguments:
-// runner/experiments/stability/equation_bounds.cpp and equations.cpp; `fernlicht stability --equations` searches on any device.
+// runner/experiments/stability/equations.cpp; `fernlicht stability --equations` searches on any device.
 
 const real photometry_pi = 3.14159265358979323846;
 const real photometry_inverse_pi = 0.31830988618379067154;

@@ -18,6 +18,9 @@ struct Interval {
     bool operator==(const Interval&) const = default;
 };
 
+/// Of a value that was measured once, without a word on how often.
+inline Interval exactly(double value) { return {value, value, value}; }
+
 /// One way, with its parameters.
 struct WorkPrecisionRow {
     std::string label;

@@ -4,6 +4,8 @@
 #include "scenarios/values/files.h"
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +26,15 @@ struct Findings {
     RunContext context;
     std::string interrupted;          ///< why not all was measured; "" where it was
     std::vector<std::string> missing; ///< what was not measured because of that, one sentence each
+};
+
+/// What an experiment is asked for beside its own.
+template <class Result> struct ExperimentRequest {
+    std::string backend = "auto";
+    std::filesystem::path folder; ///< for the files; made when all input is read and the device is found sane
+    std::vector<std::string> command;
+    bool quiet = false;
+    std::function<void(const Result&)> write; ///< takes what was found, also when it was interrupted; the folder is there
 };
 
 /// flaky: repeats of the same thing differ.

@@ -1,8 +1,10 @@
 // A picture in memory: rows from the top, tightly packed.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <stdexcept>
+#include <type_traits>
 #include <vector>
 
 namespace fernlicht {
@@ -41,5 +43,21 @@ template <class T> class Image {
     int height_ = 0;
     std::vector<T> pixels_;
 };
+
+/// The picture of what `of` makes of each pixel.
+template <class T, class Of> auto mapped(const Image<T>& picture, Of of) {
+    Image<std::decay_t<std::invoke_result_t<Of, const T&>>> out(picture.width(), picture.height());
+    std::ranges::transform(picture.pixels(), out.pixels().begin(), of);
+    return out;
+}
+
+/// What lies within the picture from a pixel on.
+template <class T> Image<T> part_of(const Image<T>& picture, int left, int top, int width, int height) {
+    Image<T> out(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            out.at(x, y) = picture.at(left + x, top + y);
+    return out;
+}
 
 } // namespace fernlicht

@@ -55,8 +55,7 @@ class ControlRunTest : public testing::Test {
     Ran run(double from_m, const std::string& control) {
         std::ofstream(folder_ / "bends.yaml") << drive_text(from_m, control);
         const std::string out = folder_ / fmt::format("out{}", ++runs_);
-        const Outcome outcome = run_program("run " + (folder_ / "bends.yaml") + small_frames + "--out " + out);
-        EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+        printed("run " + (folder_ / "bends.yaml") + small_frames + "--out " + out);
         return {out, Json::parse(content_of(out + "/report.json")), table_of(out + "/signals-bends-moving.csv"),
                 content_of(out + "/report.html")};
     }

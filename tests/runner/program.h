@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <gtest/gtest.h>
 #include <sstream>
 #include <string>
 #include <sys/wait.h>
@@ -36,6 +37,13 @@ inline Outcome run_shell(const std::string& command) {
 /// `before` is put before the program: variables, timeout.
 inline Outcome run_program(const std::string& arguments, const std::string& before = {}) {
     return run_shell(before + " '" FERNLICHT_BINARY "' " + arguments);
+}
+
+/// What it prints; it must end with this code.
+inline std::string printed(const std::string& arguments, int exit_code = 0) {
+    const Outcome run = run_program(arguments);
+    EXPECT_EQ(run.exit_code, exit_code) << arguments << '\n' << run.output;
+    return run.output;
 }
 
 /// The program, interrupted as by Ctrl-C when it first writes `sign`, which tells how far it is; `signals` of them at once.

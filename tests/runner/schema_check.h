@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -75,6 +77,15 @@ class Schema {
     json root_;
     std::vector<std::string> complaints_;
 };
+
+/// What a file of results says: it fits the schema, and comes back as it is.
+template <class Result> nlohmann::json checked(const std::filesystem::path& file, const std::string& schema,
+                                               Result (*read)(const std::filesystem::path&), std::string (*text)(const Result&)) {
+    nlohmann::json found = nlohmann::json::parse(std::ifstream(file));
+    EXPECT_EQ(Schema(nlohmann::json::parse(schema)).check(found), std::vector<std::string>());
+    EXPECT_EQ(nlohmann::json::parse(text(read(file))), found);
+    return found;
+}
 
 /// Complaints about `value` by a schema in runner/experiments, as "run/report".
 inline std::vector<std::string> complaints(const nlohmann::json& value, const std::string& schema) {

@@ -69,14 +69,7 @@ std::vector<ReachError> errors_of_reach(const Stage& stage, const PlayedCell& pl
     ReferenceSettings settings = settings_for(stage.drive);
     settings.footprint = Footprint::centre;
     settings.lamp_radius_m = 0.0;
-    const Draw draw = [&](const Moment& at, const View& view, const FrameOutputs& outputs) {
-        ReferenceImage image = reference.render(at, view, outputs, settings);
-        error.rays += image.rays;
-        Frame frame;
-        frame.illuminance_lx = std::move(image.illuminance_lx.mean);
-        frame.target_lx = std::move(image.target_lx.mean);
-        return [frame] { return frame; };
-    };
+    const Draw draw = drawn_by(reference, settings, [&](const ReferenceImage& image) { error.rays += image.rays; });
     const ExtentFold fold(stage.drive, stage.route);
     std::vector<std::vector<LaneExtent>> tested, truth;
     for (const Moment& moment : moments)

@@ -16,12 +16,6 @@ std::string reason(const Technique& technique, const char* what) {
     return fmt::format("technique {} does not compute {}", technique.name, what);
 }
 
-/// Where the pixel's centre meets what it shows, relative to the car.
-glm::dvec3 shown_at(const Camera& camera, const View& view, const Frame& frame, int x, int y) {
-    const Ray ray = pixel_ray(camera, view, x + 0.5, y + 0.5);
-    return ray.origin_m + ray.direction * (static_cast<double>(frame.depth_m.at(x, y)) / glm::dot(ray.direction, camera.axis));
-}
-
 /// What an angle may be off by: Mesa's atan, 2.2e-6 rad, doubled, and a position's 1e-6 of the distance seen from the lamp
 /// (renderer/twin.h).
 constexpr double angle_error_rad = 6e-6;
@@ -50,6 +44,18 @@ double gradient_per_rad(const Moment& moment, const glm::dvec3& point_m) {
 }
 
 } // namespace
+
+Draw drawn_by(const Reference& reference, const ReferenceSettings& settings, const std::function<void(const ReferenceImage&)>& seen,
+              const StopAsked& stop) {
+    return [&reference, settings, seen, stop](const Moment& at, const View& view, const FrameOutputs& outputs) {
+        ReferenceImage image = reference.render(at, view, outputs, settings, {}, {}, stop);
+        seen(image);
+        Frame frame;
+        frame.illuminance_lx = std::move(image.illuminance_lx.mean);
+        frame.target_lx = std::move(image.target_lx.mean);
+        return [frame] { return frame; };
+    };
+}
 
 void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate& reference, const Image<float>* road_m2, int picture) {
     for (int y = 0; y < tested.height(); ++y)
@@ -98,16 +104,11 @@ bool ReferencePictures::add_driver(std::size_t moment, const View& view, const S
 
 bool ReferencePictures::add_map(std::size_t moment, const StopAsked& stop) {
     bool complete = true;
-    const Draw draw = [&](const Moment& at, const View& view, const FrameOutputs& outputs) {
-        ReferenceImage image = reference_.render(at, view, outputs, settings_, {}, {}, stop);
+    const auto seen = [&](const ReferenceImage& image) {
         complete = complete && image.complete;
         count(image);
-        Frame frame;
-        frame.illuminance_lx = std::move(image.illuminance_lx.mean);
-        frame.target_lx = std::move(image.target_lx.mean);
-        return [frame] { return frame; };
     };
-    ExtentDrawing drawing = fold_.draw(moments_[moment], draw);
+    ExtentDrawing drawing = fold_.draw(moments_[moment], drawn_by(reference_, settings_, seen, stop));
     if (!complete)
         return false;
     std::vector<LaneExtent> extents = fold_.rendered(drawing);
@@ -199,8 +200,8 @@ Image<float> road_areas_m2(const Scene& scene, const Moment& moment, const View&
                 const int before = same(x - dx, y - dy, id) ? 1 : 0, after = same(x + dx, y + dy, id) ? 1 : 0;
                 if (before + after == 0)
                     return glm::dvec3(0.0);
-                return (shown_at(camera, view, frame, x + after * dx, y + after * dy) -
-                        shown_at(camera, view, frame, x - before * dx, y - before * dy)) /
+                const auto shown = [&](int px, int py) { return shown_at(camera, view, px, py, frame.depth_m.at(px, py)); };
+                return (shown(x + after * dx, y + after * dy) - shown(x - before * dx, y - before * dy)) /
                        static_cast<double>(before + after);
             };
             areas.at(x, y) = static_cast<float>(glm::length(glm::cross(step(1, 0), step(0, 1))));

@@ -63,6 +63,10 @@ class ReferencePictures {
     std::vector<double> samples_; ///< medians a picture
 };
 
+/// Illuminances by the reference in place of a renderer's; `seen` gets each image first.
+Draw drawn_by(const Reference& reference, const ReferenceSettings& settings, const std::function<void(const ReferenceImage&)>& seen,
+              const StopAsked& stop = {});
+
 /// Adds the pixels that `road_m2` knows with their areas (road_areas_m2), or all pixels without it.
 void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate& reference, const Image<float>* road_m2, int picture);
 

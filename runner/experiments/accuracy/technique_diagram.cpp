@@ -72,10 +72,8 @@ WorkPrecisionRow view_row_of(const ConfigurationResult& found, std::size_t momen
     WorkPrecisionRow row = row_of(found, moments);
     row.label = std::move(label);
     row.floor = 0.0;
-    if (found.whole && found.whole->pixels > 0) {
-        const double share = found.whole->percent_beyond[2];
-        row.error = {share, share, share};
-    }
+    if (found.whole && found.whole->pixels > 0)
+        row.error = exactly(found.whole->percent_beyond[2]);
     return row;
 }
 

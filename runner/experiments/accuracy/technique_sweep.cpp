@@ -148,17 +148,9 @@ std::optional<TwinAgreement> twin_agreement(const ReferencePictures& references,
 /// Renderers with a place in the result only: all of them here, since the errors are whole.
 void take_times(TimedTechniques& timed_techniques, const std::vector<Moment>& moments, const SweepRequest& request,
                 const std::function<bool(const std::string&)>& step, const StopAsked& stop, DriveAccuracy& result) {
-    static constexpr FrameOutputs outputs{.colour = true};
     std::vector<TimedTechnique> all;
-    for (std::size_t i = 0; i < timed_techniques.renderers.size(); ++i) {
-        Renderer* const drawing = &timed_techniques.renderers[i];
-        const View* const view = &timed_techniques.views[i];
-        drawing->prepare(moments, *view, outputs);
-        all.push_back(
-            {[=, &moments](std::size_t moment) { drawing->render(moments[moment], *view, outputs); }, [=] { drawing->finish(); }});
-        for (const Moment& moment : moments)
-            result.configurations[i].work.push_back(drawing->count(moment, *view, outputs));
-    }
+    for (std::size_t i = 0; i < timed_techniques.renderers.size(); ++i)
+        all.push_back(timed_frames(timed_techniques.renderers[i], moments, timed_techniques.views[i], result.configurations[i].work));
     TimingOptions options;
     options.moments = moments.size();
     options.rounds = static_cast<std::size_t>(request.rounds);

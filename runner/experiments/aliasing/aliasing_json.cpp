@@ -1,3 +1,4 @@
+#include "runner/experiments/accuracy/accuracy_result.h"
 #include "runner/experiments/accuracy/errors_json.h"
 #include "runner/experiments/aliasing/aliasing_result.h"
 #include "runner/files/clean_text.h"
@@ -152,7 +153,7 @@ std::string name_of(const AliasingConfiguration& c) {
     if (!c.others.empty())
         return c.others;
     std::string name = c.technique;
-    name += c.beams ? fmt::format(", {}x{}x{} beams", c.beams->width, c.beams->height, c.beams->bits) : ", float beams";
+    name += ", " + beams_text(c.beams) + " beams";
     name += c.filter == SurfaceFilter::none ? ", no filter" : ", " + filter_name(c.filter);
     return name + fmt::format(", {} sample{}", c.samples, c.samples == 1 ? "" : "s");
 }
@@ -186,10 +187,9 @@ std::string aliasing_csv(const AliasingResult& result) {
     for (const AliasingRow& row : result.rows) {
         const AliasingConfiguration& c = row.configuration;
         const SpatialAliasing& s = row.spatial;
-        const std::string beams = c.beams ? fmt::format("{}x{}x{}", c.beams->width, c.beams->height, c.beams->bits) : "float";
-        out += c.others.empty()
-                   ? fmt::format("{},{},{},{},{},", csv_text(name_of(c)), csv_text(c.technique), beams, filter_name(c.filter), c.samples)
-                   : csv_text(c.others) + ",,,,,";
+        out += c.others.empty() ? fmt::format("{},{},{},{},{},", csv_text(name_of(c)), csv_text(c.technique), beams_text(c.beams),
+                                              filter_name(c.filter), c.samples)
+                                : csv_text(c.others) + ",,,,,";
         out += measured_over_space(row)
                    ? fmt::format("{},{},{},{},{},{},", s.aliasing.visible, s.aliasing.contrast_percent, s.folded.contrast_percent,
                                  s.rest.contrast_percent, s.lost.contrast_percent, s.aliasing.rms)

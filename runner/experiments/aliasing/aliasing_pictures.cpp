@@ -26,20 +26,16 @@ template <class T> double nearly_largest(const Image<T>& picture, std::size_t on
 
 /// As an sRGB display shows it, `white` as white.
 template <class T> Image<Colour> grey(const Image<T>& picture, double white) {
-    Image<Colour> out(picture.width(), picture.height());
-    std::ranges::transform(picture.pixels(), out.pixels().begin(), [&](T value) {
+    return mapped(picture, [&](T value) {
         const double v = std::clamp(static_cast<double>(value) / white, 0.0, 1.0);
         const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
         const auto level = static_cast<std::uint8_t>(std::lround(255.0 * encoded));
         return Colour{level, level, level};
     });
-    return out;
 }
 
 Image<Colour> false_colours(const Image<double>& picture, double limit) {
-    Image<Colour> out(picture.width(), picture.height());
-    std::ranges::transform(picture.pixels(), out.pixels().begin(), [&](double value) { return plots::diverging(value / limit); });
-    return out;
+    return mapped(picture, [&](double value) { return plots::diverging(value / limit); });
 }
 
 /// The part of a picture that is shown enlarged.
@@ -49,11 +45,7 @@ struct Crop {
 };
 
 template <class T> Image<T> cut(const Image<T>& picture, const Crop& crop) {
-    Image<T> out(crop.width, crop.height);
-    for (int y = 0; y < crop.height; ++y)
-        for (int x = 0; x < crop.width; ++x)
-            out.at(x, y) = picture.at(crop.left + x, crop.top + y);
-    return out;
+    return part_of(picture, crop.left, crop.top, crop.width, crop.height);
 }
 
 /// The row whose aliasing is most visible somewhere: colours of all rows mean the same as its own.
@@ -107,6 +99,35 @@ void draw_legend(plots::Drawing& canvas, double left, double top, double limit) 
     canvas.picture(left + 140.0, top, width - 10.0, 12.0, strip);
     letter(canvas, left + 140.0 + width, top + 10.0, fmt::format("+{:.2g}, too bright", limit));
 }
+
+/// Curves of contrast over frequency.
+struct Spectra {
+    Spectra(const std::string& title, const std::string& subtitle) {
+        figure.title = title;
+        figure.subtitle = subtitle;
+    }
+    template <class Bands, class PointOf>
+    void add(const AliasingResult& result, std::size_t row, bool markers, const Bands& bands, PointOf point_of) {
+        plots::Series& series = figure.series.emplace_back();
+        series.name = name_of(result.rows[row].configuration);
+        series.colour = plots::series_colour(row);
+        series.markers = markers;
+        for (const auto& band : bands) {
+            series.points.push_back(point_of(band));
+            frequencies.push_back(series.points.back().x);
+            contrasts.push_back(series.points.back().y);
+        }
+    }
+    plots::Figure drawn(plots::Axis x, double marked, const std::string& mark) {
+        figure.x = std::move(x);
+        figure.y = plots::axis_around("contrast", "%", contrasts, plots::Scale::linear, true);
+        figure.marks.push_back({plots::Mark::Across::at_x, marked, mark});
+        return std::move(figure);
+    }
+
+    plots::Figure figure;
+    std::vector<double> frequencies, contrasts;
+};
 
 } // namespace
 
@@ -204,11 +225,9 @@ std::optional<plots::Drawing> flow_sheet(const AliasingResult& result) {
     letter(canvas, gap_px, 44.0,
            "length from one frame to the next, pixels; grey: not known, or left out because going there and back ends elsewhere");
     const auto coloured = [](const Image<float>& picture, double most) {
-        Image<Colour> out(picture.width(), picture.height());
-        std::ranges::transform(picture.pixels(), out.pixels().begin(), [most](float value) {
+        return mapped(picture, [most](float value) {
             return value < 0.0F ? Colour{170, 170, 170} : plots::sequential(static_cast<double>(value) / most);
         });
-        return out;
     };
     const std::tuple<const char*, const Image<float>*, double> parts[] = {
         {"Known, from depth and the car's path", &flow.known_px, max_motion},
@@ -230,55 +249,29 @@ std::optional<plots::Drawing> flow_sheet(const AliasingResult& result) {
 }
 
 plots::Figure spatial_plot(const AliasingResult& result) {
-    plots::Figure figure;
-    figure.title = "Aliasing by spatial frequency";
-    figure.subtitle =
+    Spectra spectra{
+        "Aliasing by spatial frequency",
         fmt::format("octaves up to the display's limit of {:.1f} cycles per degree, and the corners beyond; r.m.s. over the picture",
-                    0.5 * result.pixels_per_degree);
-    std::vector<double> values, frequencies;
-    for (const std::size_t i : ranked(result)) {
-        const AliasingRow& row = result.rows[i];
-        plots::Series series;
-        series.name = name_of(row.configuration);
-        series.colour = plots::series_colour(i);
-        series.markers = true;
-        for (const AliasingBand& band : row.spatial.bands) {
-            series.points.push_back({std::sqrt(band.from * band.to) * result.pixels_per_degree, band.aliasing.contrast_percent});
-            values.push_back(band.aliasing.contrast_percent);
-            frequencies.push_back(series.points.back().x);
-        }
-        figure.series.push_back(std::move(series));
-    }
-    figure.x = plots::axis_around("spatial frequency", "cycles per degree", frequencies, plots::Scale::logarithmic);
-    figure.y = plots::axis_around("contrast", "%", values, plots::Scale::linear, true);
-    figure.marks.push_back({plots::Mark::Across::at_x, 0.5 * result.pixels_per_degree, "limit"});
-    return figure;
+                    0.5 * result.pixels_per_degree)};
+    for (const std::size_t i : ranked(result))
+        spectra.add(result, i, true, result.rows[i].spatial.bands, [&](const AliasingBand& band) -> plots::Point {
+            return {std::sqrt(band.from * band.to) * result.pixels_per_degree, band.aliasing.contrast_percent};
+        });
+    return spectra.drawn(plots::axis_around("spatial frequency", "cycles per degree", spectra.frequencies, plots::Scale::logarithmic),
+                         0.5 * result.pixels_per_degree, "limit");
 }
 
 std::optional<plots::Figure> temporal_plot(const AliasingResult& result) {
-    plots::Figure figure;
-    figure.title = "Aliasing by temporal frequency";
-    figure.subtitle = "along the paths of points of the scene, r.m.s. over them, each frequency alone";
-    std::vector<double> values, frequencies;
-    for (std::size_t i = 0; i < result.rows.size(); ++i) {
-        if (!result.rows[i].temporal)
-            continue;
-        plots::Series series;
-        series.name = name_of(result.rows[i].configuration);
-        series.colour = plots::series_colour(i);
-        for (const FlickerBand& band : result.rows[i].temporal->spectrum) {
-            series.points.push_back({band.hertz, band.contrast_percent});
-            values.push_back(band.contrast_percent);
-            frequencies.push_back(band.hertz);
-        }
-        figure.series.push_back(std::move(series));
-    }
-    if (figure.series.empty())
+    Spectra spectra{"Aliasing by temporal frequency", "along the paths of points of the scene, r.m.s. over them, each frequency alone"};
+    for (std::size_t i = 0; i < result.rows.size(); ++i)
+        if (const auto& temporal = result.rows[i].temporal)
+            spectra.add(result, i, false, temporal->spectrum, [](const FlickerBand& band) -> plots::Point {
+                return {band.hertz, band.contrast_percent};
+            });
+    if (spectra.figure.series.empty())
         return std::nullopt;
-    figure.x = plots::axis_around("temporal frequency", "Hz", frequencies, plots::Scale::linear, true);
-    figure.y = plots::axis_around("contrast", "%", values, plots::Scale::linear, true);
-    figure.marks.push_back({plots::Mark::Across::at_x, crawl_below_hz, "crawl | flicker"});
-    return figure;
+    return spectra.drawn(plots::axis_around("temporal frequency", "Hz", spectra.frequencies, plots::Scale::linear, true), crawl_below_hz,
+                         "crawl | flicker");
 }
 
 } // namespace fernlicht

@@ -2,7 +2,6 @@
 
 #include "renderer/renderer.h"
 #include "runner/experiments/accuracy/technique_sweep.h"
-#include "runner/experiments/aliasing/flow_measures.h"
 #include "runner/experiments/aliasing/motion.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
@@ -53,8 +52,7 @@ Pictures pictures_of(Renderer& renderer, const Moment& moment, const View& view,
                                       {.colour = displayed, .illuminance = illuminance, .luminance = !displayed});
     Pictures pictures;
     if (displayed) {
-        pictures.luminance_cdm2 = Image<float>(frame.colour.width(), frame.colour.height());
-        std::ranges::transform(frame.colour.pixels(), pictures.luminance_cdm2.pixels().begin(), displayed_cdm2);
+        pictures.luminance_cdm2 = mapped(frame.colour, displayed_cdm2);
     } else {
         pictures.luminance_cdm2 = frame.luminance_cdm2;
         for (float& value : pictures.luminance_cdm2.pixels())

@@ -5,7 +5,7 @@
 
 namespace fernlicht {
 
-struct AliasingRequest {
+struct AliasingRequest : ExperimentRequest<AliasingResult> {
     Drive drive;                                  ///< with one perspective view at least
     std::string lamp_set;                         ///< "": the drive's first
     std::optional<double> moment_s;               ///< nullopt: the middle of the drive
@@ -18,11 +18,6 @@ struct AliasingRequest {
     bool displayed = false; ///< measure the tone-mapped picture instead of the scene's luminance
     double level_lx = 1.0;
     bool flow = false; ///< hold optical flow against the motion that is known, on the first way's pictures; with `frames`
-    std::string backend = "auto";
-    std::filesystem::path folder;
-    std::vector<std::string> command;
-    bool quiet = false;
-    std::function<void(const AliasingResult&)> write; ///< takes what was found; the folder is there
 };
 
 /// What is drawn: each technique with the first beams, samples and filter, then the others one at a time. Throws InputError for a technique
@@ -32,16 +27,12 @@ std::vector<AliasingConfiguration> aliasing_configurations(const AliasingRequest
 /// Ends after the step at hand when interrupted, and writes what there is. Throws InputError and DeviceError.
 AliasingResult run_aliasing(const AliasingRequest& request);
 
-struct SequenceRequest {
+struct SequenceRequest : ExperimentRequest<AliasingResult> {
     std::filesystem::path sequence;               ///< folder of frames
     std::optional<std::filesystem::path> against; ///< the same frames drawn 4, 6 ... 16 times as fine each way
     std::optional<std::pair<int, int>> frames;    ///< first and last number, both included
     double rate_hz = 0.0;
     std::optional<double> pixels_per_degree, view_fov_deg; ///< one of the two; the latter the view's vertical angle
-    std::filesystem::path folder;
-    std::vector<std::string> command;
-    bool quiet = false;
-    std::function<void(const AliasingResult&)> write; ///< takes what was found; the folder is there
 };
 
 /// With `against`, aliasing over space and time as for drives, but motion is estimated on what the display could show. Without, only how

@@ -1,5 +1,6 @@
 #include "runner/experiments/aliasing/motion.h"
 
+#include "metrics/images/image_difference.h"
 #include "scenarios/drives/play/camera.h"
 
 #include <algorithm>
@@ -10,24 +11,6 @@
 namespace fernlicht {
 namespace {
 
-struct Seen {
-    int x = 0, y = 0;              ///< pixel
-    double at_x = 0.0, at_y = 0.0; ///< the same in pixels with centres at .5
-    double depth_m = 0.0;
-};
-
-std::optional<Seen> seen_at(const Camera& camera, const View& view, const glm::dvec3& point_m) {
-    const glm::dvec3 p = point_m - camera.eye_m;
-    const double depth_m = glm::dot(p, camera.axis);
-    if (!(depth_m > 0.0))
-        return std::nullopt;
-    const double x = (1.0 + glm::dot(p, camera.right) / depth_m / camera.half_extent.x) * 0.5 * view.width_px;
-    const double y = (1.0 - glm::dot(p, camera.up) / depth_m / camera.half_extent.y) * 0.5 * view.height_px;
-    if (!(x >= 0.0 && y >= 0.0 && x < view.width_px && y < view.height_px))
-        return std::nullopt;
-    return Seen{static_cast<int>(x), static_cast<int>(y), x, y, depth_m};
-}
-
 /// One frame and whence it was seen.
 struct Shot {
     const Moment& moment;
@@ -35,19 +18,34 @@ struct Shot {
     Camera camera;
 };
 
-/// What pixel (x, y) shows, relative to the eye's car of that moment; something is seen there.
+/// What pixel (x, y) shows, relative to the car of that moment; something is seen there.
 glm::dvec3 point_at(const Shot& shot, const View& view, int x, int y) {
-    const Ray ray = pixel_ray(shot.camera, view, x + 0.5, y + 0.5);
-    return ray.origin_m + ray.direction * (static_cast<double>(shot.frame.depth_m.at(x, y)) / glm::dot(ray.direction, shot.camera.axis));
+    return shown_at(shot.camera, view, x, y, shot.frame.depth_m.at(x, y));
 }
 
-/// Where a point of `from` with that id is seen in `to`; nullopt where it is hidden or outside.
-std::optional<Seen> found_in(const Shot& from, const Shot& to, const View& view, const glm::dvec3& point_m, std::uint32_t id) {
+/// Where a point of `from` with that id is seen in `to`, as seen_at() has it; nullopt where it is hidden or outside.
+std::optional<glm::dvec3> found_in(const Shot& from, const Shot& to, const View& view, const glm::dvec3& point_m, std::uint32_t id) {
     const auto seen = seen_at(to.camera, view, point_m + from.moment.ego.position_m - to.moment.ego.position_m);
-    if (!seen || to.frame.ids.at(seen->x, seen->y) != id ||
-        std::abs(static_cast<double>(to.frame.depth_m.at(seen->x, seen->y)) - seen->depth_m) > 0.1 * seen->depth_m)
+    if (!seen)
         return std::nullopt;
-    return seen;
+    const int x = static_cast<int>(seen->x), y = static_cast<int>(seen->y);
+    const bool same = to.frame.ids.at(x, y) == id && std::abs(static_cast<double>(to.frame.depth_m.at(x, y)) - seen->z) <= 0.1 * seen->z;
+    return same ? seen : std::nullopt;
+}
+
+bool too_few(const FlowPaths& followed) {
+    return followed.paths.empty() || static_cast<double>(followed.paths.size()) < min_followed * static_cast<double>(followed.started);
+}
+
+void add_squares(AliasingPart& sum, const AliasingPart& part) {
+    sum.rms += part.rms * part.rms;
+    sum.contrast_percent += part.contrast_percent * part.contrast_percent;
+    sum.visible += part.visible * part.visible;
+}
+
+void root(AliasingPart& sum, double count) {
+    for (double* value : {&sum.rms, &sum.contrast_percent, &sum.visible})
+        *value = std::sqrt(*value / count);
 }
 
 } // namespace
@@ -69,7 +67,7 @@ std::vector<PixelTrack> tracks_of(const std::vector<Moment>& moments, const View
                 const auto seen = found_in(shots[from], shot, view, point_m, id);
                 if (!seen)
                     break;
-                track.push_back(seen->y * view.width_px + seen->x);
+                track.push_back(static_cast<int>(seen->y) * view.width_px + static_cast<int>(seen->x));
             }
             if (track.size() == moments.size())
                 tracks.push_back(std::move(track));
@@ -92,8 +90,8 @@ KnownFlow known_flow(const std::vector<Moment>& moments, const View& view, const
             if (!seen)
                 continue;
             found.known.at(x, y) = 1;
-            found.flow.dx_px.at(x, y) = static_cast<float>(seen->at_x - (x + 0.5));
-            found.flow.dy_px.at(x, y) = static_cast<float>(seen->at_y - (y + 0.5));
+            found.flow.dx_px.at(x, y) = static_cast<float>(seen->x - (x + 0.5));
+            found.flow.dy_px.at(x, y) = static_cast<float>(seen->y - (y + 0.5));
         }
     return found;
 }
@@ -112,11 +110,67 @@ Image<Ground> ground_of(Device& device, const Scene& scene, const Moment& moment
     dark.daylight = {};
     Renderer renderer(device, glowing, {});
     const Frame frame = renderer.draw(dark, view, {.luminance = true});
-    Image<Ground> ground(view.width_px, view.height_px, Ground::other);
-    std::ranges::transform(frame.luminance_cdm2.pixels(), ground.pixels().begin(), [](float glow) {
-        return glow > 1.5F ? Ground::mark : glow > 0.5F ? Ground::road : Ground::other;
+    return mapped(frame.luminance_cdm2, [](float glow) { return glow > 1.5F ? Ground::mark : glow > 0.5F ? Ground::road : Ground::other; });
+}
+
+Image<float> floats_of(const Image<double>& picture) {
+    return mapped(picture, [](double value) { return static_cast<float>(value); });
+}
+
+float displayed_cdm2(const Rgb8& pixel) {
+    const auto linear = [](std::uint8_t value) { return srgb_decoded(value / 255.0); };
+    return static_cast<float>(display_white_cdm2 * (0.2126 * linear(pixel.r) + 0.7152 * linear(pixel.g) + 0.0722 * linear(pixel.b)));
+}
+
+Image<float> display_step_cdm2(const Image<float>& displayed) {
+    return mapped(displayed, [](float cdm2) {
+        const std::array<float, 256>& decoded = srgb_table();
+        const auto above = std::ranges::lower_bound(decoded, cdm2 / static_cast<float>(display_white_cdm2));
+        const auto code = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - decoded.begin(), 0, 254));
+        return static_cast<float>(display_white_cdm2) * (decoded[code + 1] - decoded[code]);
     });
-    return ground;
+}
+
+std::string method_name(FlowMethod method) { return method == FlowMethod::dis ? "dense inverse search" : "Farneback"; }
+
+std::optional<TemporalAliasing> aliasing_along(const FlowPaths& followed, const std::vector<Image<double>>& aliasing,
+                                               const std::vector<Image<double>>& levels, double rate_hz, double pixels_per_degree) {
+    if (too_few(followed))
+        return std::nullopt;
+    std::vector<PixelTrack> tracks;
+    for (const Path& path : followed.paths)
+        tracks.push_back(track_of(path, aliasing.front().width(), aliasing.front().height()));
+    return measure_temporal_aliasing(aliasing, levels, tracks, rate_hz, pixels_per_degree);
+}
+
+std::optional<TemporalAliasing> flicker_along(const FlowPaths& followed, const std::vector<Image<float>>& pictures, double rate_hz,
+                                              double pixels_per_degree) {
+    if (too_few(followed))
+        return std::nullopt;
+    return measure_flicker(samples_along(followed.paths, pictures), rate_hz, pixels_per_degree);
+}
+
+SpatialAliasing over_moments(std::vector<SpatialAliasing>& found, std::size_t shown) {
+    SpatialAliasing all = std::move(found[shown]);
+    const auto each = [&](auto use) {
+        use([](SpatialAliasing& a) -> AliasingPart& { return a.aliasing; });
+        use([](SpatialAliasing& a) -> AliasingPart& { return a.folded; });
+        use([](SpatialAliasing& a) -> AliasingPart& { return a.rest; });
+        use([](SpatialAliasing& a) -> AliasingPart& { return a.lost; });
+        for (std::size_t b = 0; b < all.bands.size(); ++b) {
+            use([b](SpatialAliasing& a) -> AliasingPart& { return a.bands[b].aliasing; });
+            use([b](SpatialAliasing& a) -> AliasingPart& { return a.bands[b].lost; });
+        }
+    };
+    found[shown].bands = all.bands;
+    each([&](auto part) {
+        AliasingPart sum;
+        for (SpatialAliasing& one : found)
+            add_squares(sum, part(one));
+        root(sum, static_cast<double>(found.size()));
+        part(all) = sum;
+    });
+    return all;
 }
 
 } // namespace fernlicht

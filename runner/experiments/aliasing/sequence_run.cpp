@@ -3,7 +3,7 @@
 #include "metrics/images/flip.h"
 #include "metrics/images/image_difference.h"
 #include "runner/experiments/aliasing/aliasing_result.h"
-#include "runner/experiments/aliasing/flow_measures.h"
+#include "runner/experiments/aliasing/motion.h"
 #include "runner/files/output_folder.h"
 #include "runner/files/picture_file.h"
 #include "runner/files/same_display.h"
@@ -118,12 +118,6 @@ void check_numbers(const std::filesystem::path& folder, std::map<int, std::files
     }
 }
 
-Image<float> displayed_luminance(const Image<Rgb8>& picture) {
-    Image<float> out(picture.width(), picture.height());
-    std::ranges::transform(picture.pixels(), out.pixels().begin(), displayed_cdm2);
-    return out;
-}
-
 Image<float> linear_luminance(const std::filesystem::path& path) {
     const std::vector<PictureChannel> channels = read_exr(path);
     const auto named = [&](const char* name) -> const Image<float>* {
@@ -160,7 +154,7 @@ SequenceFrames read_sequence(const std::filesystem::path& path_or_pattern, const
     for (const auto& [number, path] : files) {
         read_file(path, frames.opened); // for the record of what was read
         frames.numbers.push_back(number);
-        frames.luminance_cdm2.push_back(frames.displayed ? displayed_luminance(read_png(path)) : linear_luminance(path));
+        frames.luminance_cdm2.push_back(frames.displayed ? mapped(read_png(path), displayed_cdm2) : linear_luminance(path));
         if (frames.displayed) {
             const std::string note =
                 check_shown_alike({frames.first, frames.first.filename().string()}, {path, path.filename().string()}, "the first frame");

@@ -185,15 +185,7 @@ std::vector<BenchRow> summarise(const BenchResult& result) {
 }
 
 const char* difference_name(Difference difference) {
-    switch (difference) {
-    case Difference::faster:
-        return "faster";
-    case Difference::slower:
-        return "slower";
-    case Difference::not_distinguishable:
-        break;
-    }
-    return "not distinguishable";
+    return difference == Difference::faster ? "faster" : difference == Difference::slower ? "slower" : "not distinguishable";
 }
 
 std::string verdict_text(const PairedRatio& ratio) {

@@ -57,19 +57,13 @@ BenchResult described(const BenchRequest& request, const Stage& stage, const Lam
 /// Each technique with a renderer of its own, compiled for all moments and its work counted.
 std::vector<TimedTechnique> take_part(const std::vector<Technique>& rows, Device& device, const Stage& stage, const View& view,
                                       const std::vector<Moment>& moments, std::deque<Renderer>& renderers, BenchResult& result) {
-    constexpr FrameOutputs outputs{.colour = true};
     std::vector<TimedTechnique> timed_techniques;
     for (const Technique& row : rows) {
         RendererSettings settings = settings_for(stage.drive, {});
         settings.technique = row.name;
-        Renderer* const renderer = &renderers.emplace_back(device, stage.scene, settings);
-        renderer->prepare(moments, view, outputs);
         BenchedTechnique& benched = result.techniques.emplace_back();
         benched.row = row;
-        for (const Moment& moment : moments)
-            benched.work.push_back(renderer->count(moment, view, outputs));
-        timed_techniques.push_back(
-            {[=, &moments, &view](std::size_t moment) { renderer->render(moments[moment], view, outputs); }, [=] { renderer->finish(); }});
+        timed_techniques.push_back(timed_frames(renderers.emplace_back(device, stage.scene, settings), moments, view, benched.work));
     }
     return timed_techniques;
 }
@@ -125,6 +119,14 @@ std::vector<Technique> chosen_techniques(const std::vector<std::string>& names) 
         if (names.empty() || row.name == reference_technique || std::ranges::find(names, row.name) != names.end())
             rows.push_back(row);
     return rows;
+}
+
+TimedTechnique timed_frames(Renderer& renderer, const std::vector<Moment>& moments, const View& view, std::vector<Work>& work) {
+    static constexpr FrameOutputs outputs{.colour = true};
+    renderer.prepare(moments, view, outputs);
+    for (const Moment& moment : moments)
+        work.push_back(renderer.count(moment, view, outputs));
+    return {[&](std::size_t moment) { renderer.render(moments[moment], view, outputs); }, [&] { renderer.finish(); }};
 }
 
 std::vector<int> ticks_over(int count, int n) {

@@ -25,16 +25,6 @@ View small(View view) {
     return view;
 }
 
-std::optional<glm::dvec2> pixel_of(const glm::dvec3& point_m, const Moment& moment, const View& view) {
-    const Camera camera = camera_of(moment, view);
-    const glm::dvec3 p = point_m - moment.ego.position_m - camera.eye_m;
-    const double ahead = glm::dot(p, camera.axis);
-    const glm::dvec2 at((1.0 + glm::dot(p, camera.right) / ahead / camera.half_extent.x) * 0.5 * view.width_px,
-                        (1.0 - glm::dot(p, camera.up) / ahead / camera.half_extent.y) * 0.5 * view.height_px);
-    const bool seen = ahead > 0.0 && at.x >= 0.0 && at.x < view.width_px && at.y >= 0.0 && at.y < view.height_px;
-    return seen ? std::optional(at) : std::nullopt;
-}
-
 using plots::Drawing;
 
 constexpr int across = 5;
@@ -136,7 +126,8 @@ ContactSheet new_sheet(const Stage& stage, const LampSet& lamp_set, const Moment
     sheet.spot_ahead_m = ahead_m;
     const Pose surface = stage.route.pose(moment.distance_m + stage.drive.bumper_m + ahead_m);
     sheet.spot = map_around(surface.position_m, moment);
-    sheet.spot_px = pixel_of(surface.position_m, moment, sheet.view);
+    if (const auto seen = seen_at(camera_of(moment, sheet.view), sheet.view, surface.position_m - moment.ego.position_m))
+        sheet.spot_px = glm::dvec2(*seen);
     sheet.twin_lx = surface_illuminance_lx(moment, surface.position_m, surface.up());
     return sheet;
 }

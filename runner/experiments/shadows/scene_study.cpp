@@ -3,7 +3,8 @@
 #include "metrics/statistics/statistics.h"
 #include "renderer/renderer.h"
 #include "runner/experiments/accuracy/accuracy_result.h"
-#include "runner/experiments/shadows/sheet_picture.h"
+#include "runner/experiments/bench/bench_run.h"
+#include "runner/experiments/shadows/moment_sheet.h"
 #include "runner/play/lux_map.h"
 #include "runner/play/shadows/shadow_truth.h"
 #include "scenarios/drives/play/camera.h"
@@ -75,13 +76,7 @@ View width_view(const View& view, int width_px) {
 /// The part of a picture that is shown.
 struct ShownPart {
     int left = 0, top = 0, width = 0, height = 0;
-    template <class T> Image<T> of(const Image<T>& picture) const {
-        Image<T> out(width, height);
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x)
-                out.at(x, y) = picture.at(left + x, top + y);
-        return out;
-    }
+    template <class T> Image<T> of(const Image<T>& picture) const { return part_of(picture, left, top, width, height); }
 };
 
 /// Half of the picture each way, about the middle of all shadow; `degree` below 0 where none counts.
@@ -205,22 +200,16 @@ ShadowRow row_without(ShadowMethod method, const std::string& why_not) {
 /// All methods' maps are there at once here: those that find no room beside the others are taken out of `timed`.
 void time_frames(std::vector<TimedMethod>& timed, const ShadowScene& scene, Device& device, const SceneStudyOptions& options,
                  const std::vector<Moment>& moments, const View& view, const std::function<bool()>& stop) {
-    static constexpr FrameOutputs outputs{.colour = true};
     std::deque<Renderer> renderers;
     std::vector<TimedTechnique> timed_techniques;
     for (const TimedMethod& method : timed) {
-        Renderer* const renderer = &renderers.emplace_back(device, *scene.scene, method.settings);
+        Renderer& renderer = renderers.emplace_back(device, *scene.scene, method.settings);
         try {
-            renderer->prepare(moments, view, outputs);
-            for (const Moment& moment : moments)
-                method.row->work.push_back(renderer->count(moment, view, outputs));
+            timed_techniques.push_back(timed_frames(renderer, moments, view, method.row->work));
         } catch (const ShadowMemoryError& refused) {
             renderers.pop_back();
             *method.row = row_without(method.row->method, fmt::format("beside the other methods: {}", refused.what()));
-            continue;
         }
-        timed_techniques.push_back(
-            {[=, &moments, &view](std::size_t moment) { renderer->render(moments[moment], view, outputs); }, [=] { renderer->finish(); }});
     }
     std::erase_if(timed, [](const TimedMethod& method) { return !measured(*method.row); });
     TimingOptions timing;
@@ -284,6 +273,19 @@ void set_texture_bytes(const ShadowScene& scene, Device& device, const std::vect
 
 } // namespace
 
+ShadowRow row_of_method(ShadowMethod method, const std::function<void(ShadowRow&)>& measure) {
+    ShadowRow row;
+    row.method = method;
+    try {
+        measure(row);
+        return row;
+    } catch (const InputError& refused) {
+        return row_without(method, refused.what());
+    } catch (const ShadowMemoryError& refused) {
+        return row_without(method, refused.what());
+    }
+}
+
 ShadowSceneResult study_scene(const ShadowScene& scene, Device& device, const SceneStudyOptions& options, const std::function<void()>& step,
                               const std::function<bool()>& stop) {
     ShadowSceneResult result;
@@ -309,9 +311,7 @@ ShadowSceneResult study_scene(const ShadowScene& scene, Device& device, const Sc
     for (const ShadowMethod method : options.methods) {
         if (stop())
             return result;
-        ShadowRow row;
-        row.method = method;
-        try {
+        result.rows.push_back(row_of_method(method, [&](ShadowRow& row) {
             Renderer renderer(device, *scene.scene, settings_with(scene, options, method));
             measure_areas(truth, scene, options, renderer, row);
             RendererSettings from_above = settings_with(scene, options, method);
@@ -320,12 +320,7 @@ ShadowSceneResult study_scene(const ShadowScene& scene, Device& device, const Sc
             measure_edges(truth, scene.view, above, row);
             for (const Moment& moment : timed_moments(scene)) // a method may refuse any of them
                 renderer.draw(moment, truth.discs.view(), {.colour = true});
-        } catch (const InputError& refused) {
-            row = row_without(method, refused.what());
-        } catch (const ShadowMemoryError& refused) {
-            row = row_without(method, refused.what());
-        }
-        result.rows.push_back(std::move(row));
+        }));
         step();
     }
     std::vector<TimedMethod> timed;

@@ -26,4 +26,7 @@ inline std::size_t steps_of(const SceneStudyOptions& options) { return options.m
 ShadowSceneResult study_scene(const ShadowScene& scene, Device& device, const SceneStudyOptions& options, const std::function<void()>& step,
                               const std::function<bool()>& stop);
 
+/// Filled by `measure`; where the method refuses the scene, or its maps find no room, a row that says why.
+ShadowRow row_of_method(ShadowMethod method, const std::function<void(ShadowRow&)>& measure);
+
 } // namespace fernlicht

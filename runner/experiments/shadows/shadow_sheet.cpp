@@ -19,20 +19,16 @@ Rgb8 grey_pixel(double share) {
 
 /// Compressed so that the dark shows what is in it: L / (L + 0.3 white), white as white.
 Image<Rgb8> seen_picture(const Image<float>& luminance, double white_cdm2) {
-    Image<Rgb8> out(luminance.width(), luminance.height());
-    std::ranges::transform(luminance.pixels(), out.pixels().begin(), [&](float cdm2) {
+    return mapped(luminance, [&](float cdm2) {
         const double share = static_cast<double>(cdm2) / white_cdm2;
         return grey_pixel(1.3 * share / (share + 0.3));
     });
-    return out;
 }
 
 Image<Rgb8> degree_picture(const Image<float>& degree) {
-    Image<Rgb8> out(degree.width(), degree.height());
-    std::ranges::transform(degree.pixels(), out.pixels().begin(), [](float value) {
+    return mapped(degree, [](float value) {
         return value < 0.0F ? Rgb8{120, 130, 150} : grey_pixel(0.9 * (1.0 - static_cast<double>(value)) + 0.02);
     });
-    return out;
 }
 
 /// Orange: wrongly lit; blue: wrongly dark; white: right.

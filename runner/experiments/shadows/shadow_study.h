@@ -5,7 +5,7 @@
 
 namespace fernlicht {
 
-struct ShadowRequest {
+struct ShadowRequest : ExperimentRequest<ShadowResult> {
     std::vector<Drive> drives;
     std::string lamp_set;                              ///< "": each drive's first
     std::vector<std::string> scenes;                   ///< patterns of stress scenes' names; "none" for none of them
@@ -13,11 +13,6 @@ struct ShadowRequest {
     double vertical_fov_rad = View{}.vertical_fov_rad; ///< of the stress scenes' views; 0 < fov < pi
     int moments = 3;                                   ///< of each drive
     SceneStudyOptions options;
-    std::string backend = "auto";
-    std::filesystem::path folder; ///< for the files; made when all input is read and the device is found sane
-    std::vector<std::string> command;
-    bool quiet = false;
-    std::function<void(const ShadowResult&)> write; ///< takes what was found, also when it was interrupted; the folder is there
 };
 
 /// Ends after the step at hand when interrupted, and writes what there is. Throws InputError and DeviceError.

@@ -1,5 +1,6 @@
 // The search for the arguments at which an equation's float is farthest from its double.
 #include "runner/experiments/stability/equations.h"
+#include "scenarios/photometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,15 @@
 #include <random>
 
 namespace fernlicht {
+/// photometry.glsl and the calls of it, compiled as C++ in double.
+namespace photometry {
+
+#define FN inline
+#include "renderer/shaders/equation_calls.glsl"
+#undef FN
+
+} // namespace photometry
+
 namespace {
 
 using Kind = EquationInput::Kind;
@@ -144,6 +154,12 @@ void keep_worst(Ranked& points, std::size_t count) {
 }
 
 } // namespace
+
+std::array<double, 4> equation_in_double(int equation, const EquationDoubles& x) {
+    const auto four = [&](std::size_t i) { return glm::dvec4(x[i], x[i + 1], x[i + 2], x[i + 3]); };
+    const glm::dvec4 value = photometry::equation_value(equation, four(0), four(4), four(8), four(12));
+    return {value.x, value.y, value.z, value.w};
+}
 
 Examination examine(const Equation& equation, Device& device, double effort, std::uint64_t seed) {
     const auto many = [&](double points) { return static_cast<std::size_t>(points * effort); };

@@ -210,9 +210,10 @@ ShadowSettings shadows_by(ShadowMethod method) {
     return settings;
 }
 
-CandelaTable even_table(double half_deg) {
+CandelaTable even_table(double half_width_deg, double half_height_deg) {
     CandelaTable table = constant_table(10000.0);
-    table.h_deg = table.v_deg = {-half_deg, half_deg};
+    table.h_deg = {-half_width_deg, half_width_deg};
+    table.v_deg = {-half_height_deg, half_height_deg};
     return table;
 }
 

@@ -56,8 +56,8 @@ enum class Tried { light_and_shadow, either };
 void judge_tally(Found& worst, const ShadowTally& tally, const std::string& where, Tried tried = Tried::light_and_shadow);
 
 ShadowSettings shadows_by(ShadowMethod method);
-/// Even light to so many degrees all round: 10 000 cd.
-CandelaTable even_table(double half_deg);
+/// Even light to so many degrees to each side, and up and down: 10 000 cd.
+CandelaTable even_table(double half_width_deg, double half_height_deg);
 
 using Triangles = std::vector<std::array<glm::dvec3, 3>>;
 /// One mesh with flat normals by each triangle's winding; triangles without area get one upwards.

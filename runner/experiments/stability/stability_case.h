@@ -55,12 +55,14 @@ struct Found {
 };
 
 struct StabilityCase {
+    using Measure = std::function<void(StabilityBench&, Found& worst)>;
+
     std::string family, name; ///< "lamp", "distance"; together "lamp/distance"
     std::string could_break;
     double bound = 0.0; ///< on the error, in `unit`
     std::string unit;
     std::string reason; ///< of the bound, or of the marking that the case holds
-    std::function<Found(StabilityBench&)> measure;
+    Measure measure;
 
     std::string full_name() const { return family + "/" + name; }
 };

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <limits>
 
 namespace fernlicht::stability {
 namespace {
@@ -45,6 +44,18 @@ double reach_of(const Scene& scene, const Moment& moment, const View& view) {
     return reach;
 }
 
+/// `wrong`: it shows another surface, or none.
+void add_pixel(AgainstTwin& result, float drawn_lx, double truth_lx, double bound_lx, bool wrong, const std::string& where) {
+    ++result.compared;
+    const double off = std::abs(static_cast<double>(drawn_lx) - truth_lx), ratio = wrong ? unbounded : off / bound_lx;
+    if (truth_lx > 0.0)
+        result.worst_relative = std::max(result.worst_relative, off / truth_lx);
+    if (result.where.empty() || ratio > result.of_bound) {
+        result.of_bound = ratio;
+        result.where = where;
+    }
+}
+
 } // namespace
 
 RendererSettings unshadowed() {
@@ -53,11 +64,24 @@ RendererSettings unshadowed() {
     return settings;
 }
 
+Scene scene_of_sheet(const std::string& name, std::uint32_t material, const glm::dvec3& corner_m, const glm::dvec3& edge_a,
+                     const glm::dvec3& edge_b) {
+    Scene scene = empty_scene();
+    add_sheet(scene, name, material, corner_m, edge_a, edge_b);
+    return scene;
+}
+
+Moment moment_of(LitLamp lamp) {
+    Moment moment;
+    moment.lamps.push_back(std::move(lamp));
+    return moment;
+}
+
 std::size_t not_finite(const Frame& frame) {
     return bad_pixels(frame.illuminance_lx) + bad_pixels(frame.target_lx) + bad_pixels(frame.luminance_cdm2) + bad_pixels(frame.depth_m);
 }
 
-double AgainstTwin::error() const { return not_finite > 0 || compared == 0 ? std::numeric_limits<double>::infinity() : of_bound; }
+double AgainstTwin::error() const { return not_finite > 0 || compared == 0 ? unbounded : of_bound; }
 
 double rounding_bound_lx(const LitLamp& lamp, const glm::dvec3& to_lamp, const glm::dvec3& normal, double reach_m) {
     const double d = glm::length(to_lamp), cosine = glm::dot(normal, to_lamp) / d;
@@ -83,7 +107,6 @@ AgainstTwin against_plane(const Frame& frame, const Moment& moment, const View& 
             const glm::dvec3 point = ray.origin_m - ray.direction * (ray.origin_m.z / ray.direction.z);
             if (!(ray.direction.z < 0.0) || !inside(point))
                 continue;
-            ++result.compared;
             double bound = 1e-30, truth = 0.0;
             for (const LitLamp& lamp : moment.lamps) {
                 const glm::dvec3 to_lamp = lamp.pose.position_m - moment.ego.position_m - point, up(0.0, 0.0, 1.0);
@@ -91,15 +114,9 @@ AgainstTwin against_plane(const Frame& frame, const Moment& moment, const View& 
                          glm::dot(to_lamp, to_lamp);
                 bound += rounding_bound_lx(lamp, to_lamp, up, reach_m);
             }
-            const double drawn = static_cast<double>(frame.illuminance_lx.at(x, y)), off = std::abs(drawn - truth);
-            if (truth > 0.0)
-                result.worst_relative = std::max(result.worst_relative, off / truth);
             const bool hole = frame.ids.at(x, y) == 0;
-            if (const double ratio = hole ? std::numeric_limits<double>::infinity() : off / bound;
-                result.where.empty() || ratio > result.of_bound) {
-                result.of_bound = ratio;
-                result.where = fmt::format("{} {} {}", hole ? "hole at pixel" : "pixel", x, y);
-            }
+            add_pixel(result, frame.illuminance_lx.at(x, y), truth, bound, hole,
+                      fmt::format("{} {} {}", hole ? "hole at pixel" : "pixel", x, y));
         }
     return result;
 }
@@ -119,19 +136,11 @@ AgainstTwin against_twin(Renderer& renderer, const Scene& scene, const Moment& m
                     inner = inner && twin.pixel(moment, view, x + dx, y + dy).id == truth.id;
             if (!inner)
                 continue;
-            ++result.compared;
             double bound = 1e-30 + truth.illuminance_lx * light_roundings * rounding;
             for (const LitLamp& lamp : moment.lamps)
                 bound += rounding_bound_lx(lamp, lamp.pose.position_m - moment.ego.position_m - truth.point_m, truth.normal, reach);
-            const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(x, y)) - truth.illuminance_lx);
-            if (truth.illuminance_lx > 0.0)
-                result.worst_relative = std::max(result.worst_relative, off / truth.illuminance_lx);
-            const bool other_surface = frame.ids.at(x, y) != truth.id;
-            if (const double ratio = other_surface ? std::numeric_limits<double>::infinity() : off / bound;
-                result.where.empty() || ratio > result.of_bound) {
-                result.of_bound = ratio;
-                result.where = fmt::format("pixel {} {}", x, y);
-            }
+            add_pixel(result, frame.illuminance_lx.at(x, y), truth.illuminance_lx, bound, frame.ids.at(x, y) != truth.id,
+                      fmt::format("pixel {} {}", x, y));
         }
     return result;
 }
@@ -154,6 +163,18 @@ std::string road_text(double length_m, const std::string& plan, const std::strin
 <lanes><laneSection s="0"><center><lane id="0"/></center><right>{}</right></laneSection></lanes></road></OpenDRIVE>
 )",
                        length_m, plan, profiles, lanes);
+}
+
+double area_of(const Scene& scene, const std::set<SurfaceKind>& kinds) {
+    double area_m2 = 0.0;
+    for (const Mesh& mesh : scene.meshes)
+        for (const Batch& batch : mesh.batches)
+            for (std::uint32_t i = batch.first; i + 2 < batch.first + batch.count; i += 3) {
+                const auto corner = [&](std::uint32_t k) { return glm::dvec3(mesh.vertices[mesh.indices[i + k]].position_m); };
+                if (kinds.contains(scene.materials[batch.material].kind))
+                    area_m2 += 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+            }
+    return area_m2;
 }
 
 std::filesystem::path write_drive_file(StabilityBench& bench, const std::string& name, const std::string& more, const std::string& time) {

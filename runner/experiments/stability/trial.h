@@ -7,18 +7,30 @@
 #include "runner/play/small_scenes.h"
 #include "scenarios/drives/drive.h"
 
+#include <limits>
+#include <set>
+
 namespace fernlicht::stability {
 
 using namespace small_scenes;
 
-/// Without shadows, which the comparisons with twin and plane leave out; shadow_cases.cpp has them.
+/// Without shadows, which the comparisons with twin and plane leave out; the shadow cases have them.
 RendererSettings unshadowed();
 
+/// add_sheet() to an empty scene.
+Scene scene_of_sheet(const std::string& name, std::uint32_t material, const glm::dvec3& corner_m, const glm::dvec3& edge_a,
+                     const glm::dvec3& edge_b);
+/// Lit by this lamp alone.
+Moment moment_of(LitLamp lamp);
+
+inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 inline constexpr FrameOutputs everything{
     .colour = true, .illuminance = true, .target = true, .luminance = true, .depth = true, .ids = true};
 
 /// Values of the frame's pictures that are NaN or infinite.
 std::size_t not_finite(const Frame& frame);
+/// Of a frame with an illuminance.
+inline int pixels_in(const Frame& frame) { return static_cast<int>(frame.illuminance_lx.size()); }
 
 struct AgainstTwin {
     double of_bound = 0.0;       ///< largest |drawn - twin| of an illuminance over the bound of its pixel
@@ -53,6 +65,9 @@ std::string road_text(double length_m, const std::string& plan, const std::strin
 /// A driving lane of even width, with `more` inside.
 std::string lane_text(int id, double width_m, const std::string& more = {});
 inline const std::string line_of_600_m = R"(<geometry s="0" x="0" y="0" hdg="0" length="600"><line/></geometry>)";
+
+/// Of the triangles of these kinds, m2.
+double area_of(const Scene& scene, const std::set<SurfaceKind>& kinds);
 
 /// A drive of one lamp on the straight road, at 60 km/h for 8 s in steps of 0.1 s, with `more` keys of YAML, one a line. `time` replaces
 /// the three of speed, step and duration.

@@ -78,6 +78,20 @@ Ray pixel_ray(const Camera& camera, const View& view, double x_px, double y_px) 
     return {camera.eye_m, glm::normalize(camera.axis + camera.right * x + camera.up * y)};
 }
 
+std::optional<glm::dvec3> seen_at(const Camera& camera, const View& view, const glm::dvec3& place_m) {
+    const glm::dvec3 p = place_m - camera.eye_m;
+    const double depth_m = glm::dot(p, camera.axis);
+    const double x = (1.0 + glm::dot(p, camera.right) / depth_m / camera.half_extent.x) * 0.5 * view.width_px,
+                 y = (1.0 - glm::dot(p, camera.up) / depth_m / camera.half_extent.y) * 0.5 * view.height_px;
+    const bool seen = depth_m > 0.0 && x >= 0.0 && y >= 0.0 && x < view.width_px && y < view.height_px;
+    return seen ? std::optional(glm::dvec3(x, y, depth_m)) : std::nullopt;
+}
+
+glm::dvec3 shown_at(const Camera& camera, const View& view, int x, int y, float depth_m) {
+    const Ray ray = pixel_ray(camera, view, x + 0.5, y + 0.5);
+    return ray.origin_m + ray.direction * (static_cast<double>(depth_m) / glm::dot(ray.direction, camera.axis));
+}
+
 glm::dvec2 map_pixel(const Camera& camera, const View& view, const Moment& moment, const glm::dvec3& world_m) {
     const glm::dvec3 p = world_m - moment.ego.position_m - camera.eye_m;
     return {(glm::dot(p, camera.right) / camera.half_extent.x + 1.0) * 0.5 * view.width_px,

@@ -5,6 +5,7 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
+#include <optional>
 
 namespace fernlicht {
 
@@ -25,6 +26,12 @@ struct Ray {
     glm::dvec3 origin_m, direction;
 };
 Ray pixel_ray(const Camera& camera, const View& view, double x_px, double y_px);
+
+/// Where a perspective view shows a place relative to the car's origin: pixel coordinates (centres at .5) and depth in metres; nullopt
+/// behind the eye and outside the picture.
+std::optional<glm::dvec3> seen_at(const Camera& camera, const View& view, const glm::dvec3& place_m);
+/// What a pixel's centre shows at this depth in a perspective view, relative to the car's origin.
+glm::dvec3 shown_at(const Camera& camera, const View& view, int x, int y, float depth_m);
 
 /// Pixel coordinates of a world point in a map view (centres at .5).
 glm::dvec2 map_pixel(const Camera& camera, const View& view, const Moment& moment, const glm::dvec3& world_m);

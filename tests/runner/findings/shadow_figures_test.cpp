@@ -2,8 +2,8 @@
 #include "runner/findings/figures.h"
 #include "runner/write/document.h"
 
+#include "runner/experiments/shadows/moment_sheet.h"
 #include "runner/experiments/shadows/shadow_result.h"
-#include "runner/experiments/shadows/sheet_picture.h"
 
 #include <gmock/gmock.h>
 

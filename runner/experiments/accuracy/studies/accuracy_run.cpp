@@ -56,7 +56,11 @@ void add_studies(const AccuracyRequest& request, const Stage& stage, Device& dev
             return;
         const bool begun = go_on();
         if (begun)
-            std::ranges::move(study(), std::back_inserter(result.diagrams));
+            for (WorkPrecision& diagram : study()) {
+                diagram.name += "-" + stage.drive.name;
+                diagram.title += fmt::format(": {}, {}", stage.drive.name, lamp_set.name);
+                result.diagrams.push_back(std::move(diagram));
+            }
         if (ended)
             result.missing.push_back(
                 fmt::format("diagram {} of {}: {}", name, stage.drive.name, begun ? "ended before its last row" : "not begun"));
@@ -67,13 +71,10 @@ void add_studies(const AccuracyRequest& request, const Stage& stage, Device& dev
         const Moment moment = moments_at({tick_count(stage.drive) / 2}, stage, lamp_set).front();
         ClassicalStudy study;
         study.seed = request.sweep.seed;
-        WorkPrecision diagram = classical_study(stage.scene, moment, at_size(*driver_view(stage.drive), 64, 48), study, go_on);
-        diagram.name += "-" + stage.drive.name;
-        diagram.title += fmt::format(": {}, {}", stage.drive.name, lamp_set.name);
-        return diagram;
+        return classical_study(stage.scene, moment, at_size(*driver_view(stage.drive), 64, 48), study, go_on);
     });
     add("extent", [&] { return extent_study(stage, lamp_set, go_on); });
-    add("beam", [&] { return beam_study(stage, lamp_set, go_on); });
+    add("beam", [&] { return beam_study(lamp_set, go_on); });
     add_all("weather", [&] { return weather_study(stage, lamp_set, device, go_on); });
     add("metrics", [&] { return metrics_study(stage, lamp_set, device, go_on); });
     if (!stage.drive.traffic.empty())

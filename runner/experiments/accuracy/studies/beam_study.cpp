@@ -72,15 +72,8 @@ WorkPrecisionRow row_of(const std::string& label, const std::vector<Direction>& 
 
 } // namespace
 
-WorkPrecision beam_study(const Stage& stage, const LampSet& lamp_set, const StudyGoesOn& go_on) {
-    WorkPrecision diagram{"beam-" + stage.drive.name,
-                          fmt::format("Beam textures: {}, {}", stage.drive.name, lamp_set.name),
-                          "error of intensity, 95 % of the directions",
-                          "%",
-                          "time to make it",
-                          "",
-                          {},
-                          {}};
+WorkPrecision beam_study(const LampSet& lamp_set, const StudyGoesOn& go_on) {
+    WorkPrecision diagram{"beam", "Beam textures", "error of intensity, 95 % of the directions", "%", "time to make it", "", {}, {}};
     const CandelaTable& table = lamp_set.lamps.front().file->table;
     const std::vector<Direction> directions = bright_directions(table);
     diagram.notes = {

@@ -90,8 +90,7 @@ WorkPrecisionRow row_of(const Way& way, const ReferenceImage& image, const Refer
         row.why_not = "no pixel has 0.05 lx";
         return row;
     }
-    const double p95 = 100.0 * errors.error.p95;
-    row.error = Interval{p95, p95, p95};
+    row.error = exactly(100.0 * errors.error.p95);
     row.seconds = Interval{image.seconds, image.seconds, image.seconds, 1};
     return row;
 }

@@ -78,8 +78,8 @@ void set_error(WorkPrecisionRow& row, const std::vector<double>& errors) {
 WorkPrecision extent_study(const Stage& stage, const LampSet& lamp_set, const StudyGoesOn& go_on) {
     constexpr double finest_m = 0.0625, beside_m = 4.0;
     WorkPrecision diagram{
-        "extent-" + stage.drive.name,
-        fmt::format("Extent grid: {}, {}", stage.drive.name, lamp_set.name),
+        "extent",
+        "Extent grid",
         "error of reach, 95 % of the reaches",
         "m",
         "time a moment",
@@ -116,8 +116,8 @@ WorkPrecision extent_study(const Stage& stage, const LampSet& lamp_set, const St
 WorkPrecision step_study(const Stage& stage, const LampSet& lamp_set, const StudyGoesOn& go_on) {
     constexpr int finest = 256;
     WorkPrecision diagram{
-        "step-" + stage.drive.name,
-        fmt::format("Time step: {}, {}", stage.drive.name, lamp_set.name),
+        "step",
+        "Time step",
         "error of reach over the drive, 95 % of its figures",
         "m",
         "time for the drive",

@@ -31,8 +31,8 @@ ImageDifference compared(const Image<float>& a, const Image<float>& b, int acros
 
 WorkPrecision metrics_study(const Stage& stage, const LampSet& lamp_set, Device& device, const StudyGoesOn& go_on) {
     WorkPrecision diagram{
-        "metrics-" + stage.drive.name,
-        fmt::format("Comparing pictures: {}, {}", stage.drive.name, lamp_set.name),
+        "metrics",
+        "Comparing pictures",
         "error of root mean square and of the share beyond 1 %",
         "%",
         "time of a comparison",

@@ -17,7 +17,7 @@ WorkPrecisionRow row_of(const SolverRow& found) {
     row.why_not = found.not_measured;
     if (!found.not_measured.empty())
         return row;
-    row.error = Interval{found.error, found.error, found.error};
+    row.error = exactly(found.error);
     row.seconds = Interval{found.seconds, found.min_seconds, found.max_seconds, found.repetitions};
     row.floor = found.floor;
     for (const auto& [what, number] : {std::pair("steps", found.steps), std::pair("rejected", found.rejected),
@@ -55,8 +55,7 @@ WorkPrecision control_study(const StudyGoesOn& go_on) {
             row.label = fmt::format("{}, every {:g} ms", name, 1.0e3 * period_s);
             row.note = period_s == ControlParameters{}.period_s ? "the default" : "";
             row.parameters = {{"law", name}, {"period_s", fmt::format("{}", period_s)}};
-            const double error = control_period_error_rad(law, period_s);
-            row.error = Interval{error, error, error};
+            row.error = exactly(control_period_error_rad(law, period_s));
             row.floor = floor;
             row.seconds = timed([&, law = law] { weave(law, period_s, 4.0); });
             diagram.rows.push_back(std::move(row));

@@ -56,8 +56,8 @@ std::vector<WorkPrecision> reference_study(const Stage& stage, const LampSet& la
         if (!go_on())
             return diagrams;
         WorkPrecision diagram{
-            fmt::format("reference-{}-{}", name, stage.drive.name),
-            fmt::format("The reference, {}: {}, {}", name, stage.drive.name, lamp_set.name),
+            fmt::format("reference-{}", name),
+            fmt::format("The reference, {}", name),
             "error of a pixel's illuminance, root mean square",
             "%",
             "time of a picture",

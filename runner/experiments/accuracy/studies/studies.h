@@ -1,4 +1,5 @@
-// Error against run time of what is not a way to light a scene: each study varies one thing and holds it against a much finer one.
+// Error against run time of what is not a way to light a scene: each study varies one thing and holds it against a much finer one. Whoever
+// runs it adds drive and lamp set to names and titles.
 #pragma once
 
 #include "metrics/statistics/work_precision.h"
@@ -17,7 +18,7 @@ namespace fernlicht {
 using StudyGoesOn = std::function<bool()>;
 
 /// Size and depth of a texture of the lamp set's first lamp: error of the intensity against the candela table, over the time to make it.
-WorkPrecision beam_study(const Stage& stage, const LampSet& lamp_set, const StudyGoesOn& go_on);
+WorkPrecision beam_study(const LampSet& lamp_set, const StudyGoesOn& go_on);
 
 /// Cell of the extent grid: error of reach on the own lane's centre against cells of 1/16 m, over the time a moment, by the twin.
 WorkPrecision extent_study(const Stage& stage, const LampSet& lamp_set, const StudyGoesOn& go_on);
@@ -74,15 +75,10 @@ std::vector<WorkPrecision> solver_diagrams(const std::vector<SolverRow>& rows);
 /// together; time: of the middle one and the one before it, in turn. No rows without lamps of others, and for drives without shadows.
 WorkPrecision traffic_shadow_study(const Stage& stage, const LampSet& lamp_set, Device& device, const StudyGoesOn& go_on);
 
-struct AccuracyRequest {
+struct AccuracyRequest : ExperimentRequest<AccuracyResult> {
     std::vector<Drive> drives;
     SweepRequest sweep;
     std::vector<std::string> diagrams{"techniques"}; ///< of diagram_names()
-    std::string backend = "auto";
-    std::filesystem::path folder; ///< for the files; made when all input is read and the device is found sane
-    std::vector<std::string> command;
-    bool quiet = false;
-    std::function<void(const AccuracyResult&)> write; ///< takes what was found, also when it was interrupted; the folder is there
 };
 
 /// "techniques", "reference", "classical", "solvers", "control", "extent", "beam", "metrics", "step", "shadows" ...

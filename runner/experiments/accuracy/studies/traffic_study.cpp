@@ -37,8 +37,8 @@ std::vector<Moment> traffic_shadow_moments(const Stage& stage, const LampSet& la
 
 WorkPrecision traffic_study(const Stage& stage, const LampSet& lamp_set, Device& device, const StudyGoesOn& go_on) {
     WorkPrecision diagram{
-        "traffic-" + stage.drive.name,
-        fmt::format("Lamps of others, by the least lux that is drawn: {}, {}", stage.drive.name, lamp_set.name),
+        "traffic",
+        "Lamps of others, by the least lux that is drawn",
         "illuminance in the driver's view, worst pixel",
         "lx",
         "time of a frame",
@@ -75,7 +75,7 @@ WorkPrecision traffic_study(const Stage& stage, const LampSet& lamp_set, Device&
                         note, note.empty() ? "" : "; ", errors[errors.size() * 95 / 100], work.traffic_full, work.traffic_merged,
                         work.traffic_by_vertex, work.traffic_point);
         row.parameters = {{"min_lx", fmt::format("{:g}", min_lx)}, {"levels", &renderer == &coarse ? "yes" : "no"}};
-        row.error = Interval{errors.back(), errors.back(), errors.back()};
+        row.error = exactly(errors.back());
         row.seconds = timed([&] {
             renderer.render(moment, *view, {.colour = true});
             renderer.finish();
@@ -93,8 +93,8 @@ WorkPrecision traffic_study(const Stage& stage, const LampSet& lamp_set, Device&
 }
 
 WorkPrecision traffic_shadow_study(const Stage& stage, const LampSet& lamp_set, Device& device, const StudyGoesOn& go_on) {
-    WorkPrecision diagram{"traffic-shadows-" + stage.drive.name,
-                          fmt::format("Shadows in the light of others: {}, {}", stage.drive.name, lamp_set.name),
+    WorkPrecision diagram{"traffic-shadows",
+                          "Shadows in the light of others",
                           "wrongly lit or dark of what others light in the driver's view",
                           "%",
                           "time of a frame",
@@ -139,8 +139,7 @@ WorkPrecision traffic_shadow_study(const Stage& stage, const LampSet& lamp_set, 
         const bool drawn = own.traffic_shadows;
         row.parameters = {{"traffic_shadows", drawn ? "yes" : "no"},
                           {"map_texels", drawn ? fmt::format("{}x{}", own.shadows.width / 2, own.shadows.height / 2) : "none"}};
-        const double percent = 100.0 * area.wrong_share();
-        row.error = Interval{percent, percent, percent};
+        row.error = exactly(100.0 * area.wrong_share());
         renderer.prepare(timed_moments, *view, {.colour = true});
         std::size_t next = 0;
         row.seconds = timed([&] {

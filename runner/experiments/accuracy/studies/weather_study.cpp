@@ -34,7 +34,14 @@ struct MediumWay {
 
 struct MediumStudy {
     std::string name, title, note;
-    std::vector<MediumWay> ways;
+    const Moment& moment;
+    const RendererSettings& drawn;
+    std::vector<MediumWay> ways = {};
+
+    /// The moment as drives are drawn, for whoever adds it to change.
+    MediumWay& add(const std::string& label, const std::string& parameter, const std::string& value, const std::string& way_note = {}) {
+        return ways.emplace_back(MediumWay{label, parameter, value, way_note, moment, drawn});
+    }
 };
 
 class MediaBench {
@@ -73,8 +80,7 @@ class MediaBench {
             row.why_not = "no pixel has 0.001 cd/m2";
             return row;
         }
-        const double p95 = 100.0 * errors.error.p95;
-        row.error = Interval{p95, p95, p95};
+        row.error = exactly(100.0 * errors.error.p95);
         const FrameOutputs colour{.colour = true};
         renderer.prepare({way.moment}, timed_, colour);
         row.seconds = timed([&] {
@@ -92,56 +98,44 @@ class MediaBench {
 };
 
 MediumStudy fog_ways(const Moment& moment, const RendererSettings& drawn) {
-    MediumStudy study{"fog", "Fog by midpoints along each ray", "", {}};
-    for (const int samples : {4, 8, 16, 32, 64, 128, 256}) {
-        study.ways.push_back({fmt::format("{} midpoints", samples), "fog_samples", fmt::format("{}", samples),
-                              samples == drawn.fog_samples ? "as drives are drawn" : "", moment, drawn});
-        study.ways.back().settings.fog_samples = samples;
-    }
-    MediumWay clear{"left out", "fog_samples", "0", "", moment, drawn};
-    clear.moment.weather.extinction_per_m = 0.0;
-    study.ways.push_back(std::move(clear));
+    MediumStudy study{"fog", "Fog by midpoints along each ray", "", moment, drawn};
+    for (const int samples : {4, 8, 16, 32, 64, 128, 256})
+        study
+            .add(fmt::format("{} midpoints", samples), "fog_samples", fmt::format("{}", samples),
+                 samples == drawn.fog_samples ? "as drives are drawn" : "")
+            .settings.fog_samples = samples;
+    study.add("left out", "fog_samples", "0").moment.weather.extinction_per_m = 0.0;
     return study;
 }
 
 MediumStudy wet_ways(const Moment& moment, const RendererSettings& drawn) {
-    MediumStudy study{"wet-road", "Wet road", "", {{"drawn", "wetness", "as given", "as drives are drawn", moment, drawn}}};
-    MediumWay dry{"left out", "wetness", "0", "", moment, drawn};
-    dry.moment.weather.wetness = 0.0;
-    study.ways.push_back(std::move(dry));
+    MediumStudy study{"wet-road", "Wet road", "", moment, drawn};
+    study.add("drawn", "wetness", "as given", "as drives are drawn");
+    study.add("left out", "wetness", "0").moment.weather.wetness = 0.0;
     return study;
 }
 
 MediumStudy sun_ways(const Moment& moment, const RendererSettings& drawn) {
-    MediumStudy study{"sun",
-                      "Sun or moon",
-                      "the map has 2048 x 2048 texels of 0.12 m; all other lights keep their shadows but in the second way",
-                      {{"with its shadow map", "shadows", "map", "as drives are drawn", moment, drawn}}};
-    MediumWay bright{"without any shadows", "shadows", "none", "", moment, drawn};
-    bright.settings.shadows.method = ShadowMethod::none;
-    study.ways.push_back(std::move(bright));
-    MediumWay dark{"left out", "shadows", "no light", "", moment, drawn};
-    dark.moment.daylight.sun = dark.moment.daylight.moon = {};
-    study.ways.push_back(std::move(dark));
+    MediumStudy study{"sun", "Sun or moon",
+                      "the map has 2048 x 2048 texels of 0.12 m; all other lights keep their shadows but in the second way", moment, drawn};
+    study.add("with its shadow map", "shadows", "map", "as drives are drawn");
+    study.add("without any shadows", "shadows", "none").settings.shadows.method = ShadowMethod::none;
+    Daylight& dark = study.add("left out", "shadows", "no light").moment.daylight;
+    dark.sun = dark.moon = {};
     return study;
 }
 
 MediumStudy lamp_ways(const Moment& moment, const RendererSettings& drawn) {
-    MediumStudy study{"street-lamps",
-                      fmt::format("Lamps beside the road, {}", std::ranges::count_if(moment.other_lamps, stands_beside)),
+    MediumStudy study{"street-lamps", fmt::format("Lamps beside the road, {}", std::ranges::count_if(moment.other_lamps, stands_beside)),
                       "light of any one lamp fainter than this is left out (traffic_light: min_lx); shadows by maps but in the way without",
-                      {}};
-    for (const double min_lx : {0.005, 0.05, 0.2, 1.0, 5.0}) {
-        study.ways.push_back({fmt::format("from {:g} lx on", min_lx), "min_lx", fmt::format("{:g}", min_lx),
-                              min_lx == moment.min_traffic_lx ? "as the drive is drawn" : "", moment, drawn});
-        study.ways.back().moment.min_traffic_lx = min_lx;
-    }
-    MediumWay bright{"without their shadows", "shadows", "none", "", moment, drawn};
-    bright.settings.traffic_shadows = false;
-    study.ways.push_back(std::move(bright));
-    MediumWay none{"left out", "min_lx", "all", "", moment, drawn};
-    std::erase_if(none.moment.other_lamps, stands_beside);
-    study.ways.push_back(std::move(none));
+                      moment, drawn};
+    for (const double min_lx : {0.005, 0.05, 0.2, 1.0, 5.0})
+        study
+            .add(fmt::format("from {:g} lx on", min_lx), "min_lx", fmt::format("{:g}", min_lx),
+                 min_lx == moment.min_traffic_lx ? "as the drive is drawn" : "")
+            .moment.min_traffic_lx = min_lx;
+    study.add("without their shadows", "shadows", "none").settings.traffic_shadows = false;
+    std::erase_if(study.add("left out", "min_lx", "all").moment.other_lamps, stands_beside);
     return study;
 }
 
@@ -169,8 +163,8 @@ std::vector<WorkPrecision> weather_study(const Stage& stage, const LampSet& lamp
     const MediaBench bench(stage, moment, device);
     for (const MediumStudy& study : studies) {
         WorkPrecision diagram{
-            fmt::format("{}-{}", study.name, stage.drive.name),
-            fmt::format("{}: {}, {}", study.title, stage.drive.name, lamp_set.name),
+            study.name,
+            study.title,
             "error of luminance, 95 % of the pixels",
             "%",
             "time a frame",

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <random>
 
 namespace fernlicht {
@@ -15,11 +14,7 @@ namespace {
 
 using namespace stability;
 
-Moment one_lamp() {
-    Moment moment;
-    moment.lamps = {lamp(cut_off_table(), {3.5, 0.6, 0.65})};
-    return moment;
-}
+Moment one_lamp() { return moment_of(lamp(cut_off_table(), {3.5, 0.6, 0.65})); }
 
 View driver(int width_px, int height_px) { return camera({1.3, 0.35, 1.2}, 0.0, -0.05, 30.0, width_px, height_px); }
 
@@ -52,41 +47,29 @@ Scene strips(double width_m, double length_m, double half_m) {
     return scene;
 }
 
-AgainstTwin over_strips(StabilityBench& bench, double width_m, double length_m, double reach_m) {
-    const double half_m = std::min(19.5, 1000.0 * width_m);
-    const Scene scene = strips(width_m, length_m, half_m);
-    Renderer renderer(bench.device(), scene, unshadowed());
-    const Moment moment = one_lamp();
-    const View view = driver(320, 200);
-    return against_plane(renderer.draw(moment, view, everything), moment, view, reach_m,
-                         [&](const glm::dvec3& p) { return p.x < 99.0 && std::abs(p.y) < 0.99 * half_m; });
-}
-
 using Strip = std::pair<double, double>; ///< length and width
 
-Found over_all(StabilityBench& bench, std::initializer_list<Strip> all, bool amplified) {
-    Found worst;
-    for (const auto& [length_m, width_m] : all) {
-        // Each rounding of a place counts length over width times where the rasteriser solves for its gradient.
-        const double reach_m = 102.0 + (amplified ? length_m * length_m / width_m : 0.0);
-        const AgainstTwin found = over_strips(bench, width_m, length_m, reach_m);
-        worst.add(found.error(),
-                  fmt::format("{} m by {} m: {}; {:.1e} relative over {} pixels", length_m, width_m, found.where, found.worst_relative,
-                              found.compared),
-                  found.compared);
-    }
-    return worst;
-}
-
-/// As thin as marks are, and as long as the road's mesh makes them at most.
-Found marks(StabilityBench& bench) { return over_all(bench, {{15.0, 1.0}, {15.0, 0.1}, {5.0, 0.03}, {1.0, 0.001}}, false); }
-
-Found needles(StabilityBench& bench) {
-    return over_all(bench, {{120.0, 0.1}, {120.0, 0.01}, {120.0, 0.001}, {15.0, 0.01}, {15.0, 0.001}}, true);
+/// `amplified`: each rounding of a place counts length over width times where the rasteriser solves for its gradient.
+StabilityCase::Measure over_strips(const std::vector<Strip>& all, bool amplified) {
+    return [all, amplified](StabilityBench& bench, Found& worst) {
+        for (const auto& [length_m, width_m] : all) {
+            const double half_m = std::min(19.5, 1000.0 * width_m), reach_m = 102.0 + (amplified ? length_m * length_m / width_m : 0.0);
+            const Scene scene = strips(width_m, length_m, half_m);
+            Renderer renderer(bench.device(), scene, unshadowed());
+            const Moment moment = one_lamp();
+            const View view = driver(320, 200);
+            const AgainstTwin found = against_plane(renderer.draw(moment, view, everything), moment, view, reach_m,
+                                                    [&](const glm::dvec3& p) { return p.x < 99.0 && std::abs(p.y) < 0.99 * half_m; });
+            worst.add(found.error(),
+                      fmt::format("{} m by {} m: {}; {:.1e} relative over {} pixels", length_m, width_m, found.where, found.worst_relative,
+                                  found.compared),
+                      found.compared);
+        }
+    };
 }
 
 /// The same road twice at one height, cut into different triangles, and a third time as a mark.
-Found coplanar(StabilityBench& bench) {
+void coplanar(StabilityBench& bench, Found& worst) {
     Scene scene = empty_scene();
     scene.materials[1] = scene.materials[0];
     scene.materials[1].kind = SurfaceKind::marking;
@@ -102,35 +85,24 @@ Found coplanar(StabilityBench& bench) {
     const Frame frame = drawn();
     const AgainstTwin found =
         against_plane(frame, moment, view, 102.0, [](const glm::dvec3& p) { return p.x < 99.0 && std::abs(p.y) < 19.0; });
-    Found worst;
     worst.add(found.error(), fmt::format("lux: {}, {:.1e} relative over {} pixels", found.where, found.worst_relative, found.compared),
               found.compared);
     // Which of the surfaces is seen may not depend on anything but the scene.
-    worst.add(frame.ids == drawn().ids ? 0.0 : std::numeric_limits<double>::infinity(), "the same surface twice");
-    return worst;
+    worst.add(frame.ids == drawn().ids ? 0.0 : unbounded, "the same surface twice", pixels_in(frame));
 }
 
 /// A mark of 1 mm from a road file: its area in triangles, each edge put on the lattice.
-Found thin_mark_read(StabilityBench& bench) {
+void thin_mark_read(StabilityBench& bench, Found& worst) {
     const std::string mark = R"(<roadMark sOffset="0" type="solid" weight="standard" color="standard" width="0.001" laneChange="none"/>)";
     const std::filesystem::path path = bench.write("thin.xodr", road_text(600.0, line_of_600_m, lane_text(-1, 3.5, mark)));
     const Scene scene = build_scene(read_opendrive(path), {.textures = false});
-    double area_m2 = 0.0;
-    for (const Mesh& mesh : scene.meshes)
-        for (const Batch& batch : mesh.batches)
-            for (std::uint32_t i = batch.first; i + 2 < batch.first + batch.count; i += 3) {
-                const auto corner = [&](std::uint32_t k) { return glm::dvec3(mesh.vertices[mesh.indices[i + k]].position_m); };
-                if (scene.materials[batch.material].kind == SurfaceKind::marking)
-                    area_m2 += 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
-            }
-    Found worst;
+    const double area_m2 = area_of(scene, {SurfaceKind::marking});
     worst.add(std::abs(area_m2 / 0.6 - 1.0), fmt::format("{:.5f} m2 for 0.6 m2", area_m2));
-    return worst;
 }
 
 /// A mark of 1 mm seen at 150 to 250 m, a sixth of a pixel wide: a pixel shows what is at its centre, so that pixels flicker, but over many
 /// the share of the mark must be right.
-Found thin_mark_seen(StabilityBench& bench) {
+void thin_mark_seen(StabilityBench& bench, Found& worst) {
     Scene scene = empty_scene();
     const double half_m = 0.0005;
     add_sheet(scene, "left", 0, {-20.0, half_m, 0.0}, {320.0, 0.0, 0.0}, {0.0, 4.0, 0.0});
@@ -154,11 +126,8 @@ Found thin_mark_seen(StabilityBench& bench) {
                 expected += std::abs(centre.y) <= half_m && centre.x > 0.0 && centre.x < 300.0 ? 1U : 0U;
             }
     }
-    Found worst;
-    worst.add(holes > 0 || expected == 0 ? std::numeric_limits<double>::infinity()
-                                         : std::abs(static_cast<double>(seen) / static_cast<double>(expected) - 1.0),
-              fmt::format("{} pixels show the mark, {} centres lie on it, {} holes", seen, expected, holes));
-    return worst;
+    worst.add(holes > 0 || expected == 0 ? unbounded : std::abs(static_cast<double>(seen) / static_cast<double>(expected) - 1.0),
+              fmt::format("{} pixels show the mark, {} centres lie on it, {} holes", seen, expected, holes), static_cast<int>(expected));
 }
 
 } // namespace
@@ -168,11 +137,11 @@ std::vector<StabilityCase> geometry_cases() {
     const std::string flat = "light is calculated at each pixel from its place: how the plane is cut into triangles may not show";
     return {
         {"geometry", "marks", "strips of 15 m by 0.1 m and 1 m by 1 mm, slivers, triangles without area: holes, barycentric 0/0", 1.0,
-         of_bound, flat, marks},
+         of_bound, flat, over_strips({{15.0, 1.0}, {15.0, 0.1}, {5.0, 0.03}, {1.0, 0.001}}, false)},
         {"geometry", "needles", "strips of 120 m by 1 cm: the rasteriser's gradients are quotients by a sliver's area", 1.0,
          "of the pixel's rounding bound times length over width",
          "each rounding of a place counts length over width times: single pixels on such needles may have the light of a place metres away",
-         needles},
+         over_strips({{120.0, 0.1}, {120.0, 0.01}, {120.0, 0.001}, {15.0, 0.01}, {15.0, 0.001}}, true)},
         {"geometry", "coplanar", "surfaces at one height: which is seen may flicker, its light may not", 1.0, of_bound, flat, coplanar},
         {"geometry", "mark-1mm-read", "a mark of 1 mm is 33 steps of the lattice that vertices lie on", 0.0306, "of the mark's area",
          "each edge moves by at most half a step of 2^-15 m: 15 micrometres of 1 mm, on both sides", thin_mark_read},

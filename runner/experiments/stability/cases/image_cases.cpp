@@ -21,35 +21,25 @@ struct Size {
     int width_px, height_px;
 };
 
-Found against_a_street(StabilityBench& bench, const std::vector<Size>& sizes) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "road", 0, {-20.0, -30.0, 0.0}, {120.0, 0.0, 0.0}, {0.0, 60.0, 0.0});
-    add_sheet(scene, "board", 1, {30.0, 1.0, 0.5}, {0.0, -2.0, 0.0}, {0.0, 0.0, 1.5});
-    Renderer renderer(bench.device(), scene, unshadowed());
-    Moment moment;
-    moment.lamps = {lamp(cut_off_table(), {3.5, 0.6, 0.65})};
-    Found worst;
-    for (const Size& size : sizes) {
-        const AgainstTwin found =
-            against_twin(renderer, scene, moment, camera({1.3, 0.35, 1.2}, 0.0, -0.05, size.fov_deg, size.width_px, size.height_px));
-        worst.add(found.error(),
-                  fmt::format("{} degrees, {} x {}: {}, {:.1e} relative over {} pixels", size.fov_deg, size.width_px, size.height_px,
-                              found.where, found.worst_relative, found.compared),
-                  found.compared);
-    }
-    return worst;
-}
-
-Found fields_of_view(StabilityBench& bench) {
-    return against_a_street(bench, {{0.1, 48, 32}, {1.0, 48, 32}, {90.0, 48, 32}, {170.0, 48, 32}, {179.0, 48, 32}});
-}
-
-Found sizes(StabilityBench& bench) {
-    return against_a_street(bench, {{2.0, 1, 1}, {40.0, 1, 64}, {4.0, 64, 1}, {10.0, 1, 16384}, {0.1, 16384, 1}, {0.112, 16384, 16}});
+StabilityCase::Measure against_a_street(const std::vector<Size>& sizes) {
+    return [sizes](StabilityBench& bench, Found& worst) {
+        Scene scene = scene_of_sheet("road", 0, {-20.0, -30.0, 0.0}, {120.0, 0.0, 0.0}, {0.0, 60.0, 0.0});
+        add_sheet(scene, "board", 1, {30.0, 1.0, 0.5}, {0.0, -2.0, 0.0}, {0.0, 0.0, 1.5});
+        Renderer renderer(bench.device(), scene, unshadowed());
+        const Moment moment = moment_of(lamp(cut_off_table(), {3.5, 0.6, 0.65}));
+        for (const Size& size : sizes) {
+            const AgainstTwin found =
+                against_twin(renderer, scene, moment, camera({1.3, 0.35, 1.2}, 0.0, -0.05, size.fov_deg, size.width_px, size.height_px));
+            worst.add(found.error(),
+                      fmt::format("{} degrees, {} x {}: {}, {:.1e} relative over {} pixels", size.fov_deg, size.width_px, size.height_px,
+                                  found.where, found.worst_relative, found.compared),
+                      found.compared);
+        }
+    };
 }
 
 /// What is stored in EXR comes back to the bit.
-Found stored(StabilityBench& bench) {
+void stored(StabilityBench& bench, Found& worst) {
     Frame frame;
     const float values[] = {0.0F,     1e-42F,  1.17549435e-38F, 1e-20F,   5.9e-8F, 0.01F,       0.25F, 1.0F,
                             1.00001F, 2049.0F, 65504.0F,        65520.0F, 1e5F,    16777217.0F, 1e18F, std::numeric_limits<float>::max()};
@@ -58,7 +48,6 @@ Found stored(StabilityBench& bench) {
     frame.luminance_cdm2 = frame.illuminance_lx;
     const std::filesystem::path path = bench.file("stored.exr");
     write_exr(frame, Moment{}, View{}, path);
-    Found worst;
     std::size_t channels = 0;
     for (const PictureChannel& channel : read_exr(path)) {
         ++channels;
@@ -66,16 +55,14 @@ Found stored(StabilityBench& bench) {
             worst.add(channel.values.at(x, 0) == values[x] ? 0.0 : 1.0, fmt::format("{}: {:g}", channel.name, values[x]));
     }
     worst.add(channels == 2 ? 0.0 : 1.0, fmt::format("{} channels", channels));
-    return worst;
 }
 
 /// A white wall under skies of every luminance, in 8 bits, against the formula in double.
-Found pictures(StabilityBench& bench) {
+void pictures(StabilityBench& bench, Found& worst) {
     Scene scene = empty_scene();
     scene.materials[0].albedo = glm::vec3(1.0F);
     add_sheet(scene, "floor", 0, {-5.0, -5.0, -1.0}, {10.0, 0.0, 0.0}, {0.0, 10.0, 0.0});
     const View view = camera({0.0, 0.0, 0.0}, 0.0, -0.5 * pi, 40.0, 4, 4);
-    Found worst;
     for (const ToneMapperKind kind : {ToneMapperKind::linear, ToneMapperKind::rational, ToneMapperKind::logarithmic})
         for (const double s : {1.0, 1.0 + 1e-7, 20.0, 1e6})
             for (const double l_max : {1e-6, 100.0, 1e9}) {
@@ -90,12 +77,10 @@ Found pictures(StabilityBench& bench) {
                     moment.daylight.horizontal_illuminance_lx = pi * l;
                     const Frame frame = renderer.draw(moment, view, {.colour = true, .luminance = true});
                     const double shown = 255.0 * photometry::srgb_encoded(toned(settings.tone_mapper, l));
-                    const double error =
-                        not_finite(frame) > 0 ? std::numeric_limits<double>::infinity() : std::abs(frame.colour.at(1, 1).g - shown);
+                    const double error = not_finite(frame) > 0 ? unbounded : std::abs(frame.colour.at(1, 1).g - shown);
                     worst.add(error, fmt::format("{}, s = {:g}, L_max = {:g}, L = {:g}", name(kind), s, l_max, l));
                 }
             }
-    return worst;
 }
 
 } // namespace
@@ -104,9 +89,11 @@ std::vector<StabilityCase> image_cases() {
     const std::string of_bound = "of the pixel's rounding bound";
     return {
         {"image", "field-of-view", "0.1 to 179 degrees: tangents of 0.0009 and 115", 1.0, of_bound,
-         "the projection only decides where a pixel looks; light comes from positions relative to the car", fields_of_view},
+         "the projection only decides where a pixel looks; light comes from positions relative to the car",
+         against_a_street({{0.1, 48, 32}, {1.0, 48, 32}, {90.0, 48, 32}, {170.0, 48, 32}, {179.0, 48, 32}})},
         {"image", "sizes", "1 x 1, one row, one column, 16384 x 16: the widest that OpenGL 4.5 promises", 1.0, of_bound,
-         "a pixel does not know of its neighbours", sizes},
+         "a pixel does not know of its neighbours",
+         against_a_street({{2.0, 1, 1}, {40.0, 1, 64}, {4.0, 64, 1}, {10.0, 1, 16384}, {0.1, 16384, 1}, {0.112, 16384, 16}})},
         {"image", "stored", "numbers on their way into EXR: 1e5 lx, denormals, the largest float", 0.0, "values changed",
          "channels are 32-bit floats; half floats end at 65504 lx and keep 11 bits", stored},
     };

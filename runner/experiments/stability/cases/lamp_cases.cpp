@@ -14,35 +14,28 @@ namespace {
 using namespace stability;
 
 /// A wall of 1 m at the car, a lamp before it at each distance. The car stands at the wall: what is far is the lamp.
-Found distance(StabilityBench& bench) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "wall", 0, {0.0, 0.5, -0.5}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}); // faces -x
+void distance(StabilityBench& bench, Found& worst) {
+    Scene scene = scene_of_sheet("wall", 0, {0.0, 0.5, -0.5}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}); // faces -x
     Renderer renderer(bench.device(), scene, unshadowed());
-    Moment moment;
-    moment.lamps = {lamp(constant_table(1000.0), {})};
-    Found worst;
+    Moment moment = moment_of(lamp(constant_table(1000.0), {}));
     for (double d = 1e-3; d < 1.01e4; d *= std::pow(10.0, 0.25)) {
         moment.lamps[0].pose.position_m.x = -d;
         const AgainstTwin found = against_twin(renderer, scene, moment, camera({-1.0, 0.05, 0.05}, 0.0, 0.0, 30.0, 32, 24));
         worst.add(found.error(), fmt::format("{:.3g} m, {}: {:.1e} relative", d, found.where, found.worst_relative), found.compared);
     }
-    return worst;
 }
 
 /// A sheet 20 m ahead, turned so that light grazes it more and more, in attitudes that make every component of the normal round.
-Found grazing(StabilityBench& bench) {
-    Found worst;
+void grazing(StabilityBench& bench, Found& worst) {
     for (const double graze_deg : {90.0, 45.0, 10.0, 1.0, 0.1, 0.01, 0.001})
         for (const double roll_deg : {0.0, 17.3, 63.1}) {
             const glm::dmat3 axes = axes_from_angles(0.0, 0.0, radians(roll_deg));
             const double a = radians(graze_deg);
             // Along the light and a little across it; the normal leans towards the lamp by the angle.
             const glm::dvec3 along = axes * glm::dvec3(std::cos(a), 0.0, std::sin(a)), across = axes * glm::dvec3(0.0, 1.0, 0.0);
-            Scene scene = empty_scene();
-            add_sheet(scene, "sheet", 0, glm::dvec3(20.0, 0.0, 0.0) - 0.5 * along - 0.05 * across, along, 0.1 * across);
+            Scene scene = scene_of_sheet("sheet", 0, glm::dvec3(20.0, 0.0, 0.0) - 0.5 * along - 0.05 * across, along, 0.1 * across);
             Renderer renderer(bench.device(), scene, unshadowed());
-            Moment moment;
-            moment.lamps = {lamp(constant_table(1000.0), {0.0, 0.0, 0.0})};
+            Moment moment = moment_of(lamp(constant_table(1000.0), {0.0, 0.0, 0.0}));
             // Seen from above the sheet, so that pixels show its surface well.
             const glm::dvec3 normal = glm::normalize(glm::cross(along, across));
             const glm::dvec3 eye = glm::dvec3(20.0, 0.0, 0.0) + 2.0 * normal;
@@ -51,35 +44,29 @@ Found grazing(StabilityBench& bench) {
             worst.add(found.error(), fmt::format("{} degrees, rolled by {}: {:.1e} relative", graze_deg, roll_deg, found.worst_relative),
                       found.compared);
         }
-    return worst;
 }
 
 /// A lamp in the middle of a sheet, exactly where a pixel's centre looks, and within rounding errors of it.
-Found lamp_on_a_surface(StabilityBench& bench) {
-    Found worst;
-    Scene scene = empty_scene();
-    add_sheet(scene, "wall", 0, {2.0, 1.0, -1.0}, {0.0, -2.0, 0.0}, {0.0, 0.0, 2.0});
+void lamp_on_a_surface(StabilityBench& bench, Found& worst) {
+    Scene scene = scene_of_sheet("wall", 0, {2.0, 1.0, -1.0}, {0.0, -2.0, 0.0}, {0.0, 0.0, 2.0});
     Renderer renderer(bench.device(), scene, unshadowed());
     for (const double before_m : {0.0, 1e-300, 1e-45, 1e-30, 1e-12, 1e-7, 1e-6})
         for (const double yaw : {0.0, pi}) {
-            Moment moment;
-            moment.lamps = {lamp(constant_table(1000.0), {2.0 - before_m, 0.0, 0.0}, yaw)};
+            Moment moment = moment_of(lamp(constant_table(1000.0), {2.0 - before_m, 0.0, 0.0}, yaw));
             const Frame frame = renderer.draw(moment, camera({0.0, 0.0, 0.0}, 0.0, 0.0, 40.0, 33, 33), everything);
             worst.add(static_cast<double>(not_finite(frame)),
-                      fmt::format("{:.0e} m before the wall, yaw {:.0f} degrees", before_m, degrees(yaw)));
+                      fmt::format("{:.0e} m before the wall, yaw {:.0f} degrees", before_m, degrees(yaw)), pixels_in(frame));
             const glm::dvec3 place{2.0, 0.0, 0.0};
             const bool finite = std::isfinite(target_illuminance_lx(moment, moment.lamps[0].pose.position_m)) &&
                                 std::isfinite(surface_illuminance_lx(moment, moment.lamps[0].pose.position_m, {-1.0, 0.0, 0.0})) &&
                                 (before_m < 1e-100 || std::isfinite(target_illuminance_lx(moment, place)));
             worst.add(finite ? 0.0 : 1.0, fmt::format("in double, {:.0e} m before the wall", before_m));
         }
-    return worst;
 }
 
 /// One lamp lights a wall with 1e5 lx, another the wall beside it with 1 lx, in one frame.
-Found unequal_lamps(StabilityBench& bench) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "bright wall", 0, {10.0, 3.0, -1.0}, {0.0, -2.9, 0.0}, {0.0, 0.0, 2.0});
+void unequal_lamps(StabilityBench& bench, Found& worst) {
+    Scene scene = scene_of_sheet("bright wall", 0, {10.0, 3.0, -1.0}, {0.0, -2.9, 0.0}, {0.0, 0.0, 2.0});
     add_sheet(scene, "dim wall", 0, {10.0, -0.1, -1.0}, {0.0, -2.9, 0.0}, {0.0, 0.0, 2.0});
     add_sheet(scene, "board", 1, {9.0, 0.1, 1.2}, {0.0, -0.2, 0.0}, {0.0, 0.0, 0.2});
     Moment moment;
@@ -89,16 +76,13 @@ Found unequal_lamps(StabilityBench& bench) {
     moment.lamps = {lamp(left, {0.0, 0.0, 0.0}), lamp(right, {0.0, 0.0, 0.0})};
     Renderer renderer(bench.device(), scene, unshadowed());
     const AgainstTwin found = against_twin(renderer, scene, moment, camera({0.0, 0.0, 0.3}, 0.0, 0.0, 30.0, 64, 32));
-    Found worst;
     worst.add(found.error(), fmt::format("{}: {:.1e} relative over {} pixels", found.where, found.worst_relative, found.compared),
               found.compared);
-    return worst;
 }
 
 /// A road, a retroreflecting board over it and a wall behind the lamp.
 Scene street(const glm::dvec3& origin_m) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "road", 0, origin_m + glm::dvec3(-20.0, -10.0, 0.0), {120.0, 0.0, 0.0}, {0.0, 20.0, 0.0});
+    Scene scene = scene_of_sheet("road", 0, origin_m + glm::dvec3(-20.0, -10.0, 0.0), {120.0, 0.0, 0.0}, {0.0, 20.0, 0.0});
     add_sheet(scene, "board", 1, origin_m + glm::dvec3(30.0, 1.0, 0.5), {0.0, -2.0, 0.0}, {0.0, 0.0, 1.5});
     add_sheet(scene, "back wall", 1, origin_m + glm::dvec3(-10.0, -5.0, 0.0), {0.0, 10.0, 0.0}, {0.0, 0.0, 5.0});
     return scene;
@@ -111,7 +95,7 @@ struct Place {
 };
 
 /// The lamp stands at (3.5, 0, 0.65); an eye on it is at the retroreflection's pole, observation angle 0.
-Found beside_the_lamp(StabilityBench& bench) {
+void beside_the_lamp(StabilityBench& bench, Found& worst) {
     static const Place places[] = {{"in the beam, looking along it", {8.0, 0.0, 0.65}, 0.0, 0.0},
                                    {"in the beam, looking into the lamp", {12.0, 0.0, 0.65}, 180.0, 0.0},
                                    {"behind the lamp", {1.0, 0.0, 0.65}, 0.0, 0.0},
@@ -122,19 +106,15 @@ Found beside_the_lamp(StabilityBench& bench) {
                                    {"the lamp aimed at the camera behind it", {0.0, 0.0, 0.65}, 0.0, 180.0}};
     const Scene scene = street({});
     Renderer renderer(bench.device(), scene, unshadowed());
-    Found worst;
     for (const Place& place : places) {
-        Moment moment;
-        moment.lamps = {lamp(cut_off_table(), {3.5, 0.0, 0.65}, radians(place.lamp_yaw_deg))};
+        Moment moment = moment_of(lamp(cut_off_table(), {3.5, 0.0, 0.65}, radians(place.lamp_yaw_deg)));
         const AgainstTwin found = against_twin(renderer, scene, moment, camera(place.eye_m, radians(place.yaw_deg), -0.03, 40.0, 48, 32));
         worst.add(found.error(), fmt::format("{}: {}, {:.1e} relative", place.name, found.where, found.worst_relative), found.compared);
     }
-    return worst;
 }
 
 /// The same street at the world's origin and at 1e7 m: the same light.
-Found far_from_the_origin(StabilityBench& bench) {
-    Found worst;
+void far_from_the_origin(StabilityBench& bench, Found& worst) {
     for (const double far_m : {0.0, 1.0, 1e3, 1e5, 1e6, 1e7}) {
         const glm::dvec3 origin{far_m, -0.7 * far_m, 1e-3 * far_m};
         const Scene scene = street(origin);
@@ -145,7 +125,6 @@ Found far_from_the_origin(StabilityBench& bench) {
         const AgainstTwin found = against_twin(renderer, scene, moment, camera({1.3, 0.35, 1.2}, 0.0, -0.03, 40.0, 48, 32));
         worst.add(found.error(), fmt::format("{:.0e} m: {}, {:.1e} relative", far_m, found.where, found.worst_relative), found.compared);
     }
-    return worst;
 }
 
 } // namespace

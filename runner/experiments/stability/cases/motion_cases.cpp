@@ -9,27 +9,23 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace fernlicht {
 namespace {
 
 using namespace stability;
 
-std::function<Found(StabilityBench&)> worst_of(std::vector<ExtremeTrial> (*study)()) {
-    return [study](StabilityBench&) {
-        Found found;
+StabilityCase::Measure worst_of(std::vector<ExtremeTrial> (*study)()) {
+    return [study](StabilityBench&, Found& worst) {
         for (const ExtremeTrial& trial : study())
-            found.add(trial.error, trial.what);
-        return found;
+            worst.add(trial.error, trial.what);
     };
 }
 
 /// Speed 0 to 60 m/s and back to 0 over 8 s: v = 15 t up to 4 s. Distance in closed form.
 double truth_m(double t) { return t <= 4.0 ? 7.5 * t * t : 120.0 + 60.0 * (t - 4.0) - 7.5 * (t - 4.0) * (t - 4.0); }
 
-Found time_steps(StabilityBench& bench) {
-    Found worst;
+void time_steps(StabilityBench& bench, Found& worst) {
     for (const double step_s : {1e-6, 1e-4, 1.0 / 30.0, 0.1, 1.0, 10.0}) {
         const std::filesystem::path path = write_drive_file(
             bench, "steps.yaml", "changes:\n  - {at_s: 4, lamp: right, level: 0.5}",
@@ -62,7 +58,6 @@ Found time_steps(StabilityBench& bench) {
         worst.add(std::abs(walked.distance_m - truth_m(walked.tick * step_s)) / 240.0,
                   fmt::format("step {} s, walked {} steps", step_s, walked.tick));
     }
-    return worst;
 }
 
 } // namespace

@@ -1,7 +1,9 @@
-// Numbers themselves: rounding as IEEE 754 has it, denormals, the largest, and none that is not finite in a file.
+// Numbers themselves: rounding as IEEE 754 has it, denormals, the largest, and none that is not finite in a file; each light equation by
+// itself in float against double, on the CPU and on the device.
 #include "renderer/reference/reference.h"
 #include "runner/experiments/run/run_drives.h"
 #include "runner/experiments/run/run_report.h"
+#include "runner/experiments/stability/equations.h"
 #include "runner/experiments/stability/trial.h"
 #include "runner/files/picture_file.h"
 #include "runner/findings/moment_columns.h"
@@ -72,17 +74,14 @@ std::vector<std::string> ieee754_violations() {
 }
 
 /// Before and after a device, Embree and oneTBB had their chance to set flush-to-zero, on this thread and on theirs.
-Found float_rules(StabilityBench& bench) {
-    Found worst;
+void float_rules(StabilityBench& bench, Found& worst) {
     const auto add = [&](const std::string& at) {
         const std::vector<std::string> broken = ieee754_violations();
         worst.add(static_cast<double>(broken.size()), broken.empty() ? "every rule holds " + at : fmt::format("{} {}", broken.front(), at));
     };
     add("at first");
-    Scene scene = empty_scene();
-    add_sheet(scene, "wall", 0, {10.0, 3.0, -3.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 6.0});
-    Moment moment;
-    moment.lamps = {lamp(constant_table(1000.0), {0.0, 0.0, 0.0})};
+    Scene scene = scene_of_sheet("wall", 0, {10.0, 3.0, -3.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 6.0});
+    Moment moment = moment_of(lamp(constant_table(1000.0), {0.0, 0.0, 0.0}));
     const View view = camera({0.0, 0.0, 0.0}, 0.0, 0.0, 30.0, 32, 32);
     Renderer renderer(bench.device(), scene, unshadowed());
     renderer.draw(moment, view, everything);
@@ -102,18 +101,14 @@ Found float_rules(StabilityBench& bench) {
         },
         std::plus<>());
     worst.add(broken, "in workers of oneTBB");
-    return worst;
 }
 
 /// Lamps so weak that their light is denormal in float, or none.
-Found denormals(StabilityBench& bench) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "wall", 1, {10.0, 3.0, -3.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 6.0});
+void denormals(StabilityBench& bench, Found& worst) {
+    Scene scene = scene_of_sheet("wall", 1, {10.0, 3.0, -3.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 6.0});
     Renderer renderer(bench.device(), scene, unshadowed());
-    Found worst;
     for (const double cd : {1e-300, 1e-45, 1e-42, 1e-38, 1e-36, 1e-30}) {
-        Moment moment;
-        moment.lamps = {lamp(constant_table(cd), {0.0, 0.0, 0.0})};
+        Moment moment = moment_of(lamp(constant_table(cd), {0.0, 0.0, 0.0}));
         const View view = camera({0.0, 0.0, 0.0}, 0.0, 0.0, 30.0, 16, 16);
         const Frame frame = renderer.draw(moment, view, everything);
         const Twin twin(scene, false);
@@ -121,17 +116,14 @@ Found denormals(StabilityBench& bench) {
             const double truth = twin.pixel(moment, view, i + 0.5, i + 0.5).illuminance_lx;
             const double off = std::abs(static_cast<double>(frame.illuminance_lx.at(i, i)) - truth);
             // Five products, each of which may lose what is below the smallest normal number.
-            worst.add(not_finite(frame) > 0 ? std::numeric_limits<double>::infinity() : off / (1e-6 * truth + 5.0 * 1.18e-38 * 100.0),
-                      fmt::format("{:.0e} cd", cd));
+            worst.add(not_finite(frame) > 0 ? unbounded : off / (1e-6 * truth + 5.0 * 1.18e-38 * 100.0), fmt::format("{:.0e} cd", cd));
         }
     }
-    return worst;
 }
 
 /// The brightest lamps that a file may hold, eight of them, at a millimetre and at ten metres.
-Found brightest(StabilityBench& bench) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "wall", 1, {0.001, 3.0, -3.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 6.0});
+void brightest(StabilityBench& bench, Found& worst) {
+    Scene scene = scene_of_sheet("wall", 1, {0.001, 3.0, -3.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 6.0});
     add_sheet(scene, "road", 0, {-20.0, -10.0, -1.0}, {40.0, 0.0, 0.0}, {0.0, 20.0, 0.0});
     Renderer renderer(bench.device(), scene, unshadowed());
     Moment moment;
@@ -139,13 +131,11 @@ Found brightest(StabilityBench& bench) {
         moment.lamps.push_back(lamp(constant_table(1e12), {0.0, 0.001 * i, 0.0}, 0.0, -0.3));
         moment.lamps.back().intensity_factor = 1.0;
     }
-    Found worst;
     for (const glm::dvec3& eye : {glm::dvec3(-0.5, 0.0, 0.0), glm::dvec3(-5.0, 0.0, 1.0)}) {
         const AgainstTwin found = against_twin(renderer, scene, moment, camera(eye, 0.0, -0.1, 60.0, 32, 32));
         worst.add(found.error(), fmt::format("seen from {} m: {}, {:.1e} relative", eye.x, found.where, found.worst_relative),
                   found.compared);
     }
-    return worst;
 }
 
 /// Numbers that are none, in a text of JSON or CSV.
@@ -179,10 +169,9 @@ Played play_to_the_end(StabilityBench& bench, const std::filesystem::path& drive
 }
 
 /// A dark lamp, the brightest lamp, probes in the dark and right at a lamp: whatever is written must be a number.
-Found reports(StabilityBench& bench) {
+void reports(StabilityBench& bench, Found& worst) {
     for (const auto& [name, cd] : {std::pair("dark.csv", 0.0), std::pair("brightest.csv", 1e12)})
         write_matrix(bench, name, {{-40.0, 40.0}, {-20.0, 20.0}, {cd, cd, cd, cd}, {}, BetweenSamples::linear_cd});
-    Found worst;
     for (const char* file : {"dark.csv", "brightest.csv"}) {
         const std::string more = fmt::format(
             "    left: {{file: {}, position_m: [3.5, 0.6, 0.65]}}\nviews: {{driver: {{resolution_px: [64, 48]}}}}\n"
@@ -205,18 +194,16 @@ Found reports(StabilityBench& bench) {
                         static_cast<std::size_t>(std::ranges::count_if(channel.values.pixels(), [](float v) { return !std::isfinite(v); }));
                 }
         worst.add(pictures == 0 ? std::nan("") : static_cast<double>(bad),
-                  fmt::format("{} channels of EXR, {} values, with {}", pictures, values, file));
+                  fmt::format("{} channels of EXR, {} values, with {}", pictures, values, file), static_cast<int>(values));
     }
-    return worst;
 }
 
 /// A probe nearer to a lamp than its photometric distance is marked, one farther away is not, and the report says so.
-Found near_field(StabilityBench& bench) {
+void near_field(StabilityBench& bench, Found& worst) {
     const std::string more =
         "    left: {file: even.csv, position_m: [3.5, 0.6, 0.65], photometric_distance_m: 10}\nviews: {driver: {resolution_px: [64, 48]}}\n"
         "measure:\n  extent: false\n  probes: {near: {ahead_m: 3.501, left_m: 0.6, above_m: 0.65}, far: {ahead_m: 30}}";
     const Played played = play_to_the_end(bench, write_drive_file(bench, "near.yaml", more), "near");
-    Found worst;
     std::size_t near = 0, far = 0;
     for (const PlayedCell& lamp_set : played.report.played) {
         for (const Reading& reading : lamp_set.readings) {
@@ -232,7 +219,29 @@ Found near_field(StabilityBench& bench) {
     worst.add(static_cast<double>(near), "readings nearer than 10 m that are not marked");
     worst.add(static_cast<double>(far), "readings farther than 10 m that are marked");
     worst.add(played.report.played.empty() ? 1.0 : 0.0, "nothing played");
-    return worst;
+}
+
+std::string text_of(const Equation& equation, const EquationArguments& x) {
+    std::string text;
+    for (const EquationInput& input : equation.inputs)
+        for (std::size_t slot = input.slot; slot < input.slot + (input.kind == EquationInput::Kind::direction ? 3 : 1); ++slot)
+            text += fmt::format("{}{:.9g}", text.empty() ? "" : " ", x[slot]);
+    return text;
+}
+
+void examined(const Equation& equation, StabilityBench& bench, Found& worst) {
+    const EquationBound& bound = bound_of(equation.function);
+    const Examination found = examine(equation, bench.device(), bench.thorough ? 10.0 : 1.0, StabilityBench::seed);
+    const bool gpu_worse = !(found.on_gpu.error <= found.in_float.error);
+    const EquationError& worse = gpu_worse ? found.on_gpu : found.in_float;
+    const std::string condition = found.condition > 1e4 ? "unbounded" : fmt::format("{:.2g}", found.condition);
+    worst.add(std::max(found.in_float.error, worse.error),
+              fmt::format("C++ {:.2g}, device {:.2g}, condition {}{}", found.in_float.error, found.on_gpu.error, condition,
+                          worse.error > 0.0 ? "; worst at " + text_of(equation, worse.at) : std::string()),
+              static_cast<int>(found.points));
+    if (bound.condition > 0.0 && found.condition > 1.01 * bound.condition)
+        worst.add(unbounded, fmt::format("condition {:.3g} at {}, stated is {:g}", found.condition, text_of(equation, found.condition_at),
+                                         bound.condition));
 }
 
 } // namespace
@@ -252,6 +261,17 @@ std::vector<StabilityCase> number_cases() {
         {"number", "near-field", "1 mm from a lamp that was measured from 10 m: a point source no more", 0.0, "readings not marked rightly",
          "the photometric distance decides; marked are the probe's readings and the run's notes", near_field},
     };
+}
+
+std::vector<StabilityCase> equation_cases() {
+    std::vector<StabilityCase> cases;
+    for (const Equation& equation : equations()) {
+        const EquationBound& bound = bound_of(equation.function);
+        cases.push_back({"equation", equation.lamp_set.empty() ? equation.function : equation.function + "-" + equation.lamp_set,
+                         "float against double over " + equation.domain, bound.error, bound.of, bound.reason,
+                         [&equation](StabilityBench& bench, Found& worst) { examined(equation, bench, worst); }});
+    }
+    return cases;
 }
 
 } // namespace fernlicht

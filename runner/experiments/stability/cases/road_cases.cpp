@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <limits>
 
 namespace fernlicht {
 namespace {
@@ -29,19 +28,9 @@ double bad_vertices(const Scene& scene) {
     return bad;
 }
 
-/// Of the paved surface, each triangle as seen from above and below counted once.
-double paved_m2(const Scene& scene) {
-    double area = 0.0;
-    for (const Mesh& mesh : scene.meshes)
-        for (const Batch& batch : mesh.batches)
-            for (std::uint32_t i = batch.first; i + 2 < batch.first + batch.count; i += 3) {
-                const auto corner = [&](std::uint32_t k) { return glm::dvec3(mesh.vertices[mesh.indices[i + k]].position_m); };
-                const SurfaceKind kind = scene.materials[batch.material].kind;
-                if (kind == SurfaceKind::road || kind == SurfaceKind::marking)
-                    area += 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
-            }
-    return area;
-}
+double paved_m2(const Scene& scene) { return area_of(scene, {SurfaceKind::road, SurfaceKind::marking}); }
+
+constexpr int drawn_px = 2 * 64 * 48;
 
 /// Drawn from above by a lamp: not one pixel without a number.
 double bad_pixels(StabilityBench& bench, const Scene& scene, const glm::dvec3& at_m) {
@@ -56,37 +45,32 @@ double bad_pixels(StabilityBench& bench, const Scene& scene, const glm::dvec3& a
 }
 
 /// A turn and a half of radius 2 m to the left, the lane outside it: an area in closed form.
-Found hairpin(StabilityBench& bench) {
+void hairpin(StabilityBench& bench, Found& worst) {
     const double radius = 2.0, length = 3.0 * pi;
-    Found worst;
     for (const double width : {0.5, 1.75, 3.5}) {
         const std::string plan =
             fmt::format(R"(<geometry s="0" x="0" y="0" hdg="0" length="{}"><arc curvature="0.5"/></geometry>)", length);
         const Scene scene = scene_of(bench, "hairpin", road_text(length, plan, lane_text(-1, width)));
         const double truth = length / radius * 0.5 * (std::pow(radius + width, 2.0) - radius * radius);
-        worst.add(bad_vertices(scene) > 0.0 ? std::numeric_limits<double>::infinity()
+        worst.add(bad_vertices(scene) > 0.0 ? unbounded
                                             : std::abs(paved_m2(scene) - truth) / (2.0 * 0.005 * length * (1.0 + width / radius)),
                   fmt::format("{} m wide outside: {:.4f} m2 for {:.4f}", width, paved_m2(scene), truth));
-        worst.add(bad_pixels(bench, scene, {0.0, 0.0, 0.0}) > 0.0 ? std::numeric_limits<double>::infinity() : 0.0, "drawn, outside");
+        worst.add(bad_pixels(bench, scene, {0.0, 0.0, 0.0}) > 0.0 ? unbounded : 0.0, "drawn, outside", drawn_px);
     }
-    return worst;
 }
 
 /// The same to the right: a lane of 3.5 m inside a radius of 2 m reaches beyond the centre and folds over.
-Found folded(StabilityBench& bench) {
-    Found worst;
+void folded(StabilityBench& bench, Found& worst) {
     for (const double curvature : {-0.5, -1.0, -10.0}) {
         const double length = 3.0;
         const std::string plan =
             fmt::format(R"(<geometry s="0" x="0" y="0" hdg="0" length="{}"><arc curvature="{}"/></geometry>)", length, curvature);
         const Scene scene = scene_of(bench, "folded", road_text(length, plan, lane_text(-1, 3.5)));
-        worst.add(bad_vertices(scene) + bad_pixels(bench, scene, {0.0, -1.0, 0.0}), fmt::format("radius {} m", -1.0 / curvature));
+        worst.add(bad_vertices(scene) + bad_pixels(bench, scene, {0.0, -1.0, 0.0}), fmt::format("radius {} m", -1.0 / curvature), drawn_px);
     }
-    return worst;
 }
 
-Found no_width(StabilityBench& bench) {
-    Found worst;
+void no_width(StabilityBench& bench, Found& worst) {
     const std::string taper =
         R"(<lane id="-2" type="driving"><width sOffset="0" a="3.5" b="-0.035" c="0" d="0"/><width sOffset="100" a="0" b="0" c="0" d="0"/></lane>)";
     const std::string plan = R"(<geometry s="0" x="0" y="0" hdg="0" length="200"><arc curvature="0.002"/></geometry>)";
@@ -98,14 +82,12 @@ Found no_width(StabilityBench& bench) {
         {"a lane of 1e-300 m", lane_text(-1, 1e-300) + lane_text(-2, 3.5)}};
     for (const auto& [what, lanes] : all_lanes) {
         const Scene scene = scene_of(bench, "no-width", road_text(200.0, plan, lanes));
-        worst.add(bad_vertices(scene) + bad_pixels(bench, scene, {50.0, 0.0, 0.0}), what);
+        worst.add(bad_vertices(scene) + bad_pixels(bench, scene, {50.0, 0.0, 0.0}), what, drawn_px);
     }
-    return worst;
 }
 
 /// Kerbs, boxes and a road that leans as far as a road file may.
-Found walls(StabilityBench& bench) {
-    Found worst;
+void walls(StabilityBench& bench, Found& worst) {
     const std::string kerb =
         R"(<lane id="-2" type="sidewalk"><width sOffset="0" a="2" b="0" c="0" d="0"/><height sOffset="0" inner="3" outer="3"/></lane>)";
     for (
@@ -120,26 +102,21 @@ Found walls(StabilityBench& bench) {
         const Scene scene = scene_of(bench, "walls",
                                      road_text(200.0, R"(<geometry s="0" x="0" y="0" hdg="0" length="200"><line/></geometry>)",
                                                lane_text(-1, 3.5) + kerb, profiles));
-        worst.add(bad_vertices(scene) + bad_pixels(bench, scene, {5.0, -1.0, 0.0}), what);
+        worst.add(bad_vertices(scene) + bad_pixels(bench, scene, {5.0, -1.0, 0.0}), what, drawn_px);
     }
-    return worst;
 }
 
 /// Light on a vertical wall whose plane passes through the lamp or nearly so, and just before and behind it.
-Found wall_edge_on(StabilityBench& bench) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "wall", 0, {5.0, 0.0, 0.0}, {40.0, 0.0, 0.0}, {0.0, 0.0, 3.0}); // in the plane y = 0, faces -y
+void wall_edge_on(StabilityBench& bench, Found& worst) {
+    Scene scene = scene_of_sheet("wall", 0, {5.0, 0.0, 0.0}, {40.0, 0.0, 0.0}, {0.0, 0.0, 3.0}); // in the plane y = 0, faces -y
     Renderer renderer(bench.device(), scene, unshadowed());
-    Found worst;
     for (const double beside_m : {-1.0, -1e-3, -1e-6, -1e-30, 0.0, 1e-30, 1e-6, 1e-3, 1.0}) {
-        Moment moment;
-        moment.lamps = {lamp(constant_table(1000.0), {0.0, beside_m, 0.65})};
+        Moment moment = moment_of(lamp(constant_table(1000.0), {0.0, beside_m, 0.65}));
         const AgainstTwin found = against_twin(renderer, scene, moment, camera({0.0, -3.0, 1.2}, 0.15, 0.0, 40.0, 48, 32));
         worst.add(found.error(),
                   fmt::format("lamp {} m beside the wall's plane: {}, {:.1e} relative", beside_m, found.where, found.worst_relative),
                   found.compared);
     }
-    return worst;
 }
 
 } // namespace

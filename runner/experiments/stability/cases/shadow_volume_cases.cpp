@@ -53,8 +53,7 @@ Triangles any_body(Chance& chance, double size_m) {
 }
 
 Scene crowd_of_bodies(Chance& chance, int bodies, std::vector<glm::dvec3>& places) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "road", 0, {-50.0, -100.0, 0.0}, {200.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
+    Scene scene = scene_of_sheet("road", 0, {-50.0, -100.0, 0.0}, {200.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
     for (int i = 0; i < bodies; ++i) {
         const double size_m = std::exp(chance.between(std::log(0.05), std::log(4.0)));
         places.push_back({chance.between(2.0, 40.0), chance.between(-8.0, 8.0), chance.between(0.1, 1.0) * (size_m + 1.0)});
@@ -63,15 +62,13 @@ Scene crowd_of_bodies(Chance& chance, int bodies, std::vector<glm::dvec3>& place
     return scene;
 }
 
-Found shadow_crowds(StabilityBench& bench) {
-    Found worst;
+void shadow_crowds(StabilityBench& bench, Found& worst) {
     Chance chance(StabilityBench::seed);
     for (int i = 0; i < (bench.thorough ? 60 : 6); ++i) {
         std::vector<glm::dvec3> places;
         const Scene scene = crowd_of_bodies(chance, 10, places);
         ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::volumes));
-        Moment moment;
-        moment.lamps = {lamp(even_table(40.0), {})};
+        Moment moment = moment_of(lamp(even_table(40.0, 40.0), {}));
         ShadowTally all;
         for (int k = 0; k < 8; ++k) {
             const bool within = chance.below(3) == 0; // a body, or its shadow
@@ -87,30 +84,26 @@ Found shadow_crowds(StabilityBench& bench) {
         }
         judge_tally(worst, all, fmt::format("crowd {}", i));
     }
-    return worst;
 }
 
 /// A road 200 m long, and one body on it.
 Scene street_with(const glm::dvec3& at, const Triangles& body) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "road", 0, {-50.0, -100.0, 0.0}, {200.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
+    Scene scene = scene_of_sheet("road", 0, {-50.0, -100.0, 0.0}, {200.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
     add_triangles(scene, "body", 1, at, body);
     return scene;
 }
 
 Moment lit_from(const glm::dvec3& lamp_m) {
-    static const LitLamp one = lamp(even_table(40.0), {}); // one table: shaders are compiled for each
-    Moment moment;
-    moment.lamps = {one};
+    static const LitLamp one = lamp(even_table(40.0, 40.0), {}); // one table: shaders are compiled for each
+    Moment moment = moment_of(one);
     moment.lamps.front().pose.position_m = lamp_m;
     return moment;
 }
 
 /// Lamp and camera to the bit in planes of triangles and of hulls.
-Found in_planes(StabilityBench& bench) {
+void in_planes(StabilityBench& bench, Found& worst) {
     const Scene scene = street_with({8.0, 0.0, 1.0}, box({0.5, 0.5, 0.5}));
     ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::volumes));
-    Found worst;
     for (const glm::dvec3& at : {glm::dvec3(0.0, 0.5, 1.0), glm::dvec3(0.0, 0.5, 1.5), glm::dvec3(0.0, 0.0, 1.5), glm::dvec3(0.0, 0.0, 0.5),
                                  glm::dvec3(-8.0, 1.0, 2.0), glm::dvec3(7.5, 0.0, 1.0), glm::dvec3(6.5, 0.5, 1.5)}) {
         ShadowTally all;
@@ -124,12 +117,10 @@ Found in_planes(StabilityBench& bench) {
             }
         judge_tally(worst, all, fmt::format("lamp at {} {} {}", at.x, at.y, at.z), Tried::either);
     }
-    return worst;
 }
 
 /// What is near the eye and near the lamp: casters that reach through the near plane, around the eye, and next to the lamp.
-Found near_planes(StabilityBench& bench) {
-    Found worst;
+void near_planes(StabilityBench& bench, Found& worst) {
     for (const double distance_m : {1e-3, 0.01, 0.05, 0.1, 0.10001, 0.3}) {
         ShadowTally all;
         for (const bool around_lamp : {false, true}) {
@@ -143,18 +134,15 @@ Found near_planes(StabilityBench& bench) {
         }
         judge_tally(worst, all, fmt::format("{} m before eye and lamp", distance_m));
     }
-    return worst;
 }
 
 /// Fronts must not shade themselves, however their depth is rounded: walls along the light, seen from near, far and aside.
-Found long_walls(StabilityBench& bench) {
-    Scene scene = empty_scene();
-    add_sheet(scene, "road", 0, {-50.0, -100.0, 0.0}, {400.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
+void long_walls(StabilityBench& bench, Found& worst) {
+    Scene scene = scene_of_sheet("road", 0, {-50.0, -100.0, 0.0}, {400.0, 0.0, 0.0}, {0.0, 200.0, 0.0});
     add_triangles(scene, "wall", 1, {140.0, -3.0, 1.0}, box({138.0, 0.2, 1.0}, 0.004));
     for (int i = 1; i < 12; ++i)
         add_triangles(scene, fmt::format("post {}", i), 1, {20.0 * i, -1.5, 0.5}, box({0.1, 0.1, 0.5}));
     ShadowTrial trial(bench, scene, shadows_by(ShadowMethod::volumes));
-    Found worst;
     for (const double beside_m : {0.0, -1.8, -2.1}) {
         ShadowTally all;
         for (const View& view :
@@ -164,12 +152,10 @@ Found long_walls(StabilityBench& bench) {
             all.add(trial.tally(lit_from({2.5, beside_m, 0.65}), view, volume_shadow_tolerance()));
         judge_tally(worst, all, fmt::format("lamp {} m beside", beside_m));
     }
-    return worst;
 }
 
 /// From above hulls have no infinity to end at.
-Found volumes_from_above(StabilityBench& bench) {
-    Found worst;
+void volumes_from_above(StabilityBench& bench, Found& worst) {
     for (const double distance_m : {0.02, 0.5, 5.0, 50.0, 140.0}) {
         const double size_m = 0.05 * std::max(distance_m, 0.05);
         const Scene scene =
@@ -179,7 +165,6 @@ Found volumes_from_above(StabilityBench& bench) {
         judge_tally(worst, trial.tally(lit_from({0.0, 0.0, 0.65}), view, volume_shadow_tolerance()),
                     fmt::format("caster {} m away", distance_m));
     }
-    return worst;
 }
 
 } // namespace

@@ -32,12 +32,11 @@ CandelaTable through_a_file(StabilityBench& bench, const std::string& name, cons
     return read_lamp(write_matrix(bench, name + ".csv", table)).table;
 }
 
-Found four_thousand(StabilityBench& bench) {
+void four_thousand(StabilityBench& bench, Found& worst) {
     const int count = 4000;
     const auto cd = [](std::size_t x, std::size_t y) { return static_cast<double>((x * 7 + y * 13) % 9); };
     const CandelaTable written = table_of(axis(-20.0, 0.01, count), axis(-20.0, 0.01, count), cd);
     const CandelaTable table = through_a_file(bench, "four-thousand", written);
-    Found worst;
     worst.add(table == written ? 0.0 : 1.0, "read back");
     // Steps of 0.01 degrees are coarsened to the texture's 4 M texels; what that costs must be said and be so.
     const BeamTexture texture = make_beam_texture(table);
@@ -57,50 +56,41 @@ Found four_thousand(StabilityBench& bench) {
         worst.add(off / std::max(announced_cd, 1e-6),
                   fmt::format("{:.3f} {:.3f} degrees: {:.3g} cd off, {:.3g} announced", degrees(h), degrees(v), off, announced_cd));
     }
-    return worst;
 }
 
 /// On a wall at 25 m, drawn and held against the twin.
-Found steep_steps(StabilityBench& bench) {
+void steep_steps(StabilityBench& bench, Found& worst) {
     const auto cd = [](std::size_t x, std::size_t y) { return (x + y) % 2 == 0 ? 1e5 : 1.0; };
-    Scene scene = empty_scene();
-    add_sheet(scene, "wall", 0, {25.0, 40.0, -40.0}, {0.0, -80.0, 0.0}, {0.0, 0.0, 80.0});
+    Scene scene = scene_of_sheet("wall", 0, {25.0, 40.0, -40.0}, {0.0, -80.0, 0.0}, {0.0, 0.0, 80.0});
     Renderer renderer(bench.device(), scene, unshadowed());
-    Moment moment;
-    moment.lamps = {lamp(through_a_file(bench, "steps", table_of(axis(-10.0, 0.1, 201), axis(-10.0, 0.1, 201), cd)), {0.0, 0.0, 0.0})};
+    Moment moment =
+        moment_of(lamp(through_a_file(bench, "steps", table_of(axis(-10.0, 0.1, 201), axis(-10.0, 0.1, 201), cd)), {0.0, 0.0, 0.0}));
     const AgainstTwin found = against_twin(renderer, scene, moment, camera({0.0, 0.0, 0.0}, 0.0, 0.0, 20.0, 64, 48));
-    Found worst;
     worst.add(found.error(), fmt::format("{}: {:.1e} relative over {} pixels", found.where, found.worst_relative, found.compared),
               found.compared);
-    return worst;
 }
 
 /// Straight above and below a lamp H has no meaning.
-Found poles(StabilityBench& bench) {
+void poles(StabilityBench& bench, Found& worst) {
     const CandelaTable table =
         through_a_file(bench, "poles", table_of(axis(-90.0, 1.0, 181), axis(-90.0, 1.0, 181), [](auto, auto) { return 1000.0; }));
-    Scene scene = empty_scene();
-    add_sheet(scene, "floor", 0, {-3.0, -3.0, -1.0}, {6.0, 0.0, 0.0}, {0.0, 6.0, 0.0});
+    Scene scene = scene_of_sheet("floor", 0, {-3.0, -3.0, -1.0}, {6.0, 0.0, 0.0}, {0.0, 6.0, 0.0});
     add_sheet(scene, "ceiling", 0, {-3.0, -3.0, 1.0}, {0.0, 6.0, 0.0}, {6.0, 0.0, 0.0});
     Renderer renderer(bench.device(), scene, unshadowed());
-    Found worst;
     for (const double pitch : {-0.5 * pi, 0.5 * pi})
         for (const double lamp_pitch : {0.0, 1e-7, radians(1.0)}) {
-            Moment moment;
-            moment.lamps = {lamp(table, {0.0, 0.0, 0.0}, 0.0, lamp_pitch)};
+            Moment moment = moment_of(lamp(table, {0.0, 0.0, 0.0}, 0.0, lamp_pitch));
             const View view = camera({0.0, 0.0, 0.0}, 0.0, pitch, 60.0, 33, 33);
             const Frame frame = renderer.draw(moment, view, everything);
             worst.add(static_cast<double>(not_finite(frame)),
-                      fmt::format("looking {:.0f} degrees up, lamp {:.0e}", degrees(pitch), lamp_pitch));
+                      fmt::format("looking {:.0f} degrees up, lamp {:.0e}", degrees(pitch), lamp_pitch), pixels_in(frame));
         }
-    Moment moment;
-    moment.lamps = {lamp(table, {0.0, 0.0, 0.0})};
+    Moment moment = moment_of(lamp(table, {0.0, 0.0, 0.0}));
     for (const double h : {-180.0, -90.0, 0.0, 90.0})
         for (const double v : {-90.0, 90.0})
             worst.add(std::abs(intensity_cd(table, h, v) - (std::abs(h) > 90.0 ? 0.0 : 1000.0)), fmt::format("table at H {} V {}", h, v));
     for (const double x : {-1e-9, 0.0, 1e-9})
         worst.add(std::isfinite(target_illuminance_lx(moment, {x, 0.0, 1.0})) ? 0.0 : 1.0, "in double, straight above");
-    return worst;
 }
 
 } // namespace

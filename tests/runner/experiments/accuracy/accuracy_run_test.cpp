@@ -18,20 +18,13 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// Fits its schema, and comes back as it is.
-json checked(const std::filesystem::path& file) {
-    json found = json::parse(content_of(file));
-    EXPECT_THAT(tests::Schema(json::parse(accuracy_json_schema())).check(found), IsEmpty());
-    EXPECT_EQ(json::parse(accuracy_json(read_accuracy_json(file))), found);
-    return found;
-}
+json checked(const std::filesystem::path& file) { return tests::checked(file, accuracy_json_schema(), read_accuracy_json, accuracy_json); }
 
 /// What `accuracy` finds, its files in `folder`/out; `said`: what it prints.
 json results_of(const TemporaryFolder& folder, const std::string& flags, const std::string& drives, std::string* said = nullptr) {
-    const Outcome run = run_program("accuracy --quiet " + flags + " --out " + (folder / "out ") + drives);
-    EXPECT_EQ(run.exit_code, 0) << run.output;
+    const std::string text = printed("accuracy --quiet " + flags + " --out " + (folder / "out ") + drives);
     if (said)
-        *said = run.output;
+        *said = text;
     return checked(folder / "out/accuracy.json");
 }
 
@@ -254,9 +247,8 @@ TEST(AccuracyRun, RefusesWhatItCannotUse) {
                               "--count 0|--count x|--target-error 0|--beams 64x32|--beams 64x32x12|--beams 1x1x8|--beams float,|"
                               "--shadow-maps 64x64,|--diagrams all,nonsense|--diagrams ,extent|--no-such-flag"}})) {
         const TemporaryFolder folder;
-        const Outcome run = run_program("accuracy --quiet " + flags + " --out " + (folder / "out ") + drive);
-        EXPECT_EQ(run.exit_code, 2) << flags << "\n" << run.output;
-        EXPECT_TRUE(run.output.starts_with("fernlicht: ")) << run.output;
+        const std::string said = printed("accuracy --quiet " + flags + " --out " + (folder / "out ") + drive, 2);
+        EXPECT_TRUE(said.starts_with("fernlicht: ")) << said;
         EXPECT_FALSE(std::filesystem::exists(folder.path() / "out")) << flags;
     }
 }

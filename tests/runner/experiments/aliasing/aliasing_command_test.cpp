@@ -15,15 +15,8 @@ namespace {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
-/// Fits its schema, and comes back as it is.
-json checked(const std::filesystem::path& file) {
-    json found = json::parse(content_of(file));
-    EXPECT_THAT(tests::Schema(json::parse(aliasing_json_schema())).check(found), IsEmpty());
-    EXPECT_EQ(json::parse(aliasing_json(read_aliasing_json(file))), found);
-    return found;
-}
+json checked(const std::filesystem::path& file) { return tests::checked(file, aliasing_json_schema(), read_aliasing_json, aliasing_json); }
 
 /// The row that was drawn so; the test fails without it.
 const json& row_with(const json& found, const std::string& beams, const std::string& filter, int samples) {
@@ -38,11 +31,10 @@ double contrast(const json& row) { return row.at("aliasing").at("contrast_percen
 
 TEST(AliasingCommand, RanksWhatIsKnown) {
     const TemporaryFolder folder;
-    const Outcome run =
-        run_program("aliasing --quiet --moment 2 --resolution 256x192 --supersample 8 --beams float,512x128x8 --samples 1,4 "
-                    "--filter trilinear,none --out " +
-                    (folder / "out") + " " + library_file("drives/first-light.yaml"));
-    ASSERT_EQ(run.exit_code, 0) << run.output;
+    const std::string said =
+        printed("aliasing --quiet --moment 2 --resolution 256x192 --supersample 8 --beams float,512x128x8 --samples 1,4 "
+                "--filter trilinear,none --out " +
+                (folder / "out") + " " + library_file("drives/first-light.yaml"));
     const json found = checked(folder / "out/aliasing.json");
     const json& fine = row_with(found, "float", "trilinear", 1);
     const json& eight_bit = row_with(found, "512x128x8", "trilinear", 1);
@@ -66,7 +58,7 @@ TEST(AliasingCommand, RanksWhatIsKnown) {
     EXPECT_LT(stairs(fine, "cut_off", "rms_px"), stairs(fine, "cut_off", "floor_px") + 5.0 * stairs(fine, "cut_off", "standard_error_px"));
     EXPECT_GT(stairs(fine, "marks", "rms_px"), stairs(four, "marks", "rms_px") + 2.0 * stairs(four, "marks", "standard_error_px"));
     EXPECT_EQ(found.at("least_to_most").at(0), four.at("label"));
-    EXPECT_THAT(run.output, HasSubstr("least to most: photometric, float beams, trilinear, 4 samples < "));
+    EXPECT_THAT(said, HasSubstr("least to most: photometric, float beams, trilinear, 4 samples < "));
     for (const char* name :
          {"aliasing.csv", "aliasing.html", "ranking.png", "bands.svg", "bands.png", "01-photometric__float_beams__trilinear__1_sample.png"})
         EXPECT_TRUE(std::filesystem::exists(folder / ("out/" + std::string(name)))) << name;
@@ -76,9 +68,7 @@ TEST(AliasingCommand, RanksWhatIsKnown) {
 /// What `aliasing` refuses, flag by flag, each with a part of its sentence.
 void expect_refused(const std::string& start, const std::vector<std::pair<std::string, std::string>>& refusals) {
     for (const auto& [flags, sentence] : refusals) {
-        const Outcome run = run_program("aliasing --quiet " + start + flags);
-        EXPECT_EQ(run.exit_code, 2) << flags << run.output;
-        EXPECT_THAT(run.output, HasSubstr(sentence)) << flags;
+        EXPECT_THAT(printed("aliasing --quiet " + start + flags, 2), HasSubstr(sentence)) << flags;
     }
 }
 
@@ -95,10 +85,8 @@ json over_time(const TemporaryFolder& folder, const std::string& speed_kmh) {
         for (std::size_t at = drive.find(lamps); at != std::string::npos; at = drive.find(lamps))
             drive.replace(at, lamps.size(), library_file("lamps/"));
     std::ofstream(folder / (speed_kmh + ".yaml")) << drive;
-    const Outcome run =
-        run_program("aliasing --quiet --flow --frames 4:11 --resolution 96x72 --beams float --samples 1 --filter none,trilinear --out " +
-                    (folder / speed_kmh) + " " + (folder / (speed_kmh + ".yaml")));
-    EXPECT_EQ(run.exit_code, 0) << run.output;
+    printed("aliasing --quiet --flow --frames 4:11 --resolution 96x72 --beams float --samples 1 --filter none,trilinear --out " +
+            (folder / speed_kmh) + " " + (folder / (speed_kmh + ".yaml")));
     const json found = json::parse(content_of(folder / (speed_kmh + "/aliasing.json")));
     json row = found.at("rows").at(0).at("temporal");
     row["flow"] = found.at("optical_flow");
@@ -286,10 +274,9 @@ TEST(AliasingCommand, RefusesFramesThatWereShownInDifferentWays) {
                     {folder / "profile", "frame_1000.png: has the colour space of a display, by an ICC profile"}});
     EXPECT_FALSE(std::filesystem::exists(folder / "refused"));
     // The same words as those of `compare`.
-    const Outcome compared = run_program("compare " + (folder / "usual/frame_1000.png") + " " + (folder / "mixed/frame_1008.png"));
-    EXPECT_EQ(compared.exit_code, 2);
-    EXPECT_THAT(compared.output, HasSubstr("was shown by 'linear white=50 cd/m2; display srgb', expected 'rational s=20 white=100 cd/m2; "
-                                           "display srgb' as the reference, or the EXRs of the same moments"));
+    EXPECT_THAT(printed("compare " + (folder / "usual/frame_1000.png") + " " + (folder / "mixed/frame_1008.png"), 2),
+                HasSubstr("was shown by 'linear white=50 cd/m2; display srgb', expected 'rational s=20 white=100 cd/m2; "
+                          "display srgb' as the reference, or the EXRs of the same moments"));
     sequence_found(folder, "--sequence " + (folder / "usual") + " --against " + (folder / "fine"), "alike");
     sequence_found(folder, "--sequence " + (folder / "usual") + " --against " + (folder / "fine-unknown"), "unknown");
     const auto notes = [&](const std::string& out) { return json::parse(content_of(folder / (out + "/aliasing.json"))).at("notes"); };
@@ -303,11 +290,9 @@ TEST(AliasingCommand, WhatHasNoLuminanceIsNotMeasuredUnlessAsDisplayed) {
     const TemporaryFolder folder;
     const std::string common = "aliasing --quiet --moment 1 --resolution 64x48 --techniques full --beams float --samples 1 --filter none "
                                "--out ";
-    const Outcome none = run_program(common + (folder / "none") + " " + library_file("drives/straight.yaml"));
-    EXPECT_EQ(none.exit_code, 1) << none.output;
-    EXPECT_THAT(none.output, HasSubstr("technique full computes no luminance"));
-    const Outcome shown = run_program(common + (folder / "shown") + " --picture display " + library_file("drives/straight.yaml"));
-    EXPECT_EQ(shown.exit_code, 0) << shown.output;
+    EXPECT_THAT(printed(common + (folder / "none") + " " + library_file("drives/straight.yaml"), 1),
+                HasSubstr("technique full computes no luminance"));
+    printed(common + (folder / "shown") + " --picture display " + library_file("drives/straight.yaml"));
     const json row = json::parse(content_of(folder / "shown/aliasing.json")).at("rows").at(0);
     EXPECT_GT(row.at("aliasing").at("contrast_percent"), 0.1);
 }

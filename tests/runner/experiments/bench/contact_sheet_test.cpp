@@ -112,8 +112,7 @@ TEST(ContactSheet, ItsCrossStandsOnTheSpot) {
 TEST(ContactSheet, TwiceTheSameBytesInTheReportAndInTheBench) {
     const TemporaryFolder folder;
     for (const std::string& out : {folder / "a", folder / "b"}) {
-        const Outcome run = run_program("run " + library_file("drives/worked-example.yaml") + " --quiet --contact-sheet --out " + out);
-        ASSERT_EQ(run.exit_code, 0) << run.output;
+        printed("run " + library_file("drives/worked-example.yaml") + " --quiet --contact-sheet --out " + out);
     }
     const auto report = nlohmann::json::parse(content_of(folder / "a/report.json"));
     const auto& sheet = report.at("drives").at(0).at("contact_sheet");

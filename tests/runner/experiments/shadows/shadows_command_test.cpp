@@ -10,19 +10,13 @@ namespace fernlicht {
 namespace {
 
 using nlohmann::json;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Not;
 
 const std::string small = "shadows --quiet --resolution 96x72 --lamp " + library_file("lamps/xenon-low.ies") + " ";
 
-/// Fits its schema, and comes back as it is.
-json checked(const std::filesystem::path& file) {
-    json found = json::parse(content_of(file));
-    EXPECT_THAT(tests::Schema(json::parse(shadow_json_schema())).check(found), IsEmpty());
-    EXPECT_EQ(json::parse(shadow_json(read_shadow_json(file))), found);
-    return found;
-}
+json checked(const std::filesystem::path& file) { return tests::checked(file, shadow_json_schema(), read_shadow_json, shadow_json); }
 
 const json& row_of(const json& scene, const std::string& method) {
     for (const json& row : scene.at("rows"))
@@ -33,11 +27,10 @@ const json& row_of(const json& scene, const std::string& method) {
 
 TEST(ShadowsCommand, HoldsMethodsAgainstRays) {
     const TemporaryFolder folder;
-    const Outcome run =
-        run_program(small + "--rounds 3 --map-texels 512x256 --count 1 --methods none,map,under-car,volumes --scenes post-5,kerb --out " +
-                    (folder / "out ") + library_file("drives/straight.yaml"));
-    ASSERT_EQ(run.exit_code, 0) << run.output;
-    EXPECT_THAT(run.output, HasSubstr("   30 m "));
+    EXPECT_THAT(printed(small +
+                        "--rounds 3 --map-texels 512x256 --count 1 --methods none,map,under-car,volumes --scenes post-5,kerb --out " +
+                        (folder / "out ") + library_file("drives/straight.yaml")),
+                HasSubstr("   30 m "));
     const json found = checked(folder / "out/shadows.json");
     ASSERT_EQ(found.at("scenes").size(), 3U);
     const json &post = found.at("scenes").at(0), &none = row_of(post, "none"), &map = row_of(post, "map");
@@ -80,11 +73,10 @@ TEST(ShadowsCommand, HoldsMethodsAgainstRays) {
 // beam's width.
 TEST(ShadowsCommand, WarpedMapsGainWhereTheViewIsNarrow) {
     const TemporaryFolder folder;
-    const Outcome run = run_program(small +
-                                    "--rounds 1 --lamp-radius 0 --vertical-fov 15 --scenes post-20 "
-                                    "--methods map,perspective-map,light-space-map --out " +
-                                    (folder / "out"));
-    ASSERT_EQ(run.exit_code, 0) << run.output;
+    printed(small +
+            "--rounds 1 --lamp-radius 0 --vertical-fov 15 --scenes post-20 "
+            "--methods map,perspective-map,light-space-map --out " +
+            (folder / "out"));
     const json scene = json::parse(content_of(folder / "out/shadows.json")).at("scenes").at(0);
     EXPECT_NEAR(scene.at("vertical_fov_deg"), 15.0, 1e-9);
     const json& map = row_of(scene, "map");
@@ -102,8 +94,7 @@ TEST(ShadowsCommand, WarpedMapsGainWhereTheViewIsNarrow) {
 // Lamps as discs of 6 cm: half shadows around a post's, which hard edges lack.
 TEST(ShadowsCommand, SoftMapsAreNearerToDiscs) {
     const TemporaryFolder folder;
-    const Outcome run = run_program(small + "--rounds 1 --scenes post-5 --methods map,soft-map --out " + (folder / "out"));
-    ASSERT_EQ(run.exit_code, 0) << run.output;
+    printed(small + "--rounds 1 --scenes post-5 --methods map,soft-map --out " + (folder / "out"));
     const json found = json::parse(content_of(folder / "out/shadows.json"));
     EXPECT_EQ(found.at("lamp_radius_m"), 0.06);
     const json& scene = found.at("scenes").at(0);
@@ -114,9 +105,7 @@ TEST(ShadowsCommand, SoftMapsAreNearerToDiscs) {
 TEST(ShadowsCommand, CountsFromTheFloorOn) {
     const TemporaryFolder folder;
     const auto found = [&](const std::string& floor) {
-        const Outcome run = run_program(small + "--rounds 1 --lamp-radius 0 --methods none --scenes post-20 --floor " + floor + " --out " +
-                                        (folder / floor));
-        EXPECT_EQ(run.exit_code, 0) << run.output;
+        printed(small + "--rounds 1 --lamp-radius 0 --methods none --scenes post-20 --floor " + floor + " --out " + (folder / floor));
         const json all = json::parse(content_of(folder / (floor + "/shadows.json")));
         EXPECT_EQ(all.at("floor_lx"), std::stod(floor));
         EXPECT_THAT(content_of(folder / (floor + "/shadows.html")), HasSubstr(floor + " lx"));
@@ -130,8 +119,7 @@ TEST(ShadowsCommand, CountsFromTheFloorOn) {
 
 TEST(ShadowsCommand, TakesEveryMethodThereIs) {
     const TemporaryFolder folder;
-    const Outcome run = run_program(small + "--rounds 1 --lamp-radius 0 --scenes crest --out " + (folder / "out"));
-    ASSERT_EQ(run.exit_code, 0) << run.output;
+    const std::string said = printed(small + "--rounds 1 --lamp-radius 0 --scenes crest --out " + (folder / "out"));
     const json found = checked(folder / "out/shadows.json");
     const json& scene = found.at("scenes").at(0);
     EXPECT_EQ(scene.at("rows").size(), shadow_method_names().size());
@@ -140,21 +128,20 @@ TEST(ShadowsCommand, TakesEveryMethodThereIs) {
         if (row.at("not_measured").is_null())
             EXPECT_TRUE(row.at("discs_px").is_null());
         else
-            EXPECT_THAT(run.output, HasSubstr(std::string(method.name) + ": not measured, "));
+            EXPECT_THAT(said, HasSubstr(std::string(method.name) + ": not measured, "));
     }
 }
 
 // 4 GiB for a lamp: the method that finds no room for its maps costs the others nothing. llvmpipe, whose limits are known, draws.
 TEST(ShadowsCommand, NamesTheMethodWhoseMapsAreTooLarge) {
     const TemporaryFolder folder;
-    const Outcome run = run_program(small +
-                                    "--backend software --rounds 1 --lamp-radius 0 --map-texels 8192x8192 --scenes post-5 "
-                                    "--methods soft-map,volumes --out " +
-                                    (folder / "out"));
-    ASSERT_EQ(run.exit_code, 0) << run.output;
-    EXPECT_THAT(run.output, HasSubstr("soft-map: not measured, shadows: found 16 maps of 8192 x 8192 texels for each lamp by 'soft-map', "
-                                      "4096 MiB, for which "));
-    EXPECT_THAT(run.output, HasSubstr("expected a smaller map_texels or fewer lamp_places\n"));
+    EXPECT_THAT(printed(small +
+                        "--backend software --rounds 1 --lamp-radius 0 --map-texels 8192x8192 --scenes post-5 "
+                        "--methods soft-map,volumes --out " +
+                        (folder / "out")),
+                AllOf(HasSubstr("soft-map: not measured, shadows: found 16 maps of 8192 x 8192 texels for each lamp by 'soft-map', "
+                                "4096 MiB, for which "),
+                      HasSubstr("expected a smaller map_texels or fewer lamp_places\n")));
     const json scene = json::parse(content_of(folder / "out/shadows.json")).at("scenes").at(0);
     EXPECT_FALSE(row_of(scene, "soft-map").at("not_measured").is_null());
     EXPECT_THAT(content_of(folder / "out/shadows.html"), HasSubstr("<p>Not in the diagram: soft-map, shadows: found 16 maps of "));
@@ -168,36 +155,28 @@ TEST(ShadowsCommand, NamesTheMethodWhoseMapsAreTooLarge) {
 TEST(ShadowsCommand, RunsSayHowMuchRoomMapsWouldTake) {
     const TemporaryFolder folder;
     const std::string drive = short_drive(folder, "first-light", "{method: soft-map, map_texels: [8192, 8192], lamp_places: 64}");
-    const Outcome run =
-        run_program("run " + drive + " --quiet --resolution 96x72 --no-accuracy --backend software --out " + (folder / "out"));
-    EXPECT_EQ(run.exit_code, 3) << run.output;
-    EXPECT_THAT(run.output, HasSubstr("shadows: found 64 maps of 8192 x 8192 texels for each lamp by 'soft-map', 16384 MiB, for which "));
-    EXPECT_THAT(run.output, HasSubstr("expected a smaller map_texels or fewer lamp_places"));
+    EXPECT_THAT(printed("run " + drive + " --quiet --resolution 96x72 --no-accuracy --backend software --out " + (folder / "out"), 3),
+                AllOf(HasSubstr("shadows: found 64 maps of 8192 x 8192 texels for each lamp by 'soft-map', 16384 MiB, for which "),
+                      HasSubstr("expected a smaller map_texels or fewer lamp_places")));
 }
 
 TEST(ShadowsCommand, RefusesWhatIsNotThere) {
     const TemporaryFolder folder;
-    const auto refused = [&](const std::string& flags) {
-        const Outcome run = run_program(small + "--out " + (folder / "out ") + flags);
-        EXPECT_EQ(run.exit_code, 2) << run.output;
-        return run.output;
-    };
+    const auto refused = [&](const std::string& flags) { return printed(small + "--out " + (folder / "out ") + flags, 2); };
     EXPECT_THAT(refused("--methods mop"), HasSubstr("--methods: found 'mop'"));
     EXPECT_THAT(refused("--methods mop"), HasSubstr("expected one of none, under-car, "));
     EXPECT_THAT(refused("--methods auto"), HasSubstr("by their names"));
     EXPECT_THAT(refused("--floor 0"), HasSubstr("--floor: found '0', expected 0.001 to 10 lx"));
     EXPECT_THAT(refused("--scenes none,post-5"), HasSubstr("--scenes: found 'none,post-5', expected none alone"));
-    const Outcome nowhere = run_program("shadows --lamp nowhere.ies --out " + (folder / "out"));
-    EXPECT_EQ(nowhere.exit_code, 2);
-    EXPECT_THAT(nowhere.output, HasSubstr("nowhere.ies: --lamp: is not there, expected a lamp file"));
+    EXPECT_THAT(printed("shadows --lamp nowhere.ies --out " + (folder / "out"), 2),
+                HasSubstr("nowhere.ies: --lamp: is not there, expected a lamp file"));
     const Outcome elsewhere = run_program("shadows --out " + (folder / "out"), "cd " + (folder / "") + " &&");
     EXPECT_EQ(elsewhere.exit_code, 2);
     EXPECT_THAT(elsewhere.output, HasSubstr("--lamp: found no scenarios/library/lamps/xenon-low.ies from here, expected to be run from the "
                                             "repository's root, or --lamp FILE"));
     for (const std::string sides : {"0x0", "16385x1"}) {
-        const Outcome run = run_program("shadows --resolution " + sides + " --out " + (folder / "out"));
-        EXPECT_EQ(run.exit_code, 2);
-        EXPECT_THAT(run.output, HasSubstr("--resolution: found '" + sides + "', expected sides from 1 to 16384 pixels"));
+        EXPECT_THAT(printed("shadows --resolution " + sides + " --out " + (folder / "out"), 2),
+                    HasSubstr("--resolution: found '" + sides + "', expected sides from 1 to 16384 pixels"));
     }
     EXPECT_THAT(refused("--methods map,map"), HasSubstr("each method once"));
     EXPECT_THAT(refused("--scenes past-5"), HasSubstr("fits no scene"));
