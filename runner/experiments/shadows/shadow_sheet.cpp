@@ -2,7 +2,6 @@
 #include "runner/files/clean_text.h"
 #include "runner/findings/figures.h"
 #include "runner/findings/plots/colour.h"
-#include "runner/findings/shadow_figures.h"
 #include "scenarios/photometry.h"
 
 #include <algorithm>
