@@ -69,7 +69,8 @@ std::string change_sentence(const StudyResult& result, const Change& change) {
 
 Card card_of(const StudyResult& result, std::size_t index) {
     const Change& change = result.changes[index];
-    const std::string label = change.unit() == "1" ? "" : unit_label(change.unit()), unit = label.empty() ? "" : " " + label;
+    const std::string label = std::string_view(change.unit()) == "1" ? "" : unit_label(change.unit()),
+                      unit = label.empty() ? "" : " " + label;
     std::string detail =
         fmt::format("{} {}{} → {} {}{}; ±{}{} by calculation", result.lamp_of(change.against), two_decimals(change.old_value).text, unit,
                     result.lamp_of(change.tested), two_decimals(change.new_value).text, unit, open_cell(change.uncertainty).text, unit);
