@@ -102,9 +102,9 @@ void place_coarsely(CutOffScan& scan, const AimedLamp& lamp, const ScanLine& lin
     const double stretch = std::max(width, shortest_stretch_deg);
     const double mean = per_deg * fall_between(beam, line, middle - stretch / 2.0, middle + stretch / 2.0).value_or(0.0) / stretch;
     if (mean < min_sharpness) {
-        scan.reason = fmt::format("no edge can be told: the file's step of {:.3g} degrees {}, whose mean over {:.3g} degrees is at most "
-                                  "{:.3f}, and aiming needs {:.2f}",
-                                  scan.table_step_deg, coarse, stretch, mean, min_sharpness);
+        scan.reason =
+            fmt::format("no edge: in steps of {:.3g} degrees the greatest mean G over {:.3g} degrees is {:.3f}, and aiming needs {:.2f}",
+                        scan.table_step_deg, stretch, mean, min_sharpness);
         return;
     }
     scan.reason = fmt::format("the file's step of {:.3g} degrees at the edge {}", scan.table_step_deg, coarse);
