@@ -53,7 +53,7 @@ struct ExtentKey {
 /// What the moments' extents of one key add up to.
 struct ExtentSummary {
     ExtentKey key;
-    bool same_direction = true; ///< as LaneExtent has it
+    bool same_direction = true;                         ///< as LaneExtent has it
     std::map<ReadingKey, CensoredSamples> moments = {}; ///< of extent_figures(), without a statistic; widths by distance ahead
     std::size_t cut_off = 0;                            ///< moments whose reach is a lower bound, by road's end or grid's
 };

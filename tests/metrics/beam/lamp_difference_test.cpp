@@ -52,7 +52,7 @@ std::string claims(const LampDifference& found) {
            (found.zones.empty() ? "" : std::to_string(found.zones.size()) + " zones");
 }
 
-constexpr unsigned seeds[] = {0, 1}; // hundreds: ci/calibrate
+constexpr unsigned seeds[] = {0, 1};                              // hundreds: ci/calibrate
 double noise_of(unsigned seed) { return seed == 0 ? 0.0 : 0.01; } ///< seed 0: none
 
 class LampDifferenceOf : public testing::TestWithParam<const char*> {};
