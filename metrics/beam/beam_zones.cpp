@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t max_zones = 64;
 constexpr std::array<int, 3> block_halves{0, 1, 2}; // 1, 3 x 3, 5 x 5 samples
 
-struct Block {
+struct ZoneMean {
     double mean = 0.0, sigma = 0.0, open = 0.0;
     /// How sure the mean is not 0, in standard deviations, when interpolation is given all it may want.
     double z() const { return std::max(0.0, std::abs(mean) - open) / sigma; }
@@ -66,7 +66,7 @@ struct Weighed {
 };
 
 /// Weighted mean over the compared samples within `half` of (x, y); nullopt where (x, y) is not compared.
-std::optional<Block> block_at(const ResidualGrid& grid, int x, int y, int half, NoiseSum& noise) {
+std::optional<ZoneMean> block_at(const ResidualGrid& grid, int x, int y, int half, NoiseSum& noise) {
     const int columns = static_cast<int>(grid.h_deg.size()), rows = static_cast<int>(grid.v_deg.size());
     if (std::isnan(grid.r[static_cast<std::size_t>(y) * grid.h_deg.size() + static_cast<std::size_t>(x)]))
         return std::nullopt;
@@ -78,7 +78,7 @@ std::optional<Block> block_at(const ResidualGrid& grid, int x, int y, int half, 
             if (!std::isnan(grid.r[at]))
                 all.add(grid, at, noise);
         }
-    return Block{all.sum / all.weights, std::sqrt(noise.variance()) / all.weights, all.open / all.weights};
+    return ZoneMean{all.sum / all.weights, std::sqrt(noise.variance()) / all.weights, all.open / all.weights};
 }
 
 struct Smoothed {
@@ -93,7 +93,7 @@ Smoothed smooth(const ResidualGrid& grid) {
         for (int x = 0; x < static_cast<int>(grid.h_deg.size()); ++x) {
             double z = 0.0, mean = std::numeric_limits<double>::quiet_NaN();
             for (const int half : block_halves)
-                if (const std::optional<Block> block = block_at(grid, x, y, half, noise)) {
+                if (const std::optional<ZoneMean> block = block_at(grid, x, y, half, noise)) {
                     z = std::max(z, block->z());
                     if (half == 1)
                         mean = std::copysign(std::max(0.0, std::abs(block->mean) - block->open), block->mean);

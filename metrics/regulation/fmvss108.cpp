@@ -12,7 +12,7 @@ namespace {
 constexpr double none = -1.0; ///< an empty cell
 
 /// One printed row and its cells.
-template <std::size_t columns> struct Line {
+template <std::size_t columns> struct TableLine {
     RowKind kind;
     const char* name;
     std::vector<Direction> places; ///< of kind point: each a row of its own
@@ -23,9 +23,9 @@ constexpr std::array<const char*, 6> upper_columns{"UB1", "UB2", "UB3", "UB4", "
 
 const std::array<double, 6> no_upper{none, none, none, none, none, none};
 
-const std::vector<Line<6>>& table_18() {
+const std::vector<TableLine<6>>& table_18() {
     constexpr auto p = RowKind::point;
-    static const std::vector<Line<6>> lines{
+    static const std::vector<TableLine<6>> lines{
         {p, "2U-V", {{0, 2}}, no_upper, {1500, 1500, 1000, 750, 750, 1500}},
         {p, "1U-3", {{-3, 1}, {3, 1}}, no_upper, {5000, 5000, 2000, 3000, 2000, 5000}},
         {p, "H-V", {{0, 0}}, {70000, 75000, 75000, 60000, 15000, 70000}, {40000, 40000, 20000, 18000, 7000, 40000}},
@@ -46,11 +46,11 @@ constexpr std::array<const char*, 9> lower_columns{"LB1M", "LB1V", "LB2M", "LB2V
 
 std::array<double, 9> all_lower(double cd) { return {cd, cd, cd, cd, cd, cd, cd, cd, cd}; }
 
-const std::vector<Line<9>>& table_19() {
+const std::vector<TableLine<9>>& table_19() {
     constexpr auto p = RowKind::point, line = RowKind::segment;
     constexpr double far = 90.0; // "to L" and "to R" have no end in the text: as far as the same table goes, 90 degrees
     const auto no = all_lower(none);
-    static const std::vector<Line<9>> lines{
+    static const std::vector<TableLine<9>> lines{
         {RowKind::zone, "10U-90U, 90L-90R", rectangle(-90, 90, 10, 90), all_lower(125), no},
         {p, "4U-8", {{-8, 4}, {8, 4}}, no, all_lower(64)},
         {p, "2U-4L", {{-4, 2}}, no, all_lower(135)},
@@ -89,8 +89,8 @@ const std::vector<Line<9>>& table_19() {
     return lines;
 }
 
-template <std::size_t columns> void add_column(Regulation& r, const std::vector<Line<columns>>& lines, std::size_t column) {
-    for (const Line<columns>& line : lines) {
+template <std::size_t columns> void add_column(Regulation& r, const std::vector<TableLine<columns>>& lines, std::size_t column) {
+    for (const TableLine<columns>& line : lines) {
         const double max = line.max[column], min = line.min[column];
         if (max == none && min == none)
             continue;

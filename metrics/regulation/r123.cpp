@@ -77,11 +77,11 @@ void add_class_w(Regulation& r) { // table 4, item 4.1
     }
 }
 
-enum class Turn { none, some, left, right };
+enum class Bend { none, some, left, right };
 
-Regulation passing_beam(std::string id, const std::string& title, char letter, const Changes& changes = {}, Turn turn = Turn::none) {
+Regulation passing_beam(std::string id, const std::string& title, char letter, const Changes& changes = {}, Bend turn = Bend::none) {
     Regulation r = of_both_sides(std::move(id), "passing beam class " + title);
-    const bool aimed = letter == 'C' && turn == Turn::none;
+    const bool aimed = letter == 'C' && turn == Bend::none;
     r.aim = aimed ? AimRule::automatic : AimRule::as_is;
     if (aimed)
         r.re_aim = {0.5, 0.75, 0.25};
@@ -99,10 +99,10 @@ Regulation passing_beam(std::string id, const std::string& title, char letter, c
     const Limits imax = r.rows.back().limits;
     if (letter == 'W')
         add_class_w(r);
-    if (turn == Turn::none) // bending modes have no such rule
+    if (turn == Bend::none) // bending modes have no such rule
         r.rows.push_back(brightest("segment Imax", segment_imax(letter), imax));
-    if (turn == Turn::left || turn == Turn::right) {
-        const bool left = turn == Turn::left;
+    if (turn == Bend::left || turn == Bend::right) {
+        const bool left = turn == Bend::left;
         r.rows.push_back(noted(scoped(brightest(left ? "turn to the left" : "turn to the right",
                                                 rectangle(left ? -45 : 10, left ? -10 : 45, -2, 0), at_least(2500)),
                                       Scope::either_side),
@@ -172,9 +172,9 @@ std::vector<Regulation> r123_regulations() {
                                 passing_beam("r123-w", "W (adverse weather)", 'W')};
     const auto add_bending = [&](const std::string& id, char letter, const Changes& changes) {
         const std::string what = std::string(1, letter) + ", bending";
-        all.push_back(passing_beam(id, what, letter, changes, Turn::some));
-        all.push_back(passing_beam(id + "-left", what + ", smallest radius to the left", letter, changes, Turn::left));
-        all.push_back(passing_beam(id + "-right", what + ", smallest radius to the right", letter, changes, Turn::right));
+        all.push_back(passing_beam(id, what, letter, changes, Bend::some));
+        all.push_back(passing_beam(id + "-left", what + ", smallest radius to the left", letter, changes, Bend::left));
+        all.push_back(passing_beam(id + "-right", what + ", smallest radius to the right", letter, changes, Bend::right));
     };
     add_bending("r123-c-bending", 'C', bending(between(50, 530), between(50, 880), 1700, between(10100, 44100)));
     add_bending("r123-v-bending", 'V', bending(at_most(530), at_most(880), 1700, between(5100, 44100)));

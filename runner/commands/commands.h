@@ -11,6 +11,9 @@ class App;
 
 namespace fernlicht {
 
+/// Runs the chosen command; gives the program's exit code.
+int command_line(int argc, char** argv);
+
 /// Adds a command with its flags. When it is chosen, `chosen` becomes what does it and gives the exit code. `command` is the whole command
 /// line as typed, for the results.
 using AddCommand = void(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen);

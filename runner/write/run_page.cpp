@@ -67,7 +67,7 @@ const StoredFrame* find_frame(const PlayedCell& played, int tick, const std::str
     return found == played.frames.end() ? nullptr : &*found;
 }
 
-data picture(const StoredFrame* frame, const std::filesystem::path& folder, std::size_t& budget_bytes) {
+data cell_of(const StoredFrame* frame, const std::filesystem::path& folder, std::size_t& budget_bytes) {
     data part;
     const auto missing = [&](const std::string& why) { part.set("missing", clean_text(why)); };
     if (!frame || (frame->png.empty() && frame->exr.empty())) {
@@ -97,7 +97,7 @@ data views_at(const ComparedDrive& drive, const PicturedMoment& moment, const st
     for (const std::string& view : views) {
         data row, cells{List::list};
         for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
-            data cell = picture(find_frame(*drive.lamp_sets[i], moment.tick, view), folder, budget_bytes);
+            data cell = cell_of(find_frame(*drive.lamp_sets[i], moment.tick, view), folder, budget_bytes);
             cell.set("lamp", short_text(drive.lamp_sets[i]->lamp_set, 40));
             cell.set("colour", lamp_colour(i));
             cell.set("view", short_text(view, 40));
@@ -131,7 +131,7 @@ data contact_sheets(const ComparedDrive& drive, const std::filesystem::path& fol
         for (const StoredSheet& sheet : all) {
             if (sheet.picture.png.empty())
                 continue;
-            data part = picture(&sheet.picture, folder, budget_bytes);
+            data part = cell_of(&sheet.picture, folder, budget_bytes);
             part.set("lamp", short_text(played.lamp_set, 40));
             part.set("colour", lamp_colour(i));
             part.set("time", figure(sheet.picture.time_s, 2));

@@ -14,6 +14,7 @@
 
 #include "scenarios/fields/group.h"
 
+#include <bit>
 #include <concepts>
 #include <filesystem>
 #include <functional>
@@ -38,6 +39,7 @@ template <class F>
 concept Description = std::derived_from<std::remove_cvref_t<F>, Group>;
 
 template <class Struct> struct FieldOf : Field {
+    using Field::Field;
     FieldOf required() && { return is_required = true, std::move(*this); }
     FieldOf written_off_default() && { return is_written_off_default = true, std::move(*this); }
     FieldOf or_flag() && { return may_be_flag = true, std::move(*this); }
@@ -90,67 +92,44 @@ template <class T> inline constexpr bool is_shared = false;
 template <class T> inline constexpr bool is_shared<std::shared_ptr<T>> = true;
 template <class T> inline constexpr bool is_vector = false;
 template <class T> inline constexpr bool is_vector<std::vector<T>> = true;
+template <class T> T& of(void* value) { return *static_cast<T*>(value); }
 
-/// `At`: a pointer to the member, or a function that finds it.
-template <class Struct, class M, class At> class MemberOf : public Member {
-  public:
-    explicit MemberOf(At at) : at_(at) {}
-    void* look(void* whole) const override {
-        if constexpr (is_optional<M>)
-            return of(whole) ? &*of(whole) : nullptr;
-        else if constexpr (is_shared<M>)
-            return const_cast<std::remove_const_t<typename M::element_type>*>(of(whole).get());
-        else
-            return &of(whole);
+template <class M> constexpr MemberType type_of_member() {
+    MemberType type;
+    if constexpr (is_optional<M>) {
+        type.look = [](void* member) -> void* { return of<M>(member) ? &*of<M>(member) : nullptr; };
+        type.make = [](void* member) -> void* { return &of<M>(member).emplace(); };
+        type.clear = [](void* member) { of<M>(member).reset(); };
+    } else if constexpr (is_shared<M>) {
+        using Pointed = std::remove_const_t<typename M::element_type>;
+        type.look = [](void* member) -> void* { return const_cast<Pointed*>(of<M>(member).get()); };
+        type.make = [](void* member) -> void* {
+            const auto made = std::make_shared<Pointed>();
+            return of<M>(member) = made, made.get();
+        };
+    } else if constexpr (is_vector<M>) {
+        type.clear = [](void* member) { of<M>(member).clear(); };
+        type.size = [](void* member) { return of<M>(member).size(); };
+        type.element = [](void* member, std::size_t i) -> void* { return &of<M>(member)[i]; };
+        type.append = [](void* member) -> void* { return &of<M>(member).emplace_back(); };
+        if constexpr (requires(typename M::value_type & e) {
+                          { e.name } -> std::same_as<std::string&>;
+                      })
+            type.name_of = [](void* element) { return &of<typename M::value_type>(element).name; };
     }
-    void* make(void* whole) const override {
-        if constexpr (is_optional<M>)
-            return &of(whole).emplace();
-        else if constexpr (is_shared<M>)
-            return of(whole) = std::make_shared<typename M::element_type>(), look(whole);
-        else
-            return &of(whole);
-    }
-    void clear(void* whole) const override {
-        if constexpr (is_optional<M>)
-            of(whole).reset();
-        else if constexpr (is_vector<M>)
-            of(whole).clear();
-    }
-    std::size_t size(void* whole) const override {
-        if constexpr (is_vector<M>)
-            return of(whole).size();
-        return 0;
-    }
-    void* element(void* whole, std::size_t i) const override {
-        if constexpr (is_vector<M>)
-            return &of(whole)[i];
-        return nullptr;
-    }
-    void* append(void* whole) const override {
-        if constexpr (is_vector<M>)
-            return &of(whole).emplace_back();
-        return nullptr;
-    }
-    std::string* name_of(void* element) const override {
-        if constexpr (is_vector<M>)
-            if constexpr (requires(typename M::value_type & e) {
-                              { e.name } -> std::same_as<std::string&>;
-                          })
-                return &static_cast<typename M::value_type*>(element)->name;
-        return nullptr;
-    }
+    return type;
+}
+template <class M> inline constexpr MemberType member_type = type_of_member<M>();
+inline constexpr MemberType plain_type;
 
-  private:
-    M& of(void* whole) const { return std::invoke(at_, *static_cast<Struct*>(whole)); }
-    At at_;
-};
-
-/// The struct itself: keys that stand one level deeper than their members.
-class Itself : public Member {
-  public:
-    void* look(void* whole) const override { return whole; }
-};
+template <class M> Member member_at(std::ptrdiff_t offset) {
+    if constexpr (is_optional<M> || is_shared<M> || is_vector<M>)
+        return {offset, &member_type<M>};
+    else
+        return {offset, &plain_type};
+}
+/// A pointer to a member is the member's offset: Itanium C++ ABI, 2.3.
+template <class Struct, class M> Member member_of(M Struct::*member) { return member_at<M>(std::bit_cast<std::ptrdiff_t>(member)); }
 
 template <class T> struct Plain { using type = T; };
 template <class T> struct Plain<std::optional<T>> { using type = T; };
@@ -180,29 +159,13 @@ template <class T> constexpr FieldKind kind_of() {
     }
 }
 
-template <class Struct> FieldOf<Struct> made(std::string_view key, int id, FieldKind kind, std::string_view meaning) {
-    FieldOf<Struct> field;
-    field.key = key;
-    field.id = id;
-    field.kind = kind;
-    field.meaning = meaning;
-    return field;
-}
-
-template <class Struct, class M, class At>
-FieldOf<Struct> made(std::string_view key, int id, At at, FieldKind kind, std::string_view meaning) {
-    FieldOf<Struct> field = made<Struct>(key, id, kind, meaning);
-    field.member = std::make_shared<MemberOf<Struct, M, At>>(at);
-    return field;
-}
-
 template <class M, class F> inline constexpr bool is_of =
     std::is_same_v<typename Plain<M>::type, typename std::remove_cvref_t<F>::Described>;
 
 } // namespace field_parts
 
 /// Both ends included.
-inline FieldRule range(double least, double greatest) { return {least, greatest, 0, 0, {}}; }
+inline FieldRule range(double least, double greatest) { return {least, greatest}; }
 inline FieldRule words(std::vector<std::string_view> in_order) { return {0.0, 0.0, 0, 0, std::move(in_order)}; }
 /// From `least` to below `bound`; else `expected` is said.
 inline FieldRule below(double least, double bound, std::string_view expected) {
@@ -210,12 +173,10 @@ inline FieldRule below(double least, double bound, std::string_view expected) {
     rule.refused_as = expected;
     return rule;
 }
-inline FieldRule numbers(std::size_t fewest, std::size_t most, double least, double greatest) {
-    return {least, greatest, fewest, most, {}};
-}
+inline FieldRule numbers(std::size_t fewest, std::size_t most, double least, double greatest) { return {least, greatest, fewest, most}; }
 inline FieldRule words(std::span<const std::string_view> in_order) { return words(std::vector(in_order.begin(), in_order.end())); }
 /// A list of names.
-inline FieldRule names(std::size_t fewest, std::size_t most) { return {0.0, 0.0, fewest, most, {}}; }
+inline FieldRule names(std::size_t fewest, std::size_t most) { return {0.0, 0.0, fewest, most}; }
 inline FieldRule any() { return {}; } ///< flags, text and paths
 inline FieldRule a_name() {
     FieldRule rule;
@@ -246,7 +207,7 @@ FieldRule units(FieldUnit first, FieldUnit own);
 template <class Struct, class M>
 FieldOf<Struct> field(std::string_view key, int id, M Struct::*member, FieldRule rule, std::string_view meaning) {
     constexpr FieldKind kind = field_parts::kind_of<typename field_parts::Plain<M>::type>();
-    FieldOf<Struct> made = field_parts::made<Struct, M>(key, id, member, rule.kind.value_or(kind), meaning);
+    FieldOf<Struct> made{key, id, rule.kind.value_or(kind), field_parts::member_of(member), meaning};
     made.rule = std::move(rule);
     return made;
 }
@@ -255,26 +216,27 @@ FieldOf<Struct> field(std::string_view key, int id, M Struct::*member, FieldRule
 template <class Struct, class M, Description F>
 FieldOf<Struct> field(std::string_view key, int id, M Struct::*member, F&& fields, std::string_view meaning) {
     static_assert(field_parts::is_of<M, F>);
-    return field_parts::made<Struct, M>(key, id, member, FieldKind::group, meaning).of(std::forward<F>(fields));
+    return FieldOf<Struct>{key, id, FieldKind::group, field_parts::member_of(member), meaning}.of(std::forward<F>(fields));
 }
 
 /// The same where no pointer to a member leads: in an array.
 template <class Struct, class Inner>
 FieldOf<Struct> field(std::string_view key, int id, Inner& (*at)(Struct&), const Fields<Inner>& fields, std::string_view meaning) {
-    return field_parts::made<Struct, Inner>(key, id, at, FieldKind::group, meaning).of(fields);
+    Struct usual;
+    const std::ptrdiff_t offset = reinterpret_cast<char*>(&at(usual)) - reinterpret_cast<char*>(&usual);
+    return FieldOf<Struct>{key, id, FieldKind::group, field_parts::member_at<Inner>(offset), meaning}.of(fields);
 }
 
 /// Some members of the struct, below a key of their own.
 template <Description F> auto section(std::string_view key, int id, F&& fields, std::string_view meaning) {
-    auto made = field_parts::made<typename std::remove_cvref_t<F>::Described>(key, id, FieldKind::group, meaning);
-    made.member = std::make_shared<field_parts::Itself>();
-    return std::move(made).of(std::forward<F>(fields));
+    using Struct = typename std::remove_cvref_t<F>::Described;
+    return FieldOf<Struct>{key, id, FieldKind::group, field_parts::member_at<Struct>(0), meaning}.of(std::forward<F>(fields));
 }
 
 /// A struct within, whose keys stand among those of the struct that has it.
 template <class Struct, class M, Description F> FieldOf<Struct> inlined(int id, M Struct::*member, F&& fields) {
     static_assert(field_parts::is_of<M, F>);
-    return field_parts::made<Struct, M>("", id, member, FieldKind::inlined, "").of(std::forward<F>(fields));
+    return FieldOf<Struct>{"", id, FieldKind::inlined, field_parts::member_of(member), ""}.of(std::forward<F>(fields));
 }
 
 /// Some members of the struct that are described for several structs.
@@ -288,7 +250,7 @@ template <class Struct> FieldOf<Struct> inlined(int id, const Fields<Struct>& fi
 template <class Struct, class Inner, Description F> FieldOf<Struct> named(std::string_view key, int id, std::vector<Inner> Struct::*member,
                                                                           std::size_t most, F&& fields, std::string_view meaning) {
     static_assert(field_parts::is_of<Inner, F>);
-    FieldOf<Struct> made = field_parts::made<Struct, std::vector<Inner>>(key, id, member, FieldKind::named, meaning);
+    FieldOf<Struct> made{key, id, FieldKind::named, field_parts::member_of(member), meaning};
     made.rule = names(1, most);
     return std::move(made).of(std::forward<F>(fields));
 }
@@ -297,7 +259,7 @@ template <class Struct, class Inner, Description F> FieldOf<Struct> list(std::st
                                                                          std::size_t fewest, std::size_t most, F&& fields,
                                                                          std::string_view meaning) {
     static_assert(field_parts::is_of<Inner, F>);
-    FieldOf<Struct> made = field_parts::made<Struct, std::vector<Inner>>(key, id, member, FieldKind::list, meaning);
+    FieldOf<Struct> made{key, id, FieldKind::list, field_parts::member_of(member), meaning};
     made.rule = names(fewest, most);
     return std::move(made).of(std::forward<F>(fields));
 }
@@ -305,7 +267,7 @@ template <class Struct, class Inner, Description F> FieldOf<Struct> list(std::st
 /// What no kind above fits: read (unless whoever calls does) and written by functions, described to editors by JSON.
 template <class Struct> FieldOf<Struct> own(std::string_view key, int id, void (*read)(const YamlEntry&, Struct&),
                                             std::string (*text)(const Struct&), std::string_view schema, std::string_view meaning) {
-    FieldOf<Struct> made = field_parts::made<Struct>(key, id, FieldKind::own, meaning);
+    FieldOf<Struct> made{key, id, FieldKind::own, {}, meaning};
     if (read)
         made = std::move(made).read_by(read);
     return std::move(made).text_by(text).schema_by(schema);
@@ -314,7 +276,7 @@ template <class Struct> FieldOf<Struct> own(std::string_view key, int id, void (
 /// Another way to give what other keys say: never written. It is read by `read`, or by whoever calls.
 template <class Struct> FieldOf<Struct> form(std::string_view key, FieldKind kind, FieldRule rule, std::string_view meaning,
                                              void (*read)(const YamlEntry&, Struct&) = nullptr) {
-    FieldOf<Struct> made = field_parts::made<Struct>(key, 0, kind, meaning);
+    FieldOf<Struct> made{key, 0, kind, {}, meaning};
     made.rule = std::move(rule);
     made.is_form = true;
     return read ? std::move(made).read_by(read) : made;

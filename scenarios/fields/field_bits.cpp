@@ -55,9 +55,9 @@ std::string value_bits(const Field& field, const void* value) {
 
 std::string elements_bits(const Field& field, void* whole, const std::string& at) {
     std::string bits;
-    for (std::size_t i = 0; i < field.member->size(whole); ++i) {
-        void* const one = field.member->element(whole, i);
-        const std::string* const name = field.kind == FieldKind::named ? field.member->name_of(one) : nullptr;
+    for (std::size_t i = 0; i < field.member.size(whole); ++i) {
+        void* const one = field.member.element(whole, i);
+        const std::string* const name = field.kind == FieldKind::named ? field.member.name_of(one) : nullptr;
         bits += fmt::format("{}[{}]={}\n", at, i, name ? quoted(*name) : "");
         bits += group_bits(*field.group, one, field.group->usual.get(), fmt::format("{}[{}].", at, i));
     }
@@ -75,7 +75,7 @@ std::string field_bits_at(const Field& field, void* whole, void* usual, const st
         std::string elements = elements_bits(field, whole, at);
         return elements == elements_bits(field, usual, at) ? "" : elements;
     }
-    const void *const value = field.member->look(whole), *const base = field.member->look(usual);
+    const void *const value = field.member.look(whole), *const base = field.member.look(usual);
     if (!value)
         return base ? at + " absent\n" : "";
     if (field.group)

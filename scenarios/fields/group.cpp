@@ -23,6 +23,21 @@ double from_kmh(double value) { return value / 3.6; }
 
 } // namespace
 
+FieldRule::FieldRule(double least_value, double greatest_value, std::size_t fewest_elements, std::size_t most_elements,
+                     std::vector<std::string_view> in_order)
+    : least(least_value), greatest(greatest_value), fewest(fewest_elements), most(most_elements), words(std::move(in_order)) {}
+FieldRule::FieldRule(const FieldRule&) = default;
+FieldRule::FieldRule(FieldRule&&) noexcept = default;
+FieldRule& FieldRule::operator=(const FieldRule&) = default;
+FieldRule::~FieldRule() = default;
+
+Field::Field(std::string_view its_key, int its_id, FieldKind its_kind, Member its_member, std::string_view its_meaning)
+    : key(its_key), id(its_id), kind(its_kind), member(its_member), meaning(its_meaning) {}
+Field::Field(const Field&) = default;
+Field::Field(Field&&) noexcept = default;
+Field& Field::operator=(const Field&) = default;
+Field::~Field() = default;
+
 const Field& field_named(const Group& group, std::string_view key) {
     const Field* const found = find_field(group, key);
     return found ? *found : throw std::logic_error(fmt::format("no field '{}' is described", key));

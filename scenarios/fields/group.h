@@ -2,6 +2,7 @@
 // Descriptions are made with field.h; this header has no templates and is all that the visitors need.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -15,18 +16,38 @@ class YamlEntry;
 class YamlMap;
 struct Group;
 
+/// What a member's type can do; nullptr: what most do, which is nothing.
+struct MemberType {
+    void* (*look)(void* member) = nullptr; ///< nullptr: absent
+    void* (*make)(void* member) = nullptr;
+    void (*clear)(void* member) = nullptr;
+    std::size_t (*size)(void* member) = nullptr;
+    void* (*element)(void* member, std::size_t i) = nullptr;
+    void* (*append)(void* member) = nullptr;
+    std::string* (*name_of)(void* element) = nullptr;
+};
+
 /// Where in its struct a field's value lies. Optional values may be absent, lists have elements.
-class Member {
-  public:
-    virtual ~Member() = default;
-    virtual void* look(void* whole) const = 0; ///< nullptr: absent
+struct Member {
+    std::ptrdiff_t offset = 0;
+    const MemberType* type = nullptr;
+
+    void* look(void* whole) const { return type->look ? type->look(at(whole)) : at(whole); } ///< nullptr: absent
     /// The value; a new one, at its defaults, where it is optional.
-    virtual void* make(void* whole) const { return look(whole); }
-    virtual void clear(void*) const {} ///< absent, or a list without elements
-    virtual std::size_t size(void*) const { return 0; }
-    virtual void* element(void*, std::size_t) const { return nullptr; }
-    virtual void* append(void*) const { return nullptr; }
-    virtual std::string* name_of(void*) const { return nullptr; } ///< of an element, in lists that are written as a map of names
+    void* make(void* whole) const { return type->make ? type->make(at(whole)) : at(whole); }
+    /// Absent, or a list without elements.
+    void clear(void* whole) const {
+        if (type->clear)
+            type->clear(at(whole));
+    }
+    std::size_t size(void* whole) const { return type->size(at(whole)); }
+    void* element(void* whole, std::size_t i) const { return type->element(at(whole), i); }
+    void* append(void* whole) const { return type->append(at(whole)); }
+    /// Of an element, in lists that are written as a map of names.
+    std::string* name_of(void* element) const { return type->name_of(element); }
+
+  private:
+    void* at(void* whole) const { return static_cast<char*>(whole) + offset; }
 };
 
 enum class FieldKind {
@@ -57,8 +78,15 @@ struct FieldUnit {
 
 /// What a value may be.
 struct FieldRule {
-    double least = 0.0, greatest = 0.0;
-    std::size_t fewest = 0, most = 0; ///< elements of lists and maps
+    FieldRule(double least_value = 0.0, double greatest_value = 0.0, std::size_t fewest_elements = 0, std::size_t most_elements = 0,
+              std::vector<std::string_view> in_order = {});
+    FieldRule(const FieldRule&);
+    FieldRule(FieldRule&&) noexcept;
+    FieldRule& operator=(const FieldRule&);
+    ~FieldRule();
+
+    double least, greatest;
+    std::size_t fewest, most; ///< elements of lists and maps
     std::vector<std::string_view> words;
     std::string_view refused_as = {};   ///< what is said to be expected where `greatest` itself is not allowed
     std::vector<FieldUnit> units = {};  ///< two keys for one number; the second is the struct's own unit
@@ -68,10 +96,17 @@ struct FieldRule {
 };
 
 struct Field {
+    // Out of line: hundreds of fields are made where structs are described.
+    Field(std::string_view its_key, int its_id, FieldKind its_kind, Member its_member, std::string_view its_meaning);
+    Field(const Field&);
+    Field(Field&&) noexcept;
+    Field& operator=(const Field&);
+    ~Field();
+
     std::string key; ///< of numbers with units: without one
-    int id = 0;      ///< names the field for good, among those of its struct: keys may be renamed, ids are never used twice
-    FieldKind kind = FieldKind::number;
-    std::shared_ptr<const Member> member;
+    int id;          ///< names the field for good, among those of its struct: keys may be renamed, ids are never used twice
+    FieldKind kind;
+    Member member;
     FieldRule rule;
     std::string_view meaning;
     std::shared_ptr<const Group> group; ///< of its own, or one that stands for several

@@ -67,7 +67,7 @@ void add_rows(std::string& text, const Group& group, const void* usual) {
             continue;
         }
         if (field.kind == FieldKind::inlined) {
-            const void* const inner = usual ? field.member->look(const_cast<void*>(usual)) : nullptr;
+            const void* const inner = usual ? field.member.look(const_cast<void*>(usual)) : nullptr;
             add_rows(text, *field.group, inner ? inner : field.group->usual.get());
             continue;
         }
@@ -94,7 +94,7 @@ std::string key_tables(const std::string& path, const Group& group, const void* 
         if (!field.group || field.kind == FieldKind::inlined || field.group->is_bare || !field.group->definition.empty())
             continue;
         const bool is_list = field.kind != FieldKind::group;
-        const void* inner = is_list || !usual ? nullptr : field.member->look(const_cast<void*>(usual));
+        const void* inner = is_list || !usual ? nullptr : field.member.look(const_cast<void*>(usual));
         const std::string_view end = field.kind == FieldKind::named ? ".NAME" : field.kind == FieldKind::list ? "[]" : "";
         text += key_tables(fmt::format("{}{}{}{}", path, path.empty() ? "" : ".", field.key, end), *field.group,
                            inner ? inner : field.group->usual.get());

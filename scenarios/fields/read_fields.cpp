@@ -20,10 +20,10 @@ double number(const FieldRule& rule, const YamlEntry& entry) {
 }
 
 void read_named(const Field& field, const YamlEntry& entry, void* whole) {
-    field.member->clear(whole);
+    field.member.clear(whole);
     for (const auto& [name, given] : entry.named(field.rule.most)) {
-        void* const element = field.member->append(whole);
-        *field.member->name_of(element) = name;
+        void* const element = field.member.append(whole);
+        *field.member.name_of(element) = name;
         if (field.group->is_bare)
             read_value(field.group->fields.front(), given, element);
         else
@@ -33,17 +33,17 @@ void read_named(const Field& field, const YamlEntry& entry, void* whole) {
 
 void read_inner(const Field& field, const YamlEntry& entry, void* whole) {
     if (field.short_is_list ? !entry.is_list() : !entry.is_scalar())
-        return read_group(*field.group, entry, field.member->make(whole));
+        return read_group(*field.group, entry, field.member.make(whole));
     if (field.may_be_flag)
-        entry.flag() ? void(field.member->make(whole)) : field.member->clear(whole);
+        entry.flag() ? void(field.member.make(whole)) : field.member.clear(whole);
     else if (!field.default_word.empty())
-        entry.choice(field.default_word), field.member->make(whole);
+        entry.choice(field.default_word), field.member.make(whole);
     else if (!field.short_key.empty())
-        read_value(field_named(*field.group, field.short_key), entry, field.member->make(whole));
+        read_value(field_named(*field.group, field.short_key), entry, field.member.make(whole));
     else if (!field.absent_word.empty())
-        entry.choice({&field.absent_word, 1}), field.member->clear(whole);
+        entry.choice({&field.absent_word, 1}), field.member.clear(whole);
     else
-        read_group(*field.group, entry, field.member->make(whole));
+        read_group(*field.group, entry, field.member.make(whole));
 }
 
 /// The first field says what the others do: the method of shadows, the kind of a tone mapper.
@@ -56,7 +56,7 @@ void refuse_unheard(const Group& group, const YamlMap& keys, const void* whole) 
     for (const Field& field : group.fields)
         if (const auto given = keys.find(field.key); given && field.heard && !field.heard(whole)) {
             int word = 0;
-            std::memcpy(&word, says.member->look(const_cast<void*>(whole)), sizeof word);
+            std::memcpy(&word, says.member.look(const_cast<void*>(whole)), sizeof word);
             given->refuse(fmt::format("a key that {} '{}' does not use", says.key, says.rule.words[static_cast<std::size_t>(word)]),
                           fmt::format("none but {}", heard));
         }
@@ -66,11 +66,11 @@ void read_field(const Field& field, const YamlMap& keys, void* whole) {
     if (field.is_form && !field.read)
         return;
     if (field.kind == FieldKind::inlined)
-        return read_group(*field.group, keys, field.member->make(whole));
+        return read_group(*field.group, keys, field.member.make(whole));
     if (const std::vector<FieldUnit>& units = field.rule.units; !units.empty()) {
         if (const auto given = keys.one_of({units[0].key, units[1].key})) {
             const FieldUnit& unit = given->first == units[0].key ? units[0] : units[1];
-            as<double>(field.member->make(whole)) = unit.stored(given->second.number(unit.least, unit.greatest));
+            as<double>(field.member.make(whole)) = unit.stored(given->second.number(unit.least, unit.greatest));
         }
         return;
     }
@@ -87,43 +87,43 @@ void read_value(const Field& field, const YamlEntry& entry, void* whole) {
     switch (field.kind) {
     case FieldKind::number: {
         const double value = number(rule, entry); // refused before an optional one is there
-        as<double>(field.member->make(whole)) = value;
+        as<double>(field.member.make(whole)) = value;
         break;
     }
     case FieldKind::whole:
-        as<int>(field.member->make(whole)) = entry.whole(static_cast<int>(rule.least), static_cast<int>(rule.greatest));
+        as<int>(field.member.make(whole)) = entry.whole(static_cast<int>(rule.least), static_cast<int>(rule.greatest));
         break;
     case FieldKind::flag:
-        as<bool>(field.member->make(whole)) = entry.flag();
+        as<bool>(field.member.make(whole)) = entry.flag();
         break;
     case FieldKind::choice: {
         const int chosen = static_cast<int>(entry.choice(rule.words));
-        std::memcpy(field.member->make(whole), &chosen, sizeof chosen);
+        std::memcpy(field.member.make(whole), &chosen, sizeof chosen);
         break;
     }
     case FieldKind::text:
-        as<std::string>(field.member->make(whole)) = entry.text();
+        as<std::string>(field.member.make(whole)) = entry.text();
         break;
     case FieldKind::name:
-        as<std::string>(field.member->make(whole)) = entry.name();
+        as<std::string>(field.member.make(whole)) = entry.name();
         break;
     case FieldKind::path:
-        as<std::filesystem::path>(field.member->make(whole)) = entry.path();
+        as<std::filesystem::path>(field.member.make(whole)) = entry.path();
         break;
     case FieldKind::texts:
         for (const YamlEntry& text : entry.list(rule.fewest, rule.most))
-            as<std::vector<std::string>>(field.member->make(whole)).push_back(text.text());
+            as<std::vector<std::string>>(field.member.make(whole)).push_back(text.text());
         break;
     case FieldKind::names:
         for (const YamlEntry& name : entry.list(rule.fewest, rule.most))
-            as<std::vector<std::string>>(field.member->make(whole)).push_back(name.name());
+            as<std::vector<std::string>>(field.member.make(whole)).push_back(name.name());
         break;
     case FieldKind::numbers:
-        as<std::vector<double>>(field.member->make(whole)) = entry.numbers(rule.fewest, rule.most, rule.least, rule.greatest);
+        as<std::vector<double>>(field.member.make(whole)) = entry.numbers(rule.fewest, rule.most, rule.least, rule.greatest);
         break;
     case FieldKind::position: {
         const std::vector<double> xyz = entry.numbers(3, 3, rule.least, rule.greatest);
-        as<glm::dvec3>(field.member->make(whole)) = {xyz[0], xyz[1], xyz[2]};
+        as<glm::dvec3>(field.member.make(whole)) = {xyz[0], xyz[1], xyz[2]};
         break;
     }
     case FieldKind::group:
@@ -133,9 +133,9 @@ void read_value(const Field& field, const YamlEntry& entry, void* whole) {
         read_named(field, entry, whole);
         break;
     case FieldKind::list:
-        field.member->clear(whole);
+        field.member.clear(whole);
         for (const YamlEntry& element : entry.list(rule.fewest, rule.most))
-            read_group(*field.group, element, field.member->append(whole));
+            read_group(*field.group, element, field.member.append(whole));
         break;
     case FieldKind::own:
     case FieldKind::inlined:

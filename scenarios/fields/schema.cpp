@@ -163,7 +163,7 @@ std::string schemas_by_word(const Group& group, void* scratch) {
     std::string forms;
     Group form;
     for (int word = 0; word < static_cast<int>(says.rule.words.size()); ++word) {
-        std::memcpy(says.member->make(scratch), &word, sizeof word);
+        std::memcpy(says.member.make(scratch), &word, sizeof word);
         Group heard = group;
         std::erase_if(heard.fields, [&](const Field& field) { return field.heard && !field.heard(scratch); });
         if (keys_of(heard) != keys_of(form)) {

@@ -12,9 +12,9 @@ namespace fernlicht {
 namespace {
 
 /// What visitors that change nothing look at.
-void* look(const Field& field, const void* whole) { return field.member->look(const_cast<void*>(whole)); }
-std::size_t size(const Field& field, const void* whole) { return field.member->size(const_cast<void*>(whole)); }
-void* element(const Field& field, const void* whole, std::size_t i) { return field.member->element(const_cast<void*>(whole), i); }
+void* look(const Field& field, const void* whole) { return field.member.look(const_cast<void*>(whole)); }
+std::size_t size(const Field& field, const void* whole) { return field.member.size(const_cast<void*>(whole)); }
+void* element(const Field& field, const void* whole, std::size_t i) { return field.member.element(const_cast<void*>(whole), i); }
 
 std::string text_of(const Field& field, const void* value) {
     switch (field.kind) {
@@ -77,7 +77,7 @@ std::string lines_of_list(const Field& field, const void* whole, std::size_t dep
     for (std::size_t i = 0; i < size(field, whole); ++i) {
         void* const one = element(field, whole, i);
         const std::string start =
-            field.kind == FieldKind::list ? indent + "  -" : fmt::format("{}  {}:", indent, fernlicht::quoted(*field.member->name_of(one)));
+            field.kind == FieldKind::list ? indent + "  -" : fmt::format("{}  {}:", indent, fernlicht::quoted(*field.member.name_of(one)));
         if (!field.group->is_block)
             lines += fmt::format("{} {}\n", start, element_text(*field.group, one));
         else if (field.kind == FieldKind::list)

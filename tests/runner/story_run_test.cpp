@@ -5,10 +5,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-namespace fernlicht {
+namespace fernlicht::osc {
 namespace {
 
-using namespace osc;
 using testing::HasSubstr;
 
 constexpr const char* small_thirty = " --quiet --no-accuracy --resolution 96x72 --capture all --frames 0:30 ";
@@ -137,4 +136,4 @@ TEST(StoryRun, WhatCannotBePlayedIsOneSentence) {
 }
 
 } // namespace
-} // namespace fernlicht
+} // namespace fernlicht::osc

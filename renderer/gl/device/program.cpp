@@ -4,8 +4,8 @@
 #include "shader_files.h"
 
 #include <algorithm>
+#include <charconv>
 #include <fmt/format.h>
-#include <regex>
 #include <sstream>
 #include <utility>
 
@@ -28,13 +28,12 @@ void paste(const std::string& file, Expanded& out) {
     out.files.push_back(file);
     out.text += fmt::format("#line 1 {}\n", number);
     std::istringstream lines{std::string(content)};
-    static const std::regex include(R"re(^\s*#include\s+"([^"]+)"\s*$)re");
+    constexpr std::string_view include = "#include \"";
     int line_number = 0;
     for (std::string line; std::getline(lines, line);) {
         ++line_number;
-        std::smatch match;
-        if (std::regex_match(line, match, include)) {
-            paste(match[1], out);
+        if (line.starts_with(include)) {
+            paste(line.substr(include.size(), line.rfind('"') - include.size()), out);
             out.text += fmt::format("#line {} {}\n", line_number + 1, number);
         } else {
             out.text += line + "\n";
@@ -44,16 +43,16 @@ void paste(const std::string& file, Expanded& out) {
 
 /// Mesa says "2:17(5): error", NVIDIA "2(17) : error": both get the file's name in place of its number.
 std::string with_file_names(const std::string& log, const std::vector<std::string>& files) {
-    static const std::regex place(R"(^(\d+)([:(])(\d+))", std::regex::multiline);
     std::string out;
-    auto last = log.cbegin();
-    for (auto it = std::sregex_iterator(log.begin(), log.end(), place); it != std::sregex_iterator(); ++it) {
-        out.append(last, (*it)[0].first);
-        const std::size_t number = std::stoul((*it)[1]);
-        out += (number < files.size() ? files[number] : (*it)[1].str()) + ":" + (*it)[3].str();
-        last = (*it)[0].second;
+    std::istringstream lines(log);
+    for (std::string line; std::getline(lines, line); out += line + "\n") {
+        const std::size_t digits = line.find_first_not_of("0123456789");
+        std::size_t number = 0;
+        if (digits == std::string::npos || (line[digits] != ':' && line[digits] != '(') ||
+            std::from_chars(line.data(), line.data() + digits, number).ec != std::errc())
+            continue;
+        line.replace(0, digits + 1, (number < files.size() ? files[number] : line.substr(0, digits)) + ":");
     }
-    out.append(last, log.cend());
     return out;
 }
 

@@ -12,7 +12,7 @@ using plots::Colour;
 
 constexpr int crop_px = 48;
 constexpr std::size_t max_places = 4;
-constexpr double half_width_px = 560.0, gap_px = 16.0, lettering_px = 12.0;
+constexpr double half_width_px = 560.0, spacing_px = 16.0, lettering_px = 12.0;
 
 /// The value that only one pixel in `one_in` exceeds; above 0.
 template <class T> double nearly_largest(const Image<T>& picture, std::size_t one_in) {
@@ -134,22 +134,22 @@ struct Spectra {
 plots::Drawing aliasing_sheet(const AliasingResult& result, const AliasingRow& row) {
     const double white = nearly_largest(worst_row(result).picture, 1000);
     const double limit = nearly_largest(worst_row(result).spatial.aliasing_picture, 100);
-    const double height = half_width_px * result.view.height_px / result.view.width_px, quarter = (half_width_px - gap_px) / 2.0;
-    const double first_top = 64.0, second_top = first_top + height + 68.0, middle = 2.0 * gap_px + half_width_px;
-    plots::Drawing canvas{2.0 * half_width_px + 3.0 * gap_px, second_top + quarter + gap_px, name_of(row.configuration)};
-    canvas.text(gap_px, 24.0, name_of(row.configuration), {.size_px = 16.0, .bold = true});
-    letter(canvas, gap_px, 48.0, fmt::format("Luminance, white is {:.3g} cd/m\xC2\xB2", white));
+    const double height = half_width_px * result.view.height_px / result.view.width_px, quarter = (half_width_px - spacing_px) / 2.0;
+    const double first_top = 64.0, second_top = first_top + height + 68.0, middle = 2.0 * spacing_px + half_width_px;
+    plots::Drawing canvas{2.0 * half_width_px + 3.0 * spacing_px, second_top + quarter + spacing_px, name_of(row.configuration)};
+    canvas.text(spacing_px, 24.0, name_of(row.configuration), {.size_px = 16.0, .bold = true});
+    letter(canvas, spacing_px, 48.0, fmt::format("Luminance, white is {:.3g} cd/m\xC2\xB2", white));
     letter(canvas, middle, 48.0,
            fmt::format("Aliasing: {:.3g} times what an eye just sees, contrast {:.3g} %", row.spatial.aliasing.visible,
                        row.spatial.aliasing.contrast_percent));
-    canvas.picture(gap_px, first_top, half_width_px, height, grey(row.picture, white));
+    canvas.picture(spacing_px, first_top, half_width_px, height, grey(row.picture, white));
     canvas.picture(middle, first_top, half_width_px, height, false_colours(row.spatial.aliasing_picture, limit));
     draw_legend(canvas, middle, first_top + height + 8.0, limit);
     const Crop crop = crop_of(result, row);
     const Image<float> drawn = cut(row.picture, crop), ideal = cut(row.ideal, crop);
     const Image<double> aliasing = cut(row.spatial.aliasing_picture, crop), folded = cut(row.spatial.folded_picture, crop);
     const double crop_white = nearly_largest(drawn, 100), crop_limit = nearly_largest(aliasing, 100);
-    letter(canvas, gap_px, second_top - 28.0,
+    letter(canvas, spacing_px, second_top - 28.0,
            fmt::format("{} x {} pixels from {}, {}, {}; white is {:.2g} cd/m\xC2\xB2, full colour is {:.2g}", crop.width, crop.height,
                        crop.left, crop.top, crop.why, crop_white, crop_limit));
     const std::pair<const char*, Image<Colour>> crops[] = {{"As drawn", grey(drawn, crop_white)},
@@ -157,7 +157,7 @@ plots::Drawing aliasing_sheet(const AliasingResult& result, const AliasingRow& r
                                                            {"Aliasing", false_colours(aliasing, crop_limit)},
                                                            {"Of it, folded back", false_colours(folded, crop_limit)}};
     for (int i = 0; i < 4; ++i) {
-        const double x = gap_px + i * (quarter + gap_px);
+        const double x = spacing_px + i * (quarter + spacing_px);
         letter(canvas, x, second_top - 8.0, crops[i].first);
         canvas.picture(x, second_top, quarter, quarter * crop.height / crop.width, enlarged(crops[i].second, 6));
     }
@@ -178,37 +178,37 @@ std::optional<plots::Drawing> ranking_sheet(const AliasingResult& result) {
         places.back().why = row.configuration.varied;
     }
     const double side = 208.0, left = 350.0, first_top = 84.0;
-    plots::Drawing canvas{left + static_cast<double>(places.size()) * (side + gap_px),
-                          first_top + static_cast<double>(order.size()) * (side + gap_px),
+    plots::Drawing canvas{left + static_cast<double>(places.size()) * (side + spacing_px),
+                          first_top + static_cast<double>(order.size()) * (side + spacing_px),
                           "Ways to draw, by what an eye sees of their aliasing"};
-    canvas.text(gap_px, 24.0, "Ways to draw, least aliasing first", {.size_px = 16.0, .bold = true});
-    letter(canvas, gap_px, 46.0,
+    canvas.text(spacing_px, 24.0, "Ways to draw, least aliasing first", {.size_px = 16.0, .bold = true});
+    letter(canvas, spacing_px, 46.0,
            fmt::format("{} x {} pixels, at the places where each way differs most from the first", places.front().width,
                        places.front().height));
     for (std::size_t p = 0; p < places.size(); ++p) {
-        const double x = left + static_cast<double>(p) * (side + gap_px);
+        const double x = left + static_cast<double>(p) * (side + spacing_px);
         const double white = nearly_largest(cut(result.rows[order.front()].ideal, places[p]), 50);
         letter(canvas, x, first_top - 10.0,
                fmt::format("{}at {}, {}", places[p].why.empty() ? "" : places[p].why + ", ", places[p].left, places[p].top));
         for (std::size_t i = 0; i < order.size(); ++i)
-            canvas.picture(x, first_top + static_cast<double>(i) * (side + gap_px), side, side * places[p].height / places[p].width,
+            canvas.picture(x, first_top + static_cast<double>(i) * (side + spacing_px), side, side * places[p].height / places[p].width,
                            enlarged(grey(cut(result.rows[order[i]].picture, places[p]), white), 4));
     }
     for (std::size_t i = 0; i < order.size(); ++i) {
         const AliasingRow& row = result.rows[order[i]];
-        const double y = first_top + static_cast<double>(i) * (side + gap_px) + 20.0;
-        canvas.text(gap_px, y, fmt::format("{}. {:.3g} times what an eye just sees", i + 1, row.spatial.aliasing.visible),
+        const double y = first_top + static_cast<double>(i) * (side + spacing_px) + 20.0;
+        canvas.text(spacing_px, y, fmt::format("{}. {:.3g} times what an eye just sees", i + 1, row.spatial.aliasing.visible),
                     {.size_px = 14.0, .bold = true});
-        letter(canvas, gap_px, y + 22.0, name_of(row.configuration));
-        letter(canvas, gap_px, y + 42.0,
+        letter(canvas, spacing_px, y + 22.0, name_of(row.configuration));
+        letter(canvas, spacing_px, y + 42.0,
                fmt::format("contrast {:.3g} %, of it folded back {:.3g} %", row.spatial.aliasing.contrast_percent,
                            row.spatial.folded.contrast_percent));
         if (row.cut_off)
-            letter(canvas, gap_px, y + 62.0, fmt::format("stairs of the cut-off {:.2f} px", row.cut_off->found.rms_px));
+            letter(canvas, spacing_px, y + 62.0, fmt::format("stairs of the cut-off {:.2f} px", row.cut_off->found.rms_px));
         if (row.marks)
-            letter(canvas, gap_px, y + 82.0, fmt::format("stairs of road marks {:.2f} px", row.marks->found.rms_px));
+            letter(canvas, spacing_px, y + 82.0, fmt::format("stairs of road marks {:.2f} px", row.marks->found.rms_px));
         if (row.temporal)
-            letter(canvas, gap_px, y + 102.0, fmt::format("flicker {:.3g} %", row.temporal->flicker_percent));
+            letter(canvas, spacing_px, y + 102.0, fmt::format("flicker {:.3g} %", row.temporal->flicker_percent));
     }
     return canvas;
 }
@@ -217,12 +217,12 @@ std::optional<plots::Drawing> flow_sheet(const AliasingResult& result) {
     if (result.flows.empty())
         return std::nullopt;
     const FlowComparison& flow = result.flows.front();
-    const double side = (2.0 * half_width_px - gap_px) / 3.0, height = side * result.view.height_px / result.view.width_px, top = 74.0;
+    const double side = (2.0 * half_width_px - spacing_px) / 3.0, height = side * result.view.height_px / result.view.width_px, top = 74.0;
     const double max_motion = std::max(1.0, nearly_largest(flow.known_px, 20)), max_off = 2.0;
-    plots::Drawing canvas{3.0 * side + 4.0 * gap_px, top + height + 44.0, "Motion by optical flow"};
-    canvas.text(gap_px, 24.0, fmt::format("Motion by optical flow: {}, of {}", method_name(flow.method), flow.pictures),
+    plots::Drawing canvas{3.0 * side + 4.0 * spacing_px, top + height + 44.0, "Motion by optical flow"};
+    canvas.text(spacing_px, 24.0, fmt::format("Motion by optical flow: {}, of {}", method_name(flow.method), flow.pictures),
                 {.size_px = 16.0, .bold = true});
-    letter(canvas, gap_px, 44.0,
+    letter(canvas, spacing_px, 44.0,
            "length from one frame to the next, pixels; grey: not known, or left out because going there and back ends elsewhere");
     const auto coloured = [](const Image<float>& picture, double most) {
         return mapped(picture, [most](float value) {
@@ -236,14 +236,14 @@ std::optional<plots::Drawing> flow_sheet(const AliasingResult& result) {
     Image<Colour> strip(101, 1);
     for (int i = 0; i < strip.width(); ++i)
         strip.at(i, 0) = plots::sequential(i / 100.0);
-    double x = gap_px;
+    double x = spacing_px;
     for (const auto& [name, picture, most] : parts) {
         letter(canvas, x, top - 8.0, name);
         canvas.picture(x, top, side, height, coloured(*picture, most));
         letter(canvas, x, top + height + 22.0, "0");
         canvas.picture(x + 16.0, top + height + 12.0, side - 130.0, 12.0, strip);
         letter(canvas, x + side - 106.0, top + height + 22.0, fmt::format("{:.3g} px and more", most));
-        x += side + gap_px;
+        x += side + spacing_px;
     }
     return canvas;
 }

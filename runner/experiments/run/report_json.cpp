@@ -303,7 +303,7 @@ JsonMembers played_members(PlayedCell& played) {
                   when(!played.bus.empty(), {{"signals", bus_members(played.bus)}}));
 }
 
-JsonMembers pass_members(PassTime& pass) {
+JsonMembers pass_time_members(PassTime& pass) {
     return {{"pass", pass.name}, {"spread_s", spread_of(pass.seconds), spread_members}, {"samples_s", pass.seconds}};
 }
 
@@ -349,7 +349,7 @@ JsonMembers times_members(PlayedCell& played) {
     return {{"drive", played.drive},
             {"lamp_set", played.lamp_set},
             {"warm_up_dropped", played.warm_up_dropped},
-            {"passes", played.passes, pass_members},
+            {"passes", played.passes, pass_time_members},
             {"throughput", throughput_members(played.throughput)},
             {"comparing_s", or_null(played.error.seconds)},
             {"savings", savings_members(played.savings)}};

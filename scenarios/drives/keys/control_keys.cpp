@@ -85,7 +85,7 @@ ModeParameters read_modes(const YamlEntry& given, const LampSet& lamp_set, LampC
     for (const Field& field : modes_fields().fields)
         if (const auto mode = field.group.get() == &mode_fields() ? of.find(field.key) : std::nullopt)
             if (const auto file = mode->map(keys_of(mode_fields())).find("file"))
-                static_cast<BeamModeSettings*>(field.member->look(&modes))->file = cache.lamp(file->path(), {}, &*file);
+                static_cast<BeamModeSettings*>(field.member.look(&modes))->file = cache.lamp(file->path(), {}, &*file);
     return modes;
 }
 

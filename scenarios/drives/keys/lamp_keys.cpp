@@ -24,13 +24,10 @@ const LampSource* source_of(const LampFile& file) {
     return nullptr;
 }
 
-class OptionsOfFile : public Member {
-  public:
-    void* look(void* file) const override {
-        const LampSource* const source = source_of(*static_cast<const LampFile*>(file));
-        return source ? const_cast<LampReadOptions*>(&source->options) : nullptr;
-    }
-};
+void* options_of_file(void* file) {
+    const LampSource* const source = source_of(*static_cast<const LampFile*>(file));
+    return source ? const_cast<LampReadOptions*>(&source->options) : nullptr;
+}
 
 template <double (LampReadOptions::*edges)[2], int limit_deg> void read_extent(const YamlEntry& entry, LampReadOptions& options) {
     const std::vector<double> values = entry.numbers(2, 2, -limit_deg, limit_deg);
@@ -108,15 +105,11 @@ std::string file_text(const LampFile* file) {
 const Fields<LampFile>& lamp_file_fields() {
     static const Fields<LampFile> fields = [] {
         static const std::string meaning = lamp_format_list() + "; relative to the drive file";
-        FieldOf<LampFile> options;
-        options.id = 2;
-        options.kind = FieldKind::inlined;
-        options.member = std::make_shared<OptionsOfFile>();
-        options.group = shared_group(option_fields());
+        static constexpr MemberType options{.look = options_of_file};
         return Fields<LampFile>{
             own<LampFile>(
                 "file", 1, nullptr, [](const LampFile& file) { return file_text(&file); }, file_schema, meaning),
-            options,
+            FieldOf<LampFile>("", 2, FieldKind::inlined, {0, &options}, "").of(option_fields()),
         };
     }();
     return fields;

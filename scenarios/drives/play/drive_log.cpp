@@ -15,7 +15,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::array<const char*, 4> kinds{"ego", "lamp", "body", "light"};
+constexpr std::array<const char*, 4> logged{"ego", "lamp", "body", "light"};
 constexpr std::size_t numbers = 14; ///< place, axes, speed, factor
 constexpr double farthest_from_origin_m = 1.0e7, axes_within = 1.0e-6;
 constexpr std::size_t fields = 20; ///< the last is a name with all its commas
@@ -23,7 +23,7 @@ constexpr std::size_t fields = 20; ///< the last is a name with all its commas
 void log_row(const std::string& start, DriveLog::Kind kind, const std::string& name, const Pose& pose, double speed, double factor,
              bool visible, std::string& out) {
     const glm::dvec3& p = pose.position_m;
-    fmt::format_to(std::back_inserter(out), "{},{},{},{},{}", start, kinds[static_cast<std::size_t>(kind)], p.x, p.y, p.z);
+    fmt::format_to(std::back_inserter(out), "{},{},{},{},{}", start, logged[static_cast<std::size_t>(kind)], p.x, p.y, p.z);
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)
             fmt::format_to(std::back_inserter(out), ",{}", pose.axes[column][row]);
@@ -73,9 +73,9 @@ struct Reader {
             refuse(line, fmt::format("found {} fields", found), fmt::format("{}: {}", fields, drive_log_header));
         DriveLog::Row out;
         std::size_t kind = 0;
-        while (kind < kinds.size() && field[3] != kinds[kind])
+        while (kind < logged.size() && field[3] != logged[kind])
             ++kind;
-        if (kind == kinds.size())
+        if (kind == logged.size())
             refuse(line, fmt::format("found '{}'", printable(std::string(field[3]))), "ego, lamp, body or light");
         out.kind = static_cast<DriveLog::Kind>(kind);
         std::array<double, numbers> value{};
@@ -114,7 +114,7 @@ class Taking {
             throw InputError(
                 {log_.file, 0, 0, {}},
                 fmt::format("tick {} has {}", tick_, at == rows_.size() ? "no more rows" : fmt::format("'{}'", printable(rows_[at].name))),
-                fmt::format("{} '{}', as this drive has it", kinds[static_cast<std::size_t>(kind)], printable(name)));
+                fmt::format("{} '{}', as this drive has it", logged[static_cast<std::size_t>(kind)], printable(name)));
         return rows_[at++];
     }
 
@@ -122,7 +122,7 @@ class Taking {
     const DriveLog& log_;
     const std::vector<DriveLog::Row>& rows_;
     int tick_;
-    std::array<std::size_t, kinds.size()> at_{};
+    std::array<std::size_t, logged.size()> at_{};
 };
 
 } // namespace

@@ -2,12 +2,10 @@
 #pragma once
 
 #include "scenarios/values/image.h"
-
-#include <numbers>
+#include "scenarios/values/pose.h"
 
 namespace fernlicht {
 
-constexpr double pi = std::numbers::pi;
 constexpr double ppd = 20.0;     ///< pixels of the display a degree
 constexpr double rate_hz = 32.0; ///< of pictures
 constexpr int k = 8;             ///< samples of a pixel of the display, each way

@@ -280,7 +280,7 @@ TemporalAliasing flicker_of(const std::vector<Image<float>>& frames) {
 }
 
 /// A disc that is brighter within, its edge one step (point samples) or a ramp of 4 pixels.
-Image<float> disc(double dx, double ramp_px) {
+Image<float> drawn_disc(double dx, double ramp_px) {
     return drawn(160, 128, 1, [=](double x, double y) {
         const double from_edge = 40.0 - std::hypot(x - 60.0 - dx, y - 64.0);
         const double inside = ramp_px > 0.0 ? 0.5 + 0.5 * std::sin(pi * std::clamp(from_edge / ramp_px, -0.5, 0.5)) : from_edge > 0.0;
@@ -292,9 +292,9 @@ TEST(OpticalFlow, AMovingBandLimitedPatternHardlyFlickersAndAnAliasedEdgeDoes) {
     std::vector<Image<float>> pattern, smooth, aliased, still;
     for (int t = 0; t < 16; ++t) {
         pattern.push_back(moved(0.618 * t, 0.27 * t));
-        smooth.push_back(disc(0.618 * t, 4.0));
-        aliased.push_back(disc(0.618 * t, 0.0));
-        still.push_back(disc(0.0, 0.0));
+        smooth.push_back(drawn_disc(0.618 * t, 4.0));
+        aliased.push_back(drawn_disc(0.618 * t, 0.0));
+        still.push_back(drawn_disc(0.0, 0.0));
     }
     const TemporalAliasing found = flicker_of(pattern);
     RecordProperty("pattern_flicker_percent", std::to_string(found.flicker_percent));

@@ -61,7 +61,7 @@ const Reading& find(const Readings& readings, const std::string& name) {
     throw std::out_of_range("no reading " + name);
 }
 
-double value(const Readings& readings, const std::string& name) { return find(readings, name).value.number().value(); }
+double found(const Readings& readings, const std::string& name) { return find(readings, name).value.number().value(); }
 
 TEST(Summary, MediansMinimaAndPercentilesOverTheMomentsInOneOrder) {
     const std::pair<const char*, double> expected[] = {{"reach_5lx_road_own_m", 60.0},
@@ -97,7 +97,7 @@ TEST(Summary, NamesSayLimitPlaneAndLane) {
     LaneExtent extent = reaching(60.0, "left 1", 0.5);
     extent.surface = Surface::target;
     const Readings readings = summarise(played({extent}), looking_200_m());
-    EXPECT_DOUBLE_EQ(value(readings, "reach_0.5lx_target_left_1_m"), 60.0);
+    EXPECT_DOUBLE_EQ(found(readings, "reach_0.5lx_target_left_1_m"), 60.0);
     EXPECT_THROW(find(readings, "reach_0.5lx_target_left_1_per_tenth_degree_m"), std::out_of_range);
 }
 
@@ -118,17 +118,17 @@ TEST(Summary, BothSidesHaveTheSameFiguresAndTheGridsAreaErrorOfAllComesFirst) {
 TEST(Summary, LightBeyondTheGridRanksAboveAll) {
     const Readings readings =
         summarise(played({reaching(200.0, "own", 5.0, true), reaching(150.0), reaching(140.0), reaching(130.0)}), looking_200_m());
-    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_m"), 145.0);
-    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_min_m"), 130.0);
+    EXPECT_DOUBLE_EQ(found(readings, "reach_5lx_road_own_m"), 145.0);
+    EXPECT_DOUBLE_EQ(found(readings, "reach_5lx_road_own_min_m"), 130.0);
 }
 
 TEST(Summary, WhatRestsOnALowerBoundIsOne) {
     const Readings readings = summarise(played({reaching(200.0, "own", 5.0, true), reaching(150.0)}), looking_200_m());
     const Reading& median = find(readings, "reach_5lx_road_own_m");
     EXPECT_EQ(median.value, Value::at_least(175.0)) << "half way from 150 to what may be anything beyond 200";
-    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_min_m"), 150.0);
+    EXPECT_DOUBLE_EQ(found(readings, "reach_5lx_road_own_min_m"), 150.0);
     EXPECT_EQ(find(readings, "area_5lx_road_own_m2").value, Value::at_least(1750.0));
-    EXPECT_DOUBLE_EQ(value(readings, "area_5lx_road_own_min_m2"), 1500.0);
+    EXPECT_DOUBLE_EQ(found(readings, "area_5lx_road_own_min_m2"), 1500.0);
     EXPECT_EQ(find(readings, "reach_5lx_road_own_twin_difference_worst_m").value, Value(0.5)) << "both beyond: left out";
 }
 
@@ -147,14 +147,14 @@ TEST(Summary, WhatTellsOfAReachThatGoesOnSaysSo) {
     }
     PlayedCell once = played({reaching(200.0, "own", 5.0, true), reaching(150.0)});
     once.extents[0].grid_errors[0].reach = Value::not_measured(reach_beyond);
-    EXPECT_DOUBLE_EQ(value(summarise(once, looking_200_m()), "reach_5lx_road_own_grid_error_m"), 0.02) << "the other moment's";
+    EXPECT_DOUBLE_EQ(found(summarise(once, looking_200_m()), "reach_5lx_road_own_grid_error_m"), 0.02) << "the other moment's";
 }
 
 // Near the road's end the grid shrinks: 12 m "at least" must not become the drive's smallest reach.
 TEST(Summary, TheRoadsEndIsNotAShortReach) {
     const Readings readings = summarise(played({reaching(60.0), reaching(12.0, "own", 5.0, true), reaching(62.0)}), looking_200_m());
-    EXPECT_DOUBLE_EQ(value(readings, "reach_5lx_road_own_min_m"), 60.0);
-    EXPECT_DOUBLE_EQ(value(readings, "area_5lx_road_own_min_m2"), 600.0);
+    EXPECT_DOUBLE_EQ(found(readings, "reach_5lx_road_own_min_m"), 60.0);
+    EXPECT_DOUBLE_EQ(found(readings, "area_5lx_road_own_min_m2"), 600.0);
     EXPECT_THAT(find(readings, "reach_5lx_road_own_min_m").where, HasSubstr("2 moments, 1 left out"));
     const Readings none = summarise(played({reaching(12.0, "own", 5.0, true)}), looking_200_m());
     EXPECT_FALSE(find(none, "reach_5lx_road_own_m").value.measured());
@@ -189,9 +189,9 @@ TEST(Summary, TimesOfPasses) {
     PlayedCell lamp_set;
     lamp_set.passes = {{"frame", {0.010, 0.012, 0.030}}, {"shadow", {}}};
     const Readings readings = times(lamp_set);
-    EXPECT_DOUBLE_EQ(value(readings, "frame_time_median_ms"), 12.0);
-    EXPECT_NEAR(value(readings, "frame_time_p95_ms"), 28.2, 1e-9);
-    EXPECT_NEAR(value(readings, "frame_time_spread_ms"), 28.2 - 10.2, 1e-9);
+    EXPECT_DOUBLE_EQ(found(readings, "frame_time_median_ms"), 12.0);
+    EXPECT_NEAR(found(readings, "frame_time_p95_ms"), 28.2, 1e-9);
+    EXPECT_NEAR(found(readings, "frame_time_spread_ms"), 28.2 - 10.2, 1e-9);
     EXPECT_FALSE(find(readings, "shadow_time_median_ms").value.measured());
     EXPECT_TRUE(is_time(readings[0].key));
 }

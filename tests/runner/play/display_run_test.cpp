@@ -21,7 +21,7 @@ using testing::AllOf, testing::HasSubstr, testing::IsEmpty, testing::Not;
 
 using nlohmann::json;
 
-constexpr const char* few = " --quiet --frames 20:22 --resolution 96x72 --capture all --no-accuracy --backend software ";
+constexpr const char* few_shown = " --quiet --frames 20:22 --resolution 96x72 --capture all --no-accuracy --backend software ";
 constexpr const char* picture = "/frames/oncoming-1-halogen/driver-000021.png";
 
 /// The shipped drive with oncoming cars, halogen alone and nothing measured, with other lines at its end.
@@ -39,7 +39,7 @@ std::string drive_with(const TemporaryFolder& folder, const std::string& name, c
 
 std::string played(const TemporaryFolder& folder, const std::string& name, const std::string& lines) {
     const std::string out = folder / name;
-    const Outcome run = run_program("run " + drive_with(folder, name, lines) + few + "--out " + out);
+    const Outcome run = run_program("run " + drive_with(folder, name, lines) + few_shown + "--out " + out);
     EXPECT_LE(run.exit_code, 1) << run.output;
     return out;
 }
@@ -143,7 +143,8 @@ TEST(DisplayRun, ReportAndPageSayHowPicturesWereShown) {
 
     // Published techniques have shadows of their own, or none.
     const std::string full = folder / "full";
-    const Outcome run = run_program("run " + drive_with(folder, "full", "shadows: volumes\n") + few + "--technique full --out " + full);
+    const Outcome run =
+        run_program("run " + drive_with(folder, "full", "shadows: volumes\n") + few_shown + "--technique full --out " + full);
     EXPECT_LE(run.exit_code, 1) << run.output;
     EXPECT_EQ(drive_in(full).at("shadows").at("not_used"), "it draws no shadows of lamps");
     EXPECT_THAT(content_of(full + "/report.html"), HasSubstr("technique <code>full</code> does not use it: it draws no shadows"));
@@ -184,7 +185,7 @@ TEST(DisplayRun, FittedNumbersStandInTheResolvedDriveWhichGivesTheSamePictures) 
         EXPECT_EQ(resolved.find("fitted\n"), std::string::npos);
         EXPECT_EQ(resolved.find("l_max_cdm2: surfaces"), std::string::npos);
         EXPECT_THAT(content_of(out + "/report.json"), HasSubstr("tone mapper fitted to 12 moments")) << mapper;
-        const Outcome again = run_program("run " + out + "/oncoming-1.yaml" + few + "--out " + (folder / "again"));
+        const Outcome again = run_program("run " + out + "/oncoming-1.yaml" + few_shown + "--out " + (folder / "again"));
         EXPECT_LE(again.exit_code, 1) << again.output;
         EXPECT_EQ(content_of(folder / "again" + picture), content_of(out + picture)) << mapper;
     }
@@ -212,7 +213,7 @@ TEST(DisplayRun, ResolvedToneMappersSayWhatTheyUseAndNoMore) {
         const std::size_t at = resolved.find("tone_mapper: ");
         const std::string line = resolved.substr(at, resolved.find('\n', at) - at);
         const std::string again = folder / (name + "-again");
-        EXPECT_LE(run_program("run " + out + "/oncoming-1.yaml" + few + "--out " + again).exit_code, 1);
+        EXPECT_LE(run_program("run " + out + "/oncoming-1.yaml" + few_shown + "--out " + again).exit_code, 1);
         EXPECT_THAT(content_of(again + "/oncoming-1.yaml"), HasSubstr(line + "\n"));
         EXPECT_EQ(content_of(again + picture), content_of(out + picture)) << mapper;
         return line;
@@ -441,7 +442,7 @@ TEST(DisplayRun, RefusalsAreASentence) {
         {"display: {windscreen: {haze: 0.5}}", "0.3"},
         {"tone_mapper: {kind: histogram, curve: [[0, -1], [1, -2]]}", "rise"}};
     for (const auto& [lines, sentence] : refusals) {
-        const Outcome run = run_program("run " + drive_with(folder, "bad", lines + "\n") + few + "--out " + (folder / "bad"));
+        const Outcome run = run_program("run " + drive_with(folder, "bad", lines + "\n") + few_shown + "--out " + (folder / "bad"));
         EXPECT_EQ(run.exit_code, 2) << run.output;
         EXPECT_THAT(run.output, HasSubstr(sentence)) << lines;
     }

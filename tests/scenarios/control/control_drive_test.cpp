@@ -3,6 +3,7 @@
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/drives/drive_fixture.h"
 #include "tests/scenarios/drives/play/staged_drive.h"
+#include "tests/shipped.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -16,14 +17,12 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::filesystem::path library = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives";
-
 double swivel_deg(const Moment& moment, std::size_t lamp) { return degrees(swivel_rad(moment, lamp)); }
 
 class ControlDrive : public DriveFixture {};
 
 TEST_F(ControlDrive, ShippedBendLightLooksIntoTheBend) {
-    const StagedDrive played(read_drive(library / "s-bend-alc.yaml"));
+    const StagedDrive played(read_drive(shipped_drives / "s-bend-alc.yaml"));
     // 64.4 km/h = 17.9 m/s, 150 m, 1.5 s: 17.9 * 1.5 / 300 rad = 5.1 degrees inside, 0.6 of it outside.
     double left = 0.0, right = 0.0;
     for (double t = 0.0; t < 30.0; t += 0.5) {
@@ -97,13 +96,13 @@ TEST_F(ControlDrive, WhatIsWrongIsRefusedWithTheNearest) {
 
 Drive straight(const std::string& lamp_sets, const std::string& more = "") {
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "control-drive.yaml";
-    std::ofstream(file) << "fernlicht: 1\nroad: " << (library.parent_path() / "roads/straight.xodr").string()
+    std::ofstream(file) << "fernlicht: 1\nroad: " << (shipped_library / "roads/straight.xodr").string()
                         << "\nroute: {s_m: 20}\nspeed_kmh: 80\nduration_s: 6\nrate_hz: 10\n"
                         << more << "lamp_sets:\n"
                         << lamp_sets;
     return read_drive(file);
 }
-const std::string xenon_high = "file: " + (library.parent_path() / "lamps/xenon-high.ies").string();
+const std::string xenon_high = "file: " + (shipped_library / "lamps/xenon-high.ies").string();
 
 /// 200 kg on the rear axle: springs of 43 kN/m go down by 45.6 mm, tyres of 400 kN/m by 4.9 mm; over 2.7 m the springs' part is 0.968
 /// degrees.
@@ -123,7 +122,7 @@ TEST(ControlTraffic, OncomingCarsDipTheBeamOrDarkenItsWindows) {
     const auto with_files = [](std::string text) {
         for (const auto& [word, file] : {std::pair("LOW", "xenon-low.ies"), std::pair("HIGH", "xenon-high.ies")})
             for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word))
-                text.replace(at, std::string(word).size(), (library.parent_path() / "lamps" / file).string());
+                text.replace(at, std::string(word).size(), (shipped_library / "lamps" / file).string());
         return text;
     };
     Drive drive =
@@ -149,7 +148,7 @@ TEST(ControlTraffic, OncomingCarsDipTheBeamOrDarkenItsWindows) {
 // Control laws in shared libraries: the two examples as they are built, and small ones built here that misbehave.
 
 const std::filesystem::path build = std::filesystem::path(FERNLICHT_BINARY).parent_path();
-const std::vector<ControlledLamp> lamps{{"left", {3.4, 0.6, 0.65}, 0.0}, {"high", {3.4, 0.5, 0.65}, 0.0, {{-4.0, 0.0}, {0.0, 4.0}}}};
+const std::vector<ControlledLamp> pair{{"left", {3.4, 0.6, 0.65}, 0.0}, {"high", {3.4, 0.5, 0.65}, 0.0, {{-4.0, 0.0}, {0.0, 4.0}}}};
 
 ControlParameters with(const std::filesystem::path& compiled_plugin, const std::string& parameters = "") {
     ControlParameters control{.plugins = {{compiled_plugin, parameters, {"left", "high"}}}};
@@ -159,7 +158,7 @@ ControlParameters with(const std::filesystem::path& compiled_plugin, const std::
 
 ControlRun run(
     const ControlParameters& control, const std::function<void(ControlInputs&)>& change = [](ControlInputs&) {}) {
-    return run_control(control, lamps, {},
+    return run_control(control, pair, {},
                        [&](double t) {
                            ControlInputs in{.time_s = t, .speed_mps = 20.0, .yaw_rate_rad_s = 20.0 / 150.0};
                            change(in);
@@ -187,7 +186,7 @@ std::filesystem::path compiled_plugin(const std::string& name, const std::string
     return out;
 }
 
-std::string refusal(const std::filesystem::path& file) {
+std::string plugin_refusal(const std::filesystem::path& file) {
     return tests::refusal_of([&] { run(with(file)); }, "");
 }
 
@@ -221,16 +220,18 @@ TEST(Plugin, OwnPeriodAndOthersLampsAreKept) {
 }
 
 TEST(Plugin, UnusableLibrariesAreRefused) {
-    EXPECT_THAT(refusal("/nowhere/law.so"), HasSubstr("cannot be loaded"));
-    EXPECT_THAT(refusal(compiled_plugin("no-entry", "")), HasSubstr("no function fernlicht_control_plugin()"));
-    EXPECT_THAT(refusal(compiled_plugin("version", "in = in;", "7")), HasSubstr("version 7 of the interface, expected version 1"));
-    EXPECT_THAT(refusal(compiled_plugin("answers", "return 3;")), HasSubstr("step() of 'answers' failed with 3 at 0 s"));
+    EXPECT_THAT(plugin_refusal("/nowhere/law.so"), HasSubstr("cannot be loaded"));
+    EXPECT_THAT(plugin_refusal(compiled_plugin("no-entry", "")), HasSubstr("no function fernlicht_control_plugin()"));
+    EXPECT_THAT(plugin_refusal(compiled_plugin("version", "in = in;", "7")), HasSubstr("version 7 of the interface, expected version 1"));
+    EXPECT_THAT(plugin_refusal(compiled_plugin("answers", "return 3;")), HasSubstr("step() of 'answers' failed with 3 at 0 s"));
 }
 
 TEST(Plugin, CrashesExitsAndExceptionsAreErrors) {
-    EXPECT_THAT(refusal(compiled_plugin("segv", "*(volatile int*)0 = 1;")), HasSubstr("a segmentation fault in step() of 'segv' at 0 s"));
-    EXPECT_THAT(refusal(compiled_plugin("aborts", "if (in->time_s > 0.5) abort();")), HasSubstr("abort() in step() of 'aborts' at 0.52 s"));
-    EXPECT_THAT(refusal(compiled_plugin("loops", "for (volatile int i = 0; ; ) i = i;")), HasSubstr("no return within 0.4 s"));
+    EXPECT_THAT(plugin_refusal(compiled_plugin("segv", "*(volatile int*)0 = 1;")),
+                HasSubstr("a segmentation fault in step() of 'segv' at 0 s"));
+    EXPECT_THAT(plugin_refusal(compiled_plugin("aborts", "if (in->time_s > 0.5) abort();")),
+                HasSubstr("abort() in step() of 'aborts' at 0.52 s"));
+    EXPECT_THAT(plugin_refusal(compiled_plugin("loops", "for (volatile int i = 0; ; ) i = i;")), HasSubstr("no return within 0.4 s"));
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     EXPECT_EXIT(guarded_call([] { std::exit(0); }, 10.0), testing::ExitedWithCode(2), "called exit");
     EXPECT_EQ(guarded_call([] { throw std::runtime_error("no"); }, 1.0).failed, "an exception: no");

@@ -1,5 +1,6 @@
 // The example and the shipped drives: each can be read, has its road, and keeps enough of it ahead for what it measures.
 #include "scenarios/drives/play/advance.h"
+#include "tests/shipped.h"
 
 #include <cmath>
 #include <filesystem>
@@ -10,12 +11,10 @@
 namespace fernlicht {
 namespace {
 
-const std::filesystem::path library = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives";
-
 class Shipped : public testing::TestWithParam<std::string> {};
 
 TEST_P(Shipped, ReadsAndFitsItsRoad) {
-    Drive drive = read_drive(library / (GetParam() + ".yaml"));
+    Drive drive = read_drive(shipped_drives / (GetParam() + ".yaml"));
     EXPECT_EQ(drive.name, GetParam() + "-1");
     ASSERT_EQ(drive.lamp_sets.size(), 2U);
     EXPECT_EQ(drive.lamp_sets[0].name, "halogen");
@@ -46,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(Drives, Shipped,
 
 TEST(ShippedDrives, AreAllTested) {
     std::set<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(library))
+    for (const auto& entry : std::filesystem::directory_iterator(shipped_drives))
         names.insert(entry.path().stem().string());
     // The worked example is not a route: the runner's tests play it and hold it to its own limits. Braking, bend light and glare-free beam
     // are tested with their motion, the storyboard where the runner's tests play it.
@@ -60,7 +59,7 @@ TEST(ShippedDrives, TheIihsSensorsStandInTheBend) {
     for (const auto& [name, radius_m] :
          {std::pair("iihs-straight", 0.0), std::pair("iihs-left-150", 150.0), std::pair("iihs-right-150", -150.0),
           std::pair("iihs-left-250", 250.0), std::pair("iihs-right-250", -250.0)}) {
-        const Drive drive = read_drive(library / (std::string(name) + ".yaml"));
+        const Drive drive = read_drive(shipped_drives / (std::string(name) + ".yaml"));
         const RoadNetwork network = read_opendrive(drive.road_file);
         const Route route(network, drive.start, drive.via);
         ASSERT_TRUE(drive.seeing.sensors && drive.seeing.glare);
@@ -82,7 +81,7 @@ TEST(ShippedDrives, TheIihsSensorsStandInTheBend) {
 }
 
 TEST(ShippedDrives, FirstLightDipsAfterThreeSecondsOfHighBeam) {
-    const Drive drive = read_drive(library / "first-light.yaml");
+    const Drive drive = read_drive(shipped_drives / "first-light.yaml");
     EXPECT_EQ(tick_count(drive), 360);
     const RoadNetwork network = read_opendrive(drive.road_file);
     const Route route(network, drive.start, drive.via);

@@ -191,15 +191,15 @@ TEST_F(Gltf, CopiesWithoutEndAreRefusedBeforeTheyAreMade) {
     EXPECT_THAT(refusal(file), HasSubstr("nodes[1333]: with it the model has 4002000 triangles"));
 }
 
-const std::filesystem::path real_files = std::filesystem::path(FERNLICHT_SHARED_DATA) / "models";
+const std::filesystem::path models_folder = std::filesystem::path(FERNLICHT_SHARED_DATA) / "models";
 
 /// Models of others; none where there are no such files.
-std::vector<std::filesystem::path> real_models() { return tests::files_below(real_files, {".gltf", ".glb"}); }
+std::vector<std::filesystem::path> real_models() { return tests::files_below(models_folder, {".gltf", ".glb"}); }
 
 /// What becomes of each file of others: read, or refused for this reason.
 TEST_F(Gltf, FilesOfOthersAreReadOrRefusedPrecisely) {
     if (real_models().empty())
-        GTEST_SKIP() << "no models at " << real_files;
+        GTEST_SKIP() << "no models at " << models_folder;
     int read = 0, refused = 0;
     for (const std::filesystem::path& path : real_models()) {
         try {
@@ -223,7 +223,7 @@ TEST_F(Gltf, FilesOfOthersAreReadOrRefusedPrecisely) {
 }
 
 TEST_F(Gltf, ACarOfOthersHasItsSizeAndItsPicture) {
-    const std::filesystem::path truck = real_files / "assimp__assimp/test/models/glTF/CesiumMilkTruck/CesiumMilkTruck.gltf";
+    const std::filesystem::path truck = models_folder / "assimp__assimp/test/models/glTF/CesiumMilkTruck/CesiumMilkTruck.gltf";
     if (!std::filesystem::exists(truck))
         GTEST_SKIP() << "no " << truck;
     const Model model = read_model(truck);
@@ -309,7 +309,7 @@ TEST_F(GltfMutation, OurOwnFilesAreReadOrRefused) {
 
 TEST_F(GltfMutation, RealFilesAreReadOrRefused) {
     if (real_models().empty())
-        GTEST_SKIP() << "no models at " << real_files;
+        GTEST_SKIP() << "no models at " << models_folder;
     std::size_t files = 0;
     for (const std::filesystem::path& path : real_models()) {
         for (const auto& beside : std::filesystem::directory_iterator(path.parent_path())) // what it names

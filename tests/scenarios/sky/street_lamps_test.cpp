@@ -3,6 +3,7 @@
 #include "scenarios/drives/play/place_street_lamps.h"
 #include "scenarios/light/light.h"
 #include "scenarios/values/errors.h"
+#include "tests/shipped.h"
 #include "tests/trial.h"
 
 #include <cmath>
@@ -13,20 +14,18 @@
 namespace fernlicht {
 namespace {
 
-const std::string library = FERNLICHT_SOURCE_DIR "/scenarios/library/";
-
 /// Our street lamp, on a row of its own or on these objects.
 StreetLampRow row_of(const std::string& name, const std::vector<std::string>& on_objects = {}) {
     StreetLampRow row;
     row.name = name;
-    row.file = std::make_shared<LampFile>(read_lamp(library + "lamps/street-6000lm.ies", {.type_c_axis = TypeCAxis::nadir}));
+    row.file = std::make_shared<LampFile>(read_lamp(shipped_library / "lamps/street-6000lm.ies", {.type_c_axis = TypeCAxis::nadir}));
     row.on_objects = on_objects;
     return row;
 }
 
 /// The straight, with our street lamp to the right of it.
 struct LitStraight {
-    RoadNetwork network = read_opendrive(library + "roads/straight.xodr");
+    RoadNetwork network = read_opendrive(shipped_library / "roads/straight.xodr");
     Route route{network, {}, {}};
     Drive drive;
     Moment moment;
@@ -104,7 +103,7 @@ TEST(StreetLamps, HavePoles) {
 
 /// Our village, with lamps on its posts.
 struct LitVillage {
-    RoadNetwork network = read_opendrive(library + "roads/village.xodr");
+    RoadNetwork network = read_opendrive(shipped_library / "roads/village.xodr");
     Route route{network, {}, {}};
     Drive drive;
 

@@ -1,6 +1,7 @@
 #include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/drives/yaml_schema_check.h"
+#include "tests/shipped.h"
 #include "tests/trial.h"
 
 #include <cmath>
@@ -16,8 +17,6 @@ namespace {
 
 using testing::ElementsAre, testing::HasSubstr;
 
-const std::string library = FERNLICHT_SOURCE_DIR "/scenarios/library/";
-
 class StudyFile : public testing::Test {
   protected:
     static Study read(const std::string& text) { return read_study(tests::written("study.yaml", text)); }
@@ -25,16 +24,16 @@ class StudyFile : public testing::Test {
         return tests::refusal_of([&] { read(text); });
     }
     static std::string with(const std::string& more) {
-        return "fernlicht_study: 1\nlamps:\n  a: {low: " + library + "lamps/halogen-low.ies}\n  b: {left: " + library +
-               "lamps/xenon-low.ies, right: " + library + "lamps/halogen-low.ies, source: arc}\ndrives: [" + library +
-               "drives/straight.yaml]\n" + more;
+        return fmt::format("fernlicht_study: 1\nlamps:\n  a: {{low: {0}/lamps/halogen-low.ies}}\n  b: {{left: {0}/lamps/xenon-low.ies, "
+                           "right: {0}/lamps/halogen-low.ies, source: arc}}\ndrives: [{0}/drives/straight.yaml]\n{1}",
+                           shipped_library.string(), more);
     }
 };
 
 TEST_F(StudyFile, TheExampleAndTheStandardStudyAreRead) {
     const Study example = read_study(FERNLICHT_SOURCE_DIR "/scenarios/study.example.yaml");
     EXPECT_EQ(cells_of(example).size(), 2U * 2U * 3U * 2U * 2U);
-    const Study standard = read_study(library + "studies/standard.yaml");
+    const Study standard = read_study(shipped_library / "studies/standard.yaml");
     EXPECT_EQ(standard.name, "standard-1");
     EXPECT_EQ(cells_of(standard).size(), 10U);
     EXPECT_EQ(cells_of(standard).front().name, "straight_halogen");
@@ -75,7 +74,7 @@ TEST_F(StudyFile, ConditionsReachTheDrive) {
 
 TEST_F(StudyFile, MeasuresReachEveryDriveThatDoesNotAskItself) {
     std::string text = with("measure: {visibility: {age_years: 60}, glare: {oncoming: {stranger: {at_m: 90}}}}\n");
-    text.insert(text.find("]\n") /* of drives */, ", " + library + "drives/iihs-straight.yaml");
+    text.insert(text.find("]\n") /* of drives */, ", " + (shipped_drives / "iihs-straight.yaml").string());
     const Study study = read(text);
     const std::vector<StudyCell> cells = cells_of(study);
     ASSERT_EQ(cells.size(), 4U);

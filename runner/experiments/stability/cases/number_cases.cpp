@@ -9,11 +9,11 @@
 #include "runner/findings/moment_columns.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cfenv>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <regex>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
@@ -140,8 +140,15 @@ void brightest(StabilityBench& bench, Found& worst) {
 
 /// Numbers that are none, in a text of JSON or CSV.
 std::size_t not_numbers(const std::string& text) {
-    static const std::regex word(R"((^|[\s,:\[])-?(nan|inf|infinity)($|[\s,\]}]))", std::regex::icase);
-    return static_cast<std::size_t>(std::distance(std::sregex_iterator(text.begin(), text.end(), word), std::sregex_iterator()));
+    constexpr std::string_view between = " \t\r\n,:[]}", words[] = {"nan", "inf", "infinity"};
+    std::size_t found = 0;
+    for (std::size_t begin = 0, end = 0; (begin = text.find_first_not_of(between, end)) != std::string::npos;) {
+        end = std::min(text.find_first_of(between, begin), text.size());
+        std::string word = text.substr(text[begin] == '-' ? begin + 1 : begin, end - begin - (text[begin] == '-' ? 1 : 0));
+        std::ranges::transform(word, word.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        found += static_cast<std::size_t>(std::ranges::count(words, word));
+    }
+    return found;
 }
 
 struct Played {

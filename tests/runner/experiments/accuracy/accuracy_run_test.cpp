@@ -18,14 +18,16 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-json checked(const std::filesystem::path& file) { return tests::checked(file, accuracy_json_schema(), read_accuracy_json, accuracy_json); }
+json checked_accuracy(const std::filesystem::path& file) {
+    return tests::checked(file, accuracy_json_schema(), read_accuracy_json, accuracy_json);
+}
 
 /// What `accuracy` finds, its files in `folder`/out; `said`: what it prints.
 json results_of(const TemporaryFolder& folder, const std::string& flags, const std::string& drives, std::string* said = nullptr) {
     const std::string text = printed("accuracy --quiet " + flags + " --out " + (folder / "out ") + drives);
     if (said)
         *said = text;
-    return checked(folder / "out/accuracy.json");
+    return checked_accuracy(folder / "out/accuracy.json");
 }
 
 double error_of(const json& diagrams, std::size_t diagram, std::size_t row) {
@@ -166,7 +168,7 @@ json interrupted(const TemporaryFolder& folder, const std::string& flags, const 
     EXPECT_EQ(run.exit_code, 1) << run.output;
     EXPECT_THAT(run.output, HasSubstr("missing: drive straight-1: "));
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/INCOMPLETE"));
-    json accuracy = checked(folder / "out/accuracy.json");
+    json accuracy = checked_accuracy(folder / "out/accuracy.json");
     EXPECT_EQ(accuracy.at("interrupted"), "interrupted by the user");
     EXPECT_THAT(content_of(folder / "out/accuracy.html"), HasSubstr(accuracy.at("missing").at(0).get<std::string>()));
     return accuracy;

@@ -16,7 +16,9 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-json checked(const std::filesystem::path& file) { return tests::checked(file, aliasing_json_schema(), read_aliasing_json, aliasing_json); }
+json checked_aliasing(const std::filesystem::path& file) {
+    return tests::checked(file, aliasing_json_schema(), read_aliasing_json, aliasing_json);
+}
 
 /// The row that was drawn so; the test fails without it.
 const json& row_with(const json& found, const std::string& beams, const std::string& filter, int samples) {
@@ -35,7 +37,7 @@ TEST(AliasingCommand, RanksWhatIsKnown) {
         printed("aliasing --quiet --moment 2 --resolution 256x192 --supersample 8 --beams float,512x128x8 --samples 1,4 "
                 "--filter trilinear,none --out " +
                 (folder / "out") + " " + library_file("drives/first-light.yaml"));
-    const json found = checked(folder / "out/aliasing.json");
+    const json found = checked_aliasing(folder / "out/aliasing.json");
     const json& fine = row_with(found, "float", "trilinear", 1);
     const json& eight_bit = row_with(found, "512x128x8", "trilinear", 1);
     const json& unfiltered = row_with(found, "float", "none", 1);
@@ -163,7 +165,7 @@ void write_ring(const std::string& folder, int frames, int k, bool png, double r
 json sequence_found(const TemporaryFolder& folder, const std::string& flags, const std::string& out, int exit_code = 0) {
     const Outcome run = run_program("aliasing --quiet --rate 30 --ppd 20 " + flags + " --out " + (folder / out));
     EXPECT_EQ(run.exit_code, exit_code) << run.output;
-    const json found = checked(folder / (out + "/aliasing.json"));
+    const json found = checked_aliasing(folder / (out + "/aliasing.json"));
     EXPECT_TRUE(std::filesystem::exists(folder / (out + "/aliasing.html")));
     return found.at("rows").at(0);
 }

@@ -12,10 +12,9 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-namespace fernlicht {
+namespace fernlicht::osc {
 namespace {
 
-using namespace osc;
 using testing::HasSubstr;
 
 /// Angle of a lamp to the left of the car.
@@ -222,4 +221,4 @@ TEST(StoryAlone, PlaysOnWhereItsLaneDoesNotLead) {
 }
 
 } // namespace
-} // namespace fernlicht
+} // namespace fernlicht::osc

@@ -9,10 +9,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-namespace fernlicht {
+namespace fernlicht::osc {
 namespace {
 
-using namespace osc;
 using testing::Contains;
 using testing::HasSubstr;
 
@@ -152,4 +151,4 @@ TEST(SkyCoverOf, IsByOktasOrWords) {
 }
 
 } // namespace
-} // namespace fernlicht
+} // namespace fernlicht::osc

@@ -16,7 +16,9 @@ using ::testing::Not;
 
 const std::string small = "shadows --quiet --resolution 96x72 --lamp " + library_file("lamps/xenon-low.ies") + " ";
 
-json checked(const std::filesystem::path& file) { return tests::checked(file, shadow_json_schema(), read_shadow_json, shadow_json); }
+json checked_shadows(const std::filesystem::path& file) {
+    return tests::checked(file, shadow_json_schema(), read_shadow_json, shadow_json);
+}
 
 const json& row_of(const json& scene, const std::string& method) {
     for (const json& row : scene.at("rows"))
@@ -31,7 +33,7 @@ TEST(ShadowsCommand, HoldsMethodsAgainstRays) {
                         "--rounds 3 --map-texels 512x256 --count 1 --methods none,map,under-car,volumes --scenes post-5,kerb --out " +
                         (folder / "out ") + library_file("drives/straight.yaml")),
                 HasSubstr("   30 m "));
-    const json found = checked(folder / "out/shadows.json");
+    const json found = checked_shadows(folder / "out/shadows.json");
     ASSERT_EQ(found.at("scenes").size(), 3U);
     const json &post = found.at("scenes").at(0), &none = row_of(post, "none"), &map = row_of(post, "map");
     EXPECT_EQ(post.at("name"), "post-5");
@@ -120,7 +122,7 @@ TEST(ShadowsCommand, CountsFromTheFloorOn) {
 TEST(ShadowsCommand, TakesEveryMethodThereIs) {
     const TemporaryFolder folder;
     const std::string said = printed(small + "--rounds 1 --lamp-radius 0 --scenes crest --out " + (folder / "out"));
-    const json found = checked(folder / "out/shadows.json");
+    const json found = checked_shadows(folder / "out/shadows.json");
     const json& scene = found.at("scenes").at(0);
     EXPECT_EQ(scene.at("rows").size(), shadow_method_names().size());
     for (const ShadowMethodName& method : shadow_method_names()) {

@@ -80,7 +80,7 @@ TEST(LogWriter, ADiskThatIsFullIsSaid) {
     EXPECT_THROW(LogWriter("/nowhere/at/all.log", 0), DeviceError);
 }
 
-LivePicture picture(int tick, bool captured) {
+LivePicture live_picture(int tick, bool captured) {
     LivePicture picture;
     picture.moment.tick = tick;
     picture.captured = captured;
@@ -91,7 +91,7 @@ LivePicture picture(int tick, bool captured) {
 TEST(LivePictures, KeepsWhatIsToBeStoredAndTheNewestOfTheRest) {
     LivePictures pictures;
     for (int tick = 0; tick < 10; ++tick) {
-        LivePicture offered = picture(tick, tick % 5 == 0);
+        LivePicture offered = live_picture(tick, tick % 5 == 0);
         ASSERT_TRUE(pictures.offer(offered));
     }
     EXPECT_FALSE(pictures.wanted(false)) << "one waits already";
@@ -112,7 +112,7 @@ TEST(LivePictures, TakingWaitsForTheOtherThread) {
             taken.push_back(next->moment.tick);
     });
     for (int tick = 0; tick < 50; ++tick) {
-        LivePicture offered = picture(tick, true);
+        LivePicture offered = live_picture(tick, true);
         while (!pictures.wanted(true) || !pictures.offer(offered))
             std::this_thread::yield();
     }

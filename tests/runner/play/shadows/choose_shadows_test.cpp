@@ -16,13 +16,13 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-constexpr const char* few = " --quiet --resolution 96x72 --capture all --no-accuracy --backend software ";
+constexpr const char* few_automatic = " --quiet --resolution 96x72 --capture all --no-accuracy --backend software ";
 
 class AutomaticShadows : public testing::Test {
   protected:
     std::string drive_with(const std::string& drive, const std::string& shadows) { return short_drive(folder, drive, shadows); }
     json played(const std::string& drive, const std::string& out, const std::string& frames = "3:5") {
-        const Outcome run = run_program("run " + drive + few + "--frames " + frames + " --out " + (folder / out));
+        const Outcome run = run_program("run " + drive + few_automatic + "--frames " + frames + " --out " + (folder / out));
         EXPECT_LE(run.exit_code, 1) << run.output;
         return json::parse(content_of(folder / (out + "/report.json"))).at("drives").at(0);
     }
@@ -151,11 +151,12 @@ TEST_F(AutomaticShadows, WhatIsWrongIsOneSentence) {
     };
     for (const std::string bound : {"1", "2", "-0.1"}) {
         const std::string drive = drive_with("straight", "{method: auto, error_bound: " + bound + "}");
-        EXPECT_THAT(refused("run " + drive + few + "--out " + (folder / "o")),
+        EXPECT_THAT(refused("run " + drive + few_automatic + "--out " + (folder / "o")),
                     HasSubstr("expected a share from 0 to below 1 (0.01 is 1 %)"))
             << bound;
     }
-    EXPECT_THAT(refused("run " + drive_with("braking", "{method: volume}") + few + "--out " + (folder / "o")), HasSubstr("one of none"));
+    EXPECT_THAT(refused("run " + drive_with("braking", "{method: volume}") + few_automatic + "--out " + (folder / "o")),
+                HasSubstr("one of none"));
     std::string text = content_of(library_file("drives/s-bend-can.yaml"));
     for (std::size_t at = 0; (at = text.find("../", at)) != std::string::npos;)
         text.replace(at, 3, library_file(""));

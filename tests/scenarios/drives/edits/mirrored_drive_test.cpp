@@ -17,14 +17,14 @@ TEST(MirroredDrive, NamesChangeSidesByWholeWords) {
 }
 
 /// Every key of a drive, some of them to one side.
-Drive example() {
+Drive example_drive() {
     Drive drive = read_drive(FERNLICHT_SOURCE_DIR "/scenarios/drive.example.yaml");
     drive.lamp_sets.front().lamps.front().yaw_rad = 0.01;
     return drive;
 }
 
 TEST(MirroredDrive, TwiceIsTheDriveAsItWas) {
-    Drive drive = example();
+    Drive drive = example_drive();
     const std::string before = write_drive(drive);
     mirror_traffic(drive, true);
     const std::string once = write_drive(drive);
@@ -36,7 +36,7 @@ TEST(MirroredDrive, TwiceIsTheDriveAsItWas) {
 }
 
 TEST(MirroredDrive, IsWrittenAndReadBack) {
-    Drive drive = example();
+    Drive drive = example_drive();
     mirror_traffic(drive, true);
     const Drive back = read_drive(tests::written("mirrored.yaml", write_drive(drive)));
     EXPECT_EQ(write_drive(back), write_drive(drive));
@@ -47,7 +47,7 @@ TEST(MirroredDrive, IsWrittenAndReadBack) {
 }
 
 TEST(MirroredDrive, MirrorsLampsOnlyWhereAsked) {
-    const Drive drive = example();
+    const Drive drive = example_drive();
     Drive all = drive, road = drive;
     mirror_traffic(all, true);
     mirror_traffic(road, false);

@@ -2,6 +2,7 @@
 #include "scenarios/values/errors.h"
 #include "tests/scenarios/drives/drive_fixture.h"
 #include "tests/scenarios/drives/play/staged_drive.h"
+#include "tests/shipped.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -11,8 +12,6 @@ namespace fernlicht {
 namespace {
 
 using testing::HasSubstr;
-
-const std::filesystem::path shipped_drives = std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives";
 
 double climb_rad(const Pose& pose) { return std::atan2(pose.forward().z, std::hypot(pose.forward().x, pose.forward().y)); }
 

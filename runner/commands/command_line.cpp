@@ -1,0 +1,75 @@
+// The command line: options end here; below are plain values.
+#include "runner/commands/commands.h"
+#include "runner/commands/old_flags.h"
+#include "scenarios/values/errors.h"
+#include "scenarios/values/version.h"
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <fmt/format.h>
+
+namespace {
+
+enum ExitCode { within_limits = 0, limits_exceeded = 1, users_input = 2, device = 3, ours = 4 };
+
+/// As --help lists them.
+fernlicht::AddCommand* const commands[] = {
+    fernlicht::add_run_command,       fernlicht::add_live_command,     fernlicht::add_study_command,      fernlicht::add_bench_command,
+    fernlicht::add_compare_command,   fernlicht::add_accuracy_command, fernlicht::add_aliasing_command,   fernlicht::add_shadows_command,
+    fernlicht::add_reference_command, fernlicht::add_list_commands,    fernlicht::add_can_command,        fernlicht::add_lamp_command,
+    fernlicht::add_model_command,     fernlicht::add_import_command,   fernlicht::add_storyboard_command, fernlicht::add_doctor_command,
+    fernlicht::add_stability_command, fernlicht::add_accept_command,   fernlicht::add_baselines_command,  fernlicht::add_migrate_command};
+
+int complain(ExitCode code, const std::exception& error) {
+    fmt::print(stderr, "fernlicht: {}\n", error.what());
+    return code;
+}
+
+void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& line) {
+    const std::string& word = line[1];
+    std::string commands;
+    bool known = word.starts_with('-'); // a flag
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        known = known || command->check_name(word);
+        commands += (commands.empty() ? "" : ", ") + command->get_name();
+    }
+    if (const std::string old = known ? "" : fernlicht::old_word_in({line[0], word}); !old.empty())
+        throw fernlicht::InputError({}, old);
+    if (!known)
+        throw fernlicht::InputError({}, fmt::format("'{}' is no command", word), "one of " + commands);
+}
+
+} // namespace
+
+int fernlicht::command_line(int argc, char** argv) {
+    CLI::App app("plays scripted night drives offscreen and measures what the headlamps do", "fernlicht");
+    app.set_version_flag("--version", fernlicht::program_version);
+    app.require_subcommand(1);
+    std::function<int()> chosen;
+    const std::vector<std::string> command(argv, argv + argc);
+    for (fernlicht::AddCommand* add : commands)
+        add(app, command, chosen);
+    try {
+        if (argc > 1)
+            refuse_unknown_command(app, command);
+        app.parse(argc, argv);
+        return chosen();
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) { // --help, --version
+            app.exit(error);
+            return within_limits;
+        }
+        const bool is_flag = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+        if (const std::string old = is_flag ? fernlicht::old_word_in(command) : ""; !old.empty())
+            return complain(users_input, fernlicht::InputError({}, old));
+        complain(users_input, error);
+        fmt::print(stderr, "Run with --help for more information.\n");
+        return users_input;
+    } catch (const fernlicht::InputError& error) {
+        return complain(users_input, error);
+    } catch (const fernlicht::DeviceError& error) {
+        return complain(device, error);
+    } catch (const std::exception& error) {
+        return complain(ours, error);
+    }
+}
