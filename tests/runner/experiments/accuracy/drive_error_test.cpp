@@ -111,7 +111,7 @@ TEST(LampDiscs, AreNotInTheTruthThatMethodsShare) {
     const auto compared = [&](const std::string& shadows, const std::string& out) {
         return printed("accuracy " + short_drive(folder, "shelter", shadows) +
                        " --quiet --techniques photometric --resolutions 96x72 --shadow-maps 256x128,128x64 --beams float "
-                       "--count 1 --rounds 1 --out " +
+                       "--count 1 --rounds 1 --max-samples 16 --out " +
                        (folder / out));
     };
     const std::string note = "the half shadows of soft-map, whose lamps are discs of 30 cm radius, count as its errors here";
