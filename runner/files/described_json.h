@@ -143,6 +143,19 @@ JsonPart null_unless(bool there, JsonPart part);
 /// Of an optional value: {"not_measured": why} rather than null, read back into `back`.
 JsonPart or_why(JsonPart optional, const std::string& why, std::string* back = nullptr);
 
+/// One for each element of `list`, which another member of the JSON, `of`, made before.
+template <class List, class Inner> JsonPart one_for_each(List& list, Inner inner, const std::string& of) {
+    JsonPart part = json_part(list, inner);
+    part.read = [&list, inner, of](const CheckedJson& json) {
+        const std::vector<CheckedJson> entries = json.items();
+        if (entries.size() != list.size())
+            json.refuse(std::to_string(list.size()) + " entries, as " + of + " has");
+        for (std::size_t i = 0; i < entries.size(); ++i)
+            json_part(list[i], inner).read(entries[i]);
+    };
+    return part;
+}
+
 /// A number of an enumerator or an index, as that element of what `list` gives.
 template <class E, class List> JsonPart one_of(E& value, List list) {
     return {[&value, list] { return nlohmann::ordered_json(list().at(static_cast<std::size_t>(value))); },

@@ -2,10 +2,11 @@
 
 namespace fernlicht {
 
-JsonMembers file_members(FileRead& file) {
-    const auto path = through([&] { return file.path.string(); }, [&](const std::string& text) { file.path = text; });
-    return {{"path", path}, {"bytes", file.bytes}, {"xxh128", file.xxh128}};
+JsonPart path_part(std::filesystem::path& path) {
+    return through([&path] { return path.string(); }, [&path](const std::string& text) { path = text; });
 }
+
+JsonMembers file_members(FileRead& file) { return {{"path", path_part(file.path)}, {"bytes", file.bytes}, {"xxh128", file.xxh128}}; }
 
 JsonMembers moment_members(std::pair<int, double>& moment) { return {{"frame", moment.first}, {"time_s", moment.second}}; }
 

@@ -12,12 +12,6 @@
 namespace fernlicht {
 namespace {
 
-/// "9", or "9 to 30" where cells differ.
-std::string range_over(const std::vector<CellResult>& cells, int CellResult::*count) {
-    const auto [least, most] = std::ranges::minmax_element(cells, {}, count);
-    return (*least).*count == (*most).*count ? fmt::format("{}", (*most).*count) : fmt::format("{} to {}", (*least).*count, (*most).*count);
-}
-
 std::size_t count_deciding(const StudyResult& result, std::optional<ChangeKind> kind = {}) {
     return static_cast<std::size_t>(
         std::ranges::count_if(result.changes, [&](const Change& change) { return change.decides && (!kind || change.kind == *kind); }));
@@ -167,8 +161,8 @@ Section verdict_section(const StudyResult& result) {
     if (!result.interrupted.empty())
         section.blocks.emplace_back("The study did not end; --resume goes on.");
     section.blocks.emplace_back(study_sentence(result));
-    if (const std::string part = played_in_part(result); !part.empty())
-        section.blocks.emplace_back(part + ".");
+    if (!result.played_in_part.empty())
+        section.blocks.emplace_back(result.played_in_part + ".");
     Listing lamps;
     for (const LampComparison& pair : result.lamps)
         lamps.items.emplace_back(lamp_verdict(pair));
@@ -252,13 +246,6 @@ std::string study_sentence(const StudyResult& result) {
                        unknown > 0 ? fmt::format("; of {} it is not known", unknown) : "");
 }
 
-std::string played_in_part(const StudyResult& result) {
-    if (std::ranges::none_of(result.cells, [](const CellResult& cell) { return cell.moments < cell.moments_of_drive; }))
-        return "";
-    return fmt::format("{} of {} moments of each drive were played (--frames {})", range_over(result.cells, &CellResult::moments),
-                       range_over(result.cells, &CellResult::moments_of_drive), result.frames);
-}
-
 Document document(const StudyResult& result, const std::vector<std::string>& papers) {
     Section lamps = lamps_section(result), reach{"Reach over the drive", {}}, glare{"Glare over the drive", {}},
             maps{"Lux from above", {"All maps in one scale, 0.1 to 100 lx; below each pair the ratio of new to old."}}, cells{"Cells", {}};
@@ -300,7 +287,7 @@ Document study_summary(const StudyResult& result) {
         }
     };
     say(result.study.title + ": " + (was_judged(result) ? verdict_name(overall(result)) : "no limits were set"));
-    say(played_in_part(result));
+    say(result.played_in_part);
     say(result.interrupted.empty() ? "" : "incomplete: " + result.interrupted);
     for (const CellResult& cell : result.cells)
         say(cell.failed.empty() ? "" : fmt::format("NOT PLAYED {}: {}", cell.cell.name, cell.failed));
@@ -334,8 +321,8 @@ Document study_paper(const StudyResult& result) {
                  change.uncertainty ? Cell(fmt::format("{:.2f}", change.total_uncertainty()), change.total_uncertainty()) : Cell(""),
                  unit_label(change.unit()), change_name(change.kind)});
     Section section{"", {std::move(table)}};
-    if (const std::string part = played_in_part(result); !part.empty())
-        section.blocks.emplace_back(part + ".");
+    if (!result.played_in_part.empty())
+        section.blocks.emplace_back(result.played_in_part + ".");
     section.blocks.emplace_back(
         "Medians over what was played of the drive unless said otherwise. ± is what calculation and the noise of the lamps' tables leave "
         "open of the change; within aim means that 0.1° of aim would do as much.");

@@ -1,132 +1,165 @@
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/study/study_document.h"
-#include "runner/files/json_text.h"
-#include "runner/files/value_json.h"
+#include "runner/findings/context_json.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/judge/verdict_json.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <functional>
+#include <ranges>
 
 namespace fernlicht {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+/// A place in a list of the study, as what is there is called; what the list lacks is added to it.
+template <class List, class Name = std::identity> JsonPart place_in_study(List& list, std::size_t& place, Name name = {}) {
+    using Called = std::remove_cvref_t<std::invoke_result_t<Name, typename List::value_type&>>;
+    return through([&list, &place, name] { return Called(std::invoke(name, list[place])); },
+                   [&list, &place, name](const Called& called) {
+                       place = static_cast<std::size_t>(std::ranges::find(list, called, name) - list.begin());
+                       if (place == list.size())
+                           std::invoke(name, list.emplace_back()) = called;
+                   });
+}
 
-Json cell_json(const StudyResult& result, const CellResult& cell) {
-    const StudyConditions& c = result.study.conditions;
-    Json readings = Json::array();
-    for (const auto& [key, reading] : cell.readings) {
-        Json row{{"name", name_of(key)}, {"value", value_json(reading.value)}, {"unit", unit_of(key)}};
-        if (!reading.value.measured())
-            row["not_measured"] = reading.value.reason();
-        readings.push_back(std::move(row));
-    }
-    return {{"name", cell.cell.name},
-            {"folder", "cells/" + cell.cell.name},
+/// A cell that was read before.
+JsonPart study_cell_by_name(const StudyResult& result, std::size_t& cell) {
+    const auto name = [&result](std::size_t i) { return result.cells[i].cell.name; };
+    JsonPart part = one_of(cell, names_of<std::size_t>(name, static_cast<int>(result.cells.size())));
+    part.write = [&cell, name] { return name(cell); }; // thousands of changes, hundreds of cells
+    return part;
+}
+
+std::string change_id(std::size_t change) { return fmt::format("c{}", change); }
+
+JsonMembers lamp_comparison_members(LampComparison& lamps) {
+    const JsonPart difference([&lamps] { return difference_json(lamps.difference); }, nullptr,
+                              [] {
+                                  const Json told{"differs", "says", "zones", "noise_relative", "z_limit"};
+                                  return Json{{"type", "object"}, {"required", told}};
+                              });
+    return {{"new", lamps.tested},         {"against", lamps.against},      {"side", lamps.side},
+            {"says", lamp_verdict(lamps)}, {"file", path_part(lamps.file)}, {"other_file", path_part(lamps.other_file)},
+            {"difference", difference}};
+}
+
+JsonMembers study_change_members(Change& change, const StudyResult& result) {
+    const Value found = change.change();
+    return joined({{"id", change_id(static_cast<std::size_t>(&change - result.changes.data()))}, // one to be described stands elsewhere
+                   {"new_cell", study_cell_by_name(result, change.tested)},
+                   {"old_cell", study_cell_by_name(result, change.against)},
+                   {"reading", change.reading},
+                   {"unit", change.unit()},
+                   {"old_value", change.old_value},
+                   {"new_value", change.new_value},
+                   {"change", found},
+                   {"size", found.measured() ? std::optional(change.size()) : std::nullopt},
+                   {"uncertainty", change.uncertainty},
+                   {"by_tenth_degree", change.aim_effect},
+                   {"by_noise", change.noise_effect},
+                   {"kind", one_of(change.kind, names_of<ChangeKind>(change_name, 4))},
+                   {"decides", change.decides}},
+                  when(change.kind == ChangeKind::unknown, {{"why_not", change.reason_unknown}}));
+}
+
+JsonMembers study_figure_members(StudyFigure& figure, const StudyResult& result) {
+    std::string& name = figure.plot.name;
+    const auto svg =
+        through([&name] { return name + ".svg"; }, [&name](const std::string& file) { name = file.substr(0, file.rfind('.')); });
+    const auto by_name = [&result](std::size_t& cell) { return study_cell_by_name(result, cell); };
+    return {{"svg", svg}, {"png", name + ".png"}, {"title", figure.title}, {"cells", figure.cells, by_name}};
+}
+
+JsonMembers cell_reading_members(Reading& reading) {
+    Value& value = reading.value;
+    const auto reason =
+        through([&value] { return value.reason(); }, [&value](const std::string& why) { value = Value::not_measured(why); });
+    return joined({{"name", reading.key}, {"value", value}, {"unit", reading.unit()}}, when(!value.measured(), {{"not_measured", reason}}));
+}
+
+JsonMembers study_cell_members(CellResult& cell, Study& study) {
+    StudyCell& at = cell.cell;
+    StudyConditions& conditions = study.conditions;
+    const auto readings = through(
+        [&cell] {
+            const auto all = std::views::values(cell.readings);
+            return Readings(all.begin(), all.end());
+        },
+        [&cell](const Readings& all) {
+            for (const Reading& reading : all)
+                cell.readings.emplace(reading.key, reading);
+        },
+        cell_reading_members);
+    return {{"name", at.name},
+            {"folder", "cells/" + at.name},
             {"drive", cell.drive},
-            {"lamp", result.study.lamps[cell.cell.lamp].name},
-            {"technique", result.study.techniques[cell.cell.technique]},
-            {"time_of_day", c.times_of_day[cell.cell.time_of_day].name},
-            {"aim_percent", c.aim_percent[cell.cell.aim]},
-            {"voltage_v", c.voltage_v[cell.cell.voltage]},
-            {"mirrored", static_cast<bool>(c.mirror[cell.cell.mirror])},
-            {"failed", cell.failed.empty() ? Json(nullptr) : Json(cell.failed)},
-            {"verdicts", verdicts_json(cell.verdicts)},
-            {"error_share_p95", or_null(cell.error_share)},
-            {"error_floor_share_p95", or_null(cell.error_floor_share)},
+            {"lamp", place_in_study(study.lamps, at.lamp, &StudyLamp::name)},
+            {"technique", place_in_study(study.techniques, at.technique)},
+            {"time_of_day", place_in_study(conditions.times_of_day, at.time_of_day, &Daylight::name)},
+            {"aim_percent", place_in_study(conditions.aim_percent, at.aim)},
+            {"voltage_v", place_in_study(conditions.voltage_v, at.voltage)},
+            {"mirrored", place_in_study(conditions.mirror, at.mirror)},
+            {"failed", or_null(cell.failed)},
+            {"verdicts", cell.verdicts, verdict_members},
+            {"error_share_p95", cell.error_share},
+            {"error_floor_share_p95", cell.error_floor_share},
             {"readings", readings}};
 }
 
-Json change_json(const StudyResult& result, std::size_t index) {
-    const Change& change = result.changes[index];
-    const Value found = change.change();
-    Json row{{"id", fmt::format("c{}", index)},
-             {"new_cell", result.cells[change.tested].cell.name},
-             {"old_cell", result.cells[change.against].cell.name},
-             {"reading", name_of(change.reading)},
-             {"unit", change.unit()},
-             {"old_value", value_json(change.old_value)},
-             {"new_value", value_json(change.new_value)},
-             {"change", value_json(found)},
-             {"size", found.measured() ? Json(change.size()) : Json(nullptr)},
-             {"uncertainty", or_null(change.uncertainty)},
-             {"by_tenth_degree", or_null(change.aim_effect)},
-             {"by_noise", or_null(change.noise_effect)},
-             {"kind", change_name(change.kind)},
-             {"decides", change.decides}};
-    if (change.kind == ChangeKind::unknown)
-        row["why_not"] = change.reason_unknown;
-    return row;
+JsonMembers cell_time_members(CellResult& cell) {
+    return {{"cell", cell.cell.name}, {"frame_s", cell.frame_s}, {"command", cell.command}, {"reused", cell.reused}};
 }
 
-Json lamps_json(const StudyResult& result) {
-    Json out = Json::array();
-    for (const LampComparison& lamps : result.lamps)
-        out.push_back({{"new", lamps.tested},
-                       {"against", lamps.against},
-                       {"side", lamps.side},
-                       {"says", lamp_verdict(lamps)},
-                       {"file", lamps.file.string()},
-                       {"other_file", lamps.other_file.string()},
-                       {"difference", difference_json(lamps.difference)}});
-    return out;
+JsonMembers study_context_members(StudyResult& result) {
+    JsonMembers members = context_members(result.context);
+    std::erase_if(members, [](const JsonMember& member) { return member.key == "seed" || member.key == "inputs"; });
+    return joined(std::move(members), JsonMembers{{"study_file", path_part(result.study.file)},
+                                                  {"cells", one_for_each(result.cells, cell_time_members, "cells")}});
 }
 
-Json context_json(const StudyResult& result) {
-    const RunContext& c = result.context;
-    Json versions = Json::object(), times = Json::array();
-    for (const auto& [name, version] : c.versions)
-        versions[name] = version;
-    for (const CellResult& cell : result.cells)
-        times.push_back({{"cell", cell.cell.name}, {"frame_s", or_null(cell.frame_s)}, {"command", cell.command}, {"reused", cell.reused}});
-    return {{"command", c.command},
-            {"started_utc", c.started_utc},
-            {"backend", c.backend},
-            {"gl_renderer", c.gl_renderer},
-            {"gl_version", c.gl_version},
-            {"cpu", c.cpu},
-            {"os", c.os},
-            {"versions", versions},
-            {"study_file", result.study.file.string()},
-            {"cells", times}};
+JsonMembers study_members(StudyResult& result) {
+    const auto by_id = [&result](std::size_t& change) {
+        return one_of(change, names_of<std::size_t>(change_id, static_cast<int>(result.changes.size())));
+    };
+    return {{"schema", json_constant("fernlicht study")},
+            {"schema_version", json_constant(1)},
+            {"name", result.study.name},
+            {"title", result.study.title},
+            {"verdict", overall(result), verdict_kind_part},
+            {"complete", result.complete()},
+            {"interrupted", or_null(result.interrupted)},
+            {"sentence", study_sentence(result)},
+            {"played_in_part", or_null(result.played_in_part)},
+            {"largest_changes", result.largest, by_id},
+            {"lamps", result.lamps, lamp_comparison_members},
+            {"verdicts", result.verdicts, verdict_members},
+            {"changes", result.changes, [&result](Change& change) { return study_change_members(change, result); }},
+            {"figures", result.figures, [&result](StudyFigure& figure) { return study_figure_members(figure, result); }},
+            {"cells", result.cells, [&result](CellResult& cell) { return study_cell_members(cell, result.study); }},
+            {"context", study_context_members(result)}};
 }
 
 } // namespace
 
-std::string study_json(const StudyResult& result) {
-    Json cells = Json::array(), changes = Json::array(), largest = Json::array(), figures = Json::array();
-    for (const CellResult& cell : result.cells)
-        cells.push_back(cell_json(result, cell));
-    for (std::size_t i = 0; i < result.changes.size(); ++i)
-        changes.push_back(change_json(result, i));
-    for (const std::size_t i : result.largest)
-        largest.push_back(fmt::format("c{}", i));
-    for (const StudyFigure& figure : result.figures) {
-        Json names = Json::array();
-        for (const std::size_t cell : figure.cells)
-            names.push_back(result.cells[cell].cell.name);
-        figures.push_back(
-            {{"svg", figure.plot.name + ".svg"}, {"png", figure.plot.name + ".png"}, {"title", figure.title}, {"cells", names}});
-    }
-    const std::string part = played_in_part(result);
-    return json_text({{"schema", "fernlicht study"},
-                      {"schema_version", 1},
-                      {"name", result.study.name},
-                      {"title", result.study.title},
-                      {"verdict", verdict_name(overall(result))},
-                      {"complete", result.complete()},
-                      {"interrupted", result.interrupted.empty() ? Json(nullptr) : Json(result.interrupted)},
-                      {"sentence", study_sentence(result)},
-                      {"played_in_part", part.empty() ? Json(nullptr) : Json(part)},
-                      {"largest_changes", largest},
-                      {"lamps", lamps_json(result)},
-                      {"verdicts", verdicts_json(result.verdicts)},
-                      {"changes", changes},
-                      {"figures", figures},
-                      {"cells", cells},
-                      {"context", context_json(result)}});
+std::string study_json(const StudyResult& result) { return json_text(as_json(result, study_members)); }
+std::string study_json_schema() { return json_schema(study_members); }
+
+StudyResult read_study_json(const std::filesystem::path& file) {
+    const CheckedJson json = CheckedJson::read(file);
+    StudyResult result;
+    result.study.techniques.clear();
+    result.study.conditions = {{}, {}, {}, {}};
+    const JsonMembers members = study_members(result);
+    for (const char* first : {"schema", "cells", "changes"}) // what comes before names cells and changes
+        std::ranges::find(members, first, &JsonMember::key)->part.read(json.at(first));
+    JsonPart(members).read(json);
+    for (const LampComparison& lamps : result.lamps)
+        if (lamps.side != "right")
+            result.study.comparisons.push_back({lamps.tested, lamps.against});
+    return result;
 }
 
 } // namespace fernlicht

@@ -4,6 +4,7 @@
 #include "runner/experiments/aliasing/aliasing_result.h"
 #include "runner/experiments/run/run_report.h"
 #include "runner/experiments/shadows/shadow_result.h"
+#include "runner/experiments/study/study_document.h"
 #include "runner/files/described_json.h"
 #include "scenarios/values/errors.h"
 #include "tests/runner/schema_check.h"
@@ -125,6 +126,7 @@ TEST(DescribedJson, IsTheSchema) {
     expect_schema("shadows/shadows.schema.json", shadow_json_schema());
     expect_schema("aliasing/aliasing.schema.json", aliasing_json_schema());
     expect_schema("run/report.schema.json", report_json_schema());
+    expect_schema("study/study.schema.json", study_json_schema());
 }
 
 } // namespace

@@ -2,6 +2,9 @@
 #include "runner/experiments/study/study_document.h"
 #include "runner/write/document.h"
 #include "runner/write/report_texts.h"
+#include "scenarios/values/errors.h"
+#include "tests/runner/program.h"
+#include "tests/runner/schema_check.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -272,6 +275,7 @@ TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
     EXPECT_THAT(report_junit(suites_of(result)), AllOf(HasSubstr("9 of 660 moments (--frames 0:8)"), Not(HasSubstr("all moments"))));
     EXPECT_THAT(document_html(document(result), result), HasSubstr("Within limits"));
     result.cells[1].moments_of_drive = 900;
+    compare_cells(result);
     EXPECT_THAT(document_text(study_summary(result)), HasSubstr("9 of 660 to 900 moments of each drive"));
 }
 
@@ -282,6 +286,39 @@ TEST(StudyCompare, ACellThatFailedTakesTheVerdictWithIt) {
     result.cells[1].failed = "the disk is full";
     EXPECT_EQ(overall(result), VerdictKind::not_measured);
     EXPECT_THAT(report_junit(suites_of(result)), HasSubstr("the disk is full"));
+}
+
+TEST(StudyJson, ComesBack) {
+    StudyResult result = two_cells(40.0, 50.0);
+    put(result.cells[0], "reach_10lx_road_own_m", 3.0);
+    put(result.cells[1], "reach_10lx_road_own_m", std::nullopt, "never lit");
+    const ReadingKey bound = key_of("reach_1lx_road_own_m").value();
+    result.cells[1].readings[bound] = {bound, Value::at_least(200.0)};
+    result.study.techniques = {"photometric", "full"};
+    result.study.conditions.mirror = {false, true};
+    for (CellResult& cell : result.cells)
+        cell.cell.technique = cell.cell.mirror = 1;
+    result.cells[1].moments_of_drive = 660;
+    result.cells[1].frame_s = 0.01;
+    result.cells[1].error_share = 0.02;
+    result.cells[1].reused = true;
+    result.cells[1].verdicts = {{VerdictKind::fail, "reach", "50 m", "fernlicht run", Expectation::known, "known since May"}};
+    result.lamps = {{"new", "old", "left", "new.ies", "old.ies", {}}, {"new", "old", "right", "new-right.ies", "old-right.ies", {}}};
+    result.figures = {{{.name = "figures/lux_one.new"}, "Lux", {1}}};
+    result.interrupted = result.cells[0].failed = "interrupted by the user";
+    result.context.versions = {{"fernlicht", "0.1"}};
+    compare_cells(result);
+    ASSERT_EQ(result.changes.size(), 2U);
+    ASSERT_EQ(result.largest.size(), 1U);
+    const TemporaryFolder folder;
+    std::ofstream(folder / "study.json") << study_json(result);
+    tests::checked(folder / "study.json", study_json_schema(), read_study_json, study_json);
+    EXPECT_EQ(study_json(read_study_json(folder / "study.json")), study_json(result));
+    result.figures[0].cells = {0};
+    std::string text = study_json(result);
+    text.replace(text.find("[\"one_old\"]"), 10, "[\"one_odd\"");
+    std::ofstream(folder / "study.json") << text;
+    EXPECT_THAT([&] { read_study_json(folder / "study.json"); }, testing::ThrowsMessage<InputError>(HasSubstr("figures[0].cells[0]")));
 }
 
 TEST(StudyText, TablesEscapeWhatTheirFormatsMean) {
