@@ -41,6 +41,7 @@ JsonPart json_leaf(int& value);
 JsonPart json_leaf(std::uint64_t& value);
 JsonPart json_leaf(double& value);
 JsonPart json_leaf(std::string& value);
+JsonPart json_leaf(std::filesystem::path& value);
 JsonPart json_leaf(Value& value);
 JsonPart json_leaf(ReadingKey& value); ///< by name
 JsonPart json_leaf(JsonTexts& value);
@@ -70,7 +71,7 @@ template <class T, class... Inner> JsonPart json_part(T&& value, Inner... inner)
                     typename Plain::value_type one{};
                     return nullable(json_part(one, inner...).schema());
                 }};
-    } else if constexpr (!std::is_same_v<Plain, std::string> && !std::is_same_v<Plain, JsonTexts> && requires { value.begin(); }) {
+    } else if constexpr (!requires { json_leaf(value); }) {
         return {[&value, inner...] {
                     Json list = Json::array();
                     for (auto& element : value)

@@ -2,11 +2,7 @@
 
 namespace fernlicht {
 
-JsonPart path_part(std::filesystem::path& path) {
-    return through([&path] { return path.string(); }, [&path](const std::string& text) { path = text; });
-}
-
-JsonMembers file_members(FileRead& file) { return {{"path", path_part(file.path)}, {"bytes", file.bytes}, {"xxh128", file.xxh128}}; }
+JsonMembers file_members(FileRead& file) { return {{"path", file.path}, {"bytes", file.bytes}, {"xxh128", file.xxh128}}; }
 
 JsonMembers moment_members(std::pair<int, double>& moment) { return {{"frame", moment.first}, {"time_s", moment.second}}; }
 

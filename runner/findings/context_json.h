@@ -8,7 +8,6 @@ namespace fernlicht {
 
 /// Command, time, seed, backend and driver, CPU, system, versions and inputs.
 JsonMembers context_members(RunContext& context);
-JsonPart path_part(std::filesystem::path& path);
 /// Path, size and hash of a file that was opened.
 JsonMembers file_members(FileRead& file);
 /// Tick and time of a moment.

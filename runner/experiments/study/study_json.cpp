@@ -41,9 +41,8 @@ JsonMembers lamp_comparison_members(LampComparison& lamps) {
                                   const Json told{"differs", "says", "zones", "noise_relative", "z_limit"};
                                   return Json{{"type", "object"}, {"required", told}};
                               });
-    return {{"new", lamps.tested},         {"against", lamps.against},      {"side", lamps.side},
-            {"says", lamp_verdict(lamps)}, {"file", path_part(lamps.file)}, {"other_file", path_part(lamps.other_file)},
-            {"difference", difference}};
+    return {{"new", lamps.tested}, {"against", lamps.against},       {"side", lamps.side},      {"says", lamp_verdict(lamps)},
+            {"file", lamps.file},  {"other_file", lamps.other_file}, {"difference", difference}};
 }
 
 JsonMembers study_change_members(Change& change, const StudyResult& result) {
@@ -116,8 +115,8 @@ JsonMembers cell_time_members(CellResult& cell) {
 JsonMembers study_context_members(StudyResult& result) {
     JsonMembers members = context_members(result.context);
     std::erase_if(members, [](const JsonMember& member) { return member.key == "seed" || member.key == "inputs"; });
-    return joined(std::move(members), JsonMembers{{"study_file", path_part(result.study.file)},
-                                                  {"cells", one_for_each(result.cells, cell_time_members, "cells")}});
+    return joined(std::move(members),
+                  JsonMembers{{"study_file", result.study.file}, {"cells", one_for_each(result.cells, cell_time_members, "cells")}});
 }
 
 JsonMembers study_members(StudyResult& result) {
