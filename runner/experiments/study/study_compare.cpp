@@ -24,6 +24,7 @@ Change change_of(const StudyResult& result, std::size_t tested, std::size_t agai
     const CellResult &now = result.cells[tested], &before = result.cells[against];
     const double noise = noise_between(result, result.lamp_of(tested), result.lamp_of(against));
     static_cast<ReadingChange&>(change) = change_of_reading(key, now, before, noise);
+    change.id = fmt::format("c{}", result.changes.size());
     change.tested = tested;
     change.against = against;
     change.decides = is_named(key, result.study.readings);

@@ -61,8 +61,7 @@ std::string change_sentence(const StudyResult& result, const Change& change) {
                        result.lamp_of(change.tested), result.lamp_of(change.against), cell.drive, cell.cell.condition);
 }
 
-Card card_of(const StudyResult& result, std::size_t index) {
-    const Change& change = result.changes[index];
+Card card_of(const StudyResult& result, const Change& change) {
     const std::string label = std::string_view(change.unit()) == "1" ? "" : unit_label(change.unit()),
                       unit = label.empty() ? "" : " " + label;
     std::string detail =
@@ -78,7 +77,7 @@ Card card_of(const StudyResult& result, std::size_t index) {
             label,
             change.relative() ? fmt::format("({} %)", signed_figure(100.0 * *change.relative(), 1)) : "",
             detail,
-            Cell(cell.drive + ", " + cell.cell.condition).linked(fmt::format("#c{}", index))};
+            Cell(cell.drive + ", " + cell.cell.condition).linked("#" + change.id)};
 }
 
 /// Of the page. What all rows have alike stands over it.
@@ -96,7 +95,7 @@ Table readings_table(const StudyResult& result) {
         if (!change.decides)
             continue;
         const CellResult& cell = result.cells[change.tested];
-        std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{{fmt::format("c{}", i), static_cast<double>(i)}});
+        std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{{change.id, static_cast<double>(i)}});
         if (several_lamps)
             cells.emplace_back(lamps_of(result, change));
         cells.emplace_back(cell.drive);
@@ -182,7 +181,7 @@ Section largest_section(const StudyResult& result) {
                      : nothing}};
     Cards cards;
     for (const std::size_t i : result.largest)
-        cards.push_back(card_of(result, i));
+        cards.push_back(card_of(result, result.changes[i]));
     return {
         "The largest changes",
         {std::move(cards),
@@ -333,16 +332,15 @@ std::string study_csv(const StudyResult& result) {
     std::string csv = "id,new,against,drive,technique,condition,reading,unit,old_value,new_value,change,uncertainty,by_tenth_degree,by_"
                       "noise,kind,decides,"
                       "new_cell,old_cell,why_not,old_bound,new_bound,change_bound\r\n";
-    for (std::size_t i = 0; i < result.changes.size(); ++i) {
-        const Change& c = result.changes[i];
+    for (const Change& c : result.changes) {
         const CellResult &now = result.cells[c.tested], &before = result.cells[c.against];
-        csv += csv_line(fmt::format("c{}", i), csv_text(result.study.lamps[now.cell.lamp].name),
-                        csv_text(result.study.lamps[before.cell.lamp].name), csv_text(now.drive),
-                        csv_text(result.study.techniques[now.cell.technique]), csv_text(now.cell.condition), csv_text(name_of(c.reading)),
-                        csv_text(c.unit()), csv_number(c.old_value.figure()), csv_number(c.new_value.figure()),
-                        csv_number(c.change().figure()), csv_number(c.uncertainty), csv_number(c.aim_effect), csv_number(c.noise_effect),
-                        change_name(c.kind), c.decides ? "yes" : "no", csv_text(now.cell.name), csv_text(before.cell.name),
-                        csv_text(c.reason_unknown), bound_name(c.old_value), bound_name(c.new_value), bound_name(c.change()));
+        csv +=
+            csv_line(c.id, csv_text(result.study.lamps[now.cell.lamp].name), csv_text(result.study.lamps[before.cell.lamp].name),
+                     csv_text(now.drive), csv_text(result.study.techniques[now.cell.technique]), csv_text(now.cell.condition),
+                     csv_text(name_of(c.reading)), csv_text(c.unit()), csv_number(c.old_value.figure()), csv_number(c.new_value.figure()),
+                     csv_number(c.change().figure()), csv_number(c.uncertainty), csv_number(c.aim_effect), csv_number(c.noise_effect),
+                     change_name(c.kind), c.decides ? "yes" : "no", csv_text(now.cell.name), csv_text(before.cell.name),
+                     csv_text(c.reason_unknown), bound_name(c.old_value), bound_name(c.new_value), bound_name(c.change()));
     }
     return csv;
 }

@@ -5,7 +5,6 @@
 #include "runner/judge/verdict_json.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <functional>
 #include <ranges>
 
@@ -25,15 +24,17 @@ template <class List, class Name = std::identity> JsonPart place_in_study(List& 
                    });
 }
 
-/// A cell that was read before.
-JsonPart study_cell_by_name(const StudyResult& result, std::size_t& cell) {
-    const auto name = [&result](std::size_t i) { return result.cells[i].cell.name; };
-    JsonPart part = one_of(cell, names_of<std::size_t>(name, static_cast<int>(result.cells.size())));
-    part.write = [&cell, name] { return name(cell); }; // thousands of changes, hundreds of cells
+/// A place in a list that was read before, as what is there is called.
+template <class List, class Name> JsonPart place_read_before(const List& list, std::size_t& place, Name name) {
+    const auto name_at = [&list, name](std::size_t i) { return std::invoke(name, list[i]); };
+    JsonPart part = one_of(place, names_of<std::size_t>(name_at, static_cast<int>(list.size())));
+    part.write = [&place, name_at] { return name_at(place); }; // thousands of changes name hundreds of cells
     return part;
 }
 
-std::string change_id(std::size_t change) { return fmt::format("c{}", change); }
+JsonPart cell_by_name(const StudyResult& result, std::size_t& cell) {
+    return place_read_before(result.cells, cell, [](const CellResult& one) { return one.cell.name; });
+}
 
 JsonMembers lamp_comparison_members(LampComparison& lamps) {
     const JsonPart difference([&lamps] { return difference_json(lamps.difference); }, nullptr,
@@ -47,9 +48,9 @@ JsonMembers lamp_comparison_members(LampComparison& lamps) {
 
 JsonMembers study_change_members(Change& change, const StudyResult& result) {
     const Value found = change.change();
-    return joined({{"id", change_id(static_cast<std::size_t>(&change - result.changes.data()))}, // one to be described stands elsewhere
-                   {"new_cell", study_cell_by_name(result, change.tested)},
-                   {"old_cell", study_cell_by_name(result, change.against)},
+    return joined({{"id", change.id},
+                   {"new_cell", cell_by_name(result, change.tested)},
+                   {"old_cell", cell_by_name(result, change.against)},
                    {"reading", change.reading},
                    {"unit", change.unit()},
                    {"old_value", change.old_value},
@@ -68,7 +69,7 @@ JsonMembers study_figure_members(StudyFigure& figure, const StudyResult& result)
     std::string& name = figure.plot.name;
     const auto svg =
         through([&name] { return name + ".svg"; }, [&name](const std::string& file) { name = file.substr(0, file.rfind('.')); });
-    const auto by_name = [&result](std::size_t& cell) { return study_cell_by_name(result, cell); };
+    const auto by_name = [&result](std::size_t& cell) { return cell_by_name(result, cell); };
     return {{"svg", svg}, {"png", name + ".png"}, {"title", figure.title}, {"cells", figure.cells, by_name}};
 }
 
@@ -120,9 +121,7 @@ JsonMembers study_context_members(StudyResult& result) {
 }
 
 JsonMembers study_members(StudyResult& result) {
-    const auto by_id = [&result](std::size_t& change) {
-        return one_of(change, names_of<std::size_t>(change_id, static_cast<int>(result.changes.size())));
-    };
+    const auto by_id = [&result](std::size_t& change) { return place_read_before(result.changes, change, &Change::id); };
     return {{"schema", json_constant("fernlicht study")},
             {"schema_version", json_constant(1)},
             {"name", result.study.name},

@@ -23,6 +23,7 @@ struct CellResult : PlayedResult {
 
 /// One reading of one drive under one condition: a lamp against another.
 struct Change : ReadingChange {
+    std::string id;                      ///< "c3": its place in the study's list
     std::size_t tested = 0, against = 0; ///< cells
     bool decides = false;
 };
