@@ -1,9 +1,7 @@
 #include "runner/experiments/study/study_result.h"
-#include "runner/findings/summary.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <set>
 

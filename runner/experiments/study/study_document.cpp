@@ -1,6 +1,5 @@
 #include "runner/experiments/study/study_document.h"
 #include "metrics/readings/reading_labels.h"
-#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/findings/figures.h"
