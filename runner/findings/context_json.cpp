@@ -13,4 +13,10 @@ JsonMembers context_members(RunContext& context) {
         {"versions", context.versions},       {"inputs", context.inputs, file_members}};
 }
 
+JsonMembers spread_members(Spread& spread) {
+    return {
+        {"count", spread.count},     {"median", spread.median},   {"p05", spread.p05},   {"p95", spread.p95},
+        {"minimum", spread.minimum}, {"maximum", spread.maximum}, {"mean", spread.mean}, {"standard_deviation", spread.standard_deviation}};
+}
+
 } // namespace fernlicht

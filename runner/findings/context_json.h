@@ -1,6 +1,7 @@
-// What results were made with, and the moments they are of, as parts of every JSON that holds some.
+// What results were made with, the moments they are of and how times spread, as parts of every JSON that holds some.
 #pragma once
 
+#include "metrics/statistics/statistics.h"
 #include "runner/files/described_json.h"
 #include "runner/findings/findings.h"
 
@@ -8,6 +9,7 @@ namespace fernlicht {
 
 /// Command, time, seed, backend and driver, CPU, system, versions and inputs.
 JsonMembers context_members(RunContext& context);
+JsonMembers spread_members(Spread& spread);
 /// Path, size and hash of a file that was opened.
 JsonMembers file_members(FileRead& file);
 /// Tick and time of a moment.

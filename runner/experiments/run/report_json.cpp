@@ -46,12 +46,6 @@ std::optional<double> microseconds(const std::optional<double>& value) {
     return value ? std::optional(std::stod(fmt::format("{:.6f}", *value))) : std::nullopt;
 }
 
-JsonMembers spread_members(Spread& spread) {
-    return {
-        {"count", spread.count},     {"median", spread.median},   {"p05", spread.p05},   {"p95", spread.p95},
-        {"minimum", spread.minimum}, {"maximum", spread.maximum}, {"mean", spread.mean}, {"standard_deviation", spread.standard_deviation}};
-}
-
 using NamedValues = std::vector<std::pair<std::string, Value>>;
 
 /// Values by name, others where they are there, then the reasons of those that are null.
@@ -325,14 +319,6 @@ JsonPart drawn_part(std::vector<double>& seconds, Work& work) {
     return null_unless(
         !seconds.empty(),
         JsonMembers{{"spread_s", spread_of(seconds), spread_members}, {"samples_s", seconds}, {"work", counted_work_members(work)}});
-}
-
-JsonMembers ratio_members(PairedRatio& ratio) {
-    return {{"rounds", ratio.rounds},
-            {"median", ratio.median},
-            {"p05", ratio.p05},
-            {"p95", ratio.p95},
-            {"verdict", one_of(ratio.difference, names_of<Difference>(difference_name, 3))}};
 }
 
 /// Where nothing was measured, times and counts are null.
