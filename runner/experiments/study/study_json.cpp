@@ -1,7 +1,6 @@
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/findings/context_json.h"
-#include "runner/findings/extent_keys.h"
 #include "runner/judge/verdict_json.h"
 
 #include <algorithm>
