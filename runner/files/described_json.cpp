@@ -73,9 +73,10 @@ JsonPart::JsonPart(JsonMembers members)
               return object;
           },
           [members](const CheckedJson& json) {
-              for (const JsonMember& member : members)
-                  if (member.part.read && (!member.part.may_lack || json.has(member.key)))
-                      member.part.read(json.at(member.key));
+              for (const int turn : {0, 1, 2})
+                  for (const auto& [key, part] : members)
+                      if (part.turn == turn && part.read && (!part.may_lack || json.has(key)))
+                          part.read(json.at(key));
           },
           [members] {
               Json required = Json::array(), properties = Json::object();
@@ -91,6 +92,11 @@ JsonMembers when(bool there, JsonMembers members) {
     for (JsonMember& member : members)
         member.part.is_there = there, member.part.may_lack = true;
     return members;
+}
+
+JsonPart in_turn(int turn, JsonPart part) {
+    part.turn = turn;
+    return part;
 }
 
 Json nullable(Json schema) {

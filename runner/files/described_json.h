@@ -33,6 +33,7 @@ struct JsonPart {
     std::function<Json()> schema;
     bool is_there = true;
     bool may_lack = false; ///< left out where it is not there
+    int turn = 0;          ///< 0, 1 or 2: read after all members of an earlier one
 };
 
 JsonPart json_constant(nlohmann::ordered_json value); ///< all else is refused
@@ -137,6 +138,9 @@ template <class T> JsonPart or_null(T& value, T none = T{}) {
     return through([&value, none] { return value == none ? std::nullopt : std::optional(value); },
                    [&value, none](const std::optional<T>& given) { value = given.value_or(none); });
 }
+
+/// Of a part that names what other members hold: read after those.
+JsonPart in_turn(int turn, JsonPart part);
 
 /// null unless it is there.
 JsonPart null_unless(bool there, JsonPart part);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runner/experiments/study/study_result.h"
+#include "runner/files/described_json.h"
 #include "runner/findings/report.h"
 
 namespace fernlicht {
@@ -14,10 +15,7 @@ Document study_summary(const StudyResult& result);
 Document study_paper(const StudyResult& result);
 
 /// study.schema.json describes it. What differs from call to call stands under `context`.
-std::string study_json(const StudyResult& result);
-std::string study_json_schema();
-/// What stands there: no frames, no reasons of changed values, nothing of the lamps' differences. Throws InputError.
-StudyResult read_study_json(const std::filesystem::path& file);
+JsonMembers study_members(StudyResult& result); ///< of its JSON; what is played and the lamps' differences do not come back
 /// RFC 4180: one line a change.
 std::string study_csv(const StudyResult& result);
 /// The verdicts as those of a run: one suite a cell, and one of the study's own limits.

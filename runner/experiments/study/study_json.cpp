@@ -119,8 +119,19 @@ JsonMembers study_context_members(StudyResult& result) {
                   JsonMembers{{"study_file", result.study.file}, {"cells", one_for_each(result.cells, cell_time_members, "cells")}});
 }
 
+} // namespace
+
 JsonMembers study_members(StudyResult& result) {
     const auto by_id = [&result](std::size_t& change) { return place_read_before(result.changes, change, &Change::id); };
+    const auto change = [&result](Change& one) { return study_change_members(one, result); };
+    const auto figure = [&result](StudyFigure& one) { return study_figure_members(one, result); };
+    JsonPart lamps = json_part(result.lamps, lamp_comparison_members);
+    lamps.read = [&result, read = lamps.read](const CheckedJson& json) {
+        read(json);
+        for (const LampComparison& one : result.lamps)
+            if (one.side != "right")
+                result.study.comparisons.push_back({one.tested, one.against});
+    };
     return {{"schema", json_constant("fernlicht study")},
             {"schema_version", json_constant(1)},
             {"name", result.study.name},
@@ -130,33 +141,13 @@ JsonMembers study_members(StudyResult& result) {
             {"interrupted", or_null(result.interrupted)},
             {"sentence", study_sentence(result)},
             {"played_in_part", or_null(result.played_in_part)},
-            {"largest_changes", result.largest, by_id},
-            {"lamps", result.lamps, lamp_comparison_members},
+            {"largest_changes", in_turn(2, json_part(result.largest, by_id))},
+            {"lamps", lamps},
             {"verdicts", result.verdicts, verdict_members},
-            {"changes", result.changes, [&result](Change& change) { return study_change_members(change, result); }},
-            {"figures", result.figures, [&result](StudyFigure& figure) { return study_figure_members(figure, result); }},
+            {"changes", in_turn(1, json_part(result.changes, change))},
+            {"figures", in_turn(1, json_part(result.figures, figure))},
             {"cells", result.cells, [&result](CellResult& cell) { return study_cell_members(cell, result.study); }},
             {"context", study_context_members(result)}};
-}
-
-} // namespace
-
-std::string study_json(const StudyResult& result) { return json_text(as_json(result, study_members)); }
-std::string study_json_schema() { return json_schema(study_members); }
-
-StudyResult read_study_json(const std::filesystem::path& file) {
-    const CheckedJson json = CheckedJson::read(file);
-    StudyResult result;
-    result.study.techniques.clear();
-    result.study.conditions = {{}, {}, {}, {}};
-    const JsonMembers members = study_members(result);
-    for (const char* first : {"schema", "cells", "changes"}) // what comes before names cells and changes
-        std::ranges::find(members, first, &JsonMember::key)->part.read(json.at(first));
-    JsonPart(members).read(json);
-    for (const LampComparison& lamps : result.lamps)
-        if (lamps.side != "right")
-            result.study.comparisons.push_back({lamps.tested, lamps.against});
-    return result;
 }
 
 } // namespace fernlicht

@@ -126,7 +126,7 @@ TEST(DescribedJson, IsTheSchema) {
     expect_schema("shadows/shadows.schema.json", shadow_json_schema());
     expect_schema("aliasing/aliasing.schema.json", aliasing_json_schema());
     expect_schema("run/report.schema.json", report_json_schema());
-    expect_schema("study/study.schema.json", study_json_schema());
+    expect_schema("study/study.schema.json", json_schema(study_members));
 }
 
 } // namespace

@@ -3,7 +3,6 @@
 #include "runner/write/document.h"
 #include "runner/write/report_texts.h"
 #include "scenarios/values/errors.h"
-#include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
 
 #include <cmath>
@@ -45,6 +44,8 @@ StudyResult two_cells(double old_reach_m, double new_reach_m) {
     }
     return result;
 }
+
+std::string json_of(const StudyResult& result) { return json_text(as_json(result, study_members)); }
 
 const Change& change_in(const StudyResult& result, const std::string& name) {
     for (const Change& change : result.changes)
@@ -242,7 +243,7 @@ TEST(StudyCompare, WhereNothingWasPlayedNothingIsSaidToBeUnchanged) {
         cell.readings.clear();
     }
     compare_cells(result);
-    for (const std::string& text : {document_text(study_summary(result)), study_json(result), document_html(document(result), result)}) {
+    for (const std::string& text : {document_text(study_summary(result)), json_of(result), document_html(document(result), result)}) {
         EXPECT_THAT(text, HasSubstr("Nothing could be compared: of no two lamps was the same cell played."));
         EXPECT_THAT(text, Not(HasSubstr("deciding reading changed")));
     }
@@ -269,7 +270,7 @@ TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
     result.study.limits[0].at_least = 1.0;
     compare_cells(result);
     const std::string part = "9 of 660 moments of each drive were played (--frames 0:8)";
-    for (const std::string& text : {document_text(study_summary(result)), study_json(result), document_markdown(study_paper(result)),
+    for (const std::string& text : {document_text(study_summary(result)), json_of(result), document_markdown(study_paper(result)),
                                     document_latex(study_paper(result)), document_html(document(result), result)})
         EXPECT_THAT(text, HasSubstr(part));
     EXPECT_THAT(report_junit(suites_of(result)), AllOf(HasSubstr("9 of 660 moments (--frames 0:8)"), Not(HasSubstr("all moments"))));
@@ -310,15 +311,12 @@ TEST(StudyJson, ComesBack) {
     compare_cells(result);
     ASSERT_EQ(result.changes.size(), 2U);
     ASSERT_EQ(result.largest.size(), 1U);
-    const TemporaryFolder folder;
-    std::ofstream(folder / "study.json") << study_json(result);
-    tests::checked(folder / "study.json", study_json_schema(), read_study_json, study_json);
-    EXPECT_EQ(study_json(read_study_json(folder / "study.json")), study_json(result));
-    result.figures[0].cells = {0};
-    std::string text = study_json(result);
-    text.replace(text.find("[\"one_old\"]"), 10, "[\"one_odd\"");
-    std::ofstream(folder / "study.json") << text;
-    EXPECT_THAT([&] { read_study_json(folder / "study.json"); }, testing::ThrowsMessage<InputError>(HasSubstr("figures[0].cells[0]")));
+    std::string text = json_of(result);
+    tests::checked(text, study_members);
+    EXPECT_EQ(json_of(from_json<StudyResult>(CheckedJson::parse(text, {}), study_members)), text);
+    text.replace(text.find("[\"one_new\"]"), 11, "[\"one_odd\"]");
+    EXPECT_THAT([&] { from_json<StudyResult>(CheckedJson::parse(text, {}), study_members); },
+                testing::ThrowsMessage<InputError>(HasSubstr("figures[0].cells[0]")));
 }
 
 TEST(StudyText, TablesEscapeWhatTheirFormatsMean) {
