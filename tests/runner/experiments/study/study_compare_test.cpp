@@ -45,7 +45,7 @@ StudyResult two_cells(double old_reach_m, double new_reach_m) {
     return result;
 }
 
-std::string json_of(const StudyResult& result) { return json_text(as_json(result, study_members)); }
+std::string study_json_of(const StudyResult& result) { return json_text(as_json(result, study_members)); }
 
 const Change& change_in(const StudyResult& result, const std::string& name) {
     for (const Change& change : result.changes)
@@ -243,7 +243,7 @@ TEST(StudyCompare, WhereNothingWasPlayedNothingIsSaidToBeUnchanged) {
         cell.readings.clear();
     }
     compare_cells(result);
-    for (const std::string& text : {document_text(study_summary(result)), json_of(result), document_html(document(result), result)}) {
+    for (const std::string& text : {document_text(study_summary(result)), study_json_of(result), document_html(document(result), result)}) {
         EXPECT_THAT(text, HasSubstr("Nothing could be compared: of no two lamps was the same cell played."));
         EXPECT_THAT(text, Not(HasSubstr("deciding reading changed")));
     }
@@ -270,7 +270,7 @@ TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
     result.study.limits[0].at_least = 1.0;
     compare_cells(result);
     const std::string part = "9 of 660 moments of each drive were played (--frames 0:8)";
-    for (const std::string& text : {document_text(study_summary(result)), json_of(result), document_markdown(study_paper(result)),
+    for (const std::string& text : {document_text(study_summary(result)), study_json_of(result), document_markdown(study_paper(result)),
                                     document_latex(study_paper(result)), document_html(document(result), result)})
         EXPECT_THAT(text, HasSubstr(part));
     EXPECT_THAT(report_junit(suites_of(result)), AllOf(HasSubstr("9 of 660 moments (--frames 0:8)"), Not(HasSubstr("all moments"))));
@@ -311,9 +311,9 @@ TEST(StudyJson, ComesBack) {
     compare_cells(result);
     ASSERT_EQ(result.changes.size(), 2U);
     ASSERT_EQ(result.largest.size(), 1U);
-    std::string text = json_of(result);
+    std::string text = study_json_of(result);
     tests::checked(text, study_members);
-    EXPECT_EQ(json_of(from_json<StudyResult>(CheckedJson::parse(text, {}), study_members)), text);
+    EXPECT_EQ(study_json_of(from_json<StudyResult>(CheckedJson::parse(text, {}), study_members)), text);
     text.replace(text.find("[\"one_new\"]"), 11, "[\"one_odd\"]");
     EXPECT_THAT([&] { from_json<StudyResult>(CheckedJson::parse(text, {}), study_members); },
                 testing::ThrowsMessage<InputError>(HasSubstr("figures[0].cells[0]")));
