@@ -22,6 +22,10 @@ JsonPart json_leaf(std::uint64_t& value) { return leaf(value, "integer", &Checke
 JsonPart json_leaf(double& value) { return leaf(value, "number", &CheckedJson::number); }
 JsonPart json_leaf(std::string& value) { return leaf(value, "string", &CheckedJson::text); }
 
+JsonPart json_leaf(std::filesystem::path& value) {
+    return through([&value] { return value.string(); }, [&value](const std::string& text) { value = text; });
+}
+
 JsonPart json_leaf(Value& value) {
     return {[&value] { return value_json(value); }, [&value](const CheckedJson& json) { value = value_in(json); },
             [] {

@@ -41,6 +41,7 @@ JsonPart json_leaf(int& value);
 JsonPart json_leaf(std::uint64_t& value);
 JsonPart json_leaf(double& value);
 JsonPart json_leaf(std::string& value);
+JsonPart json_leaf(std::filesystem::path& value);
 JsonPart json_leaf(Value& value);
 JsonPart json_leaf(ReadingKey& value); ///< by name
 JsonPart json_leaf(JsonTexts& value);
@@ -70,7 +71,7 @@ template <class T, class... Inner> JsonPart json_part(T&& value, Inner... inner)
                     typename Plain::value_type one{};
                     return nullable(json_part(one, inner...).schema());
                 }};
-    } else if constexpr (!std::is_same_v<Plain, std::string> && !std::is_same_v<Plain, JsonTexts> && requires { value.begin(); }) {
+    } else if constexpr (!requires { json_leaf(value); }) {
         return {[&value, inner...] {
                     Json list = Json::array();
                     for (auto& element : value)
@@ -171,6 +172,23 @@ template <class T, class... Inner> T from_json(const CheckedJson& json, Inner...
     T value{};
     json_part(value, inner...).read(json);
     return value;
+}
+/// A list of two.
+template <class T> JsonPart both(T& first, T& second, JsonMembers (*members)(T&)) {
+    return {[=, &first, &second] {
+                return nlohmann::ordered_json::array({as_json(first, members), as_json(second, members)});
+            },
+            [=, &first, &second](const CheckedJson& json) {
+                const std::vector<CheckedJson> two = json.items();
+                if (two.size() != 2)
+                    json.refuse("2 elements");
+                JsonPart(members(first)).read(two[0]);
+                JsonPart(members(second)).read(two[1]);
+            },
+            [=] {
+                std::vector<T> none;
+                return json_part(none, members).schema();
+            }};
 }
 template <class T> std::string json_schema(JsonMembers (*members)(T&)) {
     T usual;

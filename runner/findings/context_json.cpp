@@ -2,10 +2,7 @@
 
 namespace fernlicht {
 
-JsonMembers file_members(FileRead& file) {
-    const auto path = through([&] { return file.path.string(); }, [&](const std::string& text) { file.path = text; });
-    return {{"path", path}, {"bytes", file.bytes}, {"xxh128", file.xxh128}};
-}
+JsonMembers file_members(FileRead& file) { return {{"path", file.path}, {"bytes", file.bytes}, {"xxh128", file.xxh128}}; }
 
 JsonMembers moment_members(std::pair<int, double>& moment) { return {{"frame", moment.first}, {"time_s", moment.second}}; }
 
