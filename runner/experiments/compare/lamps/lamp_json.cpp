@@ -76,22 +76,23 @@ JsonMembers lamps_members(LampPairComparison& lamps) {
                                 });
     const auto id =
         through([&lamps] { return lamps.regulation->id; }, [&lamps](const std::string& name) { lamps.regulation = &regulation(name); });
-    return {{"schema", json_constant("fernlicht comparison")},
-            {"schema_version", json_constant(2)},
-            {"kind", json_constant("lamps")},
-            {"reference", lamps.before.path},
-            {"tested", lamps.now.path},
-            {"strictness", json_constant(nullptr)},
-            {"passed", passed},
-            {"lamps", both(lamps.before, lamps.now, compared_lamp_members)},
-            {"difference", lamps.difference, difference_part},
-            {"facts", lamps.facts, lamp_fact_members},
-            {"regulation", null_unless(lamps.regulation, JsonMembers{{"id", id},
-                                                                     {"edition", lamps.regulation ? lamps.regulation->edition : ""},
-                                                                     {"rows", lamps.rows, compared_row_members},
-                                                                     {"old", told_part(lamps.before.check_told)},
-                                                                     {"new", told_part(lamps.now.check_told)}})},
-            {"figures", lamps.figures, compared_figure_members}};
+    return {
+        {"schema", json_constant("fernlicht comparison")},
+        {"schema_version", json_constant(2)},
+        {"kind", json_constant("lamps")},
+        {"reference", lamps.before.path},
+        {"tested", lamps.now.path},
+        {"strictness", json_constant(nullptr)},
+        {"passed", passed},
+        {"lamps", both(lamps.before, lamps.now, compared_lamp_members)},
+        {"difference", lamps.difference, difference_part},
+        {"facts", lamps.facts, lamp_fact_members},
+        {"regulation", null_unless(lamps.regulation != nullptr, JsonMembers{{"id", id},
+                                                                            {"edition", lamps.regulation ? lamps.regulation->edition : ""},
+                                                                            {"rows", lamps.rows, compared_row_members},
+                                                                            {"old", told_part(lamps.before.check_told)},
+                                                                            {"new", told_part(lamps.now.check_told)}})},
+        {"figures", lamps.figures, compared_figure_members}};
 }
 
 std::string lamps_csv(const LampPairComparison& lamps) {
