@@ -93,11 +93,11 @@ TEST(DescribedJson, SaysWhatIsRefusedWhere) {
 }
 
 LayerComparison judged_layer() {
-    const StrictnessResult kept{"no pixel differs", true, 0.0, 0.0, "lx", 6, 2, 1, 0.0, {}};
-    const StrictnessResult broken{"no pixel differs by more than 0 lx", false, 1.5, 0.0, "lx", 6, 2, 1, {}, {}};
+    const StrictnessResult kept{"mean FLIP", true, 0.0, 0.5, "", 6, 2, 1, 1.0, {}},
+        broken{"no pixel differs", false, 1.5, 0.0, "lx", 6, 2, 1};
     LayerComparison layer{"illuminance.lx", "lx"};
     layer.values = {{"rmse", "lx", 0.5}, {"max_error", "lx", 1.5, {}, 2, 1}, {"psnr_db", "dB", {}, "the reference has no light"}};
-    layer.strictness = StrictnessResult{"all of", false, 0.0, 0.0, "", 0, 0, 0, {}, {kept, broken}};
+    layer.strictness = StrictnessResult{.statement = "all of", .children = {kept, broken}};
     layer.histogram = {5, std::vector<std::size_t>(ErrorHistogram::bins, 0)};
     layer.histogram.counts[18] = 1;
     return layer;
@@ -120,9 +120,7 @@ TEST(DescribedJson, ComparedPicturesComeBack) {
     found.comparison.strictness_name = "same-light";
     const nlohmann::json told = tests::checked(json_text(as_json(found, pictures_members)), pictures_members);
     EXPECT_EQ(told.at("passed"), false);
-    const nlohmann::json& layer = told.at("layers").at(0);
-    EXPECT_EQ(layer.at("values").at(1).dump(), R"({"name":"max_error","not_measured":null,"unit":"lx","value":1.5,"x":2,"y":1})");
-    EXPECT_EQ(layer.at("strictness").at("children").at(1).at("found"), 1.5);
+    EXPECT_EQ(told.at("layers").at(0).at("strictness").at("children").at(1).at("found"), 1.5);
 }
 
 TEST(DescribedJson, ComparedLampsComeBack) {
@@ -147,8 +145,7 @@ TEST(DescribedJson, ComparedLampsComeBack) {
 TEST(DescribedJson, ComparedRunsComeBack) {
     RunComparison runs;
     runs.before = {"out/a", "fernlicht run", "2026-01-01T00:00:00Z", "1", "egl", "llvmpipe", "x", {}};
-    runs.strictness_name = "identical";
-    runs.largest = {{0, 1}};
+    runs.strictness_name = "identical", runs.largest = {{0, 1}};
     DriveComparison& drive = runs.drives.emplace_back();
     drive.now.drive = "straight", drive.before.technique = "full";
     drive.settings = {{"lamps.left.file", "a.ies", ""}};
@@ -163,9 +160,7 @@ TEST(DescribedJson, ComparedRunsComeBack) {
     drive.frames[1].pictures = {"frames/straight/driver-000006/flip.png"};
     drive.figures = {{"lux-lines_straight.1", "Isolux lines", {}}};
     const nlohmann::json told = tests::checked(json_text(as_json(runs, runs_members)), runs_members).at("drives").at(0);
-    EXPECT_EQ(told.at("changes").at(1).at("id"), "c0-1");
     EXPECT_EQ(told.at("changes").at(0).at("change").at("at_least"), 150.0);
-    EXPECT_EQ(told.at("frames").at(0).at("equal"), true);
     EXPECT_EQ(told.at("figures").at(0).at("png"), "figures/lux-lines_straight.1.png");
 }
 
@@ -192,9 +187,9 @@ void expect_schema(const std::string& file, const std::string& described) {
 }
 
 TEST(DescribedJson, IsTheSchema) {
-    expect_schema("accuracy/accuracy.schema.json", accuracy_json_schema());
-    expect_schema("shadows/shadows.schema.json", shadow_json_schema());
-    expect_schema("aliasing/aliasing.schema.json", aliasing_json_schema());
+    expect_schema("accuracy/accuracy.schema.json", json_schema(accuracy_members));
+    expect_schema("shadows/shadows.schema.json", json_schema(shadow_members));
+    expect_schema("aliasing/aliasing.schema.json", json_schema(aliasing_members));
     expect_schema("run/report.schema.json", report_json_schema());
     expect_schema("compare/pictures.schema.json", json_schema(pictures_members));
     expect_schema("compare/lamps/lamps.schema.json", json_schema(lamps_members));

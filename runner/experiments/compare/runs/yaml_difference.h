@@ -13,9 +13,6 @@ struct YamlChange {
     std::string old_value, new_value; ///< on one line; "" where the document has no such key
 };
 
-/// A value on one line, in YAML's flow form.
-std::string flow_text(const YamlValue& value);
-
 /// The member of a map, or nullptr: no map, no such key.
 const YamlValue* member_of(const YamlValue& map, const std::string& key);
 

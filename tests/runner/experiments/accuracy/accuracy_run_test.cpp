@@ -18,9 +18,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-json checked_accuracy(const std::filesystem::path& file) {
-    return tests::checked(file, accuracy_json_schema(), read_accuracy_json, accuracy_json);
-}
+json checked_accuracy(const std::filesystem::path& file) { return tests::checked(content_of(file), accuracy_members); }
 
 /// What `accuracy` finds, its files in `folder`/out; `said`: what it prints.
 json results_of(const TemporaryFolder& folder, const std::string& flags, const std::string& drives, std::string* said = nullptr) {

@@ -16,9 +16,7 @@ using ::testing::Not;
 
 const std::string small = "shadows --quiet --resolution 96x72 --lamp " + library_file("lamps/xenon-low.ies") + " ";
 
-json checked_shadows(const std::filesystem::path& file) {
-    return tests::checked(file, shadow_json_schema(), read_shadow_json, shadow_json);
-}
+json checked_shadows(const std::filesystem::path& file) { return tests::checked(content_of(file), shadow_members); }
 
 const json& row_of(const json& scene, const std::string& method) {
     for (const json& row : scene.at("rows"))
