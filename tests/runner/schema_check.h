@@ -98,6 +98,12 @@ template <class Result> nlohmann::json checked(const std::string& text, JsonMemb
     return found;
 }
 
+/// The one in a list that has this value there; throws where there is none.
+inline const nlohmann::json& entry(const nlohmann::json& list, const char* key, const std::string& value) {
+    const auto found = std::ranges::find_if(list, [&](const nlohmann::json& one) { return one.at(key) == value; });
+    return found == list.end() ? throw std::out_of_range(value) : *found;
+}
+
 /// Complaints about `value` by a schema in runner/experiments, as "run/report".
 inline std::vector<std::string> complaints(const nlohmann::json& value, const std::string& schema) {
     return Schema(nlohmann::json::parse(std::ifstream(FERNLICHT_SOURCE_DIR "/runner/experiments/" + schema + ".schema.json"))).check(value);

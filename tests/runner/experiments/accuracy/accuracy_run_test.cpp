@@ -32,12 +32,7 @@ double error_of(const json& diagrams, std::size_t diagram, std::size_t row) {
     return diagrams.at(diagram).at("rows").at(row).at("error").at("value").get<double>();
 }
 
-const json& row_of(const json& rows, const std::string& label) {
-    for (const json& row : rows)
-        if (row.at("label") == label)
-            return row;
-    throw std::out_of_range(label);
-}
+const json& row_of(const json& rows, const std::string& label) { return tests::entry(rows, "label", label); }
 
 TEST(AccuracyRun, HoldsTechniquesAgainstTheReference) {
     const TemporaryFolder folder;

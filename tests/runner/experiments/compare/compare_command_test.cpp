@@ -54,11 +54,8 @@ class CompareCommand : public testing::Test {
         return run_program("compare '" + path(a) + "' '" + path(b) + "' " + more);
     }
     static std::optional<double> value(const json& layer, const std::string& name) {
-        for (const json& one : layer.at("values"))
-            if (one.at("name") == name)
-                return one.at("value").is_null() ? std::nullopt : std::optional<double>(one.at("value"));
-        ADD_FAILURE() << name;
-        return std::nullopt;
+        const json& found = tests::entry(layer.at("values"), "name", name).at("value");
+        return found.is_null() ? std::nullopt : std::optional<double>(found);
     }
     void write_class(const std::string& text) const { std::ofstream(path("class.yaml")) << text; }
     TemporaryFolder folder_;

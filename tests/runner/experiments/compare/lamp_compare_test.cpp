@@ -26,13 +26,7 @@ struct LampCompare : ::testing::Test {
         EXPECT_LE(outcome.exit_code, 1) << outcome.output;
         return json::parse(outcome.output);
     }
-    static json fact(const json& found, const std::string& name) {
-        for (const json& one : found.at("facts"))
-            if (one.at("name") == name)
-                return one;
-        ADD_FAILURE() << name;
-        return {};
-    }
+    static json fact(const json& found, const std::string& name) { return tests::entry(found.at("facts"), "name", name); }
 };
 
 TEST_F(LampCompare, SaysWhatTheCommandsOfOneLampSay) {

@@ -47,13 +47,7 @@ class RunCompare : public ::testing::Test {
     }
     static json report_of(const std::string& run) { return json::parse(content_of(at(run) + "/report.json")); }
     static double row(const std::string& run, const std::string& name) { return tests::reading_of(at(run), name); }
-    static json change_in(const json& drive, const std::string& reading) {
-        for (const json& one : drive.at("changes"))
-            if (one.at("reading") == reading)
-                return one;
-        ADD_FAILURE() << reading;
-        return {};
-    }
+    static json change_in(const json& drive, const std::string& reading) { return tests::entry(drive.at("changes"), "reading", reading); }
     /// The drive that was played, something in it put otherwise.
     static std::string edited(const std::string& run, const std::string& from, const std::string& to) {
         std::string drive = content_of(at(run) + "/straight-1.yaml");
