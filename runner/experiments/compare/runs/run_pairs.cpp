@@ -11,15 +11,7 @@
 namespace fernlicht {
 namespace {
 
-const YamlValue* lamp_set_of(const RunDrive& drive) {
-    const YamlValue* lamp_sets = member_of(drive.resolved, "lamp_sets");
-    return lamp_sets ? member_of(*lamp_sets, drive.lamp_set) : nullptr;
-}
-
-const YamlValue* lamps_of(const RunDrive& drive) {
-    const YamlValue* lamp_set = lamp_set_of(drive);
-    return lamp_set ? member_of(*lamp_set, "lamps") : nullptr;
-}
+const YamlValue* lamp_set_of(const RunDrive& drive) { return member_of(member_of(drive.resolved, "lamp_sets"), drive.lamp_set); }
 
 bool is_same(const RunDrive& a, const RunDrive& b, const char* key) {
     std::vector<YamlChange> changes;
@@ -180,7 +172,7 @@ MeasureChange measure_change(const YamlValue& before, const YamlValue& now) {
 }
 
 void compare_lamp_files(DriveComparison& drive) {
-    const YamlValue *before = lamps_of(drive.before), *now = lamps_of(drive.now);
+    const YamlValue *before = member_of(lamp_set_of(drive.before), "lamps"), *now = member_of(lamp_set_of(drive.now), "lamps");
     if (!before || !now)
         return;
     for (const YamlMember& lamp : now->members) {

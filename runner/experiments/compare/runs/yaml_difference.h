@@ -15,6 +15,7 @@ struct YamlChange {
 
 /// The member of a map, or nullptr: no map, no such key.
 const YamlValue* member_of(const YamlValue& map, const std::string& key);
+inline const YamlValue* member_of(const YamlValue* map, const std::string& key) { return map ? member_of(*map, key) : nullptr; }
 
 /// Maps are compared member by member, whatever their order; lists of one length item by item; all else as a whole. Appends to `changes`.
 void add_changes(const YamlValue* before, const YamlValue* now, const std::string& key, std::vector<YamlChange>& changes);
