@@ -190,6 +190,23 @@ template <class T, class... Inner> T from_json(const CheckedJson& json, Inner...
     json_part(value, inner...).read(json);
     return value;
 }
+/// A list of two.
+template <class T> JsonPart both(T& first, T& second, JsonMembers (*members)(T&)) {
+    return {[=, &first, &second] {
+                return nlohmann::ordered_json::array({as_json(first, members), as_json(second, members)});
+            },
+            [=, &first, &second](const CheckedJson& json) {
+                const std::vector<CheckedJson> two = json.items();
+                if (two.size() != 2)
+                    json.refuse("2 elements");
+                JsonPart(members(first)).read(two[0]);
+                JsonPart(members(second)).read(two[1]);
+            },
+            [=] {
+                std::vector<T> none;
+                return json_part(none, members).schema();
+            }};
+}
 template <class T> std::string json_schema(JsonMembers (*members)(T&)) {
     T usual;
     return json_text(JsonPart(members(usual)).schema());

@@ -16,7 +16,5 @@ JsonMembers file_members(FileRead& file);
 JsonMembers moment_members(std::pair<int, double>& moment);
 
 inline nlohmann::ordered_json context_json(const RunContext& context) { return as_json(context, context_members); }
-inline nlohmann::ordered_json versions_json(const RunContext& context) { return as_json(context.versions); }
-inline nlohmann::ordered_json inputs_json(const RunContext& context) { return as_json(context.inputs, file_members); }
 
 } // namespace fernlicht
