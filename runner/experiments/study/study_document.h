@@ -15,7 +15,7 @@ Document study_summary(const StudyResult& result);
 Document study_paper(const StudyResult& result);
 
 /// study.schema.json describes it. What differs from call to call stands under `context`.
-JsonMembers study_members(StudyResult& result); ///< of its JSON; what is played and the lamps' differences do not come back
+JsonMembers study_members(StudyResult& result); ///< of its JSON; what was played does not come back
 /// RFC 4180: one line a change.
 std::string study_csv(const StudyResult& result);
 /// The verdicts as those of a run: one suite a cell, and one of the study's own limits.

@@ -10,8 +10,6 @@
 namespace fernlicht {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// A place in a list of the study, as what is there is called; what the list lacks is added to it.
 template <class List, class Name = std::identity> JsonPart place_in_study(List& list, std::size_t& place, Name name = {}) {
     using Called = std::remove_cvref_t<std::invoke_result_t<Name, typename List::value_type&>>;
@@ -36,13 +34,13 @@ JsonPart cell_by_name(const StudyResult& result, std::size_t& cell) {
 }
 
 JsonMembers lamp_comparison_members(LampComparison& lamps) {
-    const JsonPart difference([&lamps] { return difference_json(lamps.difference); }, nullptr,
-                              [] {
-                                  const Json told{"differs", "says", "zones", "noise_relative", "z_limit"};
-                                  return Json{{"type", "object"}, {"required", told}};
-                              });
-    return {{"new", lamps.tested}, {"against", lamps.against},       {"side", lamps.side},      {"says", lamp_verdict(lamps)},
-            {"file", lamps.file},  {"other_file", lamps.other_file}, {"difference", difference}};
+    return {{"new", lamps.tested},
+            {"against", lamps.against},
+            {"side", lamps.side},
+            {"says", lamp_verdict(lamps)},
+            {"file", lamps.file},
+            {"other_file", lamps.other_file},
+            {"difference", lamps.difference, difference_part}};
 }
 
 JsonMembers study_change_members(Change& change, const StudyResult& result) {

@@ -304,7 +304,8 @@ TEST(StudyJson, ComesBack) {
     result.cells[1].error_share = 0.02;
     result.cells[1].reused = true;
     result.cells[1].verdicts = {{VerdictKind::fail, "reach", "50 m", "fernlicht run", Expectation::known, "known since May"}};
-    result.lamps = {{"new", "old", "left", "new.ies", "old.ies", {}}, {"new", "old", "right", "new-right.ies", "old-right.ies", {}}};
+    result.lamps = {{"new", "old", "left", "new.ies", "old.ies", {.level = {{0.03, 0.01}}, .undecided = "not known which"}},
+                    {"new", "old", "right", "new-right.ies", "old-right.ies", {}}};
     result.figures = {{{.name = "figures/lux_one.new"}, "Lux", {1}}};
     result.interrupted = result.cells[0].failed = "interrupted by the user";
     result.context.versions = {{"fernlicht", "0.1"}};
