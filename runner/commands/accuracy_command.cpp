@@ -65,7 +65,7 @@ int accuracy(const AccuracyFlags& flags, const std::vector<std::string>& command
     request.command = command;
     request.quiet = flags.quiet;
     request.write = [&](const AccuracyResult& result) {
-        write_file(request.folder / "accuracy.json", accuracy_json(result));
+        write_file(request.folder / "accuracy.json", json_text(as_json(result, accuracy_members)));
         write_file(request.folder / "accuracy.csv", accuracy_csv(result));
         write_document(document(result), result, request.folder, "accuracy", flags.tables);
     };

@@ -120,7 +120,7 @@ AliasingResult run(const AliasingFlags& flags, const std::vector<std::string>& c
         return folder;
     };
     const auto write = [&](const AliasingResult& result) {
-        write_file(folder / "aliasing.json", aliasing_json(result));
+        write_file(folder / "aliasing.json", json_text(as_json(result, aliasing_members)));
         write_file(folder / "aliasing.csv", aliasing_csv(result));
         write_document(document(result), result, folder, "aliasing", flags.tables);
     };

@@ -60,16 +60,19 @@ class Results {
         return [this](const Plot& plot) { write_plot(plot, folder() / plot.name); };
     }
 
-    /// The page, the other files, all of them complete; then what is printed. `files`: by name, compare.json first.
-    template <class Found> void finish(const Found& found, const std::vector<std::pair<std::string, std::string>>& files) {
+    /// The page, the other files, all of them complete; then what is printed. `tables`: by name.
+    template <class Found>
+    void finish(const Found& found, JsonMembers (*members)(Found&), const std::vector<std::pair<std::string, std::string>>& tables = {}) {
         const Document told = document(found);
+        const std::string json = json_text(as_json(found, members));
         if (folder_) {
-            for (const auto& [name, content] : files)
+            write_file(folder() / "compare.json", json);
+            for (const auto& [name, content] : tables)
                 write_file(folder() / name, content);
             write_document(told, found, folder(), "report");
             folder_->finish();
         }
-        fmt::print("{}", flags_.json ? files.front().second : document_text(told));
+        fmt::print("{}", flags_.json ? json : document_text(told));
         if (folder_ && !flags_.json)
             fmt::print("\n{}\n", (folder() / "report.html").string());
     }
@@ -101,7 +104,7 @@ int compare_two_pictures(const CompareFlags& flags, const std::vector<std::strin
     found.comparison = compare_pictures(found.pair, density, strictness ? &*strictness : nullptr);
     if (results.are_kept())
         found.pictures = draw_difference(found.comparison, found.pair, results.take());
-    results.finish(found, {{"compare.json", pictures_json(found)}});
+    results.finish(found, pictures_members);
     return found.comparison.passed() ? 0 : 1;
 }
 
@@ -130,7 +133,7 @@ int compare_two_runs(const CompareFlags& flags, const std::vector<std::string>& 
     runs.context = command_context(command);
     if (results.are_kept())
         draw_runs(runs, options, pictured, results.take());
-    results.finish(runs, {{"compare.json", runs_json(runs)}, {"compare.csv", runs_csv(runs)}, {"frames.csv", frames_csv(runs)}});
+    results.finish(runs, runs_members, {{"compare.csv", runs_csv(runs)}, {"frames.csv", frames_csv(runs)}});
     return runs.passed() ? 0 : 1;
 }
 
@@ -141,7 +144,7 @@ int compare_two_lamps(const CompareFlags& flags, const std::vector<std::string>&
     Results results(flags);
     if (results.are_kept())
         lamps.figures = lamp_figures(lamps);
-    results.finish(lamps, {{"compare.json", lamps_json(lamps)}, {"compare.csv", lamps_csv(lamps)}});
+    results.finish(lamps, lamps_members, {{"compare.csv", lamps_csv(lamps)}});
     return lamps.passed() ? 0 : 1;
 }
 

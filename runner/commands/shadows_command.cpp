@@ -98,7 +98,7 @@ int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) 
     request.command = command;
     request.quiet = flags.quiet;
     request.write = [&](const ShadowResult& result) {
-        write_file(request.folder / "shadows.json", shadow_json(result));
+        write_file(request.folder / "shadows.json", json_text(as_json(result, shadow_members)));
         write_file(request.folder / "shadows.csv", shadow_csv(result));
         write_document(document(result), result, request.folder, "shadows", flags.tables);
     };

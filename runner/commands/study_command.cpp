@@ -34,7 +34,7 @@ int list_cells(const std::vector<StudyCell>& cells) {
 /// The page last: a disk that fills up takes it before it takes the numbers.
 void write_study(const StudyResult& result, const std::filesystem::path& folder) {
     const Document paper = study_paper(result);
-    write_file(folder / "study.json", study_json(result));
+    write_file(folder / "study.json", json_text(as_json(result, study_members)));
     write_file(folder / "study.csv", study_csv(result));
     std::vector<std::string> papers;
     for (const OutputFormat& format : output_formats())

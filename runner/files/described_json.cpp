@@ -22,6 +22,10 @@ JsonPart json_leaf(std::uint64_t& value) { return leaf(value, "integer", &Checke
 JsonPart json_leaf(double& value) { return leaf(value, "number", &CheckedJson::number); }
 JsonPart json_leaf(std::string& value) { return leaf(value, "string", &CheckedJson::text); }
 
+JsonPart json_leaf(std::filesystem::path& value) {
+    return through([&value] { return value.string(); }, [&value](const std::string& text) { value = text; });
+}
+
 JsonPart json_leaf(Value& value) {
     return {[&value] { return value_json(value); }, [&value](const CheckedJson& json) { value = value_in(json); },
             [] {
@@ -69,9 +73,10 @@ JsonPart::JsonPart(JsonMembers members)
               return object;
           },
           [members](const CheckedJson& json) {
-              for (const JsonMember& member : members)
-                  if (member.part.read && (!member.part.may_lack || json.has(member.key)))
-                      member.part.read(json.at(member.key));
+              for (const int turn : {0, 1, 2})
+                  for (const auto& [key, part] : members)
+                      if (part.turn == turn && part.read && (!part.may_lack || json.has(key)))
+                          part.read(json.at(key));
           },
           [members] {
               Json required = Json::array(), properties = Json::object();
@@ -87,6 +92,11 @@ JsonMembers when(bool there, JsonMembers members) {
     for (JsonMember& member : members)
         member.part.is_there = there, member.part.may_lack = true;
     return members;
+}
+
+JsonPart in_turn(int turn, JsonPart part) {
+    part.turn = turn;
+    return part;
 }
 
 Json nullable(Json schema) {

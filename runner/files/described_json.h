@@ -33,6 +33,7 @@ struct JsonPart {
     std::function<Json()> schema;
     bool is_there = true;
     bool may_lack = false; ///< left out where it is not there
+    int turn = 0;          ///< 0, 1 or 2: read after all members of an earlier one
 };
 
 JsonPart json_constant(nlohmann::ordered_json value); ///< all else is refused
@@ -41,6 +42,7 @@ JsonPart json_leaf(int& value);
 JsonPart json_leaf(std::uint64_t& value);
 JsonPart json_leaf(double& value);
 JsonPart json_leaf(std::string& value);
+JsonPart json_leaf(std::filesystem::path& value);
 JsonPart json_leaf(Value& value);
 JsonPart json_leaf(ReadingKey& value); ///< by name
 JsonPart json_leaf(JsonTexts& value);
@@ -70,7 +72,7 @@ template <class T, class... Inner> JsonPart json_part(T&& value, Inner... inner)
                     typename Plain::value_type one{};
                     return nullable(json_part(one, inner...).schema());
                 }};
-    } else if constexpr (!std::is_same_v<Plain, std::string> && !std::is_same_v<Plain, JsonTexts> && requires { value.begin(); }) {
+    } else if constexpr (!requires { json_leaf(value); }) {
         return {[&value, inner...] {
                     Json list = Json::array();
                     for (auto& element : value)
@@ -137,11 +139,27 @@ template <class T> JsonPart or_null(T& value, T none = T{}) {
                    [&value, none](const std::optional<T>& given) { value = given.value_or(none); });
 }
 
+/// Of a part that names what other members hold: read after those.
+JsonPart in_turn(int turn, JsonPart part);
+
 /// null unless it is there.
 JsonPart null_unless(bool there, JsonPart part);
 
 /// Of an optional value: {"not_measured": why} rather than null, read back into `back`.
 JsonPart or_why(JsonPart optional, const std::string& why, std::string* back = nullptr);
+
+/// One for each element of `list`, which another member of the JSON, `of`, made before.
+template <class List, class Inner> JsonPart one_for_each(List& list, Inner inner, const std::string& of) {
+    JsonPart part = json_part(list, inner);
+    part.read = [&list, inner, of](const CheckedJson& json) {
+        const std::vector<CheckedJson> entries = json.items();
+        if (entries.size() != list.size())
+            json.refuse(std::to_string(list.size()) + " entries, as " + of + " has");
+        for (std::size_t i = 0; i < entries.size(); ++i)
+            json_part(list[i], inner).read(entries[i]);
+    };
+    return part;
+}
 
 /// A number of an enumerator or an index, as that element of what `list` gives.
 template <class E, class List> JsonPart one_of(E& value, List list) {
@@ -171,6 +189,23 @@ template <class T, class... Inner> T from_json(const CheckedJson& json, Inner...
     T value{};
     json_part(value, inner...).read(json);
     return value;
+}
+/// A list of two.
+template <class T> JsonPart both(T& first, T& second, JsonMembers (*members)(T&)) {
+    return {[=, &first, &second] {
+                return nlohmann::ordered_json::array({as_json(first, members), as_json(second, members)});
+            },
+            [=, &first, &second](const CheckedJson& json) {
+                const std::vector<CheckedJson> two = json.items();
+                if (two.size() != 2)
+                    json.refuse("2 elements");
+                JsonPart(members(first)).read(two[0]);
+                JsonPart(members(second)).read(two[1]);
+            },
+            [=] {
+                std::vector<T> none;
+                return json_part(none, members).schema();
+            }};
 }
 template <class T> std::string json_schema(JsonMembers (*members)(T&)) {
     T usual;

@@ -1,6 +1,7 @@
-// What results were made with, and the moments they are of, as parts of every JSON that holds some.
+// What results were made with, the moments they are of and how times spread, as parts of every JSON that holds some.
 #pragma once
 
+#include "metrics/statistics/statistics.h"
 #include "runner/files/described_json.h"
 #include "runner/findings/findings.h"
 
@@ -8,13 +9,12 @@ namespace fernlicht {
 
 /// Command, time, seed, backend and driver, CPU, system, versions and inputs.
 JsonMembers context_members(RunContext& context);
+JsonMembers spread_members(Spread& spread);
 /// Path, size and hash of a file that was opened.
 JsonMembers file_members(FileRead& file);
 /// Tick and time of a moment.
 JsonMembers moment_members(std::pair<int, double>& moment);
 
 inline nlohmann::ordered_json context_json(const RunContext& context) { return as_json(context, context_members); }
-inline nlohmann::ordered_json versions_json(const RunContext& context) { return as_json(context.versions); }
-inline nlohmann::ordered_json inputs_json(const RunContext& context) { return as_json(context.inputs, file_members); }
 
 } // namespace fernlicht

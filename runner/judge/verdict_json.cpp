@@ -4,12 +4,11 @@
 
 namespace fernlicht {
 
+JsonPart verdict_kind_part(VerdictKind& kind) { return one_of(kind, names_of<VerdictKind>(verdict_name, 4)); }
+
 JsonMembers verdict_members(Verdict& verdict) {
     const auto expectations = [] { return std::vector<std::string>{"", "known", "expired", "unexpected_pass"}; };
-    return joined({{"name", verdict.name},
-                   {"verdict", one_of(verdict.kind, names_of<VerdictKind>(verdict_name, 4))},
-                   {"text", verdict.text},
-                   {"rerun", verdict.rerun}},
+    return joined({{"name", verdict.name}, {"verdict", verdict.kind, verdict_kind_part}, {"text", verdict.text}, {"rerun", verdict.rerun}},
                   when(verdict.expectation != Expectation::none || !verdict.known.empty(),
                        {{"listed", {{"as", one_of(verdict.expectation, expectations)}, {"text", verdict.known}}}}));
 }

@@ -1,4 +1,4 @@
-// Verdicts and repeats as parts of report.json.
+// Verdicts and repeats as parts of reports' JSON.
 #pragma once
 
 #include "runner/files/described_json.h"
@@ -6,11 +6,10 @@
 
 namespace fernlicht {
 
+JsonPart verdict_kind_part(VerdictKind& kind); ///< by name
 /// `listed` stands only where the list of known failures names the verdict.
 JsonMembers verdict_members(Verdict& verdict);
 JsonMembers count_members(VerdictCounts& counts);
 JsonMembers repeats_members(Repeats& repeats);
-
-inline nlohmann::ordered_json verdicts_json(const std::vector<Verdict>& verdicts) { return as_json(verdicts, verdict_members); }
 
 } // namespace fernlicht

@@ -1,6 +1,8 @@
 // JSON against a schema of ours, by the few words of JSON Schema that they use.
 #pragma once
 
+#include "runner/files/described_json.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -85,6 +87,21 @@ template <class Result> nlohmann::json checked(const std::filesystem::path& file
     EXPECT_EQ(Schema(nlohmann::json::parse(schema)).check(found), std::vector<std::string>());
     EXPECT_EQ(nlohmann::json::parse(text(read(file))), found);
     return found;
+}
+
+/// The same of a text, by the members that it describes.
+template <class Result> nlohmann::json checked(const std::string& text, JsonMembers (*members)(Result&)) {
+    nlohmann::json found = nlohmann::json::parse(text);
+    EXPECT_EQ(Schema(nlohmann::json::parse(json_schema(members))).check(found), std::vector<std::string>());
+    const Result read = from_json<Result>(CheckedJson::parse(text, {}), members);
+    EXPECT_EQ(nlohmann::json::parse(json_text(as_json(read, members))), found);
+    return found;
+}
+
+/// The one in a list that has this value there; throws where there is none.
+inline const nlohmann::json& entry(const nlohmann::json& list, const char* key, const std::string& value) {
+    const auto found = std::ranges::find_if(list, [&](const nlohmann::json& one) { return one.at(key) == value; });
+    return found == list.end() ? throw std::out_of_range(value) : *found;
 }
 
 /// Complaints about `value` by a schema in runner/experiments, as "run/report".

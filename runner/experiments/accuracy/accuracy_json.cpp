@@ -97,6 +97,8 @@ JsonMembers diagram_members(WorkPrecision& diagram) {
             {"notes", diagram.notes},      {"rows", diagram.rows, row_members}};
 }
 
+} // namespace
+
 JsonMembers accuracy_members(AccuracyResult& result) {
     return {
         {"schema", json_constant("fernlicht accuracy")},
@@ -107,14 +109,6 @@ JsonMembers accuracy_members(AccuracyResult& result) {
         {"settings", {{"rounds", result.rounds}, {"target_error", result.target_error}, {"max_samples", result.max_samples}}},
         {"drives", result.drives, drive_members},
         {"diagrams", result.diagrams, diagram_members}};
-}
-
-} // namespace
-
-std::string accuracy_json(const AccuracyResult& result) { return json_text(as_json(result, accuracy_members)); }
-std::string accuracy_json_schema() { return json_schema(accuracy_members); }
-AccuracyResult read_accuracy_json(const std::filesystem::path& file) {
-    return from_json<AccuracyResult>(CheckedJson::read(file), accuracy_members);
 }
 
 std::string accuracy_csv(const AccuracyResult& result) {

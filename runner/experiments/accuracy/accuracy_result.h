@@ -4,6 +4,7 @@
 #include "metrics/images/pixel_errors.h"
 #include "metrics/statistics/work_precision.h"
 #include "runner/experiments/bench/bench_result.h"
+#include "runner/files/described_json.h"
 #include "runner/findings/document.h"
 #include "runner/findings/reach_error.h"
 
@@ -91,9 +92,7 @@ std::vector<WorkPrecision> sweep_diagrams(const DriveAccuracy& drive);
 /// docs/accuracy.md tells how to read it.
 Document document(const AccuracyResult& result);
 /// docs/accuracy.md and accuracy.schema.json describe it.
-std::string accuracy_json(const AccuracyResult& result);
-std::string accuracy_json_schema();
-AccuracyResult read_accuracy_json(const std::filesystem::path& file); ///< without pictures; throws InputError
+JsonMembers accuracy_members(AccuracyResult& result); ///< of its JSON; pictures do not come back
 /// RFC 4180: a line for each row of each diagram.
 std::string accuracy_csv(const AccuracyResult& result);
 

@@ -116,6 +116,8 @@ std::vector<std::string> names_by_aliasing(const AliasingResult& result) {
     return names;
 }
 
+} // namespace
+
 JsonMembers aliasing_members(AliasingResult& result) {
     return {{"schema", json_constant("fernlicht aliasing")},
             {"schema_version", json_constant(3)},
@@ -140,8 +142,6 @@ JsonMembers aliasing_members(AliasingResult& result) {
             {"optical_flow", result.flows, flow_members},
             {"least_to_most", names_by_aliasing(result)}};
 }
-
-} // namespace
 
 std::string filter_name(SurfaceFilter filter) {
     return filter == SurfaceFilter::none ? "none" : filter == SurfaceFilter::trilinear ? "trilinear" : "mipmapped";
@@ -172,12 +172,6 @@ std::string motion_text(const FollowedByFlow& flow) {
                        "within {:.3f} px{}",
                        flow.followed, flow.started, flow.flat, flow.median_motion_px, flow.median_return_px,
                        2 * flow.followed < flow.started ? "; fewer than half, and flicker is known of those alone" : "");
-}
-
-std::string aliasing_json(const AliasingResult& result) { return json_text(as_json(result, aliasing_members)); }
-std::string aliasing_json_schema() { return json_schema(aliasing_members); }
-AliasingResult read_aliasing_json(const std::filesystem::path& file) {
-    return from_json<AliasingResult>(CheckedJson::read(file), aliasing_members);
 }
 
 std::string aliasing_csv(const AliasingResult& result) {

@@ -6,6 +6,7 @@
 #include "metrics/aliasing/spatial_aliasing.h"
 #include "metrics/aliasing/temporal_aliasing.h"
 #include "renderer/device.h"
+#include "runner/files/described_json.h"
 #include "runner/findings/document.h"
 #include "runner/findings/findings.h"
 #include "scenarios/drives/play/frame.h"
@@ -82,9 +83,7 @@ float displayed_cdm2(const Rgb8& pixel);
 
 /// docs/aliasing.md tells how to read it.
 Document document(const AliasingResult& result);
-std::string aliasing_json(const AliasingResult& result);
-std::string aliasing_json_schema();
-AliasingResult read_aliasing_json(const std::filesystem::path& file); ///< without pictures; throws InputError
+JsonMembers aliasing_members(AliasingResult& result); ///< of its JSON; pictures do not come back
 std::string aliasing_csv(const AliasingResult& result);
 bool measured_over_space(const AliasingRow& row);
 /// Rows measured over space, by what an eye sees of them, least first.

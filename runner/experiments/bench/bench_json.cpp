@@ -11,50 +11,32 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json spread_json(const Spread& spread) {
-    return {
-        {"count", spread.count},     {"median", spread.median},   {"p05", spread.p05},   {"p95", spread.p95},
-        {"minimum", spread.minimum}, {"maximum", spread.maximum}, {"mean", spread.mean}, {"standard_deviation", spread.standard_deviation}};
-}
-
-Json load_json(const std::optional<std::array<double, 3>>& load) { return load ? Json(*load) : Json(nullptr); }
-
 Json machine_json(const BenchResult& result) {
     Json context = context_json(result.context);
     context["gl_vendor"] = result.gl_vendor;
     context["cores"] = result.cores;
-    context["load_average_before"] = load_json(result.load_before);
-    context["load_average_after"] = load_json(result.load_after);
-    context["other_cores"] = result.others.cores ? Json(*result.others.cores) : Json(nullptr);
+    context["load_average_before"] = as_json(result.load_before);
+    context["load_average_after"] = as_json(result.load_after);
+    context["other_cores"] = as_json(result.others.cores);
     context["busiest_other"] =
         result.others.busiest.empty() ? Json(nullptr) : Json{{"process", result.others.busiest}, {"cores", result.others.busiest_cores}};
     return context;
 }
 
 Json settings_json(const BenchResult& result) {
-    Json moments = Json::array();
-    for (const auto& [tick, time_s] : result.moments)
-        moments.push_back({{"frame", tick}, {"time_s", time_s}});
     return {{"drive", result.drive},
             {"title", result.title},
             {"lamp_set", result.lamp_set},
             {"width_px", result.width_px},
             {"height_px", result.height_px},
-            {"moments", moments},
+            {"moments", as_json(result.moments, moment_members)},
             {"rounds_planned", result.rounds_planned},
             {"rounds_done", result.orders.size()},
             {"warm_up_plays_dropped", result.warm_up_plays},
             {"reference", reference_technique}};
 }
 
-Json ratio_json(const PairedRatio& ratio) {
-    return {{"rounds", ratio.rounds},
-            {"median", ratio.median},
-            {"p05", ratio.p05},
-            {"p95", ratio.p95},
-            {"verdict", difference_name(ratio.difference)},
-            {"text", verdict_text(ratio)}};
-}
+Json with_text(PairedRatio ratio) { return JsonPart(joined(ratio_members(ratio), JsonMembers{{"text", verdict_text(ratio)}})).write(); }
 
 Json work_json(const Work& work) {
     return {{"passes", work.passes},
@@ -75,18 +57,18 @@ Json technique_json(const BenchRow& row, const BenchResult& result) {
              {"thesis_row", technique.thesis_row > 0 ? Json(technique.thesis_row) : Json(nullptr)},
              {"thesis_fps", technique.thesis_fps.empty() ? Json(nullptr) : Json(technique.thesis_fps)},
              {"frames_per_s", row.frames_per_s()},
-             {"frame_s", spread_json(row.frame)},
+             {"frame_s", as_json(row.frame, spread_members)},
              {"frame_deviation_s", row.frame_deviation_s},
              {"frame_median_interval_s",
               row.frame_median
                   ? Json{{"low", row.frame_median->low}, {"high", row.frame_median->high}, {"confidence", row.frame_median->confidence}}
                   : Json(nullptr)},
-             {"latency_s", spread_json(row.latency)},
-             {"cpu_s", spread_json(row.cpu)},
-             {"gpu_s", row.gpu ? spread_json(*row.gpu) : Json(nullptr)}};
+             {"latency_s", as_json(row.latency, spread_members)},
+             {"cpu_s", as_json(row.cpu, spread_members)},
+             {"gpu_s", as_json(row.gpu, spread_members)}};
     if (!row.gpu)
         out["gpu_not_measured"] = result.gpu_not_measured;
-    out["ratio"] = row.ratio ? ratio_json(*row.ratio) : Json(nullptr);
+    out["ratio"] = row.ratio ? with_text(*row.ratio) : Json(nullptr);
     out["work"] = row.work ? work_json(*row.work) : Json(nullptr);
     out["samples"] = {{"frame_s", samples.frame_s}, {"cpu_s", samples.cpu_s}, {"gpu_s", samples.gpu_s}, {"latency_s", samples.latency_s}};
     return out;
@@ -99,13 +81,21 @@ Json comparisons_json(const std::vector<BenchRow>& rows) {
         for (std::size_t k = 0; k < i; ++k) {
             const auto ratio = paired_ratio(rows[i].benched->samples.frame_s, rows[k].benched->samples.frame_s);
             Json entry{{"technique", rows[i].benched->row.name}, {"against", rows[k].benched->row.name}};
-            entry.update(ratio_json(ratio.value()));
+            entry.update(with_text(ratio.value()));
             out.push_back(std::move(entry));
         }
     return out;
 }
 
 } // namespace
+
+JsonMembers ratio_members(PairedRatio& ratio) {
+    return {{"rounds", ratio.rounds},
+            {"median", ratio.median},
+            {"p05", ratio.p05},
+            {"p95", ratio.p95},
+            {"verdict", one_of(ratio.difference, names_of<Difference>(difference_name, 3))}};
+}
 
 std::string bench_json(const BenchResult& result) {
     const std::vector<BenchRow> rows = summarise(result);

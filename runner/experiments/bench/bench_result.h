@@ -4,6 +4,7 @@
 #include "metrics/statistics/statistics.h"
 #include "renderer/renderer.h"
 #include "renderer/technique.h"
+#include "runner/files/described_json.h"
 #include "runner/findings/document.h"
 #include "runner/findings/report.h"
 #include "runner/play/interleaved_timing.h"
@@ -54,6 +55,7 @@ std::vector<BenchRow> summarise(const BenchResult& result);
 
 /// "slower (ratio 2.31, spread 2.25..2.40)"; "not distinguishable (ratio 1.02, spread 0.97..1.06)".
 std::string verdict_text(const PairedRatio& ratio);
+JsonMembers ratio_members(PairedRatio& ratio);
 const char* difference_name(Difference difference); ///< "faster", "slower", "not distinguishable"
 
 /// What makes the times doubtful, one sentence each: others at work, few rounds, an end before its time.

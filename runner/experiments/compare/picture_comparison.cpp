@@ -13,8 +13,8 @@ namespace {
 
 using Values = std::vector<ComparedValue>;
 
-void add(Values& values, std::string name, std::string unit, double value, std::optional<std::pair<int, int>> place = {}) {
-    values.push_back({std::move(name), std::move(unit), value, {}, place});
+void add(Values& values, std::string name, std::string unit, double value, std::optional<int> x = {}, std::optional<int> y = {}) {
+    values.push_back({std::move(name), std::move(unit), value, {}, x, y});
 }
 
 void add_not_measured(Values& values, std::string name, std::string unit, std::string why) {
@@ -32,7 +32,7 @@ void add_psnr(Values& values, double psnr_db, double peak, const std::string& un
 void add_structure(Values& values, const Image<float>& tested, const Image<float>& reference, double range) {
     const Ssim found = ssim(tested, reference, range);
     add(values, "ssim", "", found.mean);
-    add(values, "ssim_least", "", found.minimum, std::pair(found.minimum_x, found.minimum_y));
+    add(values, "ssim_least", "", found.minimum, found.minimum_x, found.minimum_y);
     if (const std::optional<double> scales = ms_ssim(tested, reference, range))
         add(values, "ms_ssim", "", *scales);
     else
@@ -46,12 +46,7 @@ void add_colours(Values& values, const Image<float>& map) {
     add(values, "ciede2000_mean", "", found.mean);
     add(values, "ciede2000_median", "", found.median);
     add(values, "ciede2000_p95", "", found.p95);
-    add(values, "ciede2000_max", "", found.maximum, std::pair(found.maximum_x, found.maximum_y));
-}
-
-std::pair<int, int> place_of_largest(const Image<float>& map) {
-    const auto index = static_cast<int>(std::ranges::max_element(map.pixels()) - map.pixels().begin());
-    return {index % map.width(), index / map.width()};
+    add(values, "ciede2000_max", "", found.maximum, found.maximum_x, found.maximum_y);
 }
 
 void add_flip(Values& values, const Image<float>& map) {
@@ -64,7 +59,8 @@ void add_flip(Values& values, const Image<float>& map) {
     add(values, "flip_median", "", s.median);
     add(values, "flip_third_quartile", "", s.third_quartile);
     add(values, "flip_min", "", s.minimum);
-    add(values, "flip_max", "", s.maximum, place_of_largest(map));
+    const auto largest = static_cast<int>(std::ranges::max_element(map.pixels()) - map.pixels().begin());
+    add(values, "flip_max", "", s.maximum, largest % map.width(), largest / map.width());
 }
 
 Image<float> subtracted(const Image<float>& tested, const Image<float>& reference) {
@@ -112,7 +108,7 @@ LayerComparison compare_display(const PicturePair& pair, double pixels_per_degre
     const Image<Rgb8>&tested = pair.tested_display, &reference = pair.reference_display;
     LayerComparison layer{.name = "display", .unit = "levels"};
     const DisplayDifference found = compare_displays(tested, reference);
-    add(layer.values, "max_error", "levels", found.maximum, std::pair(found.maximum_x, found.maximum_y));
+    add(layer.values, "max_error", "levels", found.maximum, found.maximum_x, found.maximum_y);
     add(layer.values, "rmse", "levels", found.rmse);
     add_psnr(layer.values, found.psnr_db, 255.0, "levels");
     add(layer.values, "percent_different", "%", found.percent_different);
@@ -173,7 +169,7 @@ LayerComparison compare_linear(const LinearPair& pair, double pixels_per_degree,
     LayerComparison layer{.name = pair.name, .unit = pair.unit};
     const ImageDifference found = compare_images(pair.tested, pair.reference, 0.0, 0.0);
     const double peak = peak_of(pair.reference);
-    add(layer.values, "max_error", pair.unit, found.maximum, std::pair(found.maximum_x, found.maximum_y));
+    add(layer.values, "max_error", pair.unit, found.maximum, found.maximum_x, found.maximum_y);
     add(layer.values, "rmse", pair.unit, found.rmse);
     add_psnr(layer.values, found.psnr_db, peak, pair.unit);
     add(layer.values, "percent_different", "%", found.percent_over);

@@ -3,10 +3,10 @@
 
 #include "metrics/strictness/strictness.h"
 #include "runner/experiments/compare/picture_pair.h"
+#include "runner/files/described_json.h"
 #include "runner/findings/document.h"
 #include "runner/findings/findings.h"
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,14 +22,14 @@ struct ComparedFigure {
     std::string place() const { return "figures/" + name; }
     Plot plot() const { return {place(), figure, {}, 2.0}; }
 };
-nlohmann::ordered_json figures_json(const std::vector<ComparedFigure>& figures);
+JsonMembers compared_figure_members(ComparedFigure& figure);
 
 struct ComparedValue {
-    std::string name;                              ///< snake_case: rmse, psnr_db, flip_mean
-    std::string unit;                              ///< "" for none
-    std::optional<double> value;                   ///< none: not measured
-    std::string why_not = {};                      ///< where there is none
-    std::optional<std::pair<int, int>> place = {}; ///< the pixel that it was found at
+    std::string name;                  ///< snake_case: rmse, psnr_db, flip_mean
+    std::string unit;                  ///< "" for none
+    std::optional<double> value;       ///< none: not measured
+    std::string why_not = {};          ///< where there is none
+    std::optional<int> x = {}, y = {}; ///< the pixel that it was found at
 };
 
 /// One quantity: the display colours, or one channel of a linear picture.
@@ -63,9 +63,9 @@ struct PicturesFound : Findings {
 };
 
 Document document(const PicturesFound& found);
-std::string pictures_json(const PicturesFound& found); ///< compare.schema.json describes it
-/// The part of it that the frames of runs have too.
-nlohmann::ordered_json layers_json(const PictureComparison& comparison);
+JsonMembers pictures_members(PicturesFound& found); ///< of compare.json
+/// The part of it that the frames of runs have too. `place`: of this part in the schema, "#/properties/layers".
+JsonPart layers_part(PictureComparison& comparison, const std::string& place);
 
 /// A sentence a demand of the strictness that was not kept: channel, demand, found, limit, margin, and the pixel that is farthest off.
 std::vector<std::string> strictness_failures(const PictureComparison& comparison);

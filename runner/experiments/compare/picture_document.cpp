@@ -14,10 +14,7 @@ Table values_table(const LayerComparison& layer) {
     Table table{"figures-" + layer.name, "", columns_of("figure<|value|unit<|place<"), {}};
     for (const ComparedValue& v : layer.values)
         if (v.value)
-            table.rows.push_back({v.name,
-                                  {six_digits(*v.value), *v.value},
-                                  v.unit,
-                                  v.place ? fmt::format("at {}, {}", v.place->first, v.place->second) : ""});
+            table.rows.push_back({v.name, {six_digits(*v.value), *v.value}, v.unit, v.x ? fmt::format("at {}, {}", *v.x, *v.y) : ""});
         else
             table.rows.push_back({v.name, "not measured", "", v.why_not});
     return table;

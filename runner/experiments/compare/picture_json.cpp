@@ -1,86 +1,68 @@
 #include "runner/experiments/compare/picture_comparison.h"
-#include "runner/files/json_text.h"
-
-#include <nlohmann/json.hpp>
-#include <tuple>
 
 namespace fernlicht {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json value_json(const ComparedValue& v) {
-    return {{"name", v.name},
-            {"unit", v.unit},
-            {"value", v.value ? Json(*v.value) : Json(nullptr)},
-            {"not_measured", v.value ? Json(nullptr) : Json(v.why_not)},
-            {"x", v.place ? Json(v.place->first) : Json(nullptr)},
-            {"y", v.place ? Json(v.place->second) : Json(nullptr)}};
+JsonMembers compared_value_members(ComparedValue& v) {
+    return {{"name", v.name}, {"unit", v.unit}, {"value", v.value}, {"not_measured", null_unless(!v.value, json_leaf(v.why_not))},
+            {"x", v.x},       {"y", v.y}};
 }
 
-Json strictness_json(const StrictnessResult& r) {
-    Json out{{"statement", r.statement}, {"passed", r.passed}, {"margin", r.margin ? Json(*r.margin) : Json(nullptr)}};
-    if (r.children.empty()) {
-        out["found"] = r.found;
-        out["threshold"] = r.threshold;
-        out["unit"] = r.unit;
-        out["pixels"] = r.pixels;
-        out["worst_x"] = r.worst_x;
-        out["worst_y"] = r.worst_y;
-        return out;
-    }
-    out["children"] = Json::array();
-    for (const StrictnessResult& child : r.children)
-        out["children"].push_back(strictness_json(child));
-    return out;
+/// Described once, at `place`, which those within one lead back to.
+JsonMembers strictness_members(StrictnessResult& r, const std::string& place) {
+    JsonPart children = json_part(r.children, [place](StrictnessResult& child) { return strictness_members(child, place); });
+    children.schema = [place] { return nlohmann::ordered_json{{"type", "array"}, {"items", {{"$ref", place}}}}; };
+    return joined({{"statement", r.statement}, {"passed", r.passed}, {"margin", r.margin}},
+                  when(r.children.empty(), {{"found", r.found},
+                                            {"threshold", r.threshold},
+                                            {"unit", r.unit},
+                                            {"pixels", r.pixels},
+                                            {"worst_x", r.worst_x},
+                                            {"worst_y", r.worst_y}}),
+                  when(!r.children.empty(), {{"children", children}}));
 }
 
-Json histogram_json(const ErrorHistogram& histogram) {
-    Json edges = Json::array();
+JsonMembers error_histogram_members(ErrorHistogram& histogram) {
+    std::vector<double> edges;
     for (int i = 0; i <= ErrorHistogram::bins; ++i)
         edges.push_back(ErrorHistogram::edge(i));
-    return {{"equal", histogram.equal}, {"edges", edges}, {"counts", histogram.counts}};
+    return {{"equal", histogram.equal}, {"edges", std::move(edges)}, {"counts", histogram.counts}};
 }
 
 } // namespace
 
-nlohmann::ordered_json layers_json(const PictureComparison& comparison) {
-    Json layers = Json::array();
-    for (const LayerComparison& layer : comparison.layers) {
-        Json values = Json::array();
-        for (const ComparedValue& v : layer.values)
-            values.push_back(value_json(v));
-        layers.push_back({{"name", layer.name},
-                          {"unit", layer.unit},
-                          {"values", values},
-                          {"strictness", layer.strictness ? strictness_json(*layer.strictness) : Json(nullptr)},
-                          {"histogram", histogram_json(layer.histogram)}});
-    }
-    return layers;
+JsonPart layers_part(PictureComparison& comparison, const std::string& place) {
+    const auto strictness = [at = place + "/items/properties/strictness"](StrictnessResult& r) { return strictness_members(r, at); };
+    return json_part(comparison.layers, [strictness](LayerComparison& layer) -> JsonMembers {
+        return {{"name", layer.name},
+                {"unit", layer.unit},
+                {"values", layer.values, compared_value_members},
+                {"strictness", layer.strictness, strictness},
+                {"histogram", layer.histogram, error_histogram_members}};
+    });
 }
 
-nlohmann::ordered_json figures_json(const std::vector<ComparedFigure>& figures) {
-    Json list = Json::array();
-    for (const ComparedFigure& figure : figures)
-        list.push_back({{"svg", figure.place() + ".svg"}, {"png", figure.place() + ".png"}, {"title", figure.title}});
-    return list;
+JsonMembers compared_figure_members(ComparedFigure& figure) {
+    const auto svg = through([&figure] { return figure.place() + ".svg"; },
+                             [&figure](const std::string& file) { figure.name = std::filesystem::path(file).stem().string(); });
+    return {{"svg", svg}, {"png", figure.place() + ".png"}, {"title", figure.title}};
 }
 
-std::string pictures_json(const PicturesFound& found) {
-    const auto& [comparison, pair] = std::tie(found.comparison, found.pair);
-    return json_text({{"schema", "fernlicht comparison"},
-                      {"schema_version", 2},
-                      {"kind", "pictures"},
-                      {"notes", pair.notes},
-                      {"reference", pair.reference.string()},
-                      {"tested", pair.tested.string()},
-                      {"width_px", pair.width},
-                      {"height_px", pair.height},
-                      {"pixels_per_degree", comparison.pixels_per_degree},
-                      {"strictness", comparison.strictness_name.empty() ? Json(nullptr) : Json(comparison.strictness_name)},
-                      {"passed", comparison.strictness_name.empty() ? Json(nullptr) : Json(comparison.passed())},
-                      {"layers", layers_json(comparison)},
-                      {"pictures", found.pictures}});
+JsonMembers pictures_members(PicturesFound& found) {
+    PictureComparison& comparison = found.comparison;
+    return {{"schema", json_constant("fernlicht comparison")},
+            {"schema_version", json_constant(2)},
+            {"kind", json_constant("pictures")},
+            {"notes", found.pair.notes},
+            {"reference", found.pair.reference},
+            {"tested", found.pair.tested},
+            {"width_px", found.pair.width},
+            {"height_px", found.pair.height},
+            {"pixels_per_degree", comparison.pixels_per_degree},
+            {"strictness", or_null(comparison.strictness_name)},
+            {"passed", comparison.strictness_name.empty() ? std::nullopt : std::optional(comparison.passed())},
+            {"layers", layers_part(comparison, "#/properties/layers")},
+            {"pictures", found.pictures}};
 }
 
 } // namespace fernlicht

@@ -1,5 +1,4 @@
 #include "runner/experiments/reference/reference_result.h"
-#include "runner/files/json_text.h"
 #include "runner/files/picture_file.h"
 #include "runner/findings/context_json.h"
 #include "scenarios/display/tone_mapper.h"
@@ -9,11 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace fernlicht {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The square of a standard error as a float image.
 Image<float> variance_of(const Image<float>& standard_error) {
@@ -57,48 +55,19 @@ Image<Rgb8> grey_picture(const Image<float>& cdm2, const ToneMapper& mapper) {
     return out;
 }
 
-Json error_json(const std::optional<ErrorReached>& error) {
-    if (!error)
-        return nullptr;
-    return {{"lit_pixels", error->lit_pixels},
-            {"median", error->median},
-            {"p95", error->p95},
-            {"worst", error->worst},
-            {"share_reached", error->share_reached}};
+JsonMembers error_reached_members(ErrorReached& error) {
+    return {{"lit_pixels", error.lit_pixels},
+            {"median", error.median},
+            {"p95", error.p95},
+            {"worst", error.worst},
+            {"share_reached", error.share_reached}};
 }
 
-/// No seed and no driver: rays need none of them.
-Json machine_json(const RunContext& context) {
-    return {{"command", context.command}, {"started_utc", context.started_utc}, {"cpu", context.cpu},
-            {"os", context.os},           {"versions", versions_json(context)}, {"inputs", inputs_json(context)}};
-}
-
-/// Of the method that was used alone.
-Json solver_json(const ReferenceSettings& s) {
-    const SolverSettings& v = s.solver;
-    if (s.integrator == Integrator::radiosity)
-        return {{"reach_m", v.reach_m},
-                {"patch_m", v.patch_m},
-                {"form_factor_rays", v.form_factor_rays},
-                {"residual", v.residual},
-                {"final_gather", v.final_gather}};
-    if (s.integrator == Integrator::photon_map)
-        return {{"reach_m", v.reach_m}, {"photons", v.photons}, {"radius_m", v.radius_m}, {"final_gather", v.final_gather}};
-    return nullptr;
-}
-
-Json preparation_json(const ReferenceResult& r) {
-    const Preparation& p = r.image.preparation;
-    if (r.settings.integrator == Integrator::radiosity)
-        return {{"seconds", p.seconds}, {"rays", p.rays}, {"patches", p.patches}, {"sweeps", p.sweeps}, {"residual", p.residual}};
-    if (r.settings.integrator == Integrator::photon_map)
-        return {{"seconds", p.seconds}, {"rays", p.rays}, {"photons_stored", p.photons_stored}};
-    return nullptr;
-}
-
-Json settings_json(const ReferenceResult& r) {
-    const ReferenceSettings& s = r.settings;
-    return {{"integrator", integrator_name(s.integrator)},
+/// Of solvers that which was used alone has.
+JsonMembers reference_settings_members(ReferenceSettings& s) {
+    SolverSettings& v = s.solver;
+    const bool patches = s.integrator == Integrator::radiosity, photons = s.integrator == Integrator::photon_map;
+    return {{"integrator", one_of(s.integrator, names_of<Integrator>(integrator_name, 5))},
             {"target_error", s.target_error},
             {"floor_lx", s.floor_lx},
             {"floor_cdm2", s.floor_cdm2},
@@ -109,16 +78,33 @@ Json settings_json(const ReferenceResult& r) {
             {"target_height_m", s.target_height_m},
             {"shadows", s.shadows},
             {"max_smooth", s.max_smooth},
-            {"solver", solver_json(s)},
+            {"solver",
+             null_unless(patches || photons,
+                         joined({{"reach_m", v.reach_m}},
+                                when(patches, {{"patch_m", v.patch_m}, {"form_factor_rays", v.form_factor_rays}, {"residual", v.residual}}),
+                                when(photons, {{"photons", static_cast<std::uint64_t>(v.photons)}, {"radius_m", v.radius_m}}),
+                                JsonMembers{{"final_gather", v.final_gather}}))},
             {"seed", s.seed}};
 }
 
-Json reference_json(const ReferenceResult& r) {
-    std::uint64_t samples = 0;
-    for (const std::uint32_t count : r.image.samples.pixels())
-        samples += count;
-    return {{"schema", "fernlicht-reference"},
-            {"version", 2},
+JsonPart preparation_part(ReferenceResult& r) {
+    Preparation& p = r.image.preparation;
+    const bool patches = r.settings.integrator == Integrator::radiosity, photons = r.settings.integrator == Integrator::photon_map;
+    return null_unless(patches || photons, joined({{"seconds", p.seconds}, {"rays", p.rays}},
+                                                  when(patches, {{"patches", p.patches}, {"sweeps", p.sweeps}, {"residual", p.residual}}),
+                                                  when(photons, {{"photons_stored", p.photons_stored}})));
+}
+
+/// No seed and no driver: rays need none of them.
+JsonMembers ray_context_members(RunContext& context) {
+    return {{"command", context.command}, {"started_utc", context.started_utc}, {"cpu", context.cpu},
+            {"os", context.os},           {"versions", context.versions},       {"inputs", context.inputs, file_members}};
+}
+
+JsonMembers reference_result_members(ReferenceResult& r) {
+    const auto& counts = r.image.samples.pixels();
+    return {{"schema", json_constant("fernlicht-reference")},
+            {"version", json_constant(2)},
             {"drive", r.drive},
             {"title", r.title},
             {"lamp_set", r.lamp_set},
@@ -128,20 +114,24 @@ Json reference_json(const ReferenceResult& r) {
             {"tick", r.moment.tick},
             {"time_s", r.moment.time_s},
             {"complete", r.image.complete},
-            {"settings", settings_json(r)},
+            {"settings", reference_settings_members(r.settings)},
             {"inputs_hash", r.inputs_hash},
             {"relative_standard_error",
-             {{"illuminance", error_json(r.illuminance())}, {"target", error_json(r.target())}, {"luminance", error_json(r.luminance())}}},
-            {"preparation", preparation_json(r)},
+             {{"illuminance", r.illuminance(), error_reached_members},
+              {"target", r.target(), error_reached_members},
+              {"luminance", r.luminance(), error_reached_members}}},
+            {"preparation", preparation_part(r)},
             {"triangles", r.triangles},
-            {"samples", samples},
+            {"samples", std::accumulate(counts.begin(), counts.end(), std::uint64_t{0})},
             {"rays", r.image.rays},
             {"seconds", r.image.seconds},
             {"rays_per_second", static_cast<double>(r.image.rays) / std::max(r.image.seconds, 1e-9)},
-            {"context", machine_json(r.context)}};
+            {"context", ray_context_members(r.context)}};
 }
 
 } // namespace
+
+std::string reference_json_schema() { return json_schema(reference_result_members); }
 
 void write_reference(const ReferenceResult& r, const ToneMapper& tone_mapper, const std::filesystem::path& folder) {
     write_channels(channels_of(r.image), r.moment, r.view,
@@ -155,7 +145,7 @@ void write_reference(const ReferenceResult& r, const ToneMapper& tone_mapper, co
                    folder / "reference.exr");
     if (!r.image.luminance_cdm2.mean.empty())
         write_png(grey_picture(r.image.luminance_cdm2.mean, tone_mapper), folder / "reference.png");
-    write_file(folder / "reference.json", json_text(reference_json(r)));
+    write_file(folder / "reference.json", json_text(as_json(r, reference_result_members)));
 }
 
 } // namespace fernlicht

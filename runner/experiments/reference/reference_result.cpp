@@ -4,15 +4,10 @@
 
 #include <algorithm>
 #include <iterator>
-#include <string_view>
 
 namespace fernlicht {
 
-static constexpr std::pair<Integrator, std::string_view> integrators[]{{Integrator::direct, "direct"},
-                                                                       {Integrator::path, "path"},
-                                                                       {Integrator::whitted, "whitted"},
-                                                                       {Integrator::radiosity, "radiosity"},
-                                                                       {Integrator::photon_map, "photon-map"}};
+static constexpr const char* integrators[]{"direct", "path", "whitted", "radiosity", "photon-map"};
 
 std::optional<ErrorReached> error_reached(const Estimate& estimate, const Image<std::uint32_t>& samples, double target_error,
                                           double floor) {
@@ -45,13 +40,11 @@ std::optional<ErrorReached> ReferenceResult::luminance() const {
     return error_reached(image.luminance_cdm2, image.samples, settings.target_error, settings.floor_cdm2);
 }
 
-std::string integrator_name(Integrator integrator) {
-    return std::string(std::ranges::find(integrators, integrator, [](const auto& one) { return one.first; })->second);
-}
+std::string integrator_name(Integrator integrator) { return integrators[static_cast<std::size_t>(integrator)]; }
 
 std::optional<Integrator> integrator_of(const std::string& name) {
-    const auto found = std::ranges::find(integrators, name, [](const auto& one) { return one.second; });
-    return found == std::end(integrators) ? std::nullopt : std::optional(found->first);
+    const auto found = std::ranges::find(integrators, name);
+    return found == std::end(integrators) ? std::nullopt : std::optional(static_cast<Integrator>(found - integrators));
 }
 
 } // namespace fernlicht

@@ -42,6 +42,7 @@ std::optional<Integrator> integrator_of(const std::string& name);
 
 /// reference.exr (mean and variance), reference.json, and of perspective views reference.png for eyes. Throws DeviceError.
 void write_reference(const ReferenceResult& result, const ToneMapper& tone_mapper, const std::filesystem::path& folder);
+std::string reference_json_schema();
 
 /// How exact it is and what it took.
 Document document(const ReferenceResult& result);

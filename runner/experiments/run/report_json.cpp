@@ -46,12 +46,6 @@ std::optional<double> microseconds(const std::optional<double>& value) {
     return value ? std::optional(std::stod(fmt::format("{:.6f}", *value))) : std::nullopt;
 }
 
-JsonMembers spread_members(Spread& spread) {
-    return {
-        {"count", spread.count},     {"median", spread.median},   {"p05", spread.p05},   {"p95", spread.p95},
-        {"minimum", spread.minimum}, {"maximum", spread.maximum}, {"mean", spread.mean}, {"standard_deviation", spread.standard_deviation}};
-}
-
 using NamedValues = std::vector<std::pair<std::string, Value>>;
 
 /// Values by name, others where they are there, then the reasons of those that are null.
@@ -327,14 +321,6 @@ JsonPart drawn_part(std::vector<double>& seconds, Work& work) {
         JsonMembers{{"spread_s", spread_of(seconds), spread_members}, {"samples_s", seconds}, {"work", counted_work_members(work)}});
 }
 
-JsonMembers ratio_members(PairedRatio& ratio) {
-    return {{"rounds", ratio.rounds},
-            {"median", ratio.median},
-            {"p05", ratio.p05},
-            {"p95", ratio.p95},
-            {"verdict", one_of(ratio.difference, names_of<Difference>(difference_name, 3))}};
-}
-
 /// Where nothing was measured, times and counts are null.
 JsonMembers savings_members(PruningSavings& savings) {
     return joined({{"frames", savings.ticks},
@@ -355,33 +341,10 @@ JsonMembers times_members(PlayedCell& played) {
             {"savings", savings_members(played.savings)}};
 }
 
-/// One for each of the drives, which are read before.
-JsonPart times_part(std::vector<PlayedCell>& played) {
-    return {[&played] { return as_json(played, times_members); },
-            [&played](const CheckedJson& json) {
-                const std::vector<CheckedJson> entries = json.items();
-                if (entries.size() != played.size())
-                    json.refuse(fmt::format("{} entries, as drives has", played.size()));
-                for (std::size_t i = 0; i < entries.size(); ++i)
-                    JsonPart(times_members(played[i])).read(entries[i]);
-            },
-            [] {
-                std::vector<PlayedCell> none;
-                return json_part(none, times_members).schema();
-            }};
-}
-
 JsonMembers report_members(Report& report) {
-    const auto names = names_of<VerdictKind>(verdict_name, 4);
-    const JsonPart verdict([&report] { return Json(verdict_name(overall(report))); }, nullptr, [names] { return Json{{"enum", names()}}; });
-    const JsonPart live([&report] { return live_json(*report.live); }, nullptr,
-                        [] {
-                            LiveFigures none;
-                            return JsonPart(live_members(none)).schema();
-                        });
     return joined({{"schema", json_constant("fernlicht report")},
                    {"schema_version", json_constant(2)},
-                   {"verdict", verdict},
+                   {"verdict", overall(report), verdict_kind_part},
                    {"verdict_counts", count_verdicts(report), count_members},
                    {"known_failures", report.listed, verdict_members},
                    {"warnings", report.warnings},
@@ -389,8 +352,8 @@ JsonMembers report_members(Report& report) {
                    {"interrupted", or_null(report.interrupted)},
                    {"drives", report.played, played_members},
                    {"context", context_members(report.context)},
-                   {"times", times_part(report.played)}},
-                  when(report.live != nullptr, {{"live", live}}));
+                   {"times", one_for_each(report.played, times_members, "drives")}},
+                  when(report.live != nullptr, {{"live", value_of(report.live), live_members}}));
 }
 
 /// Rows tell drive and lamp set by name.

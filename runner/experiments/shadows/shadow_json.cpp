@@ -87,6 +87,8 @@ JsonMembers scene_members(ShadowSceneResult& scene) {
             {"rows", scene.rows, shadow_row_members}};
 }
 
+} // namespace
+
 JsonMembers shadow_members(ShadowResult& result) {
     return {{"schema", json_constant("fernlicht shadows")},
             {"schema_version", json_constant(1)},
@@ -100,14 +102,6 @@ JsonMembers shadow_members(ShadowResult& result) {
             {"lamp_radius_m", result.lamp_radius_m},
             {"floor_lx", result.floor_lx},
             {"scenes", result.scenes, scene_members}};
-}
-
-} // namespace
-
-std::string shadow_json(const ShadowResult& result) { return json_text(as_json(result, shadow_members)); }
-std::string shadow_json_schema() { return json_schema(shadow_members); }
-ShadowResult read_shadow_json(const std::filesystem::path& file) {
-    return from_json<ShadowResult>(CheckedJson::read(file), shadow_members);
 }
 
 std::string shadow_csv(const ShadowResult& result) {

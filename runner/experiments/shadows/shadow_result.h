@@ -4,6 +4,7 @@
 #include "metrics/shadows/shadow_errors.h"
 #include "metrics/statistics/work_precision.h"
 #include "runner/experiments/bench/bench_result.h"
+#include "runner/files/described_json.h"
 #include "runner/findings/document.h"
 #include "scenarios/drives/shadow_settings.h"
 
@@ -78,9 +79,7 @@ Document document(const ShadowResult& result);
 /// All scenes in one table, as docs/shadow-tables.md has it.
 Document shadow_paper(const ShadowResult& result);
 /// docs/shadows.md and shadows.schema.json describe it.
-std::string shadow_json(const ShadowResult& result);
-std::string shadow_json_schema();
-ShadowResult read_shadow_json(const std::filesystem::path& file); ///< without pictures; throws InputError
+JsonMembers shadow_members(ShadowResult& result); ///< of its JSON; pictures do not come back
 /// RFC 4180: a line for each scene and method.
 std::string shadow_csv(const ShadowResult& result);
 

@@ -1,9 +1,7 @@
 #include "runner/experiments/study/study_result.h"
-#include "runner/findings/summary.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <set>
 
@@ -24,6 +22,7 @@ Change change_of(const StudyResult& result, std::size_t tested, std::size_t agai
     const CellResult &now = result.cells[tested], &before = result.cells[against];
     const double noise = noise_between(result, result.lamp_of(tested), result.lamp_of(against));
     static_cast<ReadingChange&>(change) = change_of_reading(key, now, before, noise);
+    change.id = fmt::format("c{}", result.changes.size());
     change.tested = tested;
     change.against = against;
     change.decides = is_named(key, result.study.readings);
@@ -129,6 +128,19 @@ void judge_changes(StudyResult& result, const StudyLimit& limit) {
              result.context.command});
 }
 
+/// "9", or "9 to 30" where cells differ.
+std::string range_over(const std::vector<CellResult>& cells, int CellResult::*count) {
+    const auto [least, most] = std::ranges::minmax_element(cells, {}, count);
+    return (*least).*count == (*most).*count ? fmt::format("{}", (*most).*count) : fmt::format("{} to {}", (*least).*count, (*most).*count);
+}
+
+std::string played_in_part(const StudyResult& result) {
+    if (std::ranges::none_of(result.cells, [](const CellResult& cell) { return cell.moments < cell.moments_of_drive; }))
+        return "";
+    return fmt::format("{} of {} moments of each drive were played (--frames {})", range_over(result.cells, &CellResult::moments),
+                       range_over(result.cells, &CellResult::moments_of_drive), result.frames);
+}
+
 } // namespace
 
 bool is_same_place(const StudyCell& a, const StudyCell& b) {
@@ -150,6 +162,7 @@ bool StudyResult::complete() const {
 }
 
 void compare_cells(StudyResult& result) {
+    result.played_in_part = played_in_part(result);
     for (const StudyComparison& comparison : result.study.comparisons)
         for (const auto& [tested, against] : result.pairs_of(comparison))
             for (const auto& [key, reading] : result.cells[tested].readings)

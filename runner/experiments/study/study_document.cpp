@@ -1,6 +1,5 @@
 #include "runner/experiments/study/study_document.h"
 #include "metrics/readings/reading_labels.h"
-#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/findings/figures.h"
@@ -11,12 +10,6 @@
 
 namespace fernlicht {
 namespace {
-
-/// "9", or "9 to 30" where cells differ.
-std::string range_over(const std::vector<CellResult>& cells, int CellResult::*count) {
-    const auto [least, most] = std::ranges::minmax_element(cells, {}, count);
-    return (*least).*count == (*most).*count ? fmt::format("{}", (*most).*count) : fmt::format("{} to {}", (*least).*count, (*most).*count);
-}
 
 std::size_t count_deciding(const StudyResult& result, std::optional<ChangeKind> kind = {}) {
     return static_cast<std::size_t>(
@@ -67,8 +60,7 @@ std::string change_sentence(const StudyResult& result, const Change& change) {
                        result.lamp_of(change.tested), result.lamp_of(change.against), cell.drive, cell.cell.condition);
 }
 
-Card card_of(const StudyResult& result, std::size_t index) {
-    const Change& change = result.changes[index];
+Card card_of(const StudyResult& result, const Change& change) {
     const std::string label = std::string_view(change.unit()) == "1" ? "" : unit_label(change.unit()),
                       unit = label.empty() ? "" : " " + label;
     std::string detail =
@@ -84,7 +76,7 @@ Card card_of(const StudyResult& result, std::size_t index) {
             label,
             change.relative() ? fmt::format("({} %)", signed_figure(100.0 * *change.relative(), 1)) : "",
             detail,
-            Cell(cell.drive + ", " + cell.cell.condition).linked(fmt::format("#c{}", index))};
+            Cell(cell.drive + ", " + cell.cell.condition).linked("#" + change.id)};
 }
 
 /// Of the page. What all rows have alike stands over it.
@@ -102,7 +94,7 @@ Table readings_table(const StudyResult& result) {
         if (!change.decides)
             continue;
         const CellResult& cell = result.cells[change.tested];
-        std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{{fmt::format("c{}", i), static_cast<double>(i)}});
+        std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{{change.id, static_cast<double>(i)}});
         if (several_lamps)
             cells.emplace_back(lamps_of(result, change));
         cells.emplace_back(cell.drive);
@@ -167,8 +159,8 @@ Section verdict_section(const StudyResult& result) {
     if (!result.interrupted.empty())
         section.blocks.emplace_back("The study did not end; --resume goes on.");
     section.blocks.emplace_back(study_sentence(result));
-    if (const std::string part = played_in_part(result); !part.empty())
-        section.blocks.emplace_back(part + ".");
+    if (!result.played_in_part.empty())
+        section.blocks.emplace_back(result.played_in_part + ".");
     Listing lamps;
     for (const LampComparison& pair : result.lamps)
         lamps.items.emplace_back(lamp_verdict(pair));
@@ -188,7 +180,7 @@ Section largest_section(const StudyResult& result) {
                      : nothing}};
     Cards cards;
     for (const std::size_t i : result.largest)
-        cards.push_back(card_of(result, i));
+        cards.push_back(card_of(result, result.changes[i]));
     return {
         "The largest changes",
         {std::move(cards),
@@ -252,13 +244,6 @@ std::string study_sentence(const StudyResult& result) {
                        unknown > 0 ? fmt::format("; of {} it is not known", unknown) : "");
 }
 
-std::string played_in_part(const StudyResult& result) {
-    if (std::ranges::none_of(result.cells, [](const CellResult& cell) { return cell.moments < cell.moments_of_drive; }))
-        return "";
-    return fmt::format("{} of {} moments of each drive were played (--frames {})", range_over(result.cells, &CellResult::moments),
-                       range_over(result.cells, &CellResult::moments_of_drive), result.frames);
-}
-
 Document document(const StudyResult& result, const std::vector<std::string>& papers) {
     Section lamps = lamps_section(result), reach{"Reach over the drive", {}}, glare{"Glare over the drive", {}},
             maps{"Lux from above", {"All maps in one scale, 0.1 to 100 lx; below each pair the ratio of new to old."}}, cells{"Cells", {}};
@@ -300,7 +285,7 @@ Document study_summary(const StudyResult& result) {
         }
     };
     say(result.study.title + ": " + (was_judged(result) ? verdict_name(overall(result)) : "no limits were set"));
-    say(played_in_part(result));
+    say(result.played_in_part);
     say(result.interrupted.empty() ? "" : "incomplete: " + result.interrupted);
     for (const CellResult& cell : result.cells)
         say(cell.failed.empty() ? "" : fmt::format("NOT PLAYED {}: {}", cell.cell.name, cell.failed));
@@ -334,8 +319,8 @@ Document study_paper(const StudyResult& result) {
                  change.uncertainty ? Cell(fmt::format("{:.2f}", change.total_uncertainty()), change.total_uncertainty()) : Cell(""),
                  unit_label(change.unit()), change_name(change.kind)});
     Section section{"", {std::move(table)}};
-    if (const std::string part = played_in_part(result); !part.empty())
-        section.blocks.emplace_back(part + ".");
+    if (!result.played_in_part.empty())
+        section.blocks.emplace_back(result.played_in_part + ".");
     section.blocks.emplace_back(
         "Medians over what was played of the drive unless said otherwise. ± is what calculation and the noise of the lamps' tables leave "
         "open of the change; within aim means that 0.1° of aim would do as much.");
@@ -346,16 +331,15 @@ std::string study_csv(const StudyResult& result) {
     std::string csv = "id,new,against,drive,technique,condition,reading,unit,old_value,new_value,change,uncertainty,by_tenth_degree,by_"
                       "noise,kind,decides,"
                       "new_cell,old_cell,why_not,old_bound,new_bound,change_bound\r\n";
-    for (std::size_t i = 0; i < result.changes.size(); ++i) {
-        const Change& c = result.changes[i];
+    for (const Change& c : result.changes) {
         const CellResult &now = result.cells[c.tested], &before = result.cells[c.against];
-        csv += csv_line(fmt::format("c{}", i), csv_text(result.study.lamps[now.cell.lamp].name),
-                        csv_text(result.study.lamps[before.cell.lamp].name), csv_text(now.drive),
-                        csv_text(result.study.techniques[now.cell.technique]), csv_text(now.cell.condition), csv_text(name_of(c.reading)),
-                        csv_text(c.unit()), csv_number(c.old_value.figure()), csv_number(c.new_value.figure()),
-                        csv_number(c.change().figure()), csv_number(c.uncertainty), csv_number(c.aim_effect), csv_number(c.noise_effect),
-                        change_name(c.kind), c.decides ? "yes" : "no", csv_text(now.cell.name), csv_text(before.cell.name),
-                        csv_text(c.reason_unknown), bound_name(c.old_value), bound_name(c.new_value), bound_name(c.change()));
+        csv +=
+            csv_line(c.id, csv_text(result.study.lamps[now.cell.lamp].name), csv_text(result.study.lamps[before.cell.lamp].name),
+                     csv_text(now.drive), csv_text(result.study.techniques[now.cell.technique]), csv_text(now.cell.condition),
+                     csv_text(name_of(c.reading)), csv_text(c.unit()), csv_number(c.old_value.figure()), csv_number(c.new_value.figure()),
+                     csv_number(c.change().figure()), csv_number(c.uncertainty), csv_number(c.aim_effect), csv_number(c.noise_effect),
+                     change_name(c.kind), c.decides ? "yes" : "no", csv_text(now.cell.name), csv_text(before.cell.name),
+                     csv_text(c.reason_unknown), bound_name(c.old_value), bound_name(c.new_value), bound_name(c.change()));
     }
     return csv;
 }

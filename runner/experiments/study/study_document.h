@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runner/experiments/study/study_result.h"
+#include "runner/files/described_json.h"
 #include "runner/findings/report.h"
 
 namespace fernlicht {
@@ -13,8 +14,8 @@ Document study_summary(const StudyResult& result);
 /// The table of the deciding readings, for papers.
 Document study_paper(const StudyResult& result);
 
-/// study.schema.json describes it. What differs from call to call stands under `context` and each cell's `times`.
-std::string study_json(const StudyResult& result);
+/// study.schema.json describes it. What differs from call to call stands under `context`.
+JsonMembers study_members(StudyResult& result); ///< of its JSON; what was played does not come back
 /// RFC 4180: one line a change.
 std::string study_csv(const StudyResult& result);
 /// The verdicts as those of a run: one suite a cell, and one of the study's own limits.
@@ -31,7 +32,5 @@ void add_map_edges(const Drive& drive, std::vector<CellResult*> cells);
 std::string lamp_verdict(const LampComparison& lamps);
 /// How many deciding readings changed, or why that is not known.
 std::string study_sentence(const StudyResult& result);
-/// "9 of 660 moments of each drive were played (--frames 0:8)"; "" where all were.
-std::string played_in_part(const StudyResult& result);
 
 } // namespace fernlicht

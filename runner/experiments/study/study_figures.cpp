@@ -8,12 +8,9 @@
 #include "runner/findings/extent_keys.h"
 #include "runner/play/lux_map.h"
 #include "runner/play/stage.h"
-#include "scenarios/values/errors.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <map>
 #include <set>
 

@@ -1,132 +1,151 @@
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/study/study_document.h"
-#include "runner/files/json_text.h"
-#include "runner/files/value_json.h"
-#include "runner/findings/extent_keys.h"
+#include "runner/findings/context_json.h"
 #include "runner/judge/verdict_json.h"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <functional>
+#include <ranges>
 
 namespace fernlicht {
 namespace {
 
-using Json = nlohmann::ordered_json;
+/// A place in a list of the study, as what is there is called; what the list lacks is added to it.
+template <class List, class Name = std::identity> JsonPart place_in_study(List& list, std::size_t& place, Name name = {}) {
+    using Called = std::remove_cvref_t<std::invoke_result_t<Name, typename List::value_type&>>;
+    return through([&list, &place, name] { return Called(std::invoke(name, list[place])); },
+                   [&list, &place, name](const Called& called) {
+                       place = static_cast<std::size_t>(std::ranges::find(list, called, name) - list.begin());
+                       if (place == list.size())
+                           std::invoke(name, list.emplace_back()) = called;
+                   });
+}
 
-Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+/// A place in a list that was read before, as what is there is called.
+template <class List, class Name> JsonPart place_read_before(const List& list, std::size_t& place, Name name) {
+    const auto name_at = [&list, name](std::size_t i) { return std::invoke(name, list[i]); };
+    JsonPart part = one_of(place, names_of<std::size_t>(name_at, static_cast<int>(list.size())));
+    part.write = [&place, name_at] { return name_at(place); }; // thousands of changes name hundreds of cells
+    return part;
+}
 
-Json cell_json(const StudyResult& result, const CellResult& cell) {
-    const StudyConditions& c = result.study.conditions;
-    Json readings = Json::array();
-    for (const auto& [key, reading] : cell.readings) {
-        Json row{{"name", name_of(key)}, {"value", value_json(reading.value)}, {"unit", unit_of(key)}};
-        if (!reading.value.measured())
-            row["not_measured"] = reading.value.reason();
-        readings.push_back(std::move(row));
-    }
-    return {{"name", cell.cell.name},
-            {"folder", "cells/" + cell.cell.name},
+JsonPart cell_by_name(const StudyResult& result, std::size_t& cell) {
+    return place_read_before(result.cells, cell, [](const CellResult& one) { return one.cell.name; });
+}
+
+JsonMembers lamp_comparison_members(LampComparison& lamps) {
+    return {{"new", lamps.tested},
+            {"against", lamps.against},
+            {"side", lamps.side},
+            {"says", lamp_verdict(lamps)},
+            {"file", lamps.file},
+            {"other_file", lamps.other_file},
+            {"difference", lamps.difference, difference_part}};
+}
+
+JsonMembers study_change_members(Change& change, const StudyResult& result) {
+    const Value found = change.change();
+    return joined({{"id", change.id},
+                   {"new_cell", cell_by_name(result, change.tested)},
+                   {"old_cell", cell_by_name(result, change.against)},
+                   {"reading", change.reading},
+                   {"unit", change.unit()},
+                   {"old_value", change.old_value},
+                   {"new_value", change.new_value},
+                   {"change", found},
+                   {"size", found.measured() ? std::optional(change.size()) : std::nullopt},
+                   {"uncertainty", change.uncertainty},
+                   {"by_tenth_degree", change.aim_effect},
+                   {"by_noise", change.noise_effect},
+                   {"kind", one_of(change.kind, names_of<ChangeKind>(change_name, 4))},
+                   {"decides", change.decides}},
+                  when(change.kind == ChangeKind::unknown, {{"why_not", change.reason_unknown}}));
+}
+
+JsonMembers study_figure_members(StudyFigure& figure, const StudyResult& result) {
+    std::string& name = figure.plot.name;
+    const auto svg =
+        through([&name] { return name + ".svg"; }, [&name](const std::string& file) { name = file.substr(0, file.rfind('.')); });
+    const auto by_name = [&result](std::size_t& cell) { return cell_by_name(result, cell); };
+    return {{"svg", svg}, {"png", name + ".png"}, {"title", figure.title}, {"cells", figure.cells, by_name}};
+}
+
+JsonMembers cell_reading_members(Reading& reading) {
+    Value& value = reading.value;
+    const auto reason =
+        through([&value] { return value.reason(); }, [&value](const std::string& why) { value = Value::not_measured(why); });
+    return joined({{"name", reading.key}, {"value", value}, {"unit", reading.unit()}}, when(!value.measured(), {{"not_measured", reason}}));
+}
+
+JsonMembers study_cell_members(CellResult& cell, Study& study) {
+    StudyCell& at = cell.cell;
+    StudyConditions& conditions = study.conditions;
+    const auto readings = through(
+        [&cell] {
+            const auto all = std::views::values(cell.readings);
+            return Readings(all.begin(), all.end());
+        },
+        [&cell](const Readings& all) {
+            for (const Reading& reading : all)
+                cell.readings.emplace(reading.key, reading);
+        },
+        cell_reading_members);
+    return {{"name", at.name},
+            {"folder", "cells/" + at.name},
             {"drive", cell.drive},
-            {"lamp", result.study.lamps[cell.cell.lamp].name},
-            {"technique", result.study.techniques[cell.cell.technique]},
-            {"time_of_day", c.times_of_day[cell.cell.time_of_day].name},
-            {"aim_percent", c.aim_percent[cell.cell.aim]},
-            {"voltage_v", c.voltage_v[cell.cell.voltage]},
-            {"mirrored", static_cast<bool>(c.mirror[cell.cell.mirror])},
-            {"failed", cell.failed.empty() ? Json(nullptr) : Json(cell.failed)},
-            {"verdicts", verdicts_json(cell.verdicts)},
-            {"error_share_p95", or_null(cell.error_share)},
-            {"error_floor_share_p95", or_null(cell.error_floor_share)},
+            {"lamp", place_in_study(study.lamps, at.lamp, &StudyLamp::name)},
+            {"technique", place_in_study(study.techniques, at.technique)},
+            {"time_of_day", place_in_study(conditions.times_of_day, at.time_of_day, &Daylight::name)},
+            {"aim_percent", place_in_study(conditions.aim_percent, at.aim)},
+            {"voltage_v", place_in_study(conditions.voltage_v, at.voltage)},
+            {"mirrored", place_in_study(conditions.mirror, at.mirror)},
+            {"failed", or_null(cell.failed)},
+            {"verdicts", cell.verdicts, verdict_members},
+            {"error_share_p95", cell.error_share},
+            {"error_floor_share_p95", cell.error_floor_share},
             {"readings", readings}};
 }
 
-Json change_json(const StudyResult& result, std::size_t index) {
-    const Change& change = result.changes[index];
-    const Value found = change.change();
-    Json row{{"id", fmt::format("c{}", index)},
-             {"new_cell", result.cells[change.tested].cell.name},
-             {"old_cell", result.cells[change.against].cell.name},
-             {"reading", name_of(change.reading)},
-             {"unit", change.unit()},
-             {"old_value", value_json(change.old_value)},
-             {"new_value", value_json(change.new_value)},
-             {"change", value_json(found)},
-             {"size", found.measured() ? Json(change.size()) : Json(nullptr)},
-             {"uncertainty", or_null(change.uncertainty)},
-             {"by_tenth_degree", or_null(change.aim_effect)},
-             {"by_noise", or_null(change.noise_effect)},
-             {"kind", change_name(change.kind)},
-             {"decides", change.decides}};
-    if (change.kind == ChangeKind::unknown)
-        row["why_not"] = change.reason_unknown;
-    return row;
+JsonMembers cell_time_members(CellResult& cell) {
+    return {{"cell", cell.cell.name}, {"frame_s", cell.frame_s}, {"command", cell.command}, {"reused", cell.reused}};
 }
 
-Json lamps_json(const StudyResult& result) {
-    Json out = Json::array();
-    for (const LampComparison& lamps : result.lamps)
-        out.push_back({{"new", lamps.tested},
-                       {"against", lamps.against},
-                       {"side", lamps.side},
-                       {"says", lamp_verdict(lamps)},
-                       {"file", lamps.file.string()},
-                       {"other_file", lamps.other_file.string()},
-                       {"difference", difference_json(lamps.difference)}});
-    return out;
-}
-
-Json context_json(const StudyResult& result) {
-    const RunContext& c = result.context;
-    Json versions = Json::object(), times = Json::array();
-    for (const auto& [name, version] : c.versions)
-        versions[name] = version;
-    for (const CellResult& cell : result.cells)
-        times.push_back({{"cell", cell.cell.name}, {"frame_s", or_null(cell.frame_s)}, {"command", cell.command}, {"reused", cell.reused}});
-    return {{"command", c.command},
-            {"started_utc", c.started_utc},
-            {"backend", c.backend},
-            {"gl_renderer", c.gl_renderer},
-            {"gl_version", c.gl_version},
-            {"cpu", c.cpu},
-            {"os", c.os},
-            {"versions", versions},
-            {"study_file", result.study.file.string()},
-            {"cells", times}};
+JsonMembers study_context_members(StudyResult& result) {
+    JsonMembers members = context_members(result.context);
+    std::erase_if(members, [](const JsonMember& member) { return member.key == "seed" || member.key == "inputs"; });
+    return joined(std::move(members),
+                  JsonMembers{{"study_file", result.study.file}, {"cells", one_for_each(result.cells, cell_time_members, "cells")}});
 }
 
 } // namespace
 
-std::string study_json(const StudyResult& result) {
-    Json cells = Json::array(), changes = Json::array(), largest = Json::array(), figures = Json::array();
-    for (const CellResult& cell : result.cells)
-        cells.push_back(cell_json(result, cell));
-    for (std::size_t i = 0; i < result.changes.size(); ++i)
-        changes.push_back(change_json(result, i));
-    for (const std::size_t i : result.largest)
-        largest.push_back(fmt::format("c{}", i));
-    for (const StudyFigure& figure : result.figures) {
-        Json names = Json::array();
-        for (const std::size_t cell : figure.cells)
-            names.push_back(result.cells[cell].cell.name);
-        figures.push_back(
-            {{"svg", figure.plot.name + ".svg"}, {"png", figure.plot.name + ".png"}, {"title", figure.title}, {"cells", names}});
-    }
-    const std::string part = played_in_part(result);
-    return json_text({{"schema", "fernlicht study"},
-                      {"schema_version", 1},
-                      {"name", result.study.name},
-                      {"title", result.study.title},
-                      {"verdict", verdict_name(overall(result))},
-                      {"complete", result.complete()},
-                      {"interrupted", result.interrupted.empty() ? Json(nullptr) : Json(result.interrupted)},
-                      {"sentence", study_sentence(result)},
-                      {"played_in_part", part.empty() ? Json(nullptr) : Json(part)},
-                      {"largest_changes", largest},
-                      {"lamps", lamps_json(result)},
-                      {"verdicts", verdicts_json(result.verdicts)},
-                      {"changes", changes},
-                      {"figures", figures},
-                      {"cells", cells},
-                      {"context", context_json(result)}});
+JsonMembers study_members(StudyResult& result) {
+    const auto by_id = [&result](std::size_t& change) { return place_read_before(result.changes, change, &Change::id); };
+    const auto change = [&result](Change& one) { return study_change_members(one, result); };
+    const auto figure = [&result](StudyFigure& one) { return study_figure_members(one, result); };
+    JsonPart lamps = json_part(result.lamps, lamp_comparison_members);
+    lamps.read = [&result, read = lamps.read](const CheckedJson& json) {
+        read(json);
+        for (const LampComparison& one : result.lamps)
+            if (one.side != "right")
+                result.study.comparisons.push_back({one.tested, one.against});
+    };
+    return {{"schema", json_constant("fernlicht study")},
+            {"schema_version", json_constant(1)},
+            {"name", result.study.name},
+            {"title", result.study.title},
+            {"verdict", overall(result), verdict_kind_part},
+            {"complete", result.complete()},
+            {"interrupted", or_null(result.interrupted)},
+            {"sentence", study_sentence(result)},
+            {"played_in_part", or_null(result.played_in_part)},
+            {"largest_changes", in_turn(2, json_part(result.largest, by_id))},
+            {"lamps", lamps},
+            {"verdicts", result.verdicts, verdict_members},
+            {"changes", in_turn(1, json_part(result.changes, change))},
+            {"figures", in_turn(1, json_part(result.figures, figure))},
+            {"cells", result.cells, [&result](CellResult& cell) { return study_cell_members(cell, result.study); }},
+            {"context", study_context_members(result)}};
 }
 
 } // namespace fernlicht

@@ -23,6 +23,7 @@ struct CellResult : PlayedResult {
 
 /// One reading of one drive under one condition: a lamp against another.
 struct Change : ReadingChange {
+    std::string id;                      ///< "c3": its place in the study's list
     std::size_t tested = 0, against = 0; ///< cells
     bool decides = false;
 };
@@ -42,7 +43,8 @@ struct StudyFigure {
 
 struct StudyResult : Findings {
     Study study;
-    std::string frames; ///< "0:8": the moments asked for; "" for all
+    std::string frames;         ///< "0:8": the moments asked for; "" for all
+    std::string played_in_part; ///< "9 of 660 moments of each drive were played (--frames 0:8)"; "" where all were
     std::vector<CellResult> cells;
     std::vector<LampComparison> lamps;
     std::vector<Change> changes;      ///< all readings, in the order of comparisons, cells and names
@@ -68,7 +70,7 @@ VerdictKind overall(const StudyResult& result);
 /// As of a run, over all cells (known_failures.h); a cell's own report does not know of it.
 void apply_known_failures(StudyResult& result, const KnownFailures& known, const std::string& today);
 
-/// The comparisons, ranking and limits of what was played.
+/// What was played in part; the comparisons, ranking and limits of what was played.
 void compare_cells(StudyResult& result);
 
 } // namespace fernlicht

@@ -1,6 +1,7 @@
 #include "runner/experiments/compare/lamps/lamp_comparison.h"
 
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
+#include "runner/experiments/regulation/regulation_result.h"
 #include "scenarios/values/pose.h"
 
 #include <algorithm>
@@ -18,6 +19,7 @@ ComparedLamp read_compared(const std::filesystem::path& path) {
     lamp.file = read_lamp(path);
     lamp.description = describe(lamp.file);
     lamp.cut_off = measure_cut_off({&lamp.file.table, {}}, default_cut_off());
+    lamp.cut_off_told = cut_off_json({lamp.file, {}, false, lamp.cut_off, fit_elbow({&lamp.file.table, {}})});
     return lamp;
 }
 
@@ -51,16 +53,18 @@ void add_facts(LampPairComparison& lamps) {
 
 void check(LampPairComparison& lamps, const std::string& id) {
     lamps.regulation = &regulation(id);
-    for (ComparedLamp* lamp : {&lamps.before, &lamps.now})
+    for (ComparedLamp* lamp : {&lamps.before, &lamps.now}) {
         lamp->check = check_regulation(*lamps.regulation, {lamp->file.table});
+        lamp->check_told = regulation_json({*lamps.regulation, {lamp->file.name}, *lamp->check});
+    }
     for (const RowResult& row : lamps.before.check->rows)
-        lamps.rows.push_back({row.id, row, {}});
+        lamps.rows.push_back({row.id, row.unit, row, {}});
     for (const RowResult& row : lamps.now.check->rows) {
         const auto found = std::ranges::find(lamps.rows, row.id, &ComparedRow::id);
         if (found == lamps.rows.end())
-            lamps.rows.push_back({row.id, {}, row});
+            lamps.rows.push_back({row.id, row.unit, {}, row});
         else
-            found->now = row;
+            found->now = row, found->unit = row.unit;
     }
 }
 

@@ -14,6 +14,7 @@ struct ComparedLamp {
     LampFile file;
     LampDescription description;
     CutOffFigures cut_off;                ///< of the lamp as its file has it
+    std::string cut_off_told, check_told; ///< as JSON, as `fernlicht lamp` writes them
     std::optional<RegulationCheck> check; ///< where a regulation was asked for
 };
 
@@ -24,11 +25,12 @@ struct LampFact {
     std::optional<double> before, now;
     std::optional<double> uncertainty; ///< of the difference: how well a place is known; nullopt when nothing tells
     std::string why_not = {};          ///< where one has none
+    std::optional<double> change() const { return before && now ? std::optional(*now - *before) : std::nullopt; }
 };
 
 /// A row of the regulation; nullopt: this lamp's check has no such row.
 struct ComparedRow {
-    std::string id;
+    std::string id, unit;
     std::optional<RowResult> before, now;
     const RowResult& any() const { return now ? *now : *before; }
 };
@@ -57,8 +59,7 @@ LampPairComparison compare_lamp_files(const std::filesystem::path& before, const
 std::vector<ComparedFigure> lamp_figures(const LampPairComparison& lamps);
 
 Document document(const LampPairComparison& lamps);
-/// compare.schema.json describes it.
-std::string lamps_json(const LampPairComparison& lamps);
+JsonMembers lamps_members(LampPairComparison& lamps); ///< of compare.json
 /// RFC 4180: a line a figure and a row of the regulation.
 std::string lamps_csv(const LampPairComparison& lamps);
 

@@ -6,17 +6,23 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 namespace fernlicht {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::size_t max_framed = 4; ///< zones; more would hide the picture
 
-Json measured_json(const std::optional<FittedFigure>& measured) {
-    return measured ? Json{{"value", measured->value}, {"standard_error", measured->uncertainty}} : Json(nullptr);
+JsonMembers fitted_figure_members(FittedFigure& fitted) { return {{"value", fitted.value}, {"standard_error", fitted.uncertainty}}; }
+
+JsonMembers beam_zone_members(BeamZone& zone) {
+    return {{"share", zone.share},
+            {"standard_error", zone.uncertainty},
+            {"h_from_deg", zone.h_from_deg},
+            {"h_to_deg", zone.h_to_deg},
+            {"v_from_deg", zone.v_from_deg},
+            {"v_to_deg", zone.v_to_deg},
+            {"z", zone.z},
+            {"directions", zone.samples}};
 }
 
 void refuse_darkness(const LampFile& lamp) {
@@ -116,29 +122,29 @@ std::vector<std::pair<std::string, std::string>> difference_lines(const LampFile
     return lines;
 }
 
-Json difference_json(const LampDifference& difference) {
-    Json zones = Json::array();
-    for (const BeamZone& zone : difference.zones)
-        zones.push_back({{"share", zone.share},
-                         {"standard_error", zone.uncertainty},
-                         {"h_from_deg", zone.h_from_deg},
-                         {"h_to_deg", zone.h_to_deg},
-                         {"v_from_deg", zone.v_from_deg},
-                         {"v_to_deg", zone.v_to_deg},
-                         {"z", zone.z},
-                         {"directions", zone.samples}});
-    return {{"differs", difference.any()},
-            {"says", sentences_of(difference)},
-            {"aim_up_deg", measured_json(difference.aim_up_deg)},
-            {"aim_right_deg", measured_json(difference.aim_right_deg)},
-            {"cut_off_up_deg", measured_json(difference.cut_off_up_deg)},
-            {"level_share", measured_json(difference.level)},
-            {"zones", zones},
-            {"directions", difference.directions},
-            {"noise_relative", difference.noise_relative},
-            {"z_limit", difference.z_limit},
-            {"floor_cd", difference.floor_cd}};
+JsonPart difference_part(LampDifference& difference) {
+    JsonPart part(JsonMembers{{"differs", difference.any()},
+                              {"says", sentences_of(difference)},
+                              {"aim_up_deg", difference.aim_up_deg, fitted_figure_members},
+                              {"aim_right_deg", difference.aim_right_deg, fitted_figure_members},
+                              {"cut_off_up_deg", difference.cut_off_up_deg, fitted_figure_members},
+                              {"level_share", difference.level, fitted_figure_members},
+                              {"zones", difference.zones, beam_zone_members},
+                              {"directions", difference.directions},
+                              {"noise_relative", difference.noise_relative},
+                              {"z_limit", difference.z_limit},
+                              {"floor_cd", difference.floor_cd}});
+    part.read = [&difference, read = part.read](const CheckedJson& json) {
+        read(json);
+        if (difference.aim_up_deg.has_value() != difference.aim_right_deg.has_value())
+            json.refuse("an aim up and to the right, or neither");
+        const std::vector<CheckedJson> says = json.at("says").items(); // what is undecided is said after all else
+        difference.undecided = says.size() > sentences_of(difference).size() ? says.back().text() : "";
+    };
+    return part;
 }
+
+nlohmann::ordered_json difference_json(const LampDifference& difference) { return as_json(difference, difference_part); }
 
 plots::Figure difference_figure(const LampFile& tested, const LampFile& against, const LampDifference& difference) {
     plots::Figure figure;

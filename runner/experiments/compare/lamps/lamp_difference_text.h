@@ -2,10 +2,9 @@
 #pragma once
 
 #include "metrics/beam/lamp_difference.h"
+#include "runner/files/described_json.h"
 #include "runner/findings/plots/figure.h"
 #include "scenarios/lamps/lamp_file.h"
-
-#include <nlohmann/json_fwd.hpp>
 
 namespace fernlicht {
 
@@ -20,6 +19,7 @@ LampDifference difference_of(const LampFile& tested, const LampFile& against, do
 std::vector<std::pair<std::string, std::string>> difference_lines(const LampFile& tested, const LampFile& against,
                                                                   const LampDifference& difference);
 /// Figures with units in their names; null where nothing is claimed.
+JsonPart difference_part(LampDifference& difference);
 nlohmann::ordered_json difference_json(const LampDifference& difference);
 
 /// Tested over against, less 1, in per cent over H and V: blue is dimmer, orange brighter, grey not compared. As they are, with no shift

@@ -71,7 +71,7 @@ Table rows_table(const LampPairComparison& lamps) {
                 {}};
     const auto is_measured = [](const std::optional<RowResult>& found) { return found && found->verdict != RowVerdict::not_measured; };
     for (const ComparedRow& row : lamps.rows) {
-        std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{row.id, limits_of(row), unit_words(row.any().unit)});
+        std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{row.id, limits_of(row), unit_words(row.unit)});
         for (const auto* found : {&row.before, &row.now})
             cells.push_back(is_measured(*found) ? figure_cell((*found)->found) : *found ? Cell("not measured") : Cell(""));
         for (const auto* found : {&row.before, &row.now})

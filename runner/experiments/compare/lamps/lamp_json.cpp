@@ -2,94 +2,110 @@
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/regulation/regulation_result.h"
 #include "runner/files/clean_text.h"
-#include "runner/files/json_text.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace fernlicht {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
-std::optional<double> found_in(const std::optional<RowResult>& row) {
-    return row && row->verdict != RowVerdict::not_measured ? std::optional(row->found) : std::nullopt;
+std::optional<double> figure_in(const std::optional<RowResult>& row, double RowResult::*figure) {
+    return row && row->verdict != RowVerdict::not_measured ? std::optional((*row).*figure) : std::nullopt;
 }
 
-std::optional<double> margin_in(const std::optional<RowResult>& row) {
-    return row && row->verdict != RowVerdict::not_measured ? std::optional(row->margin) : std::nullopt;
+JsonPart figure_part(std::optional<RowResult>& row, double RowResult::*figure) {
+    return through([&row, figure] { return figure_in(row, figure); },
+                   [&row, figure](const std::optional<double>& found) {
+                       if (found)
+                           (row ? *row : row.emplace()).*figure = *found;
+                   });
 }
 
-std::string verdict_in(const std::optional<RowResult>& row) { return row ? name_of(row->verdict) : ""; }
+constexpr int no_row = 3; // after the verdicts
 
-Json lamp_json(const ComparedLamp& lamp) {
-    return {{"file", lamp.path.string()},
-            {"name", lamp.file.name},
-            {"format", lamp.file.format},
-            {"cut_off", Json::parse(cut_off_json({lamp.file, {}, false, lamp.cut_off, fit_elbow({&lamp.file.table, {}})}))}};
+JsonPart row_verdict_part(std::optional<RowResult>& row) {
+    return through([&row] { return row ? static_cast<int>(row->verdict) : no_row; },
+                   [&row](int verdict) {
+                       if (verdict != no_row)
+                           (row ? *row : row.emplace()).verdict = static_cast<RowVerdict>(verdict);
+                   },
+                   [](int& verdict) {
+                       return one_of(verdict, [] { return std::vector<std::string>{"pass", "fail", "not_measured", ""}; });
+                   });
 }
 
-Json regulation_json(const LampPairComparison& lamps) {
-    if (!lamps.regulation)
-        return nullptr;
-    Json rows = Json::array();
-    for (const ComparedRow& row : lamps.rows)
-        rows.push_back({{"id", row.id},
-                        {"unit", row.any().unit},
-                        {"old_found", or_null(found_in(row.before))},
-                        {"new_found", or_null(found_in(row.now))},
-                        {"old_margin", or_null(margin_in(row.before))},
-                        {"new_margin", or_null(margin_in(row.now))},
-                        {"old_verdict", verdict_in(row.before)},
-                        {"new_verdict", verdict_in(row.now)}});
-    return {{"id", lamps.regulation->id},
-            {"edition", lamps.regulation->edition},
-            {"rows", rows},
-            {"old", Json::parse(fernlicht::regulation_json({*lamps.regulation, {lamps.before.file.name}, *lamps.before.check}))},
-            {"new", Json::parse(fernlicht::regulation_json({*lamps.regulation, {lamps.now.file.name}, *lamps.now.check}))}};
+JsonMembers compared_row_members(ComparedRow& row) {
+    return {{"id", row.id},
+            {"unit", row.unit},
+            {"old_found", figure_part(row.before, &RowResult::found)},
+            {"new_found", figure_part(row.now, &RowResult::found)},
+            {"old_margin", figure_part(row.before, &RowResult::margin)},
+            {"new_margin", figure_part(row.now, &RowResult::margin)},
+            {"old_verdict", row_verdict_part(row.before)},
+            {"new_verdict", row_verdict_part(row.now)}};
+}
+
+/// An object as a command of one lamp writes it.
+JsonPart told_part(std::string& told) {
+    return {[&told] { return nlohmann::ordered_json::parse(told); }, [&told](const CheckedJson& json) { told = json.dump(); },
+            [] {
+                return nlohmann::ordered_json{{"type", "object"}};
+            }};
+}
+
+JsonMembers compared_lamp_members(ComparedLamp& lamp) {
+    return {{"file", lamp.path}, {"name", lamp.file.name}, {"format", lamp.file.format}, {"cut_off", told_part(lamp.cut_off_told)}};
+}
+
+JsonMembers lamp_fact_members(LampFact& fact) {
+    return {{"name", fact.name},
+            {"unit", fact.unit},
+            {"old_value", fact.before},
+            {"new_value", fact.now},
+            {"change", fact.change()},
+            {"uncertainty", fact.uncertainty},
+            {"not_measured", null_unless(!fact.change(), json_leaf(fact.why_not))}};
 }
 
 } // namespace
 
-std::string lamps_json(const LampPairComparison& lamps) {
-    Json facts = Json::array();
-    for (const LampFact& fact : lamps.facts) {
-        const bool known = fact.before && fact.now;
-        facts.push_back({{"name", fact.name},
-                         {"unit", fact.unit},
-                         {"old_value", or_null(fact.before)},
-                         {"new_value", or_null(fact.now)},
-                         {"change", known ? Json(*fact.now - *fact.before) : Json(nullptr)},
-                         {"uncertainty", or_null(fact.uncertainty)},
-                         {"not_measured", known ? Json(nullptr) : Json(fact.why_not)}});
-    }
-    return json_text({{"schema", "fernlicht comparison"},
-                      {"schema_version", 2},
-                      {"kind", "lamps"},
-                      {"reference", lamps.before.path.string()},
-                      {"tested", lamps.now.path.string()},
-                      {"strictness", nullptr},
-                      {"passed", lamps.regulation ? Json(lamps.passed()) : Json(nullptr)},
-                      {"lamps", Json::array({lamp_json(lamps.before), lamp_json(lamps.now)})},
-                      {"difference", difference_json(lamps.difference)},
-                      {"facts", facts},
-                      {"regulation", regulation_json(lamps)},
-                      {"figures", figures_json(lamps.figures)}});
+JsonMembers lamps_members(LampPairComparison& lamps) {
+    const auto passed = through([&lamps] { return lamps.regulation ? std::optional(lamps.passed()) : std::nullopt; },
+                                [&lamps](const std::optional<bool>& all) {
+                                    if (all)
+                                        lamps.now.check.emplace().verdict = *all ? RowVerdict::pass : RowVerdict::fail;
+                                });
+    const auto id =
+        through([&lamps] { return lamps.regulation->id; }, [&lamps](const std::string& name) { lamps.regulation = &regulation(name); });
+    return {
+        {"schema", json_constant("fernlicht comparison")},
+        {"schema_version", json_constant(2)},
+        {"kind", json_constant("lamps")},
+        {"reference", lamps.before.path},
+        {"tested", lamps.now.path},
+        {"strictness", json_constant(nullptr)},
+        {"passed", passed},
+        {"lamps", both(lamps.before, lamps.now, compared_lamp_members)},
+        {"difference", lamps.difference, difference_part},
+        {"facts", lamps.facts, lamp_fact_members},
+        {"regulation", null_unless(lamps.regulation != nullptr, JsonMembers{{"id", id},
+                                                                            {"edition", lamps.regulation ? lamps.regulation->edition : ""},
+                                                                            {"rows", lamps.rows, compared_row_members},
+                                                                            {"old", told_part(lamps.before.check_told)},
+                                                                            {"new", told_part(lamps.now.check_told)}})},
+        {"figures", lamps.figures, compared_figure_members}};
 }
 
 std::string lamps_csv(const LampPairComparison& lamps) {
     std::string csv = "table,name,unit,old_value,new_value,change,uncertainty,old_margin,new_margin,old_verdict,new_verdict\r\n";
     for (const LampFact& fact : lamps.facts)
-        csv += csv_line("lamp", fact.name, fact.unit, csv_number(fact.before), csv_number(fact.now),
-                        fact.before && fact.now ? fmt::format("{}", *fact.now - *fact.before) : "", csv_number(fact.uncertainty), "", "",
-                        "", "");
+        csv += csv_line("lamp", fact.name, fact.unit, csv_number(fact.before), csv_number(fact.now), csv_number(fact.change()),
+                        csv_number(fact.uncertainty), "", "", "", "");
     for (const ComparedRow& row : lamps.rows) {
-        const auto before = found_in(row.before), now = found_in(row.now);
-        csv += csv_line(csv_text(lamps.regulation->id), csv_text(row.id), csv_text(row.any().unit), csv_number(before), csv_number(now),
-                        before && now ? fmt::format("{}", *now - *before) : "", "", csv_number(margin_in(row.before)),
-                        csv_number(margin_in(row.now)), verdict_in(row.before), verdict_in(row.now));
+        const auto before = figure_in(row.before, &RowResult::found), now = figure_in(row.now, &RowResult::found);
+        const auto verdict = [](const std::optional<RowResult>& of) { return of ? name_of(of->verdict) : ""; };
+        csv += csv_line(csv_text(lamps.regulation->id), csv_text(row.id), csv_text(row.unit), csv_number(before), csv_number(now),
+                        before && now ? fmt::format("{}", *now - *before) : "", "", csv_number(figure_in(row.before, &RowResult::margin)),
+                        csv_number(figure_in(row.now, &RowResult::margin)), verdict(row.before), verdict(row.now));
     }
     return csv;
 }

@@ -24,6 +24,17 @@ std::string some_of(const std::vector<std::string>& names) {
     return names.size() > 4 ? fmt::format("{} and {} more", text, names.size() - 4) : text;
 }
 
+bool is_deciding(const ReadingKey& reading, const DriveComparison& drives) {
+    const auto is_limited = [&](const RunDrive& drive) {
+        const YamlValue* limits = member_of(drive.resolved, "limits");
+        return limits && std::ranges::any_of(limits->items, [&](const YamlValue& limit) {
+                   const YamlValue* limited = member_of(limit, "reading");
+                   return limited && key_of(limited->text) == reading;
+               });
+    };
+    return !is_extent(reading) || is_named(reading, default_readings()) || is_limited(drives.before) || is_limited(drives.now);
+}
+
 void compare_readings(DriveComparison& drive) {
     const RunDrive &before = drive.before, &now = drive.now;
     if (before.time_s != now.time_s) {
@@ -45,7 +56,7 @@ void compare_readings(DriveComparison& drive) {
         if (is_uncertainty(key) || is_time(key) || (is_extent(key) ? !measured.extent.empty() : !measured.others.empty()))
             continue;
         if (now.readings.contains(key))
-            drive.changes.push_back(change_of_reading(key, now, before, drive.lamp_noise()));
+            drive.changes.push_back({change_of_reading(key, now, before, drive.lamp_noise()), is_deciding(key, drive)});
         else
             only_old.push_back(name_of(key));
     }
@@ -185,7 +196,7 @@ void rank(RunComparison& runs) {
     std::vector<std::pair<std::size_t, std::size_t>> order;
     for (std::size_t d = 0; d < runs.drives.size(); ++d)
         for (std::size_t i = 0; i < runs.drives[d].changes.size(); ++i)
-            if (const ReadingChange& c = runs.drives[d].changes[i]; c.kind == ChangeKind::real && runs.drives[d].decides(c.reading))
+            if (const RunChange& c = runs.drives[d].changes[i]; c.kind == ChangeKind::real && c.decides)
                 order.emplace_back(d, i);
     std::ranges::stable_sort(order, std::greater{}, [&](const auto& at) { return runs.drives[at.first].changes[at.second].size(); });
     std::set<ReadingKey> shown;
@@ -226,17 +237,6 @@ double frame_density(const FramePair& frame, const RunCompareOptions& options) {
 bool FramePair::is_equal() const {
     return std::ranges::all_of(comparison.layers,
                                [](const LayerComparison& layer) { return layer.histogram.equal == layer.histogram.pixels(); });
-}
-
-bool DriveComparison::decides(const ReadingKey& reading) const {
-    const auto is_limited = [&](const RunDrive& drive) {
-        const YamlValue* limits = member_of(drive.resolved, "limits");
-        return limits && std::ranges::any_of(limits->items, [&](const YamlValue& limit) {
-                   const YamlValue* limited = member_of(limit, "reading");
-                   return limited && key_of(limited->text) == reading;
-               });
-    };
-    return !is_extent(reading) || is_named(reading, default_readings()) || is_limited(before) || is_limited(now);
 }
 
 double DriveComparison::lamp_noise() const {

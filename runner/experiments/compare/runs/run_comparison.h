@@ -9,6 +9,10 @@
 
 namespace fernlicht {
 
+struct RunChange : ReadingChange {
+    bool decides = false; ///< the study's usual ones, those that a limit names, and all that are no extents
+};
+
 /// How long a pass took, old against new. The uncertainty is half the range from the 5th to the 95th percentile of each run's frames,
 /// both added as the root of their squares; fewer than six frames tell nothing.
 struct TimeChange : ReadingChange {
@@ -18,11 +22,10 @@ struct TimeChange : ReadingChange {
 /// One stored file of a moment, of both runs.
 struct FramePair {
     StoredFrame old_frame, new_frame;
-    bool is_display = false;        ///< the PNGs; else the EXRs
-    View view;                      ///< of the new run
-    PictureComparison comparison;   ///< without its maps
-    std::string folder;             ///< of its pictures, below the comparison's; "" when none were drawn
-    std::vector<std::string> files; ///< in that folder
+    bool is_display = false;           ///< the PNGs; else the EXRs
+    View view;                         ///< of the new run
+    PictureComparison comparison;      ///< without its maps
+    std::vector<std::string> pictures; ///< that were drawn, below the comparison's folder
     std::string file(const StoredFrame& frame) const { return is_display ? frame.png : frame.exr; }
     bool is_equal() const; ///< no pixel of any channel differs
 };
@@ -40,12 +43,11 @@ struct DriveComparison {
     std::vector<YamlChange> settings;   ///< of the drives as they were played, lamp sets included
     std::vector<std::string> new_bytes; ///< files of one path in both runs whose content is another
     std::vector<LampFilesDifference> lamp_files;
-    std::vector<ReadingChange> changes; ///< all readings that both have
+    std::vector<RunChange> changes; ///< all readings that both have
     std::vector<TimeChange> times;
     std::vector<FramePair> frames;
     std::vector<std::string> left_out; ///< what could not be compared and why, one sentence each
     std::vector<ComparedFigure> figures;
-    bool decides(const ReadingKey& reading) const; ///< the study's usual ones, those that a limit names, and all that are no extents
 
     double lamp_noise() const; ///< the largest noise of the lamps' tables, relative; 0 where they are the same
 
@@ -79,8 +81,7 @@ RunComparison compare_runs(RunFolder before, RunFolder now, const RunCompareOpti
 void draw_runs(RunComparison& runs, const RunCompareOptions& options, std::size_t pictured, const TakePlot& take);
 
 Document document(const RunComparison& runs);
-/// compare.schema.json describes it.
-std::string runs_json(const RunComparison& runs);
+JsonMembers runs_members(RunComparison& runs); ///< of compare.json
 /// RFC 4180: a line a reading and a time; a line a figure of a stored frame's channel.
 std::string runs_csv(const RunComparison& runs);
 std::string frames_csv(const RunComparison& runs);

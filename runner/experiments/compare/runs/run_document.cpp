@@ -131,8 +131,8 @@ Section readings_section(const RunComparison& runs) {
     Table deciding = changes_table("readings", "The readings that decide"), others = changes_table("others", "");
     for (std::size_t d = 0; d < runs.drives.size(); ++d)
         for (std::size_t i = 0; i < runs.drives[d].changes.size(); ++i) {
-            const ReadingChange& change = runs.drives[d].changes[i];
-            add_change(runs.drives[d].decides(change.reading) ? deciding : others, runs.drives[d], change, row_id(d, i));
+            const RunChange& change = runs.drives[d].changes[i];
+            add_change(change.decides ? deciding : others, runs.drives[d], change, row_id(d, i));
         }
     others.caption = fmt::format("All other readings ({}): other lanes, edges, limits, percentiles", others.rows.size());
     others.folded = true;
@@ -238,12 +238,13 @@ PictureStrip moment_strip(const DriveComparison& drive, const RunComparison& run
     PictureStrip strip{fmt::format("{}, {}, after {:.2f} s", drive.now.title, frame.new_frame.view, frame.new_frame.time_s),
                        {{std::filesystem::absolute(runs.before.folder / frame.old_frame.png).string(), drive.old_label()},
                         {std::filesystem::absolute(runs.now.folder / frame.new_frame.png).string(), drive.new_label()}}};
+    const std::filesystem::path folder = std::filesystem::path(frame.pictures.front()).parent_path();
     for (const auto& [file, caption] :
          {std::pair("illuminance-difference.png", "Illuminance, B − A"), std::pair("illuminance-isolux.png", "Isolux lines of both"),
           std::pair("flip.png", "FLIP: what one sees who flips between both")})
         for (const FramePair& other : drive.frames)
-            if (other.folder == frame.folder && std::ranges::count(other.files, file) > 0)
-                strip.pictures.push_back({frame.folder + "/" + file, caption});
+            if (const std::string path = folder / file; std::ranges::count(other.pictures, path) > 0)
+                strip.pictures.push_back({path, caption});
     return strip;
 }
 
@@ -276,7 +277,7 @@ Section pictures_section(const RunComparison& runs, const DriveComparison& drive
     };
     add_plots(false);
     for (const FramePair& frame : drive.frames)
-        if (!frame.folder.empty() && frame.is_display)
+        if (!frame.pictures.empty() && frame.is_display)
             section.blocks.emplace_back(moment_strip(drive, runs, frame));
     add_plots(true);
     if (!drive.times.empty()) {

@@ -121,11 +121,13 @@ void draw_frames(DriveComparison& drive, const RunComparison& runs, const RunCom
             continue;
         const PicturePair pair = frame_pictures(frame, runs);
         const PictureComparison comparison = compare_pictures(pair, frame_density(frame, options), options.strictness);
-        frame.folder = fmt::format("frames/{}/{}-{:06}", drive.name, file_name_of(view), frame.new_frame.tick);
-        frame.files = draw_difference(comparison, pair, [&](Plot plot) {
-            plot.name = frame.folder + "/" + plot.name;
+        const std::string folder = fmt::format("frames/{}/{}-{:06}/", drive.name, file_name_of(view), frame.new_frame.tick);
+        frame.pictures = draw_difference(comparison, pair, [&](Plot plot) {
+            plot.name = folder + plot.name;
             take(plot);
         });
+        for (std::string& file : frame.pictures)
+            file = folder + file;
         if (!frame.is_display && frame.view.projection == Projection::map)
             add_maps(drive, runs, frame);
     }

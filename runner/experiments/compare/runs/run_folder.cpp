@@ -32,9 +32,7 @@ void drop_unused_s(YamlValue& part) {
 }
 
 double grid_cell_m(const YamlValue& document, const fs::path& file, double otherwise) {
-    const YamlValue* measure = member_of(document, "measure");
-    const YamlValue* extent = measure ? member_of(*measure, "extent") : nullptr;
-    const YamlValue* cell = extent ? member_of(*extent, "cell_m") : nullptr;
+    const YamlValue* cell = member_of(member_of(member_of(document, "measure"), "extent"), "cell_m");
     return cell ? YamlEntry(*cell, file, "measure.extent.cell_m").number_above(0.0, 1e6) : otherwise;
 }
 

@@ -1,96 +1,89 @@
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/compare/runs/run_comparison.h"
 #include "runner/files/clean_text.h"
-#include "runner/files/json_text.h"
-#include "runner/files/value_json.h"
 
+#include <cstdio>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace fernlicht {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json value_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
-Json change_json(const ReadingChange& c) {
-    return {{"reading", name_of(c.reading)},
+JsonMembers reading_change_members(ReadingChange& c) {
+    return {{"reading", c.reading},
             {"unit", c.unit()},
-            {"old_value", value_json(c.old_value)},
-            {"new_value", value_json(c.new_value)},
-            {"change", value_json(c.change())},
-            {"relative_change", value_or_null(c.relative())},
-            {"uncertainty", value_or_null(c.uncertainty)},
-            {"by_tenth_degree", value_or_null(c.aim_effect)},
-            {"by_noise", value_or_null(c.noise_effect)},
-            {"kind", change_name(c.kind)},
-            {"why_not", c.kind == ChangeKind::unknown ? Json(c.reason_unknown) : Json(nullptr)}};
+            {"old_value", c.old_value},
+            {"new_value", c.new_value},
+            {"change", c.change()},
+            {"relative_change", c.relative()},
+            {"uncertainty", c.uncertainty},
+            {"by_tenth_degree", c.aim_effect},
+            {"by_noise", c.noise_effect},
+            {"kind", one_of(c.kind, names_of<ChangeKind>(change_name, 4))},
+            {"why_not", null_unless(c.kind == ChangeKind::unknown, json_leaf(c.reason_unknown))}};
 }
 
-Json frame_json(const FramePair& frame) {
-    Json pictures = Json::array();
-    for (const std::string& file : frame.files)
-        pictures.push_back(frame.folder + "/" + file);
+JsonMembers time_change_members(TimeChange& time) {
+    return joined(reading_change_members(time), JsonMembers{{"old_samples", time.old_samples}, {"new_samples", time.new_samples}});
+}
+
+JsonMembers yaml_change_members(YamlChange& setting) {
+    return {{"key", setting.key}, {"old", setting.old_value}, {"new", setting.new_value}};
+}
+
+JsonMembers lamp_files_members(LampFilesDifference& files) {
+    return {{"lamps", files.lamps}, {"old_file", files.before}, {"new_file", files.now}, {"difference", files.difference, difference_part}};
+}
+
+JsonMembers frame_pair_members(FramePair& frame) {
+    const auto file = [&frame](StoredFrame& of) {
+        return through([&frame, &of] { return frame.file(of); },
+                       [&frame, &of](const std::string& path) {
+                           frame.is_display = path.ends_with(".png");
+                           (frame.is_display ? of.png : of.exr) = path;
+                       });
+    };
     return {{"view", frame.new_frame.view},
             {"frame", frame.new_frame.tick},
             {"time_s", frame.new_frame.time_s},
-            {"old_file", frame.file(frame.old_frame)},
-            {"new_file", frame.file(frame.new_frame)},
+            {"old_file", file(frame.old_frame)},
+            {"new_file", file(frame.new_frame)},
             {"width_px", frame.view.width_px},
             {"height_px", frame.view.height_px},
-            {"pixels_per_degree", frame.comparison.pixels_per_degree > 0.0 ? Json(frame.comparison.pixels_per_degree) : Json(nullptr)},
+            {"pixels_per_degree", or_null(frame.comparison.pixels_per_degree)},
             {"equal", frame.is_equal()},
-            {"layers", layers_json(frame.comparison)},
-            {"pictures", pictures}};
+            {"layers", layers_part(frame.comparison, "#/properties/drives/items/properties/frames/items/properties/layers")},
+            {"pictures", frame.pictures}};
 }
 
-Json drive_json(const DriveComparison& drive, std::size_t index) {
-    Json settings = Json::array(), changes = Json::array(), times = Json::array(), frames = Json::array();
-    for (const YamlChange& setting : drive.settings)
-        settings.push_back({{"key", setting.key}, {"old", setting.old_value}, {"new", setting.new_value}});
-    for (std::size_t i = 0; i < drive.changes.size(); ++i) {
-        Json row{{"id", row_id(index, i)}, {"decides", drive.decides(drive.changes[i].reading)}};
-        row.update(change_json(drive.changes[i]));
-        changes.push_back(std::move(row));
-    }
-    for (const TimeChange& time : drive.times) {
-        Json row = change_json(time);
-        row["old_samples"] = time.old_samples;
-        row["new_samples"] = time.new_samples;
-        times.push_back(std::move(row));
-    }
-    Json lamps = Json::array();
-    for (const LampFilesDifference& files : drive.lamp_files)
-        lamps.push_back({{"lamps", files.lamps},
-                         {"old_file", files.before.string()},
-                         {"new_file", files.now.string()},
-                         {"difference", difference_json(files.difference)}});
-    for (const FramePair& frame : drive.frames)
-        frames.push_back(frame_json(frame));
+JsonMembers drive_comparison_members(DriveComparison& drive, std::size_t index) {
+    const auto change = [&drive, index](RunChange& c) {
+        const auto place = static_cast<std::size_t>(&c - drive.changes.data()); // one to be described stands elsewhere
+        return joined({{"id", row_id(index, place)}, {"decides", c.decides}}, reading_change_members(c));
+    };
     return {{"drive", drive.now.drive},
             {"old_lamp_set", drive.before.lamp_set},
             {"new_lamp_set", drive.now.lamp_set},
             {"old_technique", drive.before.technique},
             {"new_technique", drive.now.technique},
-            {"settings", settings},
+            {"settings", drive.settings, yaml_change_members},
             {"files_of_other_content", drive.new_bytes},
             {"left_out", drive.left_out},
-            {"lamp_files", lamps},
-            {"changes", changes},
-            {"times", times},
-            {"frames", frames},
-            {"figures", figures_json(drive.figures)}};
+            {"lamp_files", drive.lamp_files, lamp_files_members},
+            {"changes", drive.changes, change},
+            {"times", drive.times, time_change_members},
+            {"frames", drive.frames, frame_pair_members},
+            {"figures", drive.figures, compared_figure_members}};
 }
 
-Json run_json(const RunFolder& run) {
-    return {{"folder", run.folder.string()},
-            {"command", run.command},
-            {"started_utc", run.started_utc},
-            {"version", run.version},
-            {"backend", run.backend},
-            {"gl_renderer", run.gl_renderer},
+JsonMembers run_folder_members(RunFolder& run) {
+    return {{"folder", run.folder},   {"command", run.command}, {"started_utc", run.started_utc},
+            {"version", run.version}, {"backend", run.backend}, {"gl_renderer", run.gl_renderer},
             {"cpu", run.cpu}};
+}
+
+JsonPart row_id_part(std::pair<std::size_t, std::size_t>& row) {
+    return through([&row] { return row_id(row.first, row.second); },
+                   [&row](const std::string& id) { std::sscanf(id.c_str(), "c%zu-%zu", &row.first, &row.second); });
 }
 
 std::string change_line(const std::string& id, const DriveComparison& drive, const ReadingChange& c, bool decides) {
@@ -106,25 +99,22 @@ std::string change_line(const std::string& id, const DriveComparison& drive, con
 
 std::string row_id(std::size_t drive, std::size_t change) { return fmt::format("c{}-{}", drive, change); }
 
-std::string runs_json(const RunComparison& runs) {
-    Json drives = Json::array(), largest = Json::array();
-    for (std::size_t d = 0; d < runs.drives.size(); ++d)
-        drives.push_back(drive_json(runs.drives[d], d));
-    for (const auto& [drive, change] : runs.largest)
-        largest.push_back(row_id(drive, change));
-    const bool judged = !runs.strictness_name.empty();
-    return json_text({{"schema", "fernlicht comparison"},
-                      {"schema_version", 2},
-                      {"kind", "runs"},
-                      {"reference", runs.before.folder.string()},
-                      {"tested", runs.now.folder.string()},
-                      {"strictness", judged ? Json(runs.strictness_name) : Json(nullptr)},
-                      {"passed", judged ? Json(runs.passed()) : Json(nullptr)},
-                      {"not_judged", runs.not_judged},
-                      {"largest_changes", largest},
-                      {"left_out", runs.left_out},
-                      {"drives", drives},
-                      {"runs", Json::array({run_json(runs.before), run_json(runs.now)})}});
+JsonMembers runs_members(RunComparison& runs) {
+    const auto drive = [&runs](DriveComparison& one) {
+        return drive_comparison_members(one, static_cast<std::size_t>(&one - runs.drives.data()));
+    };
+    return {{"schema", json_constant("fernlicht comparison")},
+            {"schema_version", json_constant(2)},
+            {"kind", json_constant("runs")},
+            {"reference", runs.before.folder},
+            {"tested", runs.now.folder},
+            {"strictness", or_null(runs.strictness_name)},
+            {"passed", runs.strictness_name.empty() ? std::nullopt : std::optional(runs.passed())},
+            {"not_judged", runs.not_judged},
+            {"largest_changes", runs.largest, row_id_part},
+            {"left_out", runs.left_out},
+            {"drives", runs.drives, drive},
+            {"runs", both(runs.before, runs.now, run_folder_members)}};
 }
 
 std::string runs_csv(const RunComparison& runs) {
@@ -134,7 +124,7 @@ std::string runs_csv(const RunComparison& runs) {
     for (std::size_t d = 0; d < runs.drives.size(); ++d) {
         const DriveComparison& drive = runs.drives[d];
         for (std::size_t i = 0; i < drive.changes.size(); ++i)
-            csv += change_line(row_id(d, i), drive, drive.changes[i], drive.decides(drive.changes[i].reading));
+            csv += change_line(row_id(d, i), drive, drive.changes[i], drive.changes[i].decides);
     }
     for (const DriveComparison& drive : runs.drives) // last: they differ from run to run
         for (const TimeChange& time : drive.times)
@@ -151,8 +141,8 @@ std::string frames_csv(const RunComparison& runs) {
                     csv += csv_line(csv_text(drive.now.drive), csv_text(drive.before.lamp_set), csv_text(drive.now.lamp_set),
                                     csv_text(frame.new_frame.view), std::to_string(frame.new_frame.tick),
                                     fmt::format("{}", frame.new_frame.time_s), csv_text(frame.file(frame.new_frame)), csv_text(layer.name),
-                                    csv_text(v.name), csv_text(v.unit), csv_number(v.value), v.place ? std::to_string(v.place->first) : "",
-                                    v.place ? std::to_string(v.place->second) : "", csv_text(v.value ? "" : v.why_not));
+                                    csv_text(v.name), csv_text(v.unit), csv_number(v.value), csv_number(v.x), csv_number(v.y),
+                                    csv_text(v.value ? "" : v.why_not));
     return csv;
 }
 

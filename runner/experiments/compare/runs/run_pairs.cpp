@@ -1,5 +1,6 @@
 #include "runner/experiments/compare/runs/run_pairs.h"
 
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/output_folder.h"
 #include "scenarios/values/errors.h"
 
@@ -10,10 +11,7 @@
 namespace fernlicht {
 namespace {
 
-const YamlValue* lamp_set_of(const RunDrive& drive) {
-    const YamlValue* lamp_sets = member_of(drive.resolved, "lamp_sets");
-    return lamp_sets ? member_of(*lamp_sets, drive.lamp_set) : nullptr;
-}
+const YamlValue* lamp_set_of(const RunDrive& drive) { return member_of(member_of(drive.resolved, "lamp_sets"), drive.lamp_set); }
 
 bool is_same(const RunDrive& a, const RunDrive& b, const char* key) {
     std::vector<YamlChange> changes;
@@ -129,6 +127,27 @@ void add_key(std::string& text, const std::vector<YamlChange>& changes) {
             text += (text.empty() ? "" : ", ") + printable(change.key);
 }
 
+std::string text_in(const YamlValue& map, const char* key) {
+    const YamlValue* value = member_of(map, key);
+    return value ? value->text : "";
+}
+
+std::string hash_of(const RunDrive& drive, const std::string& path) {
+    const auto found = drive.hashes.find(path);
+    return found == drive.hashes.end() ? "" : found->second;
+}
+
+/// The file as the run read it. Throws InputError where it is gone, is another one by now, or needs more than the file to be read.
+LampFile read_as_played(const RunDrive& drive, const YamlValue& lamp) {
+    const std::filesystem::path path = text_in(lamp, "file");
+    LampFile file = read_lamp(path, {});
+    if (file.opened.empty() || file.opened.front().xxh128 != hash_of(drive, path.string()))
+        throw InputError({path, 0, 0, {}}, "is not the file any more that the run read");
+    if (const std::string axis = text_in(lamp, "type_c_axis"); !axis.empty() && axis != "automatic")
+        throw InputError({path, 0, 0, {}}, "was read with an axis of its own");
+    return file;
+}
+
 } // namespace
 
 void pair_drives(RunComparison& runs) { Pairing(runs).run(); }
@@ -150,6 +169,34 @@ MeasureChange measure_change(const YamlValue& before, const YamlValue& now) {
     add_key(out.extent, extents);
     add_key(out.others, others);
     return out;
+}
+
+void compare_lamp_files(DriveComparison& drive) {
+    const YamlValue *before = member_of(lamp_set_of(drive.before), "lamps"), *now = member_of(lamp_set_of(drive.now), "lamps");
+    if (!before || !now)
+        return;
+    for (const YamlMember& lamp : now->members) {
+        const YamlValue* other = member_of(*before, lamp.key);
+        if (!other)
+            continue;
+        const std::string file = text_in(lamp.value, "file"), old_file = text_in(*other, "file");
+        if (file.empty() || old_file.empty() || hash_of(drive.now, file) == hash_of(drive.before, old_file))
+            continue;
+        const auto same =
+            std::ranges::find_if(drive.lamp_files, [&](const LampFilesDifference& d) { return d.now == file && d.before == old_file; });
+        if (same != drive.lamp_files.end()) {
+            same->lamps += ", " + lamp.key;
+            continue;
+        }
+        try {
+            const LampFile tested = read_as_played(drive.now, lamp.value), against = read_as_played(drive.before, *other);
+            drive.lamp_files.push_back({lamp.key, old_file, file, difference_of(tested, against, 0.0)});
+            plots::Figure figure = difference_figure(tested, against, drive.lamp_files.back().difference);
+            drive.figures.push_back({fmt::format("lamps_{}_{}", drive.name, drive.lamp_files.size()), figure.title, figure});
+        } catch (const InputError& error) {
+            drive.left_out.push_back(fmt::format("the tables of the lamp {}, and their noise: {}", printable(lamp.key), error.what()));
+        }
+    }
 }
 
 } // namespace fernlicht

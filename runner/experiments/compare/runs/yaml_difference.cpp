@@ -14,8 +14,7 @@ bool has_parts(const YamlValue& value) {
     return value.kind == Kind::map || std::ranges::any_of(value.items, [](const YamlValue& item) { return item.kind == Kind::map; });
 }
 
-} // namespace
-
+/// On one line, in YAML's flow form.
 std::string flow_text(const YamlValue& value) {
     std::string text;
     switch (value.kind) {
@@ -34,6 +33,8 @@ std::string flow_text(const YamlValue& value) {
     }
     return text;
 }
+
+} // namespace
 
 const YamlValue* member_of(const YamlValue& map, const std::string& key) {
     const auto found = std::ranges::find(map.members, key, &YamlMember::key);

@@ -13,11 +13,9 @@ struct YamlChange {
     std::string old_value, new_value; ///< on one line; "" where the document has no such key
 };
 
-/// A value on one line, in YAML's flow form.
-std::string flow_text(const YamlValue& value);
-
 /// The member of a map, or nullptr: no map, no such key.
 const YamlValue* member_of(const YamlValue& map, const std::string& key);
+inline const YamlValue* member_of(const YamlValue* map, const std::string& key) { return map ? member_of(*map, key) : nullptr; }
 
 /// Maps are compared member by member, whatever their order; lists of one length item by item; all else as a whole. Appends to `changes`.
 void add_changes(const YamlValue* before, const YamlValue* now, const std::string& key, std::vector<YamlChange>& changes);

@@ -18,9 +18,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-json checked_accuracy(const std::filesystem::path& file) {
-    return tests::checked(file, accuracy_json_schema(), read_accuracy_json, accuracy_json);
-}
+json checked_accuracy(const std::filesystem::path& file) { return tests::checked(content_of(file), accuracy_members); }
 
 /// What `accuracy` finds, its files in `folder`/out; `said`: what it prints.
 json results_of(const TemporaryFolder& folder, const std::string& flags, const std::string& drives, std::string* said = nullptr) {
@@ -34,12 +32,7 @@ double error_of(const json& diagrams, std::size_t diagram, std::size_t row) {
     return diagrams.at(diagram).at("rows").at(row).at("error").at("value").get<double>();
 }
 
-const json& row_of(const json& rows, const std::string& label) {
-    for (const json& row : rows)
-        if (row.at("label") == label)
-            return row;
-    throw std::out_of_range(label);
-}
+const json& row_of(const json& rows, const std::string& label) { return tests::entry(rows, "label", label); }
 
 TEST(AccuracyRun, HoldsTechniquesAgainstTheReference) {
     const TemporaryFolder folder;

@@ -16,9 +16,7 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-json checked_aliasing(const std::filesystem::path& file) {
-    return tests::checked(file, aliasing_json_schema(), read_aliasing_json, aliasing_json);
-}
+json checked_aliasing(const std::filesystem::path& file) { return tests::checked(content_of(file), aliasing_members); }
 
 /// The row that was drawn so; the test fails without it.
 const json& row_with(const json& found, const std::string& beams, const std::string& filter, int samples) {

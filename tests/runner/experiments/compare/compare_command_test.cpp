@@ -1,5 +1,4 @@
-#include "metrics/strictness/strictness.h"
-#include "runner/experiments/compare/picture_pair.h"
+#include "runner/experiments/compare/picture_comparison.h"
 #include "runner/files/picture_file.h"
 #include "scenarios/values/errors.h"
 #include "tests/runner/program.h"
@@ -19,7 +18,6 @@ using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 class CompareCommand : public testing::Test {
   protected:
@@ -56,11 +54,8 @@ class CompareCommand : public testing::Test {
         return run_program("compare '" + path(a) + "' '" + path(b) + "' " + more);
     }
     static std::optional<double> value(const json& layer, const std::string& name) {
-        for (const json& one : layer.at("values"))
-            if (one.at("name") == name)
-                return one.at("value").is_null() ? std::nullopt : std::optional<double>(one.at("value"));
-        ADD_FAILURE() << name;
-        return std::nullopt;
+        const json& found = tests::entry(layer.at("values"), "name", name).at("value");
+        return found.is_null() ? std::nullopt : std::optional<double>(found);
     }
     void write_class(const std::string& text) const { std::ofstream(path("class.yaml")) << text; }
     TemporaryFolder folder_;
@@ -112,7 +107,7 @@ TEST_F(CompareCommand, ComparesLinearChannels) {
 
 TEST_F(CompareCommand, JsonFitsItsSchemaAndIsTheSameTwice) {
     const Outcome outcome = compare("a.exr", "b.exr", "--json --strictness same-light");
-    EXPECT_THAT(tests::complaints(json::parse(outcome.output), "compare/compare"), IsEmpty());
+    tests::checked(outcome.output, pictures_members);
     EXPECT_EQ(compare("a.exr", "b.exr", "--json --strictness same-light").output, outcome.output);
 }
 

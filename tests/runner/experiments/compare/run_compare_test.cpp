@@ -1,4 +1,5 @@
 // Two runs' folders against each other, through the program.
+#include "runner/experiments/compare/runs/run_comparison.h"
 #include "tests/runner/program.h"
 #include "tests/runner/run_readings.h"
 #include "tests/runner/schema_check.h"
@@ -46,13 +47,7 @@ class RunCompare : public ::testing::Test {
     }
     static json report_of(const std::string& run) { return json::parse(content_of(at(run) + "/report.json")); }
     static double row(const std::string& run, const std::string& name) { return tests::reading_of(at(run), name); }
-    static json change_in(const json& drive, const std::string& reading) {
-        for (const json& one : drive.at("changes"))
-            if (one.at("reading") == reading)
-                return one;
-        ADD_FAILURE() << reading;
-        return {};
-    }
+    static json change_in(const json& drive, const std::string& reading) { return tests::entry(drive.at("changes"), "reading", reading); }
     /// The drive that was played, something in it put otherwise.
     static std::string edited(const std::string& run, const std::string& from, const std::string& to) {
         std::string drive = content_of(at(run) + "/straight-1.yaml");
@@ -78,8 +73,7 @@ std::string joined(const json& texts) {
 TEST_F(RunCompare, EveryChangeIsThatOfTheReports) {
     const Outcome outcome = compare("halogen", "xenon", "--json");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-    const json found = json::parse(outcome.output);
-    EXPECT_THAT(tests::complaints(found, "compare/compare"), IsEmpty());
+    const json found = tests::checked(outcome.output, runs_members);
     EXPECT_EQ(found.at("kind"), "runs");
     const std::string before = "halogen", now = "xenon";
     const json drive = found.at("drives").at(0);

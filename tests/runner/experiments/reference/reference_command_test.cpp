@@ -3,6 +3,7 @@
 #include "runner/files/picture_file.h"
 #include "scenarios/values/errors.h"
 #include "tests/runner/program.h"
+#include "tests/runner/schema_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,7 @@ TEST(ReferenceCommand, WritesMeanAndVarianceAndSaysHowNearItCame) {
     printed("reference " + library_file("drives/worked-example.yaml") +
             " --target-error 2% --max-samples 1100 --resolution 64x48 --quiet --out " + (folder / "out"));
     const json said = json_of(folder / "out");
+    EXPECT_EQ(tests::complaints(said, "reference/reference"), std::vector<std::string>());
     EXPECT_EQ(said.at("settings").at("target_error"), 0.02);
     EXPECT_EQ(said.at("settings").at("integrator"), "direct");
     EXPECT_EQ(said.at("settings").at("max_samples"), 1024); // as used

@@ -16,16 +16,9 @@ using ::testing::Not;
 
 const std::string small = "shadows --quiet --resolution 96x72 --lamp " + library_file("lamps/xenon-low.ies") + " ";
 
-json checked_shadows(const std::filesystem::path& file) {
-    return tests::checked(file, shadow_json_schema(), read_shadow_json, shadow_json);
-}
+json checked_shadows(const std::filesystem::path& file) { return tests::checked(content_of(file), shadow_members); }
 
-const json& row_of(const json& scene, const std::string& method) {
-    for (const json& row : scene.at("rows"))
-        if (row.at("shadows") == method)
-            return row;
-    throw std::out_of_range(method);
-}
+const json& row_of(const json& scene, const std::string& method) { return tests::entry(scene.at("rows"), "shadows", method); }
 
 TEST(ShadowsCommand, HoldsMethodsAgainstRays) {
     const TemporaryFolder folder;

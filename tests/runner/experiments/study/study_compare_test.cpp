@@ -2,6 +2,8 @@
 #include "runner/experiments/study/study_document.h"
 #include "runner/write/document.h"
 #include "runner/write/report_texts.h"
+#include "scenarios/values/errors.h"
+#include "tests/runner/schema_check.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -42,6 +44,8 @@ StudyResult two_cells(double old_reach_m, double new_reach_m) {
     }
     return result;
 }
+
+std::string study_json_of(const StudyResult& result) { return json_text(as_json(result, study_members)); }
 
 const Change& change_in(const StudyResult& result, const std::string& name) {
     for (const Change& change : result.changes)
@@ -239,7 +243,7 @@ TEST(StudyCompare, WhereNothingWasPlayedNothingIsSaidToBeUnchanged) {
         cell.readings.clear();
     }
     compare_cells(result);
-    for (const std::string& text : {document_text(study_summary(result)), study_json(result), document_html(document(result), result)}) {
+    for (const std::string& text : {document_text(study_summary(result)), study_json_of(result), document_html(document(result), result)}) {
         EXPECT_THAT(text, HasSubstr("Nothing could be compared: of no two lamps was the same cell played."));
         EXPECT_THAT(text, Not(HasSubstr("deciding reading changed")));
     }
@@ -266,12 +270,13 @@ TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
     result.study.limits[0].at_least = 1.0;
     compare_cells(result);
     const std::string part = "9 of 660 moments of each drive were played (--frames 0:8)";
-    for (const std::string& text : {document_text(study_summary(result)), study_json(result), document_markdown(study_paper(result)),
+    for (const std::string& text : {document_text(study_summary(result)), study_json_of(result), document_markdown(study_paper(result)),
                                     document_latex(study_paper(result)), document_html(document(result), result)})
         EXPECT_THAT(text, HasSubstr(part));
     EXPECT_THAT(report_junit(suites_of(result)), AllOf(HasSubstr("9 of 660 moments (--frames 0:8)"), Not(HasSubstr("all moments"))));
     EXPECT_THAT(document_html(document(result), result), HasSubstr("Within limits"));
     result.cells[1].moments_of_drive = 900;
+    compare_cells(result);
     EXPECT_THAT(document_text(study_summary(result)), HasSubstr("9 of 660 to 900 moments of each drive"));
 }
 
@@ -282,6 +287,37 @@ TEST(StudyCompare, ACellThatFailedTakesTheVerdictWithIt) {
     result.cells[1].failed = "the disk is full";
     EXPECT_EQ(overall(result), VerdictKind::not_measured);
     EXPECT_THAT(report_junit(suites_of(result)), HasSubstr("the disk is full"));
+}
+
+TEST(StudyJson, ComesBack) {
+    StudyResult result = two_cells(40.0, 50.0);
+    put(result.cells[0], "reach_10lx_road_own_m", 3.0);
+    put(result.cells[1], "reach_10lx_road_own_m", std::nullopt, "never lit");
+    const ReadingKey bound = key_of("reach_1lx_road_own_m").value();
+    result.cells[1].readings[bound] = {bound, Value::at_least(200.0)};
+    result.study.techniques = {"photometric", "full"};
+    result.study.conditions.mirror = {false, true};
+    for (CellResult& cell : result.cells)
+        cell.cell.technique = cell.cell.mirror = 1;
+    result.cells[1].moments_of_drive = 660;
+    result.cells[1].frame_s = 0.01;
+    result.cells[1].error_share = 0.02;
+    result.cells[1].reused = true;
+    result.cells[1].verdicts = {{VerdictKind::fail, "reach", "50 m", "fernlicht run", Expectation::known, "known since May"}};
+    result.lamps = {{"new", "old", "left", "new.ies", "old.ies", {.level = {{0.03, 0.01}}, .undecided = "not known which"}},
+                    {"new", "old", "right", "new-right.ies", "old-right.ies", {}}};
+    result.figures = {{{.name = "figures/lux_one.new"}, "Lux", {1}}};
+    result.interrupted = result.cells[0].failed = "interrupted by the user";
+    result.context.versions = {{"fernlicht", "0.1"}};
+    compare_cells(result);
+    ASSERT_EQ(result.changes.size(), 2U);
+    ASSERT_EQ(result.largest.size(), 1U);
+    std::string text = study_json_of(result);
+    tests::checked(text, study_members);
+    EXPECT_EQ(study_json_of(from_json<StudyResult>(CheckedJson::parse(text, {}), study_members)), text);
+    text.replace(text.find("[\"one_new\"]"), 11, "[\"one_odd\"]");
+    EXPECT_THAT([&] { from_json<StudyResult>(CheckedJson::parse(text, {}), study_members); },
+                testing::ThrowsMessage<InputError>(HasSubstr("figures[0].cells[0]")));
 }
 
 TEST(StudyText, TablesEscapeWhatTheirFormatsMean) {

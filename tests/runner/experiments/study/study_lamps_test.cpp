@@ -1,6 +1,8 @@
 // What a study says of lamps whose difference is known, through the program: named, measured, and nothing else claimed.
+#include "runner/experiments/study/study_document.h"
 #include "tests/metrics/changed_lamps.h"
 #include "tests/runner/program.h"
+#include "tests/runner/schema_check.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -56,7 +58,7 @@ class StudyOfLamps : public testing::Test {
                                         " --frames 0:1 --quiet --no-accuracy --out " + (folder_ / "out"));
         ASSERT_EQ(run.exit_code, 0) << run.output;
         output_ = run.output;
-        study_ = json::parse(content_of(folder_ / "out/study.json"));
+        study_ = tests::checked(content_of(folder_ / "out/study.json"), study_members);
         page_ = content_of(folder_ / "out/report.html");
     }
     /// What the study says of a lamp, which stands in report and terminal too.

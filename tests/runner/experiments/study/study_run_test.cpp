@@ -1,4 +1,5 @@
 // Whole studies through the program.
+#include "runner/experiments/study/study_document.h"
 #include "tests/runner/opened_page.h"
 #include "tests/runner/run_readings.h"
 #include "tests/runner/schema_check.h"
@@ -49,8 +50,7 @@ TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
     const std::string file = write_study_file(folder, xenon);
     const Outcome run = run_program("study " + file + quick + "--out " + (folder / "out"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
-    const json study = json::parse(content_of(folder / "out/study.json"));
-    EXPECT_THAT(tests::complaints(study, "study/study"), IsEmpty());
+    const json study = tests::checked(content_of(folder / "out/study.json"), study_members);
     EXPECT_EQ(study.at("verdict"), "pass");
     ASSERT_EQ(study.at("cells").size(), 2U);
     const std::string page = content_of(folder / "out/report.html");
@@ -90,7 +90,7 @@ TEST_F(StudyProgram, TheSameLampUnderAnotherNameDiffersInNothing) {
     // Against baselines of which none was accepted: red, and all the rest is there.
     const Outcome run = run_program("study " + file + quick + "--baselines " + (folder / "none") + " --out " + (folder / "out"));
     ASSERT_EQ(run.exit_code, 1) << run.output;
-    const json study = json::parse(content_of(folder / "out/study.json"));
+    const json study = tests::checked(content_of(folder / "out/study.json"), study_members);
     EXPECT_EQ(study.at("verdict"), "fail");
     EXPECT_THAT(study.at("largest_changes"), IsEmpty());
     EXPECT_EQ(study.at("lamps").at(0).at("difference").at("differs"), false);
@@ -119,7 +119,7 @@ TEST_F(StudyProgram, GoesOnWhereItWasStoppedAndGivesTheSameBytes) {
     EXPECT_THAT(other.output, HasSubstr("found a cell that was played with other files or settings"));
     const Outcome resumed = run_program(arguments + (folder / "out") + " --resume");
     EXPECT_EQ(resumed.exit_code, 0) << resumed.output;
-    const json study = json::parse(content_of(folder / "out/study.json"));
+    const json study = tests::checked(content_of(folder / "out/study.json"), study_members);
     EXPECT_EQ(study.at("context").at("cells").at(0).at("reused"), true);
     EXPECT_EQ(without_times(study), without_times(json::parse(content_of(folder / "whole/study.json"))));
     for (const char* name : {"study.csv", "study.md", "study.tex"})
@@ -136,7 +136,7 @@ TEST_F(StudyProgram, ACellThatFailsLosesNothingOfTheOthers) {
     const Outcome run = run_program(arguments + " --resume");
     EXPECT_EQ(run.exit_code, 1) << run.output;
     EXPECT_THAT(run.output, HasSubstr("NOT PLAYED straight_new: "));
-    const json study = json::parse(content_of(folder / "out/study.json"));
+    const json study = tests::checked(content_of(folder / "out/study.json"), study_members);
     EXPECT_EQ(study.at("verdict"), "not_measured");
     EXPECT_EQ(study.at("complete"), false);
     ASSERT_EQ(study.at("cells").size(), 2U);
