@@ -32,7 +32,6 @@ struct LampFact {
 struct ComparedRow {
     std::string id, unit;
     std::optional<RowResult> before, now;
-    const RowResult& any() const { return now ? *now : *before; }
 };
 
 struct LampPairComparison : Findings {

@@ -60,7 +60,7 @@ std::string limits_text(const RowResult& row) {
 
 /// Ratios to what a lamp has elsewhere differ.
 std::string limits_of(const ComparedRow& row) {
-    const std::string limits = limits_text(row.any()), old_limits = row.before ? limits_text(*row.before) : limits;
+    const std::string limits = limits_text(row.now ? *row.now : *row.before), old_limits = row.before ? limits_text(*row.before) : limits;
     return limits == old_limits ? limits : "A " + old_limits + ", B " + limits;
 }
 
