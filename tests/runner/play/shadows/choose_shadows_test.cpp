@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-constexpr const char* few_automatic = " --quiet --resolution 96x72 --capture all --no-accuracy --backend software ";
+constexpr const char* few_automatic = " --quiet --resolution 64x48 --capture all --no-accuracy --backend software ";
 
 class AutomaticShadows : public testing::Test {
   protected:
