@@ -32,15 +32,8 @@ struct BaselinesFlags {
 /// The first row is the head.
 std::string table(const std::vector<std::vector<std::string>>& rows) { return aligned_table(std::string(rows.front().size(), '<'), rows); }
 
-/// A folder without baselines is one without; a folder that is none was misspelt.
-void refuse_missing(const std::string& store) {
-    std::error_code ignored;
-    if (!std::filesystem::is_directory(store, ignored))
-        throw InputError({store, 0, 0, {}}, "is no folder", "one that `fernlicht accept` made, named by --baselines");
-}
-
 int list(const BaselinesFlags& flags) {
-    refuse_missing(flags.store);
+    refuse_missing_store(flags.store);
     const FolderLock lock(flags.store, FolderLock::For::reading);
     const std::vector<StoredBaseline> entries = list_baselines(flags.store);
     if (flags.json) {

@@ -2,6 +2,7 @@
 
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
+#include "runner/judge/baseline_store.h"
 #include "runner/play/progress.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/values/errors.h"
@@ -190,6 +191,8 @@ void add_judging_flags(CLI::App& command, JudgingFlags& flags) {
 std::optional<KnownFailures> take(const JudgingFlags& flags, RunOptions& options) {
     if (flags.across_devices && flags.baselines.empty())
         throw InputError({{}, 0, 0, "--across-devices"}, "found no --baselines", "the folder of accepted results");
+    if (!flags.baselines.empty())
+        refuse_missing_store(flags.baselines);
     options.baselines = flags.baselines;
     options.across_devices = flags.across_devices;
     options.repeats = flags.repeats;

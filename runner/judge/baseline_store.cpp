@@ -246,10 +246,14 @@ std::vector<Stored> store_baselines(const fs::path& store, const std::vector<Bas
     return outcome;
 }
 
+void refuse_missing_store(const fs::path& store) {
+    std::error_code ignored;
+    if (!fs::is_directory(store, ignored))
+        throw InputError({store, 0, 0, {}}, "is no folder", "one that `fernlicht accept` made, named by --baselines");
+}
+
 Removal remove_baselines(const fs::path& store, const std::vector<std::string>& ids, bool dry) {
-    std::error_code error;
-    if (!fs::is_directory(store, error))
-        throw InputError({store, 0, 0, {}}, "is no folder of baselines", "one that `fernlicht accept` made");
+    refuse_missing_store(store);
     const FolderLock lock(store);
     std::vector<StoredBaseline> entries = list_baselines(store);
     const std::size_t gone =

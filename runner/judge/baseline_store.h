@@ -49,6 +49,9 @@ struct Removal {
     std::size_t baselines = 0, objects = 0;
     std::uintmax_t bytes = 0;
 };
+/// Throws InputError where there is no such folder. One without baselines is one without; one that is not there was misspelt.
+void refuse_missing_store(const std::filesystem::path& store);
+
 /// Takes these entries out, and every object that no entry needs then. `dry`: only says what would go.
 /// Throws InputError for a damaged index or a damaged object of an entry that stays, DeviceError when the folder cannot be written.
 Removal remove_baselines(const std::filesystem::path& store, const std::vector<std::string>& ids, bool dry);

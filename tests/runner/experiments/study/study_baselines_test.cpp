@@ -92,6 +92,9 @@ TEST_F(StudyAgainstBaselines, RefusesFlagsWithoutEffect) {
     EXPECT_EQ(play(own, "b", "--today 2026-12-31").exit_code, 2);
     EXPECT_EQ(play(own, "c", "--known " + (temporary / "nowhere.yaml")).exit_code, 2);
     EXPECT_EQ(run_program("accept " + (temporary / "a")).exit_code, 2) << "no study";
+    const Outcome misspelt = play(own, "d", "--baselines " + (temporary / "nowhere"));
+    EXPECT_EQ(misspelt.exit_code, 2);
+    EXPECT_THAT(misspelt.output, HasSubstr("nowhere: is no folder, expected one that `fernlicht accept` made"));
 }
 
 } // namespace
