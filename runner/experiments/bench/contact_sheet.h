@@ -25,7 +25,7 @@ struct ContactSheet {
     View spot;                         ///< a map of 3 x 3 pixels, the spot in the middle one
     std::optional<glm::dvec2> spot_px; ///< the spot in `view`; nullopt: out of the picture
     double spot_ahead_m = 0.0;         ///< of the bumper, on the own lane's centre, on the road
-    double twin_lx = 0.0;              ///< there, calculated in double precision without shadows
+    double twin_lx = 0.0;              ///< there, of own lamps and sky, calculated in double precision without shadows
     std::vector<SheetTile> tiles;
 };
 
