@@ -25,7 +25,7 @@ std::string limit_text(const Limit& limit, const std::string& unit) {
 }
 
 /// Four digits; all of them where four would show the value on the wrong side of its limit.
-std::string with_unit(const Limit& limit, double value) {
+std::string deciding_digits(const Limit& limit, double value) {
     const std::string text = fmt::format("{:.4g}", value);
     double shown = value;
     std::from_chars(text.data(), text.data() + text.size(), shown);
@@ -71,8 +71,9 @@ Verdict judge(const Limit& limit, const Readings& readings) {
     }
     const bool fails = worst && holds(worst->value, limit.at_least, limit.at_most) == false;
     const Reading& told = missing && !fails ? *missing : *worst;
-    const std::string found = told.value.measured() ? with_bound(told.value, with_unit(limit, *told.value.figure())) + " " + told.unit()
-                                                    : "not measured: " + told.value.reason();
+    const std::string found = told.value.measured()
+                                  ? with_bound(told.value, deciding_digits(limit, *told.value.figure())) + " " + told.unit()
+                                  : "not measured: " + told.value.reason();
     return {fails     ? VerdictKind::fail
             : missing ? VerdictKind::not_measured
                       : VerdictKind::pass,
