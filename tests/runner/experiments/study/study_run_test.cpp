@@ -88,6 +88,7 @@ TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
 TEST_F(StudyProgram, TheSameLampUnderAnotherNameDiffersInNothing) {
     const std::string file = write_study_file(folder, "{low: " + library_file("lamps/halogen-low.ies") + "}");
     // Against baselines of which none was accepted: red, and all the rest is there.
+    std::filesystem::create_directory(folder / "none");
     const Outcome run = run_program("study " + file + quick + "--baselines " + (folder / "none") + " --out " + (folder / "out"));
     ASSERT_EQ(run.exit_code, 1) << run.output;
     const json study = tests::checked(content_of(folder / "out/study.json"), study_members);
