@@ -118,7 +118,7 @@ constexpr std::array rows{
 
 std::span<const Technique> techniques() { return rows; }
 
-const Technique& technique_named(std::string_view name, const std::filesystem::path& asked_in) {
+const Technique& technique_named(std::string_view name, const std::filesystem::path& asked_in, const std::string& key) {
     const auto found = std::ranges::find(rows, name, &Technique::name);
     if (found != rows.end())
         return *found;
@@ -126,7 +126,7 @@ const Technique& technique_named(std::string_view name, const std::filesystem::p
     for (const Technique& row : rows)
         names.emplace_back(row.name);
     const std::string wanted(name), nearest = nearest_name(wanted, names);
-    throw InputError({asked_in, 0, 0, "technique"}, "found '" + printable(wanted) + "'",
+    throw InputError({asked_in, 0, 0, key}, "found '" + printable(wanted) + "'",
                      nearest.empty() ? "a name that `fernlicht techniques` lists"
                                      : "'" + nearest + "', or another name that `fernlicht techniques` lists");
 }

@@ -152,7 +152,9 @@ int migrate(const MigrateFlags& flags) {
             texts.push_back(converted(file, unmatched));
             files.push_back(file);
         } else if (!flags.in_place)
-            throw InputError({file, 0, 0, {}}, "is a folder of baselines", "--in-place beside it");
+            throw fs::exists(store_of(file) / "index.json")
+                ? InputError({file, 0, 0, {}}, "is a folder of baselines", "--in-place beside it")
+                : InputError({file, 0, 0, {}}, "is a folder without index.json", "a file, or a folder of baselines");
     std::vector<fs::path> targets;
     for (const fs::path& file : files)
         targets.push_back(target(flags, file));

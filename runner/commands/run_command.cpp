@@ -1,6 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "renderer/device.h"
+#include "renderer/technique.h"
 #include "runner/commands/flag_values.h"
 #include "runner/commands/run_files.h"
 #include "runner/experiments/run/run_drives.h"
@@ -35,7 +36,7 @@ DriveEdits edits_of(const RunFlags& flags) {
     if (!flags.road.empty())
         edits.road = flags.road;
     if (!flags.technique.empty())
-        edits.technique = flags.technique;
+        edits.technique = std::string(technique_named(flags.technique, {}, "--technique").name);
     if (flags.shadows)
         edits.shadows = name(shadow_method_named(*flags.shadows, {}, "--shadows"));
     if (!flags.resolution.empty())

@@ -29,6 +29,8 @@ class TrialFolder {
     explicit TrialFolder(const std::string& asked) : path_(asked), kept_(!asked.empty()) {
         if (kept_) {
             std::error_code failed;
+            if (std::filesystem::exists(path_, failed) && !std::filesystem::is_directory(path_, failed))
+                throw InputError({path_, 0, 0, "--out"}, "is not a folder", "a folder for the cases' files");
             std::filesystem::create_directories(path_, failed);
             if (failed)
                 throw DeviceError(fmt::format("{}: the folder cannot be made: {}", printable(asked), failed.message()));

@@ -2,6 +2,7 @@
 
 #include "runner/findings/library_versions.h"
 
+#include <algorithm>
 #include <chrono>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -55,6 +56,19 @@ std::string simd_class() {
         if (flags.find(flag) != std::string::npos)
             return name;
     return "other";
+}
+
+std::string repeat_command(const std::vector<std::string>& call, const std::vector<std::string>& others,
+                           const std::vector<std::string>& choice) {
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < call.size(); ++i)
+        if (call[i] == "--out" || call[i] == "--only")
+            ++i;
+        else if (!call[i].starts_with("--out=") && !call[i].starts_with("--only=") && call[i] != "--resume" &&
+                 std::ranges::find(others, call[i]) == others.end())
+            words.push_back(call[i]);
+    words.insert(words.end(), choice.begin(), choice.end());
+    return shell_quoted(words);
 }
 
 std::string os_name() {

@@ -56,14 +56,14 @@ ResultDifference compare(const AcceptedReading& tested, const AcceptedReading& a
     // A bound by its figure, too: where light ends just at the edge of what is looked at, rounding makes a number of a bound.
     const double was = *accepted.mean.figure(), off = std::abs(*tested.mean.figure() - was);
     const double rounding = tolerance.absolute + tolerance.relative * std::abs(was) + tolerance.of_other * std::abs(other);
-    const std::string figures = fmt::format("{}, {:.3g} % off", text, was == 0.0 ? 0.0 : 100.0 * off / std::abs(was));
+    const std::string figures = fmt::format("{}, off by {:.3g} {}{}", text, off, unit_of(accepted.key),
+                                            was == 0.0 ? "" : fmt::format(" ({:.3g} %)", 100.0 * off / std::abs(was)));
     const auto test = spread_test({tested.count, tested.variance}, {accepted.count, accepted.variance}, tolerance.false_alarm, comparisons);
     if (test)
         return judge_by_spread(difference, off, rounding, *test, figures, tolerance);
     difference.of_allowed = off / rounding;
     difference.agreement = off <= rounding ? Agreement::agrees : Agreement::differs;
-    difference.text = other == 0.0 ? fmt::format("{}, at most {:.3g} % for rounding", figures, 100.0 * tolerance.relative)
-                                   : fmt::format("{}, at most {:.3g} {} for rounding", figures, rounding, unit_of(accepted.key));
+    difference.text = fmt::format("{}, at most {:.3g} {} for rounding", figures, rounding, unit_of(accepted.key));
     return difference;
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 /// Each thing that differs by itself, those that agree in one sum.
 std::vector<Verdict> verdicts_on(const std::vector<ResultDifference>& differences, const std::string& kind, const std::string& things,
-                                 const std::string& accepted_as, const std::string& rerun) {
+                                 const std::string& accepted_as) {
     std::vector<Verdict> verdicts;
     const ResultDifference* farthest = nullptr;
     for (const ResultDifference& difference : differences)
@@ -26,12 +26,12 @@ std::vector<Verdict> verdicts_on(const std::vector<ResultDifference>& difference
             farthest = farthest && farthest->of_allowed >= difference.of_allowed ? farthest : &difference;
         else
             verdicts.push_back({difference.agreement == Agreement::differs ? VerdictKind::fail : VerdictKind::not_measured,
-                                kind + " " + difference.what, difference.text + accepted_as, rerun});
+                                kind + " " + difference.what, difference.text + accepted_as, ""});
     if (verdicts.empty() && farthest)
         verdicts.push_back({VerdictKind::pass, kind,
                             fmt::format("{} {} agree; the farthest off: {}, {}{}", differences.size(), things, farthest->what,
                                         farthest->text, accepted_as),
-                            rerun});
+                            ""});
     return verdicts;
 }
 
@@ -118,16 +118,15 @@ std::string nothing_accepted(const std::filesystem::path& store, const std::vect
 }
 
 std::vector<Verdict> judge_readings(const Baseline& run, const std::vector<AcceptedReading>& accepted, const std::string& accepted_as,
-                                    const std::string& rerun, const BaselineTolerance& tolerance) {
-    return verdicts_on(compare_readings(run.readings, accepted, tolerance), "baseline reading", "readings", accepted_as, rerun);
+                                    const BaselineTolerance& tolerance) {
+    return verdicts_on(compare_readings(run.readings, accepted, tolerance), "baseline reading", "readings", accepted_as);
 }
 
-std::vector<Verdict> judge_frames(const Baseline& run, const Baseline& accepted, const std::string& accepted_as, const std::string& rerun,
+std::vector<Verdict> judge_frames(const Baseline& run, const Baseline& accepted, const std::string& accepted_as,
                                   const BaselineTolerance& tolerance) {
     if (accepted.frames_left_out)
         return {};
-    return verdicts_on(compare_frames(run.frames, accepted.frames, tolerance), "baseline frame", "channels of pictures", accepted_as,
-                       rerun);
+    return verdicts_on(compare_frames(run.frames, accepted.frames, tolerance), "baseline frame", "channels of pictures", accepted_as);
 }
 
 /// Of the verdicts that each entry gives, those with the fewest that are not green. `judge` takes the results and how they are called.
@@ -156,17 +155,17 @@ std::string devices_text(const std::vector<StoredBaseline>& entries) {
 
 /// What runs of other classes gave: one of them by the tolerance alone, several by their spread, too.
 std::vector<Verdict> judge_across(const std::filesystem::path& store, const DeviceSpread& others, const Baseline& run,
-                                  const std::string& rerun, const BaselineTolerance& tolerance) {
+                                  const BaselineTolerance& tolerance) {
     Baseline measured = run; // what was measured on all of them; what was not has no spread
     std::erase_if(measured.readings, [](const AcceptedReading& reading) { return !reading.mean.measured(); });
     const std::string over = fmt::format(" (over {} other class{} of device)", others.devices, others.devices == 1 ? "" : "es");
-    std::vector<Verdict> verdicts = judge_readings(measured, others.readings, over, rerun, tolerance);
+    std::vector<Verdict> verdicts = judge_readings(measured, others.readings, over, tolerance);
     verdicts.push_back({VerdictKind::pass, other_device_class,
                         fmt::format("nothing is accepted for {}; judged by {}", device_text(run.key), devices_text(others.entries)),
-                        rerun});
+                        ""});
     std::ranges::move(nearest(store, others.entries,
                               [&](const Baseline& accepted, const std::string& accepted_as) {
-                                  return judge_frames(run, accepted, accepted_as, rerun, tolerance);
+                                  return judge_frames(run, accepted, accepted_as, tolerance);
                               }),
                       std::back_inserter(verdicts));
     return verdicts;
@@ -245,7 +244,7 @@ std::vector<Verdict> judge_against_baselines(const PlayedCell& played, const Run
     const FolderLock lock(baselines_folder, FolderLock::For::reading);
     const Baseline run = results_of(played, context, run_folder, technique);
     const auto failed = [&](const std::string& text) {
-        return std::vector<Verdict>{{VerdictKind::fail, "baseline", text, context.command}};
+        return std::vector<Verdict>{{VerdictKind::fail, "baseline", text, ""}};
     };
     try {
         const std::vector<StoredBaseline> all = list_baselines(baselines_folder);
@@ -253,12 +252,12 @@ std::vector<Verdict> judge_against_baselines(const PlayedCell& played, const Run
         std::ranges::copy_if(all, std::back_inserter(entries), [&](const StoredBaseline& entry) { return entry.key == run.key; });
         if (entries.empty() && across_devices)
             if (const DeviceSpread others = spread_over_devices(baselines_folder, all, run.key); others.devices > 0)
-                return judge_across(baselines_folder, others, run, context.command, tolerance);
+                return judge_across(baselines_folder, others, run, tolerance);
         if (entries.empty())
             return failed(nothing_accepted(baselines_folder, all, run, tolerance));
         std::vector<Verdict> verdicts = nearest(baselines_folder, entries, [&](const Baseline& accepted, const std::string& accepted_as) {
-            std::vector<Verdict> both = judge_readings(run, accepted.readings, accepted_as, context.command, tolerance);
-            std::ranges::move(judge_frames(run, accepted, accepted_as, context.command, tolerance), std::back_inserter(both));
+            std::vector<Verdict> both = judge_readings(run, accepted.readings, accepted_as, tolerance);
+            std::ranges::move(judge_frames(run, accepted, accepted_as, tolerance), std::back_inserter(both));
             return both;
         });
         return verdicts.empty() ? failed("the baseline holds neither readings nor frames") : verdicts;

@@ -182,7 +182,7 @@ bool RepeatFold::add(const PlayedCell& again, const std::filesystem::path& folde
     return differ_.size() == before;
 }
 
-void RepeatFold::finish(PlayedCell& first, int asked, const std::string& rerun) const {
+void RepeatFold::finish(PlayedCell& first, int asked) const {
     first.repeats = {plays_, differ_, {}};
     for (const std::size_t i : varying_) {
         const auto values = values_.find(i);
@@ -192,7 +192,7 @@ void RepeatFold::finish(PlayedCell& first, int asked, const std::string& rerun) 
         first.repeats.spread.push_back({first.readings[i].key, first.readings[i].tick, static_cast<int>(spread->count), spread->mean,
                                         spread->standard_deviation * spread->standard_deviation});
     }
-    Verdict verdict{VerdictKind::pass, "repeats", "", rerun};
+    Verdict verdict{VerdictKind::pass, "repeats", "", ""};
     if (differ_.empty() && plays_ < asked) {
         verdict.kind = VerdictKind::not_measured;
         verdict.text = fmt::format("{} of {} plays were made", plays_, asked);

@@ -23,7 +23,7 @@ class RepeatFold {
 
     /// Sets `repeats` of the first play and adds the verdict "repeats": pass, flaky with what differs, or not measured where fewer than the
     /// `asked` plays were made.
-    void finish(PlayedCell& first, int asked, const std::string& rerun) const;
+    void finish(PlayedCell& first, int asked) const;
 
   private:
     const PlayedCell* first_;

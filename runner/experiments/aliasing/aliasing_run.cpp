@@ -304,7 +304,7 @@ std::vector<AliasingConfiguration> aliasing_configurations(const AliasingRequest
         techniques.push_back(request.drive.technique);
     std::vector<AliasingConfiguration> all;
     for (std::size_t i = 0; i < techniques.size(); ++i) {
-        technique_named(techniques[i]);
+        technique_named(techniques[i], {}, "--techniques");
         if (std::find(techniques.begin(), techniques.begin() + static_cast<std::ptrdiff_t>(i), techniques[i]) !=
             techniques.begin() + static_cast<std::ptrdiff_t>(i))
             throw InputError({{}, 0, 0, "--techniques"}, "found " + techniques[i] + " twice", "each technique once");

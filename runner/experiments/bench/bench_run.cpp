@@ -110,7 +110,7 @@ void time_rounds(const std::vector<TimedTechnique>& timed_techniques, const Benc
 
 std::vector<Technique> chosen_techniques(const std::vector<std::string>& names) {
     for (auto name = names.begin(); name != names.end(); ++name) {
-        technique_named(*name);
+        technique_named(*name, {}, "--techniques");
         if (std::find(names.begin(), name, *name) != name)
             throw InputError({{}, 0, 0, "--techniques"}, "found '" + printable(*name) + "' twice", "each technique once");
     }

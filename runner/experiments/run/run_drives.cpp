@@ -304,7 +304,7 @@ void repeat(const std::deque<Stage>& stages, Device& device, const RendererSetti
         }
     }
     for (std::size_t i = 0; i < folds.size(); ++i)
-        folds[i].finish(report.played[i], options.repeats, report.context.command);
+        folds[i].finish(report.played[i], options.repeats);
     if (Interruption::requested()) {
         report.complete = false;
         report.interrupted = "interrupted by the user";
@@ -332,13 +332,21 @@ void add_warnings(const std::deque<Stage>& stages, const std::vector<Drive>& dri
                 report.warnings.push_back(fmt::format("{}: {}", drive.name, warning));
 }
 
-/// Verdicts that need all of the run.
-void judge(const RunOptions& options, Report& report) {
+/// Verdicts that need all of the run, and how each is repeated.
+void judge(const std::vector<Drive>& drives, const RunOptions& options, Report& report) {
     if (!options.baselines.empty())
         for (PlayedCell& played : report.played)
             std::ranges::copy(judge_against_baselines(played, report.context, options.folder, options.baselines, played.technique,
                                                       options.across_devices),
                               std::back_inserter(played.verdicts));
+    for (PlayedCell& played : report.played) {
+        std::vector<std::string> others;
+        for (const Drive& drive : drives)
+            if (drive.name != played.drive)
+                others.push_back(drive.file.string());
+        for (Verdict& verdict : played.verdicts)
+            verdict.rerun = repeat_command(options.command, others);
+    }
     if (options.known) {
         add_inputs(report.context.inputs, options.known->opened);
         apply_known_failures(report, *options.known, options.today);
@@ -374,7 +382,7 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
                 run_drive(stage, device, settings, options, report);
         if (options.repeats > 1 && report.complete)
             repeat(stages, device, settings, options, report);
-        judge(options, report);
+        judge(drives, options, report);
     } catch (const std::exception& error) {
         report.complete = false;
         report.interrupted = error.what();

@@ -6,6 +6,7 @@
 #include "runner/judge/verdict_line.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace fernlicht {
@@ -41,39 +42,48 @@ std::string lamps_of(const StudyResult& result, const Change& change) {
 Cell cell_of(const Value& value, const std::string& rounded) {
     return value.measured() ? Cell(with_bound(value, rounded), *value.figure()) : Cell("not measured");
 }
-Cell two_decimals(const Value& value) { return cell_of(value, figure(value.figure().value_or(0.0), 2)); }
-Cell change_cell(const Value& value) { return value.measured() ? cell_of(value, signed_figure(*value.figure(), 2)) : Cell(""); }
+/// Two, and more where the change (or, without one, the old value) would have less than two digits: glare of 0.0312 and 0.0298 lx is two values.
+int decimals_of(const Change& change) {
+    const double changed = std::abs(change.change().figure().value_or(0.0)), old = std::abs(change.old_value.figure().value_or(0.0));
+    const double size = changed > 1e-6 ? changed : old;
+    return size < 0.1 && size > 1e-6 ? std::min(1 - static_cast<int>(std::floor(std::log10(size))), 7) : 2;
+}
+Cell value_cell(const Value& value, int decimals) { return cell_of(value, figure(value.figure().value_or(0.0), decimals)); }
+Cell change_cell(const Change& change) {
+    const Value found = change.change();
+    return found.measured() ? cell_of(found, signed_figure(*found.figure(), decimals_of(change))) : Cell("");
+}
 Cell open_cell(const std::optional<double>& value) { return value ? Cell(fmt::format("{:.2g}", *value), *value) : Cell(""); }
 
 std::string with_unit(const Value& value, const std::string& unit) {
-    return value.measured() ? with_bound(value, fmt::format("{:.4g} {}", *value.figure(), unit_label(unit))) : "not measured";
+    return value.measured() ? with_bound(value, fmt::format("{:.4g}{}", *value.figure(), unit_suffix(unit))) : "not measured";
 }
 
 /// "reach at 5 lx ...: 40 m → 50 m, +10.00 m (+25.0 %) ±0.57; new against old on straight-1 (night)"
 std::string change_sentence(const StudyResult& result, const Change& change) {
     const Value found = change.change();
     const CellResult& cell = result.cells[change.tested];
-    return fmt::format("{}: {} → {}, {} {}{} ±{:.2g}; {} against {} on {} ({})", reading_label(change.reading),
+    return fmt::format("{}: {} → {}, {}{}{} ±{:.2g}; {} against {} on {} ({})", reading_label(change.reading),
                        with_unit(change.old_value, change.unit()), with_unit(change.new_value, change.unit()),
-                       with_bound(found, fmt::format("{:+.2f}", found.figure().value_or(0.0))), unit_label(change.unit()),
+                       with_bound(found, fmt::format("{:+.{}f}", found.figure().value_or(0.0), decimals_of(change))), unit_suffix(change.unit()),
                        change.relative() ? fmt::format(" ({:+.1f} %)", 100.0 * *change.relative()) : "", change.uncertainty.value_or(0.0),
                        result.lamp_of(change.tested), result.lamp_of(change.against), cell.drive, cell.cell.condition);
 }
 
 Card card_of(const StudyResult& result, const Change& change) {
-    const std::string label = std::string_view(change.unit()) == "1" ? "" : unit_label(change.unit()),
-                      unit = label.empty() ? "" : " " + label;
+    const std::string unit = unit_suffix(change.unit());
+    const int decimals = decimals_of(change);
     std::string detail =
-        fmt::format("{} {}{} → {} {}{}; ±{}{} by calculation", result.lamp_of(change.against), two_decimals(change.old_value).text, unit,
-                    result.lamp_of(change.tested), two_decimals(change.new_value).text, unit, open_cell(change.uncertainty).text, unit);
+        fmt::format("{} {}{} → {} {}{}; ±{}{} by calculation", result.lamp_of(change.against), value_cell(change.old_value, decimals).text, unit,
+                    result.lamp_of(change.tested), value_cell(change.new_value, decimals).text, unit, open_cell(change.uncertainty).text, unit);
     if (change.noise_effect.value_or(0.0) > 0.0)
         detail += fmt::format(", ±{}{} by noise", open_cell(change.noise_effect).text, unit);
     if (change.aim_effect)
         detail += fmt::format(", ±{}{} by 0.1° of aim", figure(*change.aim_effect, 2), unit);
     const CellResult& cell = result.cells[change.tested];
     return {reading_label(change.reading),
-            change_cell(change.change()).text,
-            label,
+            change_cell(change).text,
+            unit_label(change.unit()),
             change.relative() ? fmt::format("({} %)", signed_figure(100.0 * *change.relative(), 1)) : "",
             detail,
             Cell(cell.drive + ", " + cell.cell.condition).linked("#" + change.id)};
@@ -101,8 +111,8 @@ Table readings_table(const StudyResult& result) {
         if (several_conditions)
             cells.emplace_back(cell.cell.condition);
         const std::optional<double> share = change.relative();
-        cells.insert(cells.end(), {Cell(reading_label(change.reading)).hinted(name_of(change.reading)), two_decimals(change.old_value),
-                                   two_decimals(change.new_value), change_cell(change.change()),
+        cells.insert(cells.end(), {Cell(reading_label(change.reading)).hinted(name_of(change.reading)), value_cell(change.old_value, decimals_of(change)),
+                                   value_cell(change.new_value, decimals_of(change)), change_cell(change),
                                    share ? Cell(signed_figure(100.0 * *share, 1), 100.0 * *share) : Cell(""), open_cell(change.uncertainty),
                                    open_cell(change.noise_effect),
                                    change.aim_effect ? Cell(figure(*change.aim_effect, 2), *change.aim_effect) : Cell(""),
@@ -307,16 +317,16 @@ Document study_summary(const StudyResult& result) {
 
 Document study_paper(const StudyResult& result) {
     Table table{"readings", "", columns_of("new / old<|drive<|condition<|reading<|old|new|change|±|unit<|is<"), {}};
-    const auto rounded = [](const Value& value, bool is_change) {
-        return value.measured() ? cell_of(value, fmt::format(fmt::runtime(is_change ? "{:+.2f}" : "{:.2f}"), *value.figure())) : Cell("");
+    const auto rounded = [](const Value& value, int decimals, bool is_change) {
+        return value.measured() ? cell_of(value, fmt::format(fmt::runtime(is_change ? "{:+.{}f}" : "{:.{}f}"), *value.figure(), decimals)) : Cell("");
     };
     for (const Change& change : result.changes)
         if (change.decides)
             table.rows.push_back(
                 {lamps_of(result, change), result.cells[change.tested].drive, result.cells[change.tested].cell.condition,
-                 reading_label(change.reading), rounded(change.old_value, false), rounded(change.new_value, false),
-                 rounded(change.change(), true),
-                 change.uncertainty ? Cell(fmt::format("{:.2f}", change.total_uncertainty()), change.total_uncertainty()) : Cell(""),
+                 reading_label(change.reading), rounded(change.old_value, decimals_of(change), false), rounded(change.new_value, decimals_of(change), false),
+                 rounded(change.change(), decimals_of(change), true),
+                 change.uncertainty ? Cell(fmt::format("{:.{}f}", change.total_uncertainty(), decimals_of(change)), change.total_uncertainty()) : Cell(""),
                  unit_label(change.unit()), change_name(change.kind)});
     Section section{"", {std::move(table)}};
     if (!result.played_in_part.empty())

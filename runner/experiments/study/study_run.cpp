@@ -174,6 +174,8 @@ bool play_cell(const Planned& planned, const StudyOptions& options, CellResult& 
         }
     }
     read_cell_report(options.folder, result);
+    for (Verdict& verdict : result.verdicts)
+        verdict.rerun = repeat_command(options.run.command, {}, {"--only", planned.cell.name});
     return true;
 }
 
@@ -210,6 +212,7 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
     result.study = study;
     const std::vector<Planned> planned = plan(study, options.only);
     refuse_no_moments(study, planned, options.run.ticks);
+    result.only = fmt::format("{}", fmt::join(options.only, ","));
     result.frames = frames_text(options.run.ticks);
     result.lamps = compare_lamp_files(study);
     // A machine that cannot draw says so before there is a folder.

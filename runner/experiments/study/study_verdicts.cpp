@@ -56,6 +56,8 @@ Report suites_of(const StudyResult& result) {
                                                           ? Verdict{VerdictKind::pass, "played", moments, cell.command}
                                                           : Verdict{VerdictKind::not_measured, "played", cell.failed, cell.command});
     }
+    if (std::vector<Verdict>& own = report.played.back().verdicts; !result.played_in_part.empty())
+        own.insert(own.begin(), {VerdictKind::pass, "played in part", result.played_in_part, result.context.command});
     report.played.back().lamp_set = "limits of the study";
     report.played.back().technique = "photometric";
     report.complete = result.interrupted.empty();

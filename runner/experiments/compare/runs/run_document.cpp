@@ -69,8 +69,8 @@ std::string change_text(const ReadingChange& c) {
         return value.measured() ? with_bound(value, fmt::format("{:.4g}", *value.figure())) : "not measured";
     };
     const Value change = c.change();
-    std::string text = fmt::format("{}: {} → {} {}, {}", reading_label(c.reading), short_value(c.old_value), short_value(c.new_value),
-                                   unit_label(c.unit()), with_bound(change, fmt::format("{:+.4g}", change.figure().value_or(0.0))));
+    std::string text = fmt::format("{}: {} → {}{}, {}", reading_label(c.reading), short_value(c.old_value), short_value(c.new_value),
+                                   unit_suffix(c.unit()), with_bound(change, fmt::format("{:+.4g}", change.figure().value_or(0.0))));
     if (c.relative())
         text += fmt::format(" ({:+.1f} %)", 100.0 * *c.relative());
     if (c.uncertainty)
