@@ -14,7 +14,7 @@ namespace fernlicht {
 namespace {
 
 constexpr std::size_t max_zones = 64;
-constexpr std::array<int, 3> block_halves{0, 1, 2}; // 1, 3 x 3, 5 x 5 samples
+constexpr std::array<std::size_t, 3> block_halves{0, 1, 2}; // 1, 3 x 3, 5 x 5 samples
 
 struct ZoneMean {
     double mean = 0.0, sigma = 0.0, open = 0.0;
@@ -65,19 +65,24 @@ struct Weighed {
     }
 };
 
-/// Weighted mean over the compared samples within `half` of (x, y); nullopt where (x, y) is not compared.
-std::optional<ZoneMean> block_at(const ResidualGrid& grid, int x, int y, int half, NoiseSum& noise) {
-    const int columns = static_cast<int>(grid.h_deg.size()), rows = static_cast<int>(grid.v_deg.size());
-    if (std::isnan(grid.r[static_cast<std::size_t>(y) * grid.h_deg.size() + static_cast<std::size_t>(x)]))
+/// Calls `visit` with each sample no farther than `steps` from `at` along either axis.
+void each_near(const ResidualGrid& grid, std::size_t at, std::size_t steps, const auto& visit) {
+    const std::size_t columns = grid.h_deg.size(), rows = grid.v_deg.size(), x = at % columns, y = at / columns;
+    for (std::size_t j = std::max(y, steps) - steps; j <= std::min(rows - 1, y + steps); ++j)
+        for (std::size_t i = std::max(x, steps) - steps; i <= std::min(columns - 1, x + steps); ++i)
+            visit(j * columns + i);
+}
+
+/// Weighted mean over the compared samples within `half` of `at`; nullopt where `at` is not compared.
+std::optional<ZoneMean> block_at(const ResidualGrid& grid, std::size_t at, std::size_t half, NoiseSum& noise) {
+    if (std::isnan(grid.r[at]))
         return std::nullopt;
     noise.clear();
     Weighed all;
-    for (int j = std::max(0, y - half); j <= std::min(rows - 1, y + half); ++j)
-        for (int i = std::max(0, x - half); i <= std::min(columns - 1, x + half); ++i) {
-            const std::size_t at = static_cast<std::size_t>(j) * grid.h_deg.size() + static_cast<std::size_t>(i);
-            if (!std::isnan(grid.r[at]))
-                all.add(grid, at, noise);
-        }
+    each_near(grid, at, half, [&](std::size_t near) {
+        if (!std::isnan(grid.r[near]))
+            all.add(grid, near, noise);
+    });
     return ZoneMean{all.sum / all.weights, std::sqrt(noise.variance()) / all.weights, all.open / all.weights};
 }
 
@@ -86,22 +91,17 @@ struct Smoothed {
     std::vector<double> best_z;
 };
 
-Smoothed smooth(const ResidualGrid& grid) {
-    Smoothed out;
-    NoiseSum noise;
-    for (int y = 0; y < static_cast<int>(grid.v_deg.size()); ++y)
-        for (int x = 0; x < static_cast<int>(grid.h_deg.size()); ++x) {
-            double z = 0.0, mean = std::numeric_limits<double>::quiet_NaN();
-            for (const int half : block_halves)
-                if (const std::optional<ZoneMean> block = block_at(grid, x, y, half, noise)) {
-                    z = std::max(z, block->z());
-                    if (half == 1)
-                        mean = std::copysign(std::max(0.0, std::abs(block->mean) - block->open), block->mean);
-                }
-            out.mean.push_back(mean);
-            out.best_z.push_back(z);
+/// Makes the smoothed values of one sample those of the grid.
+void smooth(const ResidualGrid& grid, std::size_t at, NoiseSum& noise, Smoothed& out) {
+    double z = 0.0, mean = std::numeric_limits<double>::quiet_NaN();
+    for (const std::size_t half : block_halves)
+        if (const std::optional<ZoneMean> block = block_at(grid, at, half, noise)) {
+            z = std::max(z, block->z());
+            if (half == 1)
+                mean = std::copysign(std::max(0.0, std::abs(block->mean) - block->open), block->mean);
         }
-    return out;
+    out.mean[at] = mean;
+    out.best_z[at] = z;
 }
 
 /// All samples that `belongs` and that touch one another and `start`; they are taken out of `free`.
@@ -206,12 +206,16 @@ std::vector<std::size_t> largest_zone(const ResidualGrid& grid, const Smoothed& 
     return members;
 }
 
-void take_out(ResidualGrid& grid, const std::vector<std::size_t>& members) {
-    const std::size_t columns = grid.h_deg.size(), rows = grid.v_deg.size();
-    for (const std::size_t at : members)
-        for (std::size_t y = std::max<std::size_t>(at / columns, 1) - 1; y <= std::min(at / columns + 1, rows - 1); ++y)
-            for (std::size_t x = std::max<std::size_t>(at % columns, 1) - 1; x <= std::min(at % columns + 1, columns - 1); ++x)
-                grid.r[y * columns + x] = std::numeric_limits<double>::quiet_NaN();
+/// The zone and the samples round it; those whose blocks reached into it are smoothed anew.
+void take_out(ResidualGrid& grid, const std::vector<std::size_t>& members, NoiseSum& noise, Smoothed& smoothed) {
+    std::vector<bool> stale(grid.r.size());
+    for (const std::size_t at : members) {
+        each_near(grid, at, 1, [&](std::size_t near) { grid.r[near] = std::numeric_limits<double>::quiet_NaN(); });
+        each_near(grid, at, 1 + block_halves.back(), [&](std::size_t near) { stale[near] = true; });
+    }
+    for (std::size_t at = 0; at < stale.size(); ++at)
+        if (stale[at])
+            smooth(grid, at, noise, smoothed);
 }
 
 } // namespace
@@ -263,14 +267,17 @@ double neighbour_noise(const ResidualGrid& grid, const std::vector<bool>& chosen
 std::vector<BeamZone> find_zones(const ResidualGrid& grid, double z_limit) {
     std::vector<BeamZone> zones;
     ResidualGrid rest = grid;
+    NoiseSum noise;
+    Smoothed smoothed{std::vector<double>(grid.r.size()), std::vector<double>(grid.r.size())};
+    for (std::size_t at = 0; at < grid.r.size(); ++at)
+        smooth(rest, at, noise, smoothed);
     // One zone after the other, each taken out with the samples round it: blocks that reach into it would begin another beside it.
     while (zones.size() < max_zones) {
-        const Smoothed smoothed = smooth(rest);
         const std::vector<std::size_t> members = largest_zone(rest, smoothed, z_limit);
         if (members.empty())
             break;
         zones.push_back(zone_of(rest, smoothed, members));
-        take_out(rest, members);
+        take_out(rest, members, noise, smoothed);
     }
     std::ranges::stable_sort(zones, std::greater{}, &BeamZone::z);
     return zones;
