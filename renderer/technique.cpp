@@ -103,9 +103,9 @@ constexpr std::array rows{
     Technique{
         "photometric", TechniqueKind::ours, 0, "", ours,
         "E = I cos / d^2 per fragment for each lamp, I from the candela table in float; a shadow map per lamp; diffuse and retroreflecting "
-        "surfaces; compiled and drawn for what the moment needs",
-        "light reflected twice; the extent of lamps; shadows of what stands farther than 300 m from an own lamp; in the light of others "
-        "and street lamps: shadows in fog, of faint light and of more than 16 lamps",
+        "surfaces; pruned to what the moment needs",
+        "light reflected twice; the extent of lamps; shadows of what stands farther than 300 m from an own lamp; in the light of "
+        "other vehicles' and street lamps: shadows in fog, of faint light and of more than 16 lamps",
         1, true, true, true, ""},
     Technique{"photometric-unpruned", TechniqueKind::ours, 0, "", ours,
               "photometric with everything compiled in and nothing culled, to the same bytes", "as photometric", 1, true, true, true, ""},

@@ -100,7 +100,7 @@ SeeingSeries GlareFollowed::series(const ReadingKey& eye, const std::string& tit
         series.add({name, label, unit, logarithmic}, figure,
                    [](const ApproachSample& sample) { return Value::of(sample.value, "not measured at this place"); });
     };
-    column("facing_lx", "illuminance facing the lamps", "lx", true, facing);
+    column("facing_lx", "facing illuminance", "lx", true, facing);
     column("eye_lx", "illuminance across the line of sight", "lx", true, eye_lx);
     series.columns.back().drawn = false;
     column("veiling_cdm2", "veiling luminance", "cd/m2", true, veiling);
@@ -276,7 +276,7 @@ void TrafficFold::add(const Moment& moment) {
 
 Readings TrafficFold::readings() const {
     Readings readings;
-    eye_.say(readings, {.quantity = Quantity::glare_facing, .place = ReadingPlace::own_eyes}, "own driver's eye, lamps of others", "",
+    eye_.say(readings, {.quantity = Quantity::glare_facing, .place = ReadingPlace::own_eyes}, "own driver's eye, other vehicles' lamps", "",
              *drive_.seeing.glare);
     return readings;
 }

@@ -185,7 +185,7 @@ std::vector<SeeingSeries> SensorFold::series() const {
                             followed_[i].ticks};
         for (const ApproachSample& sample : followed_[i].approach)
             series.at_m.push_back(sample.distance_m);
-        series.add({"facing_lx", "illuminance facing the lamps", "lx", true}, followed_[i].approach,
+        series.add({"facing_lx", "facing illuminance", "lx", true}, followed_[i].approach,
                    [](const ApproachSample& sample) { return Value::of(sample.value, "not measured at this place"); });
         all.push_back(std::move(series));
     }

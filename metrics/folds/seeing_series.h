@@ -16,7 +16,7 @@ struct SeeingSeries {
     std::vector<double> at_m = {};
     struct Column {
         std::string name;  ///< with its unit at the end, as of readings: "facing_lx"
-        std::string label; ///< for people: "illuminance facing the lamps"
+        std::string label; ///< for people: "facing illuminance"
         std::string unit;
         bool logarithmic = false; ///< as drawn
         bool drawn = true;

@@ -34,14 +34,14 @@ constexpr QuantityRow rows[] = {
      "probe_<name>(median|_min|_max|_twin)_lx",
      "lx", SubjectKind::probe, Better::neither, false, Exactness::drawing, WithLight::proportional,
      "{most}illuminance, probe {subject}",
-     "illuminance drawn at the point; `twin`: by the lamps' tables in double precision. A point above the road has no drawn value, one "
+     "illuminance rendered at the point; `twin`: from the candela tables in double precision. A point above the road has no rendered value, one "
      "beside the pavement no twin: the twin knows the road's surface, not the verge",
      "E = I cos α / d²", "photometric distance law"},
     {Quantity::sensor_reach, "sensor_reach",
      "sensor_<name>_reach_<lx>lx_m",
      "m", SubjectKind::sensor, Better::higher, false, Exactness::between_moments, WithLight::over_thresholds,
      "reach at {limit}, sensor {subject}",
-     "distance from the bumper to the sensor where the light facing the lamps comes up to the threshold for good; 0: nowhere",
+     "distance from the bumper to the sensor where the facing illuminance comes up to the threshold for good; 0: nowhere",
      "max s with E ≥ threshold from s down to 0", "ours"},
     {Quantity::sensor_illuminance, "sensor_illuminance",
      "sensor_<name>_at_<m>m_lx sensor_<name>(_max)_lx",

@@ -93,12 +93,12 @@ std::unique_ptr<gl::Context> open_first(bool software) {
             std::unique_ptr<gl::Context> context = open_named(name);
             if (!software || context->info.software)
                 return context;
-            failures += fmt::format("; {}: draws on {}", name, context->info.gl_renderer);
+            failures += fmt::format("; {}: renders on {}", name, context->info.gl_renderer);
         } catch (const DeviceError& error) {
             failures += fmt::format("; {}", error.what());
         }
     }
-    throw DeviceError(fmt::format("nothing here can draw{}{}", software ? " on the CPU" : "", ":" + failures.substr(1)));
+    throw DeviceError(fmt::format("nothing here can render{}{}", software ? " on the CPU" : "", ":" + failures.substr(1)));
 }
 
 } // namespace

@@ -112,7 +112,7 @@ void NaiveLighting::draw(const Shot& shot) {
     }
     draw_pieces(shot.camera.clip_from_ego, shot.moment.ego.position_m, shot.camera.is_map, farthest_drawn_m, shot.work);
     shot.clock.end();
-    context_.check("drawing the scene");
+    context_.check("rendering the scene");
     shot.work.lamps = static_cast<int>(lamps_.size());
     shot.work.samplers = static_cast<int>(lamps_.size()) * (settings_.shadows.any() ? 2 : 1) + (scene_.texture_bytes() > 0 ? 1 : 0);
     shot.work.texture_bytes =

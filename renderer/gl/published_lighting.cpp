@@ -258,7 +258,7 @@ void PublishedLighting::draw(const Shot& shot) {
         shot.work.triangles += list_.triangles();
     }
     end_passes();
-    context_.check("drawing the scene");
+    context_.check("rendering the scene");
     shot.work.lamps = computed_lamps_;
     shot.work.texture_bytes = beams_.texture_bytes() + scene_.texture_bytes();
     pruned_features_.clear();

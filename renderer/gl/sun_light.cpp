@@ -87,7 +87,7 @@ void SunLight::draw(Work& work) {
         pass_.begin(sun_map_texels, sun_map_texels);
         pass_.set_pieces(ego_m_, casters_);
         pass_.draw(*map_, window, work);
-        pass_.end("drawing the sun's shadow map");
+        pass_.end("rendering the sun's shadow map");
         drawn_window_ = window;
         drawn_ = casters_;
         drawn_ego_m_ = ego_m_;

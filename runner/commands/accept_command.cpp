@@ -90,7 +90,7 @@ RunResults read_run(const std::filesystem::path& run_folder) {
     if (is_study_folder(run_folder))
         return read_cells(run_folder);
     if (std::error_code ignored; !std::filesystem::exists(run_folder / "report.json", ignored))
-        throw InputError({run_folder, 0, 0, {}}, "is no folder of a run, a study or rays",
+        throw InputError({run_folder, 0, 0, {}}, "is no folder of a run, a study or a reference",
                          "one that `fernlicht run`, `study` or `reference` wrote");
     const Report report = read_report(run_folder);
     RunResults results{{}, report.context.started_utc};
@@ -123,9 +123,8 @@ void add_accept_command(CLI::App& app, const std::vector<std::string>&, std::fun
     CLI::App* command = app.add_subcommand("accept", "take a run's results as baselines for later runs; judges nothing");
     command->add_option("RUN", flags->run, "folder of a complete run or study, or of a `fernlicht reference` picture")->required();
     command->add_option("--baselines", flags->baselines, "folder of baselines")->capture_default_str();
-    command->add_flag("--replace", flags->replace, "replace what was accepted under the same keys");
-    command->add_flag("--replace-class", flags->replace_class,
-                      "replace everything accepted for this device class; other classes keep theirs");
+    command->add_flag("--replace", flags->replace, "replace the baselines under the same keys");
+    command->add_flag("--replace-class", flags->replace_class, "replace all baselines of this device class; other classes keep theirs");
     command->add_flag("--add", flags->add, "accept these as well: a run that agrees with either passes; needs --note");
     command->add_flag("--readings-only", flags->readings_only, "store no frames, a thousandth of the size; pictures are then not compared");
     command->add_option("--note", flags->note, "the reason, in one sentence; `fernlicht baselines` shows it");

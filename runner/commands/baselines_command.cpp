@@ -91,7 +91,7 @@ void print_facts(const StoredBaseline& entry, const Producer& producer) {
     fmt::print("{}", table(rows));
 }
 
-/// Only where several classes of device have results, and of what differs between them.
+/// Only where several device classes have results, and of what differs between them.
 void print_device_spread(const DeviceSpread& spread) {
     if (spread.devices < 2)
         return;
@@ -101,7 +101,7 @@ void print_device_spread(const DeviceSpread& spread) {
             rows.push_back({name_of(reading.key), reading.tick < 0 ? "" : fmt::format("{}", reading.tick), figure_of(reading),
                             unit_of(reading.key), fmt::format("{}", reading.count), fmt::format("{:.3g}", std::sqrt(reading.variance))});
     if (rows.size() == 1)
-        fmt::print("\n{} classes of device agree in every reading\n", spread.devices);
+        fmt::print("\n{} device classes agree in every reading\n", spread.devices);
     else
         fmt::print("\n{}", table(rows));
 }
@@ -211,7 +211,7 @@ int remove(const BaselinesFlags& flags) {
 
 void add_baselines_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto flags = std::make_shared<BaselinesFlags>();
-    CLI::App* command = app.add_subcommand("baselines", "list, show, compare and remove accepted results");
+    CLI::App* command = app.add_subcommand("baselines", "list, show, compare and remove baselines");
     command->require_subcommand(0, 1);
     const auto add = [&](const char* name, const char* text, int (*action)(const BaselinesFlags&)) {
         CLI::App* sub = command->add_subcommand(name, text);
@@ -219,16 +219,16 @@ void add_baselines_command(CLI::App& app, const std::vector<std::string>&, std::
         sub->callback([flags, action, &chosen] { chosen = [flags, action] { return action(*flags); }; });
         return sub;
     };
-    CLI::App* listing = add("list", "what is accepted", list);
+    CLI::App* listing = add("list", "the baselines there are", list);
     listing->add_flag("--json", flags->json, "print JSON");
-    CLI::App* showing = add("show", "one accepted result: who made it, readings, frames", show);
+    CLI::App* showing = add("show", "one baseline: who made it, readings, frames", show);
     showing->add_option("ID", flags->word, "first digits of an id, or DRIVE/LAMP SET/TECHNIQUE")->required();
     showing->add_flag("--json", flags->json, "print JSON");
     CLI::App* comparing = add("diff", "two results, reading by reading and pixel by pixel", diff);
-    comparing->add_option("ID", flags->word, "the accepted result")->required();
+    comparing->add_option("ID", flags->word, "the baseline")->required();
     comparing->add_option("OTHER", flags->other, "a run's folder, or another id")->required();
     comparing->add_flag("--all", flags->all, "list what agrees, too");
-    CLI::App* removing = add("remove", "remove accepted results, and files no longer needed", remove);
+    CLI::App* removing = add("remove", "remove baselines, and files no longer needed", remove);
     removing->add_option("ID", flags->words, "first digits of an id, or DRIVE/LAMP SET/TECHNIQUE");
     removing->add_flag("--dry-run", flags->dry, "only show what would be removed");
     removing->add_flag("--unreferenced", flags->unreferenced, "without an ID: remove only files that nothing refers to");
@@ -237,7 +237,7 @@ void add_baselines_command(CLI::App& app, const std::vector<std::string>&, std::
         if (command->get_subcommands().empty())
             chosen = [extras = command->remaining()]() -> int {
                 throw InputError({{}, 0, 0, "baselines"}, extras.empty() ? "found nothing" : "found '" + printable(extras.front()) + "'",
-                                 "list, show, diff or remove; `fernlicht reference DRIVE` draws a moment by rays");
+                                 "list, show, diff or remove; `fernlicht reference DRIVE` ray-traces a moment");
             };
     });
 }

@@ -75,7 +75,7 @@ int doctor() {
     if (works)
         works = tell_chosen();
     else
-        line("auto", "nothing here can draw");
+        line("auto", "nothing here can render");
     tell_machine();
     return works ? 0 : 3;
 }

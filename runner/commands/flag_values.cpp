@@ -178,9 +178,8 @@ TickRange tick_range(const std::string& frames) {
 }
 
 void add_judging_flags(CLI::App& command, JudgingFlags& flags) {
-    command.add_option("--baselines", flags.baselines, "folder of accepted results to judge against");
-    command.add_flag("--across-devices", flags.across_devices,
-                     "where nothing is accepted for this device class, judge by results of other classes");
+    command.add_option("--baselines", flags.baselines, "folder of baselines to judge against");
+    command.add_flag("--across-devices", flags.across_devices, "where this device class has no baseline, judge by those of other classes");
     command.add_option("--repeat", flags.repeats, "times to play each lamp set; results that differ in a byte are flaky, which is red")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
@@ -190,7 +189,7 @@ void add_judging_flags(CLI::App& command, JudgingFlags& flags) {
 
 std::optional<KnownFailures> take(const JudgingFlags& flags, RunOptions& options) {
     if (flags.across_devices && flags.baselines.empty())
-        throw InputError({{}, 0, 0, "--across-devices"}, "found no --baselines", "the folder of accepted results");
+        throw InputError({{}, 0, 0, "--across-devices"}, "found no --baselines", "the folder of baselines");
     if (!flags.baselines.empty())
         refuse_missing_store(flags.baselines);
     options.baselines = flags.baselines;

@@ -95,7 +95,7 @@ void check_name(const ReferenceFlags& flags) {
     for (const char* action : {"list", "show", "diff", "remove"})
         if (flags.drive == action && !std::filesystem::exists(flags.drive, ignored))
             throw InputError({{}, 0, 0, "DRIVE"}, fmt::format("found '{}'", action),
-                             fmt::format("a drive file; accepted results are looked at with `fernlicht baselines {}`", action));
+                             fmt::format("a drive file; baselines are looked at with `fernlicht baselines {}`", action));
 }
 
 int draw_reference(const ReferenceFlags& flags, const std::vector<std::string>& command) {

@@ -1,4 +1,4 @@
-// Accepted results of one drive with one lamp set, technique and class of device: what later runs are judged by.
+// Accepted results of one drive with one lamp set, technique and device class: what later runs are judged by.
 #pragma once
 
 #include "metrics/readings/readings.h"

@@ -5,7 +5,7 @@
 
 namespace fernlicht {
 
-/// Within one class of device the same bytes are promised. These tolerances forgive what another patch level of a driver or a
+/// Within one device class the same bytes are promised. These tolerances forgive what another patch level of a driver or a
 /// library may round otherwise, and nothing that light could explain: 2 % more light exceeds them twentyfold.
 struct BaselineTolerance {
     double relative = 1e-3; ///< of the accepted value

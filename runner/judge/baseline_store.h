@@ -31,7 +31,7 @@ enum class Acceptance {
     first,         ///< only where nothing else is accepted
     add,           ///< beside what is there: either will do
     replace,       ///< in place of all that is there under the same key
-    replace_class, ///< in place of all that is there for the same class of device, whatever its drive
+    replace_class, ///< in place of all that is there for the same device class, whatever its drive
 };
 struct Stored {
     std::string id;

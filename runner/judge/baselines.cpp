@@ -144,7 +144,7 @@ std::vector<Verdict> nearest(const std::filesystem::path& store, const std::vect
     return best;
 }
 
-/// The classes of device that results are of, each once.
+/// The device classes that results are of, each once.
 std::string devices_text(const std::vector<StoredBaseline>& entries) {
     std::string text;
     for (const StoredBaseline& entry : entries)
@@ -158,11 +158,10 @@ std::vector<Verdict> judge_across(const std::filesystem::path& store, const Devi
                                   const BaselineTolerance& tolerance) {
     Baseline measured = run; // what was measured on all of them; what was not has no spread
     std::erase_if(measured.readings, [](const AcceptedReading& reading) { return !reading.mean.measured(); });
-    const std::string over = fmt::format(" (over {} other class{} of device)", others.devices, others.devices == 1 ? "" : "es");
+    const std::string over = fmt::format(" (over {} other device class{})", others.devices, others.devices == 1 ? "" : "es");
     std::vector<Verdict> verdicts = judge_readings(measured, others.readings, over, tolerance);
     verdicts.push_back({VerdictKind::pass, other_device_class,
-                        fmt::format("nothing is accepted for {}; judged by {}", device_text(run.key), devices_text(others.entries)),
-                        ""});
+                        fmt::format("nothing is accepted for {}; judged by {}", device_text(run.key), devices_text(others.entries)), ""});
     std::ranges::move(nearest(store, others.entries,
                               [&](const Baseline& accepted, const std::string& accepted_as) {
                                   return judge_frames(run, accepted, accepted_as, tolerance);
@@ -243,9 +242,7 @@ std::vector<Verdict> judge_against_baselines(const PlayedCell& played, const Run
                                              bool across_devices, const BaselineTolerance& tolerance) {
     const FolderLock lock(baselines_folder, FolderLock::For::reading);
     const Baseline run = results_of(played, context, run_folder, technique);
-    const auto failed = [&](const std::string& text) {
-        return std::vector<Verdict>{{VerdictKind::fail, "baseline", text, ""}};
-    };
+    const auto failed = [&](const std::string& text) { return std::vector<Verdict>{{VerdictKind::fail, "baseline", text, ""}}; };
     try {
         const std::vector<StoredBaseline> all = list_baselines(baselines_folder);
         std::vector<StoredBaseline> entries;

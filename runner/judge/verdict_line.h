@@ -6,7 +6,7 @@
 namespace fernlicht {
 
 /// "FAIL straight, halogen: reach_5lx_road_own_m: 58 m, limit at least 60 m\n" with `subject` between word and name; "" for what is plainly
-/// green and not worth a line. A pass that was judged by other classes of device is (baselines.h).
+/// green and not worth a line. A pass that was judged by other device classes is (baselines.h).
 std::string verdict_line(const Verdict& verdict, const std::string& subject);
 
 } // namespace fernlicht

@@ -101,7 +101,7 @@ std::vector<std::string> display_warnings(const DisplayProfile& profile) {
     std::vector<std::string> warnings;
     if (const double contrast = profile.peak_cdm2() / profile.black_cdm2; contrast < min_display_contrast)
         warnings.push_back(fmt::format("display '{}' has a contrast of {:.4g} : 1 (peak {:.4g} cd/m2, black {:.4g} cd/m2), less than the "
-                                       "{:g} : 1 that ISO 9241-3 recommends for text: its pictures hide what was drawn",
+                                       "{:g} : 1 that ISO 9241-3 recommends for text: its pictures hide what was rendered",
                                        profile.name, contrast, profile.peak_cdm2(), profile.black_cdm2, min_display_contrast));
     if (profile.transfer == TransferKind::pq && profile.bits == 8)
         warnings.push_back(
@@ -117,7 +117,7 @@ std::string substitute_shadows(const Drive& drive) {
     const bool ours = technique.kind == TechniqueKind::ours;
     if (method == ShadowMethod::none || (ours && (technique.name != "photometric-naive" || method == ShadowMethod::map)))
         return "";
-    return ours ? "its shadows are those of a map for each lamp" : "it draws no shadows of lamps";
+    return ours ? "its shadows are those of a map for each lamp" : "it renders no shadows of lamps";
 }
 
 RenderingSettings rendering_settings(const Drive& drive) {

@@ -186,7 +186,7 @@ Readings ProbeFold::finish() const {
             readings.push_back({key, Value::of(value, why_not), where});
         };
         const std::optional<Spread> drawn = spread_of(found_[i].drawn), twin = spread_of(found_[i].twin);
-        const std::string unseen = probe.above_m != 0.0  ? "the point is not on a surface that is drawn"
+        const std::string unseen = probe.above_m != 0.0  ? "the point is not on a rendered surface"
                                    : found_[i].not_drawn ? no_illuminance(drive_.technique)
                                                          : "no moment was played";
         say(Statistic::median, Aspect::value, drawn ? std::optional(drawn->median) : std::nullopt, unseen);

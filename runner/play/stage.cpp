@@ -43,7 +43,7 @@ Stage::Stage(Drive d)
     if (drive.extent && !drive.traffic.empty())
         drive.notes.emplace_back(
             "other road users: pictures and lux maps show the light of all lamps; reach, width and area are of the own lamps "
-            "alone. Drawn, they end where a body hides road or target; the calculation, and what aim and flux change, know "
+            "alone. Rendered, they end where a body hides road or target; the twin, and what aim and flux change, know "
             "no bodies");
 }
 

@@ -318,7 +318,7 @@ const Fields<Study>& study_fields() {
             .read_by(read_study_lamps)
             .required(),
         values_form("drives", &Study::drives, existing, false, text, "drive files; relative to the study file").required(),
-        values_form("techniques", &Study::techniques, technique_name, false, text, "how the drives are drawn; photometric by default"),
+        values_form("techniques", &Study::techniques, technique_name, false, text, "how the drives are rendered; photometric by default"),
         field("conditions", 4, &Study::conditions, condition_fields(), "every combination is played"),
         form<Study>("compare", FieldKind::list, names(0, max_entries), "all with the first by default", read_comparisons)
             .of(comparison_fields()),

@@ -223,8 +223,8 @@ TEST(Run, AShadowMethodThatTheTechniqueDoesNotUseIsAWarning) {
         "straight-1: shadows by 'volumes' were asked for, and technique photometric-naive does not use it: its shadows are those of a "
         "map for each lamp\n");
     EXPECT_THAT(warnings("full", "--technique full --shadows auto"),
-                testing::HasSubstr("shadows by 'auto' were asked for, and technique full does not use it: it draws no shadows of lamps"));
-    EXPECT_THAT(content_of(folder / "full/report.html"), testing::HasSubstr("it draws no shadows of lamps"));
+                testing::HasSubstr("shadows by 'auto' were asked for, and technique full does not use it: it renders no shadows of lamps"));
+    EXPECT_THAT(content_of(folder / "full/report.html"), testing::HasSubstr("it renders no shadows of lamps"));
     EXPECT_EQ(warnings("map", "--technique photometric-naive --shadows map"), "");
     EXPECT_EQ(warnings("none", "--technique full --shadows none"), "");
     EXPECT_EQ(warnings("ours", "--technique photometric-unpruned --shadows volumes"), "");
@@ -280,7 +280,7 @@ TEST(Doctor, FailsWhereNothingCanDraw) {
     if (doctor.exit_code == 0)
         GTEST_SKIP() << "this Mesa draws all the same";
     EXPECT_EQ(doctor.exit_code, 3) << doctor.output;
-    EXPECT_NE(doctor.output.find("nothing here can draw"), std::string::npos) << doctor.output;
+    EXPECT_NE(doctor.output.find("nothing here can render"), std::string::npos) << doctor.output;
 }
 
 } // namespace

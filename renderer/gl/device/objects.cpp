@@ -37,8 +37,8 @@ Texture make_texture(Context& context, GLenum internal_format, int width, int he
     GLint limit = 0;
     context.gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (width < 1 || height < 1 || width > limit || height > limit)
-        throw DeviceError(
-            fmt::format("{} draws at most {} x {} pixels, {} x {} were asked for", context.info.gl_renderer, limit, limit, width, height));
+        throw DeviceError(fmt::format("{} renders at most {} x {} pixels, {} x {} were asked for", context.info.gl_renderer, limit, limit,
+                                      width, height));
     Texture texture = new_texture(context, GL_TEXTURE_2D);
     context.gl.TextureStorage2D(texture, 1, internal_format, width, height);
     context.gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);

@@ -60,7 +60,7 @@ Targets::Targets(Context& context, int width, int height, const FrameOutputs& ou
     gl.NamedFramebufferDrawBuffers(framebuffer_, static_cast<GLsizei>(draw_buffers.size()), draw_buffers.data());
     if (const GLenum status = gl.CheckNamedFramebufferStatus(framebuffer_, GL_FRAMEBUFFER); status != GL_FRAMEBUFFER_COMPLETE)
         throw DeviceError(
-            fmt::format("{} cannot draw into {} x {} targets (status 0x{:04x})", context.info.gl_renderer, width, height, status));
+            fmt::format("{} cannot render into {} x {} targets (status 0x{:04x})", context.info.gl_renderer, width, height, status));
     context.check("making targets");
 }
 

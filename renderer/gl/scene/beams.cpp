@@ -92,11 +92,10 @@ std::vector<LitLamp> shining(const Moment& moment, bool all) {
         if (all || lamp.intensity_factor > 0.0)
             lamps.push_back(lamp);
     if (lamps.size() > max_lamps)
-        throw InputError(
-            {{}, 0, 0, "lamps"},
-            all ? fmt::format("{} lamps are mounted, and a technique that leaves nothing out draws those that are off, too", lamps.size())
-                : fmt::format("{} lamps are on at {} s", lamps.size(), moment.time_s),
-            fmt::format("at most {}", max_lamps));
+        throw InputError({{}, 0, 0, "lamps"},
+                         all ? fmt::format("{} lamps are mounted, and an unpruned technique renders those that are off, too", lamps.size())
+                             : fmt::format("{} lamps are on at {} s", lamps.size(), moment.time_s),
+                         fmt::format("at most {}", max_lamps));
     return lamps;
 }
 

@@ -19,7 +19,7 @@ std::unique_ptr<Shadows> make_shadows(Context& context, const SceneBuffers& scen
     case ShadowMethod::volumes:
         return std::make_unique<ShadowVolumes>(context, scene, settings, use);
     case ShadowMethod::automatic:
-        throw std::invalid_argument("shadows: auto is to be chosen before drawing (choose_shadows.h)");
+        throw std::invalid_argument("shadows: auto is to be chosen before rendering (choose_shadows.h)");
     case ShadowMethod::map:
         if (settings.redraw_texels > 0.0)
             return std::make_unique<ProjectedMaps>(context, scene, settings);

@@ -187,7 +187,7 @@ void ProjectedMaps::draw_map(Kept& kept, const Shot& shot) {
         from_place[3] -= texture * (ego_from_lamp[0] * places_[k].x + ego_from_lamp[1] * places_[k].y);
         pass_.draw(kept.texture, clip_from_shadow_texture(from_place), shot.work, layered() ? static_cast<GLint>(k) : -1);
     }
-    pass_.end("drawing a shadow map");
+    pass_.end("rendering a shadow map");
 }
 
 void ProjectedMaps::draw(const Shot& shot) {

@@ -33,7 +33,7 @@ void ShadowMaps::draw(const Shot& shot) {
             pass_.set_pieces(ego_m, lamps[i].pieces);
             pass_.draw(textures_[i], lamps[i].clip, work);
         }
-        pass_.end("drawing shadow maps");
+        pass_.end("rendering shadow maps");
         drawn_ = std::move(now);
     }
     for (std::size_t i = 0; i < lamps.size(); ++i)
@@ -89,9 +89,9 @@ Texture make_shadow_texture(Context& context, const ShadowTextureAsked& asked) {
     gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (std::max(asked.width, asked.height) > limit)
         throw ShadowMemoryError(fmt::format("shadows: found a map of {} x {} texels for {}, expected at most {} each way (map_texels), "
-                                            "which {} draws",
+                                            "which {} renders",
                                             asked.width, asked.height, asked.owner, limit, context.info.gl_renderer));
-    context.check("drawing before a shadow map was made");
+    context.check("rendering before a shadow map was made");
     Texture texture = new_texture(context, asked.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D);
     if (asked.layers > 0)
         gl.TextureStorage3D(texture, 1, GL_DEPTH_COMPONENT32F, asked.width, asked.height, asked.layers);

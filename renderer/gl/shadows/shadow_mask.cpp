@@ -85,8 +85,8 @@ ShadowMask::Canvas ShadowMask::make_canvas(int width, int height) {
     gl.NamedFramebufferTexture(canvas.framebuffer, GL_COLOR_ATTACHMENT0, canvas.mask, 0);
     gl.NamedFramebufferTexture(canvas.framebuffer, GL_DEPTH_STENCIL_ATTACHMENT, canvas.depth, 0);
     if (const GLenum status = gl.CheckNamedFramebufferStatus(canvas.framebuffer, GL_FRAMEBUFFER); status != GL_FRAMEBUFFER_COMPLETE)
-        throw DeviceError(fmt::format("{} cannot draw a shadow mask of {} x {} pixels (status 0x{:04x})", context_.info.gl_renderer, width,
-                                      height, status));
+        throw DeviceError(fmt::format("{} cannot render a shadow mask of {} x {} pixels (status 0x{:04x})", context_.info.gl_renderer,
+                                      width, height, status));
     return canvas;
 }
 
@@ -195,7 +195,7 @@ void ShadowMask::draw(const Shot& shot) {
         gl.DepthMask(GL_TRUE);
         gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     }
-    context_.check("drawing a shadow mask");
+    context_.check("rendering a shadow mask");
     gl.BindTextureUnit(shadow_unit(0), canvas.mask);
     shot.clock.end();
 }

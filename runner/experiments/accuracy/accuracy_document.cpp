@@ -29,12 +29,13 @@ std::string reach_words(const ConfigurationResult& found, Surface surface) {
 }
 
 Table errors_table(const DriveAccuracy& drive) {
-    Table table{"errors-" + drive.drive,
-                "Errors where there is light: illuminance on the road, in the whole view and on targets above the road, and luminance",
-                columns_of("drawn by<|road: median [%]|road: 95 % [%]|road: 99 % [%]|road: worst pixel [%]|road: beyond 1 / 5 / 20 % [% of "
-                           "its area]|view: 95 % [%]|target: 95 % [%]|luminance: 95 % [%]|worst error of reach: road [1 / 5 lx, m]|worst "
-                           "error of reach: target [1 / 5 lx, m]|a frame: time [ms]|a frame: textures [MiB]"),
-                {}};
+    Table table{
+        "errors-" + drive.drive,
+        "Errors where there is light: illuminance on the road, in the whole view and on targets above the road, and luminance",
+        columns_of("rendered by<|road: median [%]|road: 95 % [%]|road: 99 % [%]|road: worst pixel [%]|road: beyond 1 / 5 / 20 % [% of "
+                   "its area]|view: 95 % [%]|target: 95 % [%]|luminance: 95 % [%]|worst error of reach: road [1 / 5 lx, m]|worst "
+                   "error of reach: target [1 / 5 lx, m]|a frame: time [ms]|a frame: textures [MiB]"),
+        {}};
     for (const ConfigurationResult& found : drive.configurations) {
         std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{name_of(found.configuration)});
         if (found.road && found.road->pixels > 0) {
@@ -62,7 +63,7 @@ Table errors_table(const DriveAccuracy& drive) {
 Table places_table(const DriveAccuracy& drive) {
     Table table{"places-" + drive.drive,
                 "Where the errors on the road lie",
-                {{.head = "drawn by", .words = true}, {"below 0.05 lx, 95 %", "lx"}, {.head = "worst pixel", .words = true}},
+                {{.head = "rendered by", .words = true}, {"below 0.05 lx, 95 %", "lx"}, {.head = "worst pixel", .words = true}},
                 {},
                 true,
                 true};

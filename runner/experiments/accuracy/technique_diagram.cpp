@@ -94,7 +94,7 @@ std::string own_method_note(const DriveAccuracy& drive) {
     const auto own =
         std::ranges::find_if(drive.configurations, [](const ConfigurationResult& found) { return found.configuration.varied.empty(); });
     return own == drive.configurations.end()
-               ? "the drive's own shadow method is not among those that were drawn"
+               ? "the drive's own shadow method is not among those that were rendered"
                : fmt::format("shadows where no method is named: {}, the drive's own{}", name(own->configuration.shadows.method),
                              drive.shadow_choice.empty() ? "" : " (" + drive.shadow_choice + ")");
 }

@@ -25,12 +25,12 @@ std::vector<std::size_t> shown_order(const AliasingResult& result) {
 
 Table space_table(const AliasingResult& result) {
     Table table{"aliasing",
-                fmt::format("Of {}, by how it was drawn. Seen: in multiples of the contrast that an eye just sees. Contrasts are to the "
+                fmt::format("Of {}, by how it was rendered. Seen: in multiples of the contrast that an eye just sees. Contrasts are to the "
                             "luminance around, r.m.s. over the picture. Stairs: of the line of {} lx on the road and of road marks, beyond "
                             "what 32 pixels around have alike",
                             result.displayed ? "the picture as displayed" : "the scene's luminance",
                             result.level_lx > 0.0 ? fmt::format("{}", result.level_lx) : "a level in"),
-                columns_of("drawn by<|rank|seen|aliasing [%]|folded back [%]|rest [%]|lost [%]|stairs, cut-off [px]|stairs, marks [px]"),
+                columns_of("rendered by<|rank|seen|aliasing [%]|folded back [%]|rest [%]|lost [%]|stairs, cut-off [px]|stairs, marks [px]"),
                 {}};
     for (const std::size_t i : shown_order(result)) {
         const AliasingRow& row = result.rows[i];
@@ -56,7 +56,7 @@ Table time_table(const AliasingResult& result) {
         "flicker",
         "Over time, along the paths of points of the scene. Flicker seen: in multiples of the contrast that an eye just sees; crawl is "
         "below 4 Hz, flicker from there up",
-        columns_of("drawn by<|flicker seen|flicker [%]|of it standing on the screen [%]|crawl [%]"),
+        columns_of("rendered by<|flicker seen|flicker [%]|of it standing on the screen [%]|crawl [%]"),
         {}};
     for (const std::size_t i : shown_order(result))
         if (const AliasingRow& row = result.rows[i]; row.temporal)
@@ -73,7 +73,7 @@ Table flow_table(const AliasingResult& result) {
         "flow",
         fmt::format("Motion by optical flow against the motion that is known from depth and the car's path, from each frame to the next, "
                     "{:.2f} pixels as a median of {} points. Left out: what going there and back does not find again. Flicker: along "
-                    "its paths, of aliasing against the reference, or of brightness as drawn; by known motion: aliasing of the same "
+                    "its paths, of aliasing against the reference, or of brightness as rendered; by known motion: aliasing of the same "
                     "points",
                     result.flows.front().error.known_motion_px, result.flows.front().error.points),
         columns_of(
@@ -136,7 +136,7 @@ Document document(const AliasingResult& result) {
         result.supersample > 0
             ? fmt::format(
                   "Aliasing is structure in a picture that is not in the scene: what remains of a picture when all is taken away that a "
-                  "blurred or sharp picture of the scene explains, the scene being drawn {} times as fine each way. A part of it is "
+                  "blurred or sharp picture of the scene explains, the scene being rendered {} times as fine each way. A part of it is "
                   "what lies beyond the display's limit and folds back; the rest has other causes, as the texels and steps of a beam "
                   "texture. Lost is what blur took away, which is no aliasing.",
                   result.supersample)

@@ -152,7 +152,7 @@ plots::Drawing aliasing_sheet(const AliasingResult& result, const AliasingRow& r
     letter(canvas, spacing_px, second_top - 28.0,
            fmt::format("{} x {} pixels from {}, {}, {}; white is {:.2g} cd/m\xC2\xB2, full colour is {:.2g}", crop.width, crop.height,
                        crop.left, crop.top, crop.why, crop_white, crop_limit));
-    const std::pair<const char*, Image<Colour>> crops[] = {{"As drawn", grey(drawn, crop_white)},
+    const std::pair<const char*, Image<Colour>> crops[] = {{"As rendered", grey(drawn, crop_white)},
                                                            {"What the display could show", grey(ideal, crop_white)},
                                                            {"Aliasing", false_colours(aliasing, crop_limit)},
                                                            {"Of it, folded back", false_colours(folded, crop_limit)}};
@@ -180,8 +180,8 @@ std::optional<plots::Drawing> ranking_sheet(const AliasingResult& result) {
     const double side = 208.0, left = 350.0, first_top = 84.0;
     plots::Drawing canvas{left + static_cast<double>(places.size()) * (side + spacing_px),
                           first_top + static_cast<double>(order.size()) * (side + spacing_px),
-                          "Ways to draw, by what an eye sees of their aliasing"};
-    canvas.text(spacing_px, 24.0, "Ways to draw, least aliasing first", {.size_px = 16.0, .bold = true});
+                          "Ways to render, by what an eye sees of their aliasing"};
+    canvas.text(spacing_px, 24.0, "Ways to render, least aliasing first", {.size_px = 16.0, .bold = true});
     letter(canvas, spacing_px, 46.0,
            fmt::format("{} x {} pixels, at the places where each way differs most from the first", places.front().width,
                        places.front().height));

@@ -177,7 +177,7 @@ bool compare_flows(Session& s, const std::vector<Image<float>>& drawn, const std
             if (Interruption::requested())
                 return false;
             const std::vector<Image<float>>& pictures = as_drawn ? drawn : ideal;
-            FlowComparison compared{as_drawn ? "as drawn" : "what the display could show", method, {}, {}, {}, {}, {}, {}};
+            FlowComparison compared{as_drawn ? "as rendered" : "what the display could show", method, {}, {}, {}, {}, {}, {}};
             std::vector<FlowPair> pairs;
             for (std::size_t m = 0; m < known.size(); ++m) {
                 const Flow there = optical_flow(pictures[m], pictures[m + 1], method);

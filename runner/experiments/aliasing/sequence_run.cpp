@@ -241,7 +241,7 @@ AliasingResult run_sequence_aliasing(const SequenceRequest& request) {
         request.pixels_per_degree ? *request.pixels_per_degree : pixels_per_degree_of_view(radians(*request.view_fov_deg), first.height());
     OutputFolder folder(request.folder);
     result.context = make_context({}, request.command, 0);
-    result.context.backend = result.context.gl_renderer = result.context.gl_version = "none, nothing was drawn";
+    result.context.backend = result.context.gl_renderer = result.context.gl_version = "none, nothing was rendered";
     add_inputs(result.context.inputs, drawn.opened);
     add_inputs(result.context.inputs, fine.opened);
     const std::string name = sequence_name(request.sequence);
@@ -265,7 +265,7 @@ AliasingResult run_sequence_aliasing(const SequenceRequest& request) {
         if (!measured)
             result.interrupted = "interrupted by the user";
     } else {
-        row.no_spatial = "--against a folder of the same frames drawn finer is needed";
+        row.no_spatial = "--against a folder of the same frames rendered finer is needed";
     }
     if (result.interrupted.empty()) {
         const std::vector<Image<float>>& pictures = measured ? measured->ideal : drawn.luminance_cdm2;

@@ -31,7 +31,7 @@ const View& view_to_time(const Drive& drive) {
 /// Why the GPU's clock is not used; "" where it can be believed.
 std::string clock_refused(Device& device) {
     if (device.info().software)
-        return "the driver draws on the CPU";
+        return "the driver renders on the CPU";
     const TimerCheck check = check_timer(device);
     return check.agrees()
                ? ""

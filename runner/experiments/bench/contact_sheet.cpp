@@ -50,7 +50,7 @@ std::string lux_text(double lux) { return fmt::format("{:.{}f} lx", lux, lux < 9
 /// "12.3 lx, x 1.02"
 std::string spot_text(const ContactSheet& sheet, const SheetTile& tile) {
     if (!tile.spot_lx)
-        return tile.not_drawn.empty() ? "no lux image" : "not drawn";
+        return tile.not_drawn.empty() ? "no lux image" : "not rendered";
     return lux_text(*tile.spot_lx) + (sheet.twin_lx > 0.0 ? fmt::format(", x {:.2f}", *tile.spot_lx / sheet.twin_lx) : "");
 }
 
@@ -73,7 +73,7 @@ void draw_pictures(Drawing& canvas, const ContactSheet& sheet, const SheetGround
         if (tile.not_drawn.empty())
             canvas.picture(ground.left_of(i), ground.top_of(i), ground.tile_width, ground.tile_height, pixels_of(tile.colour));
         else
-            draw_empty(canvas, ground, i, "not drawn");
+            draw_empty(canvas, ground, i, "not rendered");
         draw_caption(canvas, ground, i, tile, tile.not_drawn.empty() ? kind_text(tile.row) : short_text(tile.not_drawn, 50));
     }
 }
@@ -174,7 +174,7 @@ Plot contact_sheet(const ContactSheet& sheet) {
     head(part_px, "Illuminance on the surfaces seen",
          fmt::format(
              "below each: at the cross, on the road in the own lane {:.0f} m ahead of the bumper, and its ratio to the {} of the own "
-             "lamps, calculated there",
+             "lamps, by the twin there",
              sheet.spot_ahead_m, lux_text(sheet.twin_lx)));
     draw_bar(canvas, width_px - edge_px - 14.0, part_px + 16.0);
     ground.top = part_px + head_px;

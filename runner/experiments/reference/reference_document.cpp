@@ -56,7 +56,7 @@ Document document(const ReferenceResult& r) {
                 "{:.2f} % of the lit pixels reached it",
                 name, e->lit_pixels, 100.0 * e->median, 100.0 * e->p95, 100.0 * e->worst, 100.0 * e->share_reached));
         else if (has_output)
-            section.blocks.emplace_back(fmt::format("{:<12} no pixel that is drawn is lit", name));
+            section.blocks.emplace_back(fmt::format("{:<12} no computed pixel is lit", name));
     };
     tell("illuminance", r.outputs.illuminance, r.illuminance());
     tell("target", r.outputs.target, r.target());
@@ -68,7 +68,7 @@ Document document(const ReferenceResult& r) {
         fmt::format("{:.1f} samples a pixel, {:.1f} million rays in {:.2f} s, {:.2f} million rays a second, {} triangles", samples,
                     1e-6 * static_cast<double>(r.image.rays), r.image.seconds,
                     1e-6 * static_cast<double>(r.image.rays) / std::max(r.image.seconds, 1e-9), r.triangles));
-    return {"Drawn by rays: " + place_of(r), {section}};
+    return {"Ray-traced: " + place_of(r), {section}};
 }
 
 std::vector<Plot> false_colours(const ReferenceResult& r) {

@@ -103,7 +103,7 @@ std::string savings_words(const PruningSavings& savings) {
     if (ratio->difference == Difference::not_distinguishable)
         return fmt::format("nothing that can be told from chance: {} a frame against {} {}", pruned, unpruned, spread);
     return fmt::format("{} instead of {} a frame {}{}", pruned, unpruned, spread,
-                       ratio->difference == Difference::slower ? ": leaving out made it slower" : "");
+                       ratio->difference == Difference::slower ? ": pruning made it slower" : "");
 }
 
 void add_savings_of(const ComparedDrive& drive, Sections& sections) {
@@ -111,7 +111,7 @@ void add_savings_of(const ComparedDrive& drive, Sections& sections) {
     Table table{
         drive.name + "-savings",
         "",
-        columns_of("lamp<|drawn<|median [ms]|passes|pieces|textures read [at most]|features compiled in|triangles|fragments shaded"),
+        columns_of("lamp<|rendered<|median [ms]|passes|pieces|textures read [at most]|features compiled in|triangles|fragments shaded"),
         {}};
     for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
         const PruningSavings& savings = drive.lamp_sets[i]->savings;
@@ -120,8 +120,8 @@ void add_savings_of(const ComparedDrive& drive, Sections& sections) {
         const Cell lamp = lamp_cell(drive, i);
         sentences.items.push_back(lamp.text + ": " + savings_words(savings));
         if (savings.ratio())
-            for (const auto& [what, seconds, work] : {std::tuple("as drawn", &savings.pruned_s, &savings.pruned),
-                                                      std::tuple("nothing left out", &savings.unpruned_s, &savings.unpruned)}) {
+            for (const auto& [what, seconds, work] : {std::tuple("as in this run", &savings.pruned_s, &savings.pruned),
+                                                      std::tuple("unpruned", &savings.unpruned_s, &savings.unpruned)}) {
                 table.rows.push_back({lamp, what, median_ms(*seconds), fmt::format("{}", work->passes), fmt::format("{}", work->draws),
                                       fmt::format("{}", work->samplers), fmt::format("{}", work->features),
                                       fmt::format("{}", work->triangles), fmt::format("{}", work->fragments)});
@@ -129,10 +129,8 @@ void add_savings_of(const ComparedDrive& drive, Sections& sections) {
     }
     if (sentences.items.empty())
         return;
-    Section& section = sections.emplace_back(
-        Section{"What leaving out saves",
-                {"The driver’s view, drawn in turns as in this run and with nothing left out, to the same bytes.", sentences},
-                4});
+    Section& section = sections.emplace_back(Section{
+        "What pruning saves", {"The driver’s view, rendered in turns as in this run and unpruned, to the same bytes.", sentences}, 4});
     if (!table.rows.empty())
         section.blocks.emplace_back(std::move(table));
 }
@@ -141,11 +139,11 @@ void add_savings_of(const ComparedDrive& drive, Sections& sections) {
 
 void add_details(const ComparedDrive& drive, Sections& sections) {
     add_readings(drive, sections);
-    sections.push_back({"Lamps, notes, what was left out", {lamps_table(drive)}, 3});
+    sections.push_back({"Lamps, notes, what was pruned", {lamps_table(drive)}, 3});
     if (std::vector<std::string> notes = merged(drive, &PlayedCell::notes); !notes.empty())
         sections.push_back({"Notes", {Listing(notes)}, 4});
     if (Table left_out = left_out_table(drive); !left_out.rows.empty())
-        sections.push_back({"Left out because the scene does not need it", {std::move(left_out)}, 4});
+        sections.push_back({"Pruned because the scene does not need it", {std::move(left_out)}, 4});
     add_savings_of(drive, sections);
 }
 

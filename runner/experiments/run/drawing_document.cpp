@@ -50,7 +50,7 @@ Table tried_table(const ComparedDrive& drive, const ShadowChoice& choice) {
 void add_shadows(const ComparedDrive& drive, Sections& sections) {
     const PlayedCell& played = *drive.lamp_sets.front();
     if (played.rendering_settings)
-        sections.push_back({"How shadows are drawn", {shadows_words(*played.rendering_settings, played.technique)}, 4});
+        sections.push_back({"How shadows are rendered", {shadows_words(*played.rendering_settings, played.technique)}, 4});
     const ShadowChoice* const choice = played.shadows.get();
     if (!choice)
         return;

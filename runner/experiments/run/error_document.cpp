@@ -45,10 +45,11 @@ std::string compared_words(const PlayedCell& played) {
     const DriveError& error = played.error;
     if (!error.measured())
         return "not measured: " + error.not_measured;
-    const std::string discs = error.lamp_radius_m > 0.0
-                                  ? fmt::format(", with lamps that are discs of {:g} cm radius, as soft-map draws them (for reach, points)",
-                                                100.0 * error.lamp_radius_m)
-                                  : ""; // where lamps of the reference are no points
+    const std::string discs =
+        error.lamp_radius_m > 0.0
+            ? fmt::format(", with lamps that are discs of {:g} cm radius, as soft-map renders them (for reach, points)",
+                          100.0 * error.lamp_radius_m)
+            : ""; // where lamps of the reference are no points
     return fmt::format("{} against {} at {} × {} pixels{}{}, which took {} s; {}", played.technique, counted(error.ticks.size(), "moment"),
                        error.width_px, error.height_px, error.ticks.size() > 1 ? ", targets and luminance in the middle one" : "", discs,
                        figure(error.seconds, 1),
@@ -66,8 +67,8 @@ void add_accuracy(const ComparedDrive& drive, Sections& sections) {
                  {}};
     Table reaches{
         drive.name + "-reach-errors",
-        "Error of reach on the own lane’s centre in these moments, against rays through the same places: median / worst, m; above "
-        "0: drawn too far",
+        "Error of reach on the own lane’s centre in these moments, against the reference at the same places: median / worst, m; above 0: "
+        "rendered too far",
         columns_of("lamp<|on<"),
         {}};
     for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
@@ -91,12 +92,12 @@ void add_accuracy(const ComparedDrive& drive, Sections& sections) {
     }
     if (sentences.items.empty())
         return;
-    Section& section = sections.emplace_back(Section{"Error against run time",
-                                                     {"As drawn against the reference, which traces rays in double precision and knows its "
-                                                      "own noise: nothing is claimed below its floor. "
-                                                      "Where the reference has at least 0.05 lx, or 0.001 cd/m².",
-                                                      sentences},
-                                                     3});
+    Section& section = sections.emplace_back(
+        Section{"Error against run time",
+                {"As rendered against the reference, which traces rays in double precision and knows its "
+                 "own noise: nothing is claimed below its floor. Where the reference has at least 0.05 lx, or 0.001 cd/m².",
+                 sentences},
+                3});
     if (!errors.rows.empty())
         section.blocks.emplace_back(std::move(errors));
     if (!reaches.rows.empty())

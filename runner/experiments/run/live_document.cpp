@@ -132,7 +132,7 @@ Table losses_table(const LiveFigures& live) {
         add("error frames", socket.error_frames, fmt::format("{} of bus-off, {} of the controller", socket.bus_off, socket.controller));
     }
     if (live.drawing)
-        add("moments that were not drawn", static_cast<std::uint64_t>(live.moments - live.drawn),
+        add("moments that were not rendered", static_cast<std::uint64_t>(live.moments - live.drawn),
             fmt::format("of {}; {} of {} to be stored were", live.moments, live.captured, live.captures));
     if (!live.recording.empty())
         add("frames that the recording lacks", live.not_recorded, fmt::format("of {}", live.recorded));

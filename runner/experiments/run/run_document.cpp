@@ -56,11 +56,12 @@ Table passes_table(const ComparedDrive& drive) {
 }
 
 Table throughput_table(const ComparedDrive& drive) {
-    Table table{drive.name + "-throughput",
-                "The whole run: drawn, read back, measured, stored",
-                columns_of("lamp<|moments|moments [1/s]|all drawing alone: rate [1/s]|all drawing alone: share [%]|driver’s view alone: "
-                           "rate [1/s]|driver’s view alone: share [%]|peak memory [MiB]"),
-                {}};
+    Table table{
+        drive.name + "-throughput",
+        "The whole run: rendered, read back, measured, stored",
+        columns_of("lamp<|moments|moments [1/s]|all rendering alone: rate [1/s]|all rendering alone: share [%]|driver’s view alone: "
+                   "rate [1/s]|driver’s view alone: share [%]|peak memory [MiB]"),
+        {}};
     for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
         const Throughput& t = drive.lamp_sets[i]->throughput;
         if (!t.moments_per_s())
@@ -77,11 +78,10 @@ Table throughput_table(const ComparedDrive& drive) {
 }
 
 void add_reaches(const ComparedDrive& drive, Sections& sections) {
-    Section section{
-        "Reach over the drive",
-        {"Full lines: from the rendered lux image. Thin broken lines: the independent calculation in double precision from the candela "
-         "tables. Shaded: ±0.1° of aim."},
-        3};
+    Section section{"Reach over the drive",
+                    {"Full lines: from the rendered lux image. Thin broken lines: the twin, in double precision from the candela "
+                     "tables. Shaded: ±0.1° of aim."},
+                    3};
     for (const Surface surface : {Surface::road, Surface::target})
         for (const double threshold_lx : plotted_thresholds_lx(drive))
             add_plot(section, fmt::format("{}-reach-{:g}lx-{}", drive.name, threshold_lx, surface_name(surface)),
@@ -107,8 +107,9 @@ void add_costs(const ComparedDrive& drive, Sections& sections) {
     Section& section = sections.emplace_back(Section{"What it cost", {}, 3});
     add_plot(section, drive.name + "-times", std::move(plot));
     section.blocks.emplace_back(std::move(passes));
-    section.blocks.emplace_back("Only frames drawn with nothing beside them give times: the first after the warm-up, then every tenth of a "
-                                "kind. Stages of `display` are timed in every stored picture, while the next moments are drawn.");
+    section.blocks.emplace_back(
+        "Only frames rendered with nothing beside them give times: the first after the warm-up, then every tenth of a "
+        "kind. Stages of `display` are timed in every stored picture, while the next moments are rendered.");
     section.blocks.emplace_back(throughput_table(drive));
 }
 
@@ -163,11 +164,11 @@ void add_course(const ComparedDrive& drive, Sections& sections) {
     add_reaches(drive, sections);
     add_if_plotted(sections, "Lamps that move",
                    "What the laws and actuators of the drive’s `control` did, and what it was worth against the same lamps held still: "
-                   "calculated in double precision from the candela tables, without shadows. Bends are those of less than 1500 m radius.",
+                   "computed in double precision from the candela tables, without shadows. Bends are those of less than 1500 m radius.",
                    drive.name + "-control", control_figures(drive));
     add_signals(drive, sections);
     add_if_plotted(sections, "Seeing and glare",
-                   "Calculated in double precision from the candela tables, without shadows of trees and houses; a crest of the road hides "
+                   "Computed in double precision from the candela tables, without shadows of trees and houses; a crest of the road hides "
                    "lamps.",
                    drive.name + "-seeing", seeing_figures(drive));
     add_costs(drive, sections);

@@ -48,9 +48,10 @@ std::vector<std::string> notes_for(const Stage& stage, const LampSet& lamp_set, 
         notes.push_back(
             fmt::format("beams: technique {} has no beam textures, so that their size and depth change nothing", technique.name));
     if (!stage.drive.traffic.empty() && technique.name != "photometric" && technique.name != "photometric-unpruned")
-        notes.push_back(fmt::format("traffic: technique {} does not draw the light of others' lamps, and its pictures do not show them as "
-                                    "sources; it draws the road users' bodies. photometric draws all three",
-                                    technique.name));
+        notes.push_back(
+            fmt::format("traffic: technique {} does not render the light of other vehicles' lamps, and its pictures do not show "
+                        "them as sources; it renders the road users' bodies. photometric renders all three",
+                        technique.name));
     for (const MountedLamp& lamp : lamp_set.lamps) {
         if (lamp.photometric_distance_m > 0.0)
             notes.push_back(fmt::format("{}: nearer than {} m it is in its near field, where a point source is an approximation", lamp.name,
@@ -58,8 +59,8 @@ std::vector<std::string> notes_for(const Stage& stage, const LampSet& lamp_set, 
         for (const std::string& note : lamp.file->notes)
             notes.push_back(lamp.name + ": " + note);
         if (const std::optional<double> error = renderer.beam_error(*lamp.file))
-            notes.push_back(fmt::format("{}: as drawn, the beam differs from the candela table by at most {:.2g} % of the peak", lamp.name,
-                                        100.0 * *error));
+            notes.push_back(fmt::format("{}: as rendered, the beam differs from the candela table by at most {:.2g} % of the peak",
+                                        lamp.name, 100.0 * *error));
     }
     return notes;
 }
@@ -103,10 +104,11 @@ PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& 
         played.left_out.push_back(left.what + ": " + left.why);
     const Renderer::ShadowMapsUsed maps = renderer.shadow_maps_used();
     if (const long long kept = (maps.used - maps_before.used) - (maps.drawn - maps_before.drawn); kept > 0)
-        played.left_out.push_back(fmt::format("drawing {} of the {} shadow maps that pictures looked up: they stood from a picture before, "
-                                              "as pictures of one moment share theirs; of the {} that the first pictures of moments looked "
-                                              "up, {} stood from an earlier moment",
-                                              kept, maps.used - maps_before.used, first.used, first.used - first.drawn));
+        played.left_out.push_back(
+            fmt::format("rendering {} of the {} shadow maps that pictures looked up: they stood from a picture before, "
+                        "as pictures of one moment share theirs; of the {} that the first pictures of moments looked "
+                        "up, {} stood from an earlier moment",
+                        kept, maps.used - maps_before.used, first.used, first.used - first.drawn));
     if (const double bound = stage.drive.shadows.redraw_texels; bound > 0.0 && first.used > 0 && first.used == first.drawn)
         played.notes.push_back(
             fmt::format("shadows: redraw_texels {:g}: none of the {} shadow maps that the first pictures of moments looked up stood, as "
@@ -125,7 +127,7 @@ PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& 
             verdict.text += fmt::format(" (as technique {} lights it)", technique.name);
         played.notes.push_back(
             fmt::format("lit by technique {}, which ignores: {}. Rendered figures are that technique's; those of the twin, their "
-                        "sensitivity to aim and flux, and the grid's error are calculated from the lamps' tables",
+                        "sensitivity to aim and flux, and the grid's error are computed from the candela tables",
                         technique.name, technique.ignores));
     }
     return played;

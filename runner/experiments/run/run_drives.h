@@ -16,7 +16,7 @@ struct RunOptions {
     bool quiet = false;
     bool profile = false;            ///< time each pass by finishing after it; frame times are then not representative
     std::filesystem::path baselines; ///< accepted results to judge against; "" for none
-    bool across_devices = false;     ///< where this class of device has none, by those of others
+    bool across_devices = false;     ///< where this device class has none, by those of others
     int repeats = 1;                 ///< plays of each lamp set; all must agree
     std::optional<KnownFailures> known;
     std::string today;          ///< 2026-12-31: by which known failures expire

@@ -274,7 +274,7 @@ std::optional<plots::Figure> timing_figure(const ComparedDrive& drive) {
     if (figure.series.empty())
         return std::nullopt;
     figure.title = "Time per frame";
-    figure.subtitle = "frames drawn with nothing beside them; broken lines: medians";
+    figure.subtitle = "frames rendered with nothing beside them; broken lines: medians";
     figure.width_px = 640.0;
     figure.height_px = 340.0;
     set_axes(figure, "sample", "", "time", "ms");

@@ -173,7 +173,7 @@ void measure_edges(SceneTruth& truth, const View& eye, Renderer& renderer, Shado
     if (!row.crawl_cm)
         row.no_crawl = std::ranges::all_of(steps, [](const EdgeMatch& step) { return step.true_edges() == 0; })
                            ? "no edge of a shadow there"
-                           : "no edge is drawn in steps one after the other";
+                           : "no edge is rendered in steps one after the other";
 }
 
 /// What is drawn for times: nothing may be left over from the frame before, so the car always moves.

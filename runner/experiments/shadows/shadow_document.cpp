@@ -132,7 +132,7 @@ Document document(const ShadowResult& result) {
     Document document{"Shadow methods", {}};
     Section& first = document.sections.emplace_back();
     first.blocks.emplace_back(fmt::format(
-        "Each method draws the same scenes with the same light and is held against rays from each pixel's centre to each lamp. A "
+        "Each method renders the same scenes with the same light and is held against ray tracing from each pixel's centre to each lamp. A "
         "place is in shadow to the degree 1 \u2212 E / E without shadows; wrongly lit and wrongly dark count by that degree, "
         "where there are at least {:g} lx without shadows. Maps have {} x {} texels.{}",
         result.floor_lx, result.map_width, result.map_height,

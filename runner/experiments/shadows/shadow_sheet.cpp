@@ -61,15 +61,15 @@ TileSheet shadow_sheet(const ShadowSceneResult& scene) {
     TileSection seen{
         short_text(scene.title, 90),
         fmt::format(
-            "{}: luminance, white is {} cd/m2, which one in a hundred of the ground's pixels exceeds without shadows; by rays: as drawn "
-            "without shadows, times the rays' share of the light",
+            "{}: luminance, white is {} cd/m2, which one in a hundred of the ground's pixels exceeds without shadows; reference: as "
+            "rendered without shadows, times the reference's share of the light",
             scene.whole_view ? "the whole view" : "a quarter of the view, about its shadows", shadow_figure(white, 1e-4)),
-        {{"by rays", "the truth that methods are held against", seen_picture(scene.luminance_cdm2, white)}}};
-    TileSection wrong{"Where shadows are wrong",
-                      "orange: wrongly lit; blue: wrongly dark, against rays from pixels' centres; grey: below the floor without shadows, "
-                      "or nothing; shares "
-                      "are of the whole view",
-                      {{"shadow by rays", "dark: no light of any lamp, points", degree_picture(scene.degree)}}};
+        {{"reference", "what methods are held against", seen_picture(scene.luminance_cdm2, white)}}};
+    TileSection wrong{
+        "Where shadows are wrong",
+        "orange: wrongly lit; blue: wrongly dark, against the reference at pixels' centres; grey: below the floor without shadows, "
+        "or nothing; shares are of the whole view",
+        {{"reference shadow", "dark: no light of any lamp, points", degree_picture(scene.degree)}}};
     for (const ShadowRow& row : scene.rows)
         if (!measured(row)) {
             seen.words += fmt::format("; {} refuses the scene", name(row.method));

@@ -124,8 +124,8 @@ void ShadowTally::add(const ShadowTally& other) {
 }
 
 std::string ShadowTally::text() const {
-    return fmt::format("{} of {} lit pixels drawn too dark, {} of {} dark ones too bright, {} in doubt{}", acne, lit, leaks, dark, unsure,
-                       first_wrong.empty() ? "" : ", first " + first_wrong);
+    return fmt::format("{} of {} lit pixels rendered too dark, {} of {} dark ones too bright, {} in doubt{}", acne, lit, leaks, dark,
+                       unsure, first_wrong.empty() ? "" : ", first " + first_wrong);
 }
 
 ShadowTrial::ShadowTrial(StabilityBench& bench, const Scene& scene, const ShadowSettings& settings)

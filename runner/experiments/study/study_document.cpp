@@ -42,7 +42,8 @@ std::string lamps_of(const StudyResult& result, const Change& change) {
 Cell cell_of(const Value& value, const std::string& rounded) {
     return value.measured() ? Cell(with_bound(value, rounded), *value.figure()) : Cell("not measured");
 }
-/// Two, and more where the change (or, without one, the old value) would have less than two digits: glare of 0.0312 and 0.0298 lx is two values.
+/// Two, and more where the change (or, without one, the old value) would have less than two digits: glare of 0.0312 and 0.0298 lx is two
+/// values.
 int decimals_of(const Change& change) {
     const double changed = std::abs(change.change().figure().value_or(0.0)), old = std::abs(change.old_value.figure().value_or(0.0));
     const double size = changed > 1e-6 ? changed : old;
@@ -65,17 +66,18 @@ std::string change_sentence(const StudyResult& result, const Change& change) {
     const CellResult& cell = result.cells[change.tested];
     return fmt::format("{}: {} → {}, {}{}{} ±{:.2g}; {} against {} on {} ({})", reading_label(change.reading),
                        with_unit(change.old_value, change.unit()), with_unit(change.new_value, change.unit()),
-                       with_bound(found, fmt::format("{:+.{}f}", found.figure().value_or(0.0), decimals_of(change))), unit_suffix(change.unit()),
-                       change.relative() ? fmt::format(" ({:+.1f} %)", 100.0 * *change.relative()) : "", change.uncertainty.value_or(0.0),
-                       result.lamp_of(change.tested), result.lamp_of(change.against), cell.drive, cell.cell.condition);
+                       with_bound(found, fmt::format("{:+.{}f}", found.figure().value_or(0.0), decimals_of(change))),
+                       unit_suffix(change.unit()), change.relative() ? fmt::format(" ({:+.1f} %)", 100.0 * *change.relative()) : "",
+                       change.uncertainty.value_or(0.0), result.lamp_of(change.tested), result.lamp_of(change.against), cell.drive,
+                       cell.cell.condition);
 }
 
 Card card_of(const StudyResult& result, const Change& change) {
     const std::string unit = unit_suffix(change.unit());
     const int decimals = decimals_of(change);
-    std::string detail =
-        fmt::format("{} {}{} → {} {}{}; ±{}{} by calculation", result.lamp_of(change.against), value_cell(change.old_value, decimals).text, unit,
-                    result.lamp_of(change.tested), value_cell(change.new_value, decimals).text, unit, open_cell(change.uncertainty).text, unit);
+    std::string detail = fmt::format("{} {}{} → {} {}{}; ±{}{} numerical", result.lamp_of(change.against),
+                                     value_cell(change.old_value, decimals).text, unit, result.lamp_of(change.tested),
+                                     value_cell(change.new_value, decimals).text, unit, open_cell(change.uncertainty).text, unit);
     if (change.noise_effect.value_or(0.0) > 0.0)
         detail += fmt::format(", ±{}{} by noise", open_cell(change.noise_effect).text, unit);
     if (change.aim_effect)
@@ -95,7 +97,7 @@ Table readings_table(const StudyResult& result) {
     const bool several_conditions = std::ranges::any_of(
         result.cells, [&](const CellResult& cell) { return cell.cell.condition != result.cells.front().cell.condition; });
     const std::string heads = std::string("row") + (several_lamps ? "|new / old<" : "") + "|drive<" +
-                              (several_conditions ? "|condition<" : "") + "|reading<|old|new|change|%|± calc.|± noise|± aim|unit<|is<";
+                              (several_conditions ? "|condition<" : "") + "|reading<|old|new|change|%|± numerical|± noise|± aim|unit<|is<";
     Table table{.name = "readings", .caption = "", .columns = columns_of(heads), .rows = {}, .sortable = true, .led_to = true};
     if (!several_lamps && !result.study.comparisons.empty())
         table.caption = fmt::format("new: {}; old: {}", result.study.comparisons.front().tested, result.study.comparisons.front().against);
@@ -111,10 +113,10 @@ Table readings_table(const StudyResult& result) {
         if (several_conditions)
             cells.emplace_back(cell.cell.condition);
         const std::optional<double> share = change.relative();
-        cells.insert(cells.end(), {Cell(reading_label(change.reading)).hinted(name_of(change.reading)), value_cell(change.old_value, decimals_of(change)),
-                                   value_cell(change.new_value, decimals_of(change)), change_cell(change),
-                                   share ? Cell(signed_figure(100.0 * *share, 1), 100.0 * *share) : Cell(""), open_cell(change.uncertainty),
-                                   open_cell(change.noise_effect),
+        cells.insert(cells.end(), {Cell(reading_label(change.reading)).hinted(name_of(change.reading)),
+                                   value_cell(change.old_value, decimals_of(change)), value_cell(change.new_value, decimals_of(change)),
+                                   change_cell(change), share ? Cell(signed_figure(100.0 * *share, 1), 100.0 * *share) : Cell(""),
+                                   open_cell(change.uncertainty), open_cell(change.noise_effect),
                                    change.aim_effect ? Cell(figure(*change.aim_effect, 2), *change.aim_effect) : Cell(""),
                                    unit_label(change.unit()), change_name(change.kind)});
         if (change.kind != ChangeKind::real)
@@ -185,17 +187,15 @@ Section largest_section(const StudyResult& result) {
     const std::string nothing = nothing_compared(result);
     if (result.largest.empty())
         return {"The largest changes",
-                {nothing.empty()
-                     ? "No deciding reading changed beyond what calculation, noise of the lamps' tables and 0.1° of aim leave open."
-                     : nothing}};
+                {nothing.empty() ? "No deciding reading changed beyond numerical uncertainty, noise of the candela tables and 0.1° of aim."
+                                 : nothing}};
     Cards cards;
     for (const std::size_t i : result.largest)
         cards.push_back(card_of(result, result.changes[i]));
-    return {
-        "The largest changes",
-        {std::move(cards),
-         "Of each deciding reading its largest real change, then the largest of these; size is the change over the larger of both "
-         "values. Real is what exceeds what calculation and the noise of the lamps' tables leave open, and what 0.1° of aim would do."}};
+    return {"The largest changes",
+            {std::move(cards),
+             "Of each deciding reading its largest real change, then the largest of these; size is the change over the larger of both "
+             "values. Real is what exceeds numerical uncertainty and the noise of the candela tables, and what 0.1° of aim would do."}};
 }
 
 Section lamps_section(const StudyResult& result) {
@@ -271,8 +271,8 @@ Document document(const StudyResult& result, const std::vector<std::string>& pap
         files.items.push_back(Cell((paper == papers.front() ? "for papers: " : "") + paper).linked(paper));
     const Section readings{
         "Readings that decide",
-        {"A heading sorts, again the other way round. ± calc. is what calculation leaves open of the change, ± noise what three standard "
-         "deviations of the noise of the lamps' tables would do, ± aim what 0.1° of aim would do. Each line is the row of its number in "
+        {"A heading sorts, again the other way round. ± numerical is the numerical uncertainty of the change, ± noise what three standard "
+         "deviations of the noise of the candela tables would do, ± aim what 0.1° of aim would do. Each line is the row of its number in "
          "study.json and study.csv, which have all other readings too.",
          files, readings_table(result)}};
     Document document{short_text(result.study.title, 160), {verdict_section(result), largest_section(result)}};
@@ -308,7 +308,7 @@ Document study_summary(const StudyResult& result) {
         say(lamp_verdict(lamps));
     const std::string nothing = nothing_compared(result);
     if (nothing.empty() && result.largest.empty())
-        say("no deciding reading changed beyond what calculation, the tables' noise and 0.1 degrees of aim leave open");
+        say("no deciding reading changed beyond numerical uncertainty, the candela tables' noise and 0.1 degrees of aim");
     say(nothing);
     for (const std::size_t i : result.largest)
         say(change_sentence(result, result.changes[i]));
@@ -318,22 +318,24 @@ Document study_summary(const StudyResult& result) {
 Document study_paper(const StudyResult& result) {
     Table table{"readings", "", columns_of("new / old<|drive<|condition<|reading<|old|new|change|±|unit<|is<"), {}};
     const auto rounded = [](const Value& value, int decimals, bool is_change) {
-        return value.measured() ? cell_of(value, fmt::format(fmt::runtime(is_change ? "{:+.{}f}" : "{:.{}f}"), *value.figure(), decimals)) : Cell("");
+        return value.measured() ? cell_of(value, fmt::format(fmt::runtime(is_change ? "{:+.{}f}" : "{:.{}f}"), *value.figure(), decimals))
+                                : Cell("");
     };
     for (const Change& change : result.changes)
         if (change.decides)
             table.rows.push_back(
                 {lamps_of(result, change), result.cells[change.tested].drive, result.cells[change.tested].cell.condition,
-                 reading_label(change.reading), rounded(change.old_value, decimals_of(change), false), rounded(change.new_value, decimals_of(change), false),
-                 rounded(change.change(), decimals_of(change), true),
-                 change.uncertainty ? Cell(fmt::format("{:.{}f}", change.total_uncertainty(), decimals_of(change)), change.total_uncertainty()) : Cell(""),
+                 reading_label(change.reading), rounded(change.old_value, decimals_of(change), false),
+                 rounded(change.new_value, decimals_of(change), false), rounded(change.change(), decimals_of(change), true),
+                 change.uncertainty
+                     ? Cell(fmt::format("{:.{}f}", change.total_uncertainty(), decimals_of(change)), change.total_uncertainty())
+                     : Cell(""),
                  unit_label(change.unit()), change_name(change.kind)});
     Section section{"", {std::move(table)}};
     if (!result.played_in_part.empty())
         section.blocks.emplace_back(result.played_in_part + ".");
-    section.blocks.emplace_back(
-        "Medians over what was played of the drive unless said otherwise. ± is what calculation and the noise of the lamps' tables leave "
-        "open of the change; within aim means that 0.1° of aim would do as much.");
+    section.blocks.emplace_back("Medians over what was played of the drive unless said otherwise. ± is the change's numerical uncertainty "
+                                "and the noise of the candela tables; within aim means that 0.1° of aim would do as much.");
     return {result.study.title, {section}};
 }
 

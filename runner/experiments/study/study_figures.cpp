@@ -127,7 +127,7 @@ void add_glares(const StudyResult& result, const std::vector<std::size_t>& group
                 if (glare.eye == first.eye)
                     lines.add(cell, glare.at_m, glare.facing_lx);
         lines.figure.x = plots::axis_around(first.over, "m", lines.xs);
-        lines.figure.y = plots::axis_around("illuminance facing the lamps", "lx", lines.ys, plots::Scale::logarithmic);
+        lines.figure.y = plots::axis_around("facing illuminance", "lx", lines.ys, plots::Scale::logarithmic);
         figures.push_back(small_figure(fmt::format("glare-{}_{}", file_name_of(eye_name(first.eye)), group_name(result, group)),
                                        std::move(lines.figure), group));
     }

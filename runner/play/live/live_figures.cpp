@@ -135,7 +135,7 @@ std::string live_text(const LiveFigures& live) {
                             !live.punctuality.no_priority.empty() && !live.punctuality.no_locked_pages.empty() ? " and " : "",
                             live.punctuality.no_locked_pages.empty() ? "" : "mlockall");
     if (live.drawing)
-        text += fmt::format("pictures   {} of {} moments drawn, {} skipped; {} of {} stored\n", live.drawn, live.moments,
+        text += fmt::format("pictures   {} of {} moments rendered, {} skipped; {} of {} stored\n", live.drawn, live.moments,
                             live.moments - live.drawn, live.captured, live.captures);
     if (live.not_recorded > 0)
         text += fmt::format("recording  lacks {} frames: no room while the disk was slow\n", live.not_recorded);

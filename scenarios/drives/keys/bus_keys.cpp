@@ -272,7 +272,7 @@ const Fields<BusMapping>& can_fields() {
                 {"type": "array", "minItems": 1, "maxItems": 64, "items": {"type": "string", "minLength": 1}}]})",
                             "DBC files, or one of them")
                 .required(),
-            field("channel", 2, &BusMapping::channel, a_name(), "frames of others are left out").written_off_default(),
+            field("channel", 2, &BusMapping::channel, a_name(), "CAN frames of other channels are left out").written_off_default(),
             own<BusMapping>("log", 3, nullptr, log_text, R"({"type": "string", "minLength": 1})",
                             "recording (candump) that the drive is played by; none: its own speed and signals"),
             own<BusMapping>(

@@ -178,10 +178,11 @@ const Fields<HighBeamParameters>& high_beam_fields() {
         field("off_below", 3, &High::off_below_mps, speed("off_below"), "slower: off"),
         field("dark_below_lx", 4, &High::dark_below_lx, range(0.0, 2.0e5), "darker: on"),
         field("lit_above_lx", 5, &High::lit_above_lx, range(0.0, 2.0e5), "lighter: off"),
-        field("oncoming_m", 6, &High::oncoming_m, range(0.0, 5000.0), "others nearer than this have it dipped, or its windows dark"),
+        field("oncoming_m", 6, &High::oncoming_m, range(0.0, 5000.0),
+              "oncoming road users nearer than this switch it off, or darken its windows"),
         field("preceding_m", 7, &High::preceding_m, range(0.0, 5000.0), "the same of those ahead"),
         field("on_delay_s", 8, &High::on_delay_s, range(0.0, 100.0), "until it comes on"),
-        field("dip_delay_s", 9, &High::dip_delay_s, range(0.0, 100.0), "until it is dipped"),
+        field("dip_delay_s", 9, &High::dip_delay_s, range(0.0, 100.0), "until it is off"),
         field("fade_s", 10, &High::fade_s, range(0.0, 100.0), "from off to on"),
     };
     return fields;
@@ -200,7 +201,7 @@ const Fields<GlareFreeParameters>& glare_free_fields() {
                       .bare(),
                   "of each lamp: edges from left to right")
                 .required(),
-            field("margin", 1, &GlareFree::margin_rad, in_radians("margin", 20.0), "to each side of others"),
+            field("margin", 1, &GlareFree::margin_rad, in_radians("margin", 20.0), "to each side of other road users"),
             field("mask_delay_s", 2, &GlareFree::mask_delay_s, range(0.0, 100.0), "until a window goes dark"),
             field("relight_delay_s", 3, &GlareFree::relight_delay_s, range(0.0, 100.0), "until it is lit again"),
         }
@@ -252,9 +253,9 @@ const Fields<ControlParameters>& law_fields() {
                   },
                   "weight added")
                 .written_off_default(),
-            field("modes", 13, &Control::modes, modes_fields(), "classes of the passing beam, by speed, light and weather"),
+            field("modes", 13, &Control::modes, modes_fields(), "classes of the low beam, by speed, light and weather"),
             field("high_beam", 8, &Control::high_beam, high_beam_fields(), "automatic").or_word("automatic"),
-            field("glare_free", 9, &Control::glare_free, glare_free_fields(), "dark windows where others are"),
+            field("glare_free", 9, &Control::glare_free, glare_free_fields(), "dark windows where other road users are"),
             list("plugins", 10, &Control::plugins, 0, max_plugins, plugin_fields(), "laws in shared libraries").written_off_default(),
             field("safe_pitch", 3, &Control::safe_pitch_rad, in_radians("safe_pitch", 10.0),
                   "of lamps whose levelling has lost its signal"),

@@ -184,11 +184,11 @@ const Fields<Drive>& drive_fields() {
             form<Drive>("changes", FieldKind::list, names(0, max_lamp_changes), "of the lamps of all lamp sets").of(change_fields()),
             field("can", 19, &Drive::can, can_fields(), "signals from and to a bus; docs/can.md"),
             section("traffic_light", 20, Fields<Drive>{
-        field("min_lx", 1, &Drive::min_traffic_lx, range(1.0e-6, 1.0e3), "from one lamp; less is left out"),
+        field("min_lx", 1, &Drive::min_traffic_lx, range(1.0e-6, 1.0e3), "from one lamp; less is pruned"),
     }, "of other road users").heard_if(has_traffic),
             named("traffic", 21, &Drive::traffic_rows, max_traffic_rows, traffic_fields(), "other road users; docs/traffic.md"),
             form<Drive>("view_set", FieldKind::path, any(), "a file of views that come before these"),
-            named("views", 22, &Drive::views, max_views, view_fields(), "what is drawn; the driver's view and a map by default"),
+            named("views", 22, &Drive::views, max_views, view_fields(), "what is rendered; the driver's view and a map by default"),
             list("scenery", 23, &Drive::scenery, 0, max_models, scenery_fields(), "models with their places")
                 .read_by(read_scenery)
                 .written_off_default(),
@@ -205,7 +205,7 @@ const Fields<Drive>& drive_fields() {
                 .read_by(read_display)
                 .short_for("profile")
                 .written_off_default(),
-            field("technique", 31, &Drive::technique, a_name(), "how it is drawn"),
+            field("technique", 31, &Drive::technique, a_name(), "how it is rendered"),
             section("measure", 36, Fields<Drive>{
             field("extent", 1, &Drive::extent, Fields<ExtentParameters>{
             field("thresholds_lx", 1, &ExtentParameters::thresholds_lx, numbers(1, 16, 1.0e-6, 1.0e6), "what counts as illuminated"),
@@ -239,7 +239,7 @@ const Fields<Drive>& drive_fields() {
             .checked(check_limit)
             .in_schema(R"({"anyOf": [{"required": ["at_least"]}, {"required": ["at_most"]}]})"), "beyond these the run fails"),
             field("shadows", 38, &Drive::shadows, shadow_fields(),
-                  "how they are drawn (docs/shadows.md): on or off, the method alone, or it and what it uses")
+                  "how they are rendered (docs/shadows.md): on or off, the method alone, or it and what it uses")
                 .read_by([](const YamlEntry& entry, Drive& drive) { read_shadows(entry, drive.shadows); })
                 .text_by([](const Drive& drive) { return shadows_text(drive.shadows); })
                 .schema_by(shadows_schema())

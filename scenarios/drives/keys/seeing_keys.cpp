@@ -236,7 +236,7 @@ const Fields<SeeingParameters>& seeing_fields() {
     static const Fields<SeeingParameters> fields =
         Fields<SeeingParameters>{
             field("sensors", 1, &SeeingParameters::sensors, sensors_fields(), "illuminance at fixed places that the car drives up to"),
-            field("glare", 2, &SeeingParameters::glare, glare_fields(), "what the lamps do to the eyes of others"),
+            field("glare", 2, &SeeingParameters::glare, glare_fields(), "what the lamps do to other road users' eyes"),
             field("visibility", 3, &SeeingParameters::visibility, visibility_fields(), "how far ahead targets on the road are detected")
                 .or_flag(),
             field("homogeneity", 4, &SeeingParameters::homogeneity,

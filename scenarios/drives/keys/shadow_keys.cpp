@@ -62,7 +62,7 @@ const Fields<ShadowSettings>& shadow_fields() {
         field("lamp_radius_m", 5, &Shadows::lamp_radius_m, range(0.001, 0.5), "of the discs that lamps are").heard_if(has_discs),
         field("lamp_places", 6, &Shadows::lamp_places, range(1.0, 64.0), "maps of each lamp").heard_if(has_discs),
         field("error_bound", 7, &Shadows::error_bound, below(0.0, 1.0, "a share from 0 to below 1 (0.01 is 1 %)"),
-              "share of what is lit without shadows that may be drawn wrongly")
+              "share of what is lit without shadows that may be rendered wrongly")
             .heard_if(is_to_be_chosen),
     };
     return fields;

@@ -124,7 +124,7 @@ MarkKind mark_kind(XmlFile& xml, pugi::xml_node node) {
     if (const auto known = std::ranges::find(names, name); known != std::end(names))
         return static_cast<MarkKind>(known - names);
     xml.warn_once(node, "mark type " + name,
-                  fmt::format("the road mark type '{}' is unknown; it is not drawn unless its lines are given", name));
+                  fmt::format("the road mark type '{}' is unknown; it is not rendered unless its lines are given", name));
     return MarkKind::other;
 }
 
@@ -199,7 +199,7 @@ std::vector<RoadMark> read_marks(XmlFile& xml, pugi::xml_node lane_node) {
         if (mark.kind != MarkKind::none)
             read_stripes(xml, node, mark);
         if (node.child("sway"))
-            xml.warn_once(node, "sway", "the road mark's sway is left out: the mark is drawn along the lane's edge");
+            xml.warn_once(node, "sway", "the road mark's sway is left out: the mark runs along the lane's edge");
         marks.push_back(std::move(mark));
     }
     const auto ascending = [](const RoadMark& a, const RoadMark& b) { return a.s_m < b.s_m; };

@@ -154,7 +154,7 @@ void read_objects(XmlFile& xml, pugi::xml_node road_node, Road& road) {
             if (road.objects.size() == before)
                 road.objects.push_back(one);
             if (!has_size(road.objects.back()))
-                xml.warn_once(node, "no size", name + " has no size: it is not drawn");
+                xml.warn_once(node, "no size", name + " has no size: it is not rendered");
         }
     }
 }

@@ -112,7 +112,7 @@ void check_parameters(XmlFile& xml, const ElementNode& read, const std::string& 
     if (std::abs(poly->au) > negligible || std::abs(poly->av) > negligible || std::abs(poly->bv) > negligible || poly->bu <= 0.0)
         xml.warn(read.node,
                  fmt::format("{}: the paramPoly3 at s = {} does not start at its own origin and heading (aU = {}, aV = {}, bU = {}, "
-                             "bV = {}); it is drawn as written",
+                             "bV = {}); it is rendered as written",
                              road_name, read.element.s_m, poly->au, poly->av, poly->bu, poly->bv));
 }
 

@@ -315,7 +315,7 @@ TEST_F(Baselines, OfAsManyOtherInputsTheNearestReadingsAreNamed) {
     EXPECT_THAT(texts(other.judged(store)), HasSubstr(" had another drive: all 2 readings agree"));
 }
 
-// One other class of device judges by the tolerance alone, and a verdict says so. Three others gave 60, 60.001 and 60.002 m: mean 60.001,
+// One other device class judges by the tolerance alone, and a verdict says so. Three others gave 60, 60.001 and 60.002 m: mean 60.001,
 // standard deviation 0.001; Student's t with 2 degrees of freedom at 0.001 is 31.6: chance reaches 31.6 * 0.001 * sqrt(4/3) = 0.036 m, with
 // rounding 0.097 m.
 TEST_F(Baselines, AcrossDevicesTheSpreadOverOthersDecides) {
@@ -345,7 +345,7 @@ TEST_F(Baselines, AcrossDevicesTheSpreadOverOthersDecides) {
     EXPECT_FALSE(all_pass(judged(60.0, false))) << "nothing is accepted here";
     const auto within = judged(60.09, true);
     EXPECT_TRUE(all_pass(within)) << texts(within);
-    EXPECT_THAT(within[0].text, HasSubstr("over 3 other classes of device"));
+    EXPECT_THAT(within[0].text, HasSubstr("over 3 other device classes"));
     EXPECT_THAT(within[2].text, HasSubstr("4 channels of pictures agree"));
     EXPECT_FALSE(all_pass(judged(60.11, true)));
     accept_run(run.folder, store);
@@ -467,7 +467,7 @@ TEST_F(Baselines, TheCommandSaysWhatItTookAndFailsInOneSentence) {
     EXPECT_TRUE(all_pass(run.judged(store)));
     const Outcome refused = run_program("accept '" + (temporary / "nowhere") + "'");
     EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_THAT(refused.output, HasSubstr("nowhere: is no folder of a run, a study or rays"));
+    EXPECT_THAT(refused.output, HasSubstr("nowhere: is no folder of a run, a study or a reference"));
     const Outcome unwritable = run_program("accept '" + run.folder.string() + "' --baselines /proc/baselines");
     EXPECT_EQ(unwritable.exit_code, 3) << unwritable.output;
     EXPECT_EQ(std::ranges::count(unwritable.output, '\n'), 1);

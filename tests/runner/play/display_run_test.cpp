@@ -147,8 +147,8 @@ TEST(DisplayRun, ReportAndPageSayHowPicturesWereShown) {
     const Outcome run =
         run_program("run " + drive_with(folder, "full", "shadows: volumes\n") + few_shown + "--technique full --out " + full);
     EXPECT_LE(run.exit_code, 1) << run.output;
-    EXPECT_EQ(drive_in(full).at("shadows").at("not_used"), "it draws no shadows of lamps");
-    EXPECT_THAT(content_of(full + "/report.html"), HasSubstr("technique <code>full</code> does not use it: it draws no shadows"));
+    EXPECT_EQ(drive_in(full).at("shadows").at("not_used"), "it renders no shadows of lamps");
+    EXPECT_THAT(content_of(full + "/report.html"), HasSubstr("technique <code>full</code> does not use it: it renders no shadows"));
 }
 
 // As docs/display.md says: white at the display's peak shows L as L + black (1 - L / peak). The codes that are written are decoded for the

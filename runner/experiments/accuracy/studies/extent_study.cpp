@@ -77,16 +77,15 @@ void set_error(WorkPrecisionRow& row, const std::vector<double>& errors) {
 
 WorkPrecision extent_study(const Stage& stage, const LampSet& lamp_set, const StudyGoesOn& go_on) {
     constexpr double finest_m = 0.0625, beside_m = 4.0;
-    WorkPrecision diagram{
-        "extent",
-        "Extent grid",
-        "error of reach, 95 % of the reaches",
-        "m",
-        "time a moment",
-        stored,
-        {"reach on the own lane's centre at the drive's limits, on the road and on targets, calculated by the twin in three "
-         "moments, against cells of 1/16 m; bars from the median to the largest; on a grid as wide as the drive's"},
-        {}};
+    WorkPrecision diagram{"extent",
+                          "Extent grid",
+                          "error of reach, 95 % of the reaches",
+                          "m",
+                          "time a moment",
+                          stored,
+                          {"reach on the own lane's centre at the drive's limits, on the road and on targets, by the twin in three "
+                           "moments, against cells of 1/16 m; bars from the median to the largest; on a grid as wide as the drive's"},
+                          {}};
     const int ticks = tick_count(stage.drive);
     const std::vector<Moment> moments = moments_at(ticks_over(ticks, std::min(3, ticks)), stage, lamp_set);
     std::vector<Reaches> truth;

@@ -38,15 +38,14 @@ std::vector<Moment> traffic_shadow_moments(const Stage& stage, const LampSet& la
 WorkPrecision traffic_study(const Stage& stage, const LampSet& lamp_set, Device& device, const StudyGoesOn& go_on) {
     WorkPrecision diagram{
         "traffic",
-        "Lamps of others, by the least lux that is drawn",
+        "Other vehicles' lamps, by the least lux that is rendered",
         "illuminance in the driver's view, worst pixel",
         "lx",
         "time of a frame",
         "",
-        {fmt::format(
-            "against each lamp with its own beam and nothing left out above {:g} lx; by bounds no pair of lamps is off by more than "
-            "{:g} times the least lux. Shadows that road users cast in the light of others are in neither",
-            nothing_left_out_lx, worst_traffic_error)},
+        {fmt::format("against each lamp with its own beam and nothing pruned above {:g} lx; by bounds no pair of lamps is off by more than "
+                     "{:g} times the least lux. Shadows that road users cast in other vehicles' light are in neither",
+                     nothing_left_out_lx, worst_traffic_error)},
         {}};
     Moment moment = moments_at({tick_count(stage.drive) / 2}, stage, lamp_set).front();
     const View* const view = driver_view(stage.drive);
@@ -94,8 +93,8 @@ WorkPrecision traffic_study(const Stage& stage, const LampSet& lamp_set, Device&
 
 WorkPrecision traffic_shadow_study(const Stage& stage, const LampSet& lamp_set, Device& device, const StudyGoesOn& go_on) {
     WorkPrecision diagram{"traffic-shadows",
-                          "Shadows in the light of others",
-                          "wrongly lit or dark of what others light in the driver's view",
+                          "Shadows in other vehicles' light",
+                          "wrongly lit or dark of what other vehicles light in the driver's view",
                           "%",
                           "time of a frame",
                           "",
@@ -160,11 +159,11 @@ WorkPrecision traffic_shadow_study(const Stage& stage, const LampSet& lamp_set, 
         going = going && add(finer, fmt::format("maps of {} x {}", finer.shadows.width / 2, finer.shadows.height / 2));
     }
     diagram.notes = {
-        fmt::format("against a ray from each pixel's centre to each lamp of others, in {} moments evenly spread over the drive, "
+        fmt::format("against a ray from each pixel's centre to each of other vehicles' lamps, in {} moments evenly spread over the drive, "
                     "{} pixels wide; own lamps are off. A pixel that is half as dark as it should be counts half. Of {:.0f} "
                     "pixels with at least {:g} lx {:.0f} lie in shadow",
                     others.size(), shadow_error_width_px, area.counted, floor_lx, area.shadowed),
-        fmt::format("where others bring {:g} lx and more: {}", fully_shadowed * floor_lx, bright),
+        fmt::format("where other vehicles bring {:g} lx and more: {}", fully_shadowed * floor_lx, bright),
         "times: the middle moment and the one before it in turn, own lamps on, whose maps have four times as many texels and grow as these "
         "do"};
     return diagram;

@@ -102,7 +102,7 @@ MediumStudy fog_ways(const Moment& moment, const RendererSettings& drawn) {
     for (const int samples : {4, 8, 16, 32, 64, 128, 256})
         study
             .add(fmt::format("{} midpoints", samples), "fog_samples", fmt::format("{}", samples),
-                 samples == drawn.fog_samples ? "as drives are drawn" : "")
+                 samples == drawn.fog_samples ? "as drives are rendered" : "")
             .settings.fog_samples = samples;
     study.add("left out", "fog_samples", "0").moment.weather.extinction_per_m = 0.0;
     return study;
@@ -110,7 +110,7 @@ MediumStudy fog_ways(const Moment& moment, const RendererSettings& drawn) {
 
 MediumStudy wet_ways(const Moment& moment, const RendererSettings& drawn) {
     MediumStudy study{"wet-road", "Wet road", "", moment, drawn};
-    study.add("drawn", "wetness", "as given", "as drives are drawn");
+    study.add("rendered", "wetness", "as given", "as drives are rendered");
     study.add("left out", "wetness", "0").moment.weather.wetness = 0.0;
     return study;
 }
@@ -118,7 +118,7 @@ MediumStudy wet_ways(const Moment& moment, const RendererSettings& drawn) {
 MediumStudy sun_ways(const Moment& moment, const RendererSettings& drawn) {
     MediumStudy study{"sun", "Sun or moon",
                       "the map has 2048 x 2048 texels of 0.12 m; all other lights keep their shadows but in the second way", moment, drawn};
-    study.add("with its shadow map", "shadows", "map", "as drives are drawn");
+    study.add("with its shadow map", "shadows", "map", "as drives are rendered");
     study.add("without any shadows", "shadows", "none").settings.shadows.method = ShadowMethod::none;
     Daylight& dark = study.add("left out", "shadows", "no light").moment.daylight;
     dark.sun = dark.moon = {};
@@ -126,13 +126,13 @@ MediumStudy sun_ways(const Moment& moment, const RendererSettings& drawn) {
 }
 
 MediumStudy lamp_ways(const Moment& moment, const RendererSettings& drawn) {
-    MediumStudy study{"street-lamps", fmt::format("Lamps beside the road, {}", std::ranges::count_if(moment.other_lamps, stands_beside)),
-                      "light of any one lamp fainter than this is left out (traffic_light: min_lx); shadows by maps but in the way without",
+    MediumStudy study{"street-lamps", fmt::format("Street lamps, {}", std::ranges::count_if(moment.other_lamps, stands_beside)),
+                      "light of any one lamp fainter than this is pruned (traffic_light: min_lx); shadows by maps but in the way without",
                       moment, drawn};
     for (const double min_lx : {0.005, 0.05, 0.2, 1.0, 5.0})
         study
             .add(fmt::format("from {:g} lx on", min_lx), "min_lx", fmt::format("{:g}", min_lx),
-                 min_lx == moment.min_traffic_lx ? "as the drive is drawn" : "")
+                 min_lx == moment.min_traffic_lx ? "as the drive is rendered" : "")
             .moment.min_traffic_lx = min_lx;
     study.add("without their shadows", "shadows", "none").settings.traffic_shadows = false;
     std::erase_if(study.add("left out", "min_lx", "all").moment.other_lamps, stands_beside);

@@ -47,7 +47,7 @@ std::string drive_words(const DriveComparison& drive) {
 Table changes_table(const std::string& name, const std::string& caption) {
     return {.name = name,
             .caption = caption,
-            .columns = columns_of("row<|drive<|reading<|old|new|change|%|± calc.|± noise|± aim|unit<|is<"),
+            .columns = columns_of("row<|drive<|reading<|old|new|change|%|± numerical|± noise|± aim|unit<|is<"),
             .rows = {},
             .sortable = true,
             .led_to = true};
@@ -86,7 +86,7 @@ std::string runs_sentence(const RunComparison& runs) {
     return all == 0 ? "No reading could be compared."
                     : fmt::format(
                           "Of {} readings that both runs have, {} changed for real, {} by no more than 0.1 degrees of aim would do, {} by "
-                          "no more than calculation and noise leave open; of {} it is not known.",
+                          "no more than numerical uncertainty and noise; of {} it is not known.",
                           all, runs.count(ChangeKind::real), runs.count(ChangeKind::within_aim), runs.count(ChangeKind::none),
                           runs.count(ChangeKind::unknown));
 }
@@ -120,10 +120,9 @@ Section largest_section(const RunComparison& runs) {
             fmt::format("{}; {}, row {}", change_text(runs.drives[d].changes[i]), drive_words(runs.drives[d]), row_id(d, i)));
     section.blocks.emplace_back(
         runs.largest.empty()
-            ? "No deciding reading changed beyond what calculation, noise of the lamps' tables and 0.1° of aim leave open."
+            ? "No deciding reading changed beyond numerical uncertainty, noise of the candela tables and 0.1° of aim."
             : "Of each deciding reading its largest real change, then the largest of these; size is the change over the larger of both "
-              "values. Real is what exceeds what calculation and the noise of the lamps' tables leave open, and what 0.1° of aim would "
-              "do.");
+              "values. Real is what exceeds numerical uncertainty and the noise of the candela tables, and what 0.1° of aim would do.");
     return section;
 }
 
@@ -137,9 +136,9 @@ Section readings_section(const RunComparison& runs) {
     others.caption = fmt::format("All other readings ({}): other lanes, edges, limits, percentiles", others.rows.size());
     others.folded = true;
     return {"Readings",
-            {"A heading sorts, again the other way round. ± calc. is what calculation (and where a run has them, repeats) leaves open of "
-             "the change, ± noise what three standard "
-             "deviations of the noise of the lamps' tables would do, ± aim what 0.1° of aim would do. Each line is the row of its id in "
+            {"A heading sorts, again the other way round. ± numerical is the numerical uncertainty of the change (with that of repeats, "
+             "where a run has them), ± noise what three standard deviations of the noise of the candela tables would do, ± aim what 0.1° "
+             "of aim would do. Each line is the row of its id in "
              "compare.json and compare.csv.",
              Listing{{Cell("compare.json").linked("compare.json"), Cell("compare.csv").linked("compare.csv")}}, deciding, others},
             2,
@@ -281,10 +280,11 @@ Section pictures_section(const RunComparison& runs, const DriveComparison& drive
             section.blocks.emplace_back(moment_strip(drive, runs, frame));
     add_plots(true);
     if (!drive.times.empty()) {
-        Table times = changes_table("times-" + drive.name,
-                                    "Times of passes: medians; ± calc. is half the range from the 5th to the 95th percentile of both runs' "
-                                    "frames. The runs are two sittings, and what else the machine did counts, too: fernlicht bench times "
-                                    "in turns");
+        Table times =
+            changes_table("times-" + drive.name,
+                          "Times of passes: medians; ± numerical is half the range from the 5th to the 95th percentile of both runs' "
+                          "frames. The runs are two sittings, and what else the machine did counts, too: fernlicht bench times "
+                          "in turns");
         for (const TimeChange& time : drive.times)
             add_change(times, drive, time, name_of(time.reading));
         section.blocks.emplace_back(std::move(times));

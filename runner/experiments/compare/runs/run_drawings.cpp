@@ -62,9 +62,8 @@ void add_glares(DriveComparison& drive) {
         const auto old = std::ranges::find(drive.before.glares, now.eye, &GlareOverDrive::eye);
         const std::string eye = eye_name(now.eye);
         if (old != drive.before.glares.end())
-            add_lines(drive, "glare-" + file_name_of(eye), "Illuminance facing the lamps, " + short_text(eye, 40),
-                      line_of(old->at_m, old->facing_lx), line_of(now.at_m, now.facing_lx), now.over, "illuminance", "lx",
-                      plots::Scale::logarithmic);
+            add_lines(drive, "glare-" + file_name_of(eye), "Facing illuminance, " + short_text(eye, 40), line_of(old->at_m, old->facing_lx),
+                      line_of(now.at_m, now.facing_lx), now.over, "illuminance", "lx", plots::Scale::logarithmic);
     }
 }
 

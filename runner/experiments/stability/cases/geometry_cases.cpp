@@ -134,7 +134,7 @@ void thin_mark_seen(StabilityBench& bench, Found& worst) {
 
 std::vector<StabilityCase> geometry_cases() {
     const std::string of_bound = "of the pixel's rounding bound";
-    const std::string flat = "light is calculated at each pixel from its place: how the plane is cut into triangles may not show";
+    const std::string flat = "light is computed at each pixel from its place: how the plane is cut into triangles may not show";
     return {
         {"geometry", "marks", "strips of 15 m by 0.1 m and 1 m by 1 mm, slivers, triangles without area: holes, barycentric 0/0", 1.0,
          of_bound, flat, over_strips({{15.0, 1.0}, {15.0, 0.1}, {5.0, 0.03}, {1.0, 0.001}}, false)},

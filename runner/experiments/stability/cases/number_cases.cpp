@@ -85,12 +85,12 @@ void float_rules(StabilityBench& bench, Found& worst) {
     const View view = camera({0.0, 0.0, 0.0}, 0.0, 0.0, 30.0, 32, 32);
     Renderer renderer(bench.device(), scene, unshadowed());
     renderer.draw(moment, view, everything);
-    add("after drawing");
+    add("after rendering");
     const Reference reference(scene);
     ReferenceSettings settings;
     settings.max_samples = 16;
     reference.render(moment, view, {.illuminance = true}, settings);
-    add("after the reference's rays");
+    add("after the reference");
     // As many tasks as to reach every worker that the two have left.
     const int broken = tbb::parallel_reduce(
         tbb::blocked_range<int>(0, 4096, 1), 0,

@@ -55,7 +55,7 @@ void hairpin(StabilityBench& bench, Found& worst) {
         worst.add(bad_vertices(scene) > 0.0 ? unbounded
                                             : std::abs(paved_m2(scene) - truth) / (2.0 * 0.005 * length * (1.0 + width / radius)),
                   fmt::format("{} m wide outside: {:.4f} m2 for {:.4f}", width, paved_m2(scene), truth));
-        worst.add(bad_pixels(bench, scene, {0.0, 0.0, 0.0}) > 0.0 ? unbounded : 0.0, "drawn, outside", drawn_px);
+        worst.add(bad_pixels(bench, scene, {0.0, 0.0, 0.0}) > 0.0 ? unbounded : 0.0, "rendered, outside", drawn_px);
     }
 }
 
@@ -126,7 +126,7 @@ std::vector<StabilityCase> road_cases() {
         {"road", "radius-2m", "a turn of 2 m radius: chords, overlapping turns", 1.0, "of 5 mm along both edges",
          "the mesh keeps within 5 mm of the surface, so its area within 5 mm times its edges", hairpin},
         {"road", "folded", "a lane that reaches beyond its turn's centre: the surface folds over, normals turn round", 0.0,
-         "vertices or pixels that are not finite", "a folded surface is drawn as it is; no place or normal of it divides by its extent",
+         "vertices or pixels that are not finite", "a folded surface is rendered as it is; no place or normal of it divides by its extent",
          folded},
         {"road", "width-0", "lanes without width, and of 1e-300 m: triangles without area", 0.0, "vertices or pixels that are not finite",
          "normals come from the surface's equation, not from its triangles", no_width},

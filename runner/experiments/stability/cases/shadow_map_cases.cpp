@@ -236,7 +236,7 @@ void beyond(StabilityBench& bench, Found& worst) {
 
 std::vector<StabilityCase> shadow_cases() {
     return {
-        {"shadow", "far", "shadows out to 300 m, where a texel is 0.3 m wide", 0.0, "pixels drawn wrongly",
+        {"shadow", "far", "shadows out to 300 m, where a texel is 0.3 m wide", 0.0, "pixels rendered wrongly",
          "pixels in doubt are left out: those where rays from within a texel and the look-up's height do not agree", far},
         {"shadow", "beyond-the-maps", "a shadow at 500 m and 1000 m: the maps end 300 m from the lamp", 1.0,
          "of the lamp's peak over (300 m)^2",
@@ -246,7 +246,7 @@ std::vector<StabilityCase> shadow_cases() {
 }
 
 std::vector<StabilityCase> shadow_map_cases() {
-    const std::string pixels = "pixels drawn wrongly";
+    const std::string pixels = "pixels rendered wrongly";
     const std::string in_doubt = "in doubt are pixels where rays from within a texel and the look-up's height do not agree";
     return {
         {"warp", "eyes", "the lamp in the eye, behind, before and beside it; along the light and against it", 0.0, pixels,
@@ -274,7 +274,7 @@ std::vector<StabilityCase> shadow_map_cases() {
         {"shadow", "texels", "maps of 16 x 16 to 8192 x 4096 texels, 512 times as wide as high", 0.0, pixels,
          in_doubt + "; of 16 texels little is beyond doubt", texels_of_maps},
         {"one-map", "lamps-apart", "lamps 1 cm to 10 m apart", 0.0, pixels,
-         "held against rays from midway: a limit, which docs/shadows.md tells; " + in_doubt, lamps_apart},
+         "held against the reference from midway: a limit, which docs/shadows.md tells; " + in_doubt, lamps_apart},
         {"soft", "radii", "lamps of 1 mm and of 0.5 m", 0.0, pixels, in_doubt + ", and where places on the disc do not", soft_radii},
         {"soft", "near-casters", "a lamp of 0.5 m, a caster nearer than that", 0.0625, "of the lamp's share, r.m.s.",
          "of 16 places each stands for a sixteenth of the light", soft_near},

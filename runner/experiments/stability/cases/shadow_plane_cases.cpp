@@ -164,7 +164,7 @@ void far_by_all(StabilityBench& bench, Found& worst) {
 } // namespace
 
 std::vector<StabilityCase> shadow_plane_cases() {
-    const std::string pixels = "pixels drawn wrongly";
+    const std::string pixels = "pixels rendered wrongly";
     return {
         {"planar", "casters", "a lamp barely above the plane, casters as high as it, through the plane and above it; slopes, far places",
          0.0, pixels, "what is as high as the lamp is cut off in homogeneous coordinates, before any division", on_a_plane},

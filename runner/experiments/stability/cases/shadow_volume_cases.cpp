@@ -170,7 +170,7 @@ void volumes_from_above(StabilityBench& bench, Found& worst) {
 } // namespace
 
 std::vector<StabilityCase> shadow_volume_cases() {
-    const std::string pixels = "pixels drawn wrongly";
+    const std::string pixels = "pixels rendered wrongly";
     return {
         {"volumes", "crowds", "bodies closed, open, inside out, torn and tangled; lamp and camera in any of them and in their shadows", 0.0,
          pixels, "hulls are exact: in doubt are only pixels at edges and those within twice the gap behind a caster", shadow_crowds},

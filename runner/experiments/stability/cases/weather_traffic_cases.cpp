@@ -153,17 +153,18 @@ void two_thousand_cars(StabilityBench& bench, Found& worst) {
 } // namespace
 
 std::vector<StabilityCase> weather_cases() {
-    return {{"weather", "fog-at-its-ends", "ranges of 1 mm and 1e9 m; a lamp in the eye, before and behind it, the own and others'", 0.0,
+    return {{"weather", "fog-at-its-ends",
+             "ranges of 1 mm and 1e9 m; lamps in the eye, before and behind it, of the own car and of other vehicles", 0.0,
              "luminances that are no number, or light through a wall of fog",
              "exp underflows to 0, and rays near a lamp count from 1 mm on", fog_at_its_ends},
-            {"weather", "street-lamp-on-the-ground", "a lamp of others in the surface that it lights: 0/0 in direction and distance", 0.0,
-             "pixels that are not finite", "others' lamps count from 1 mm on", street_lamp_on_the_ground}};
+            {"weather", "street-lamp-on-the-ground", "another vehicle's lamp in the surface that it lights: 0/0 in direction and distance",
+             0.0, "pixels that are not finite", "other vehicles' lamps count from 1 mm on", street_lamp_on_the_ground}};
 }
 
 std::vector<StabilityCase> traffic_cases() {
     return {{"traffic", "hardest-places",
              "lamps in the eye, in bodies, on and below the road, coincident, 1e9 m away, off and far too bright", 0.0,
-             "values that are not finite or that pruning changes", "distances and ramps are clamped; what is left out adds exactly 0",
+             "values that are not finite or that pruning changes", "distances and ramps are clamped; what is pruned adds exactly 0",
              hardest_places_of_others},
             {"traffic", "two-thousand-cars", "lists of 4000 lamps, all in one place or in a row of 40 km", 0.0,
              "pictures with values that are not finite or impossible", "sums of floats of one sign", two_thousand_cars}};

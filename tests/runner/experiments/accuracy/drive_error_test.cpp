@@ -84,7 +84,7 @@ TEST(LampDiscs, AreThoseOfTheDriveInItsAccuracy) {
             .at("accuracy");
     };
     EXPECT_EQ(accuracy(soft_30_cm, "soft").at("lamp_radius_m"), 0.3);
-    EXPECT_THAT(content_of(folder / "soft/report.html"), HasSubstr("with lamps that are discs of 30 cm radius, as soft-map draws them"));
+    EXPECT_THAT(content_of(folder / "soft/report.html"), HasSubstr("with lamps that are discs of 30 cm radius, as soft-map renders them"));
     EXPECT_FALSE(accuracy("map", "hard").contains("lamp_radius_m"));
     EXPECT_THAT(content_of(folder / "hard/report.html"), Not(HasSubstr("lamps that are discs")));
 }

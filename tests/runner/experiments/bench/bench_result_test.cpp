@@ -41,7 +41,7 @@ BenchResult sample_bench() {
     result.moments = {{0, 0.0}, {30, 1.0}};
     result.rounds_planned = 7;
     result.warm_up_plays = 2;
-    result.gpu_not_measured = "the driver draws on the CPU";
+    result.gpu_not_measured = "the driver renders on the CPU";
     const auto add = [&](const char* name, int thesis_row, const char* thesis_fps, double factor, double noise) {
         BenchedTechnique benched;
         benched.row.name = name;
@@ -145,7 +145,7 @@ TEST(BenchJson, KeepsRawSamplesAndComparesEveryTwo) {
     EXPECT_EQ(whole.at("techniques").at(1).at("samples").at("frame_s").get<std::vector<double>>(), result.techniques[1].samples.frame_s);
     EXPECT_EQ(whole.at("context").at("inputs").at(0).at("xxh128"), "00112233445566778899aabbccddeeff");
     EXPECT_EQ(whole.at("orders").at(6), json({"clamped", "texturing-only", "light-map", "full"}));
-    EXPECT_EQ(whole.at("techniques").at(0).at("gpu_not_measured"), "the driver draws on the CPU");
+    EXPECT_EQ(whole.at("techniques").at(0).at("gpu_not_measured"), "the driver renders on the CPU");
     ASSERT_EQ(whole.at("comparisons").size(), 6U);
     const json& clamped_full = whole.at("comparisons").at(2);
     EXPECT_EQ(clamped_full.at("technique"), "clamped");

@@ -170,7 +170,7 @@ SeeingSeries sample_seeing() {
             "distance to the observer",
             {0, 1},
             {30.0, 20.0},
-            {{"facing_lx", "illuminance facing the lamps", "lx", true, true, {0.5, 1.25}},
+            {{"facing_lx", "facing illuminance", "lx", true, true, {0.5, 1.25}},
              {"de_boer", "de Boer's rating", "", false, true, {Value::not_measured("no light"), Value::at_least(4.0)}},
              {"theta_left_deg", "angle of left", "deg", false, false, {1.0, 2.0}}}};
 }

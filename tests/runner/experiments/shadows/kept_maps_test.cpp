@@ -24,7 +24,7 @@ KeptMaps kept_maps(const TemporaryFolder& folder, const std::string& shadows, co
     kept.notes = drive.at("notes").dump();
     for (const json& left : drive.at("left_out")) {
         const std::string text = left.get<std::string>();
-        if (std::sscanf(text.c_str(), "drawing %d of the %d shadow maps", &kept.stood, &kept.used) == 2)
+        if (std::sscanf(text.c_str(), "rendering %d of the %d shadow maps", &kept.stood, &kept.used) == 2)
             std::sscanf(text.substr(text.find("; of the ")).c_str(),
                         "; of the %d that the first pictures of moments looked up, %d stood from an earlier moment", &kept.first_used,
                         &kept.earlier);

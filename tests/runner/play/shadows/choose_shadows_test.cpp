@@ -53,7 +53,7 @@ TEST_F(AutomaticShadows, TheCheapestWithinTheBoundIsTakenAndTheResolvedDriveName
         EXPECT_TRUE(content_of(folder / ("first/" + frame.at("exr").get<std::string>())) ==
                     content_of(folder / ("second/" + frame.at("exr").get<std::string>())));
     const std::string page = content_of(folder / "first/report.html");
-    EXPECT_THAT(page, HasSubstr("How shadows are drawn"));
+    EXPECT_THAT(page, HasSubstr("How shadows are rendered"));
     EXPECT_THAT(page, HasSubstr("chose <code>" + choice.at("chosen").get<std::string>() + "</code>"));
 }
 
@@ -92,7 +92,7 @@ TEST_F(AutomaticShadows, ReportsTellOfMapsThatStood) {
         const json drive = played(drive_with("first-light", shadows), out, "20:22");
         for (const json& left : drive.at("left_out")) {
             int stood = 0, used = 0;
-            if (std::sscanf(left.get<std::string>().c_str(), "drawing %d of the %d shadow maps", &stood, &used) == 2)
+            if (std::sscanf(left.get<std::string>().c_str(), "rendering %d of the %d shadow maps", &stood, &used) == 2)
                 return static_cast<double>(stood) / used;
         }
         return 0.0;
