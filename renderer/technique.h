@@ -30,7 +30,6 @@ struct Technique {
 /// All of them, in the order of the thesis's table and then of the list in the documents.
 std::span<const Technique> techniques();
 /// Throws InputError naming the nearest name.
-const Technique& technique_named(std::string_view name, const std::filesystem::path& asked_in = {},
-                                 const std::string& key = "technique");
+const Technique& technique_named(std::string_view name, const std::filesystem::path& asked_in = {}, const std::string& key = "technique");
 
 } // namespace fernlicht

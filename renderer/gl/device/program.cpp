@@ -6,52 +6,55 @@
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
+#include <set>
 #include <sstream>
 #include <utility>
 
 namespace fernlicht::gl {
 namespace {
 
-/// Source text with includes pasted in; `files[n]` is what `#line x n` means.
+/// Source text with includes pasted in, and where each of its lines comes from. `#line` would not do: Mesa forgets the file's number.
 struct Expanded {
     std::string text;
-    std::vector<std::string> files;
+    std::set<std::string> files;
+    std::vector<std::pair<const std::string*, int>> places; ///< in `files`
 };
 
 void paste(const std::string& file, Expanded& out) {
-    if (std::find(out.files.begin(), out.files.end(), file) != out.files.end())
+    const auto [name, is_new] = out.files.insert(file);
+    if (!is_new)
         return;
     const std::string_view content = shader_file(file);
     if (content.empty())
         throw DeviceError(fmt::format("there is no shader file {} in this build", file));
-    const std::size_t number = out.files.size();
-    out.files.push_back(file);
-    out.text += fmt::format("#line 1 {}\n", number);
     std::istringstream lines{std::string(content)};
     constexpr std::string_view include = "#include \"";
-    int line_number = 0;
+    int number = 0;
     for (std::string line; std::getline(lines, line);) {
-        ++line_number;
+        ++number;
         if (line.starts_with(include)) {
             paste(line.substr(include.size(), line.rfind('"') - include.size()), out);
-            out.text += fmt::format("#line {} {}\n", line_number + 1, number);
         } else {
             out.text += line + "\n";
+            out.places.emplace_back(&*name, number);
         }
     }
 }
 
-/// Mesa says "2:17(5): error", NVIDIA "2(17) : error": both get the file's name in place of its number.
-std::string with_file_names(const std::string& log, const std::vector<std::string>& files) {
+/// Mesa says "0:117(5): error", NVIDIA "0(117) : error": both get the place of that line of the text, which begins with `prologue`.
+std::string with_places(const std::string& log, const std::string& prologue, const Expanded& source) {
+    const auto before = static_cast<std::size_t>(std::ranges::count(prologue, '\n'));
     std::string out;
     std::istringstream lines(log);
     for (std::string line; std::getline(lines, line); out += line + "\n") {
-        const std::size_t digits = line.find_first_not_of("0123456789");
         std::size_t number = 0;
-        if (digits == std::string::npos || (line[digits] != ':' && line[digits] != '(') ||
-            std::from_chars(line.data(), line.data() + digits, number).ec != std::errc())
+        if (!line.starts_with("0:") && !line.starts_with("0("))
             continue;
-        line.replace(0, digits + 1, (number < files.size() ? files[number] : line.substr(0, digits)) + ":");
+        const auto [end, failed] = std::from_chars(line.data() + 2, line.data() + line.size(), number);
+        if (failed == std::errc() && number > before && number <= before + source.places.size()) {
+            const auto& [file, in_file] = source.places[number - before - 1];
+            line.replace(0, static_cast<std::size_t>(end - line.data()) + (line[1] == '(' ? 1 : 0), fmt::format("{}:{}", *file, in_file));
+        }
     }
     return out;
 }
@@ -78,7 +81,7 @@ GLuint compile(Context& context, GLenum stage, const std::string& file, const st
     if (ok != GL_TRUE) {
         const std::string log = log_of(context.gl.GetShaderInfoLog, shader);
         context.gl.DeleteShader(shader);
-        throw DeviceError(fmt::format("{} does not compile on {}: {}", file, context.info.gl_renderer, with_file_names(log, source.files)));
+        throw DeviceError(fmt::format("{} does not compile on {}: {}", file, context.info.gl_renderer, with_places(log, prologue, source)));
     }
     return shader;
 }

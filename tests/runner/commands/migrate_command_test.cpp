@@ -96,6 +96,8 @@ TEST_F(Migrate, RefusesWhatItCannotRead) {
     for (const std::string& file : {written("broken.yaml", "fernlicht: [1\n"), written("other.yaml", "road: x\n"), folder_ / "none.yaml",
                                     folder_.path().string() + " --in-place"})
         EXPECT_EQ(run_program("migrate " + file).exit_code, 2) << file;
+    EXPECT_THAT(run_program("migrate " + folder_.path().string()).output, HasSubstr("is a folder without index.json, expected a file"));
+    written("index.json", "{}");
     EXPECT_THAT(run_program("migrate " + folder_.path().string()).output, HasSubstr("--in-place beside it"));
 }
 

@@ -23,7 +23,7 @@ class RepeatedPlays : public ::testing::Test {
         RepeatFold fold(first, run.folder, played_json);
         equal = fold.add(again.report.played[0], again.folder);
         PlayedCell finished = first;
-        fold.finish(finished, 2, "fernlicht run");
+        fold.finish(finished, 2);
         repeats = finished.repeats;
         return finished.verdicts.back();
     }

@@ -58,8 +58,10 @@ TEST_F(StudyAgainstBaselines, WhatMovesIsRedAndNamed) {
     const Outcome moved = play(own, "moved", "--baselines " + (temporary / "other"));
     EXPECT_EQ(moved.exit_code, 1);
     EXPECT_THAT(moved.output, HasSubstr("Two cells: fail\n"));
-    EXPECT_THAT(moved.output, ContainsRegex("FAIL straight_halogen: baseline reading reach_5lx_road_own_m: [0-9.]+ m, accepted [0-9.]+ m, "
-                                            "off by [0-9.]+ m \\(2.91 %\\), at most 0.0[0-9]+ m for rounding \\([0-9a-f]+, accepted without pictures\\)"));
+    EXPECT_THAT(
+        moved.output,
+        ContainsRegex("FAIL straight_halogen: baseline reading reach_5lx_road_own_m: [0-9.]+ m, accepted [0-9.]+ m, "
+                      "off by [0-9.]+ m \\(2.91 %\\), at most 0.0[0-9]+ m for rounding \\([0-9a-f]+, accepted without pictures\\)"));
     EXPECT_EQ(std::string::npos, moved.output.find("FAIL straight_xenon"));
     EXPECT_THAT(content_of(temporary / "moved/junit.xml"), HasSubstr("baseline reading reach_5lx_road_own_m"));
     EXPECT_THAT(content_of(temporary / "moved/report.html"), HasSubstr("baseline reading reach_5lx_road_own_m"));
