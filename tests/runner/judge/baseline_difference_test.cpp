@@ -29,7 +29,7 @@ TEST(ReadingWithoutSpread, IsJudgedByRoundingAlone) {
     EXPECT_EQ(compared(reading(100.11), reading(100.0)).agreement, Agreement::differs);
     EXPECT_EQ(compared(reading(99.89), reading(100.0)).agreement, Agreement::differs);
     EXPECT_EQ(compared(reading(100.11, 5), reading(100.0, 7)).agreement, Agreement::differs) << "equal repeats have no spread";
-    EXPECT_THAT(compared(reading(100.11), reading(100.0)).text, HasSubstr("at most 0.1 m for rounding"));
+    EXPECT_THAT(compared(reading(100.11), reading(100.0)).text, HasSubstr("at most 0.1 lx for rounding"));
 }
 
 // A grid error of 1.6 mm at a reach of 60 m is the difference of two figures of 60 m: these may round by 0.6 mm, and it by 0.1 mm of its

@@ -32,7 +32,7 @@ std::string drive_with(const TemporaryFolder& folder, const std::string& name, c
         text.replace(at, 3, library_file(""));
     text.erase(text.find("  xenon: "), text.find("traffic_light: ") - text.find("  xenon: "));
     text.erase(text.find("  map: "));
-    text += "measure: {extent: false}\n";
+    text += std::string("measure: {extent: false}\n") + (lines.find("shadows: ") == std::string::npos ? "shadows: none\n" : "");
     const std::string path = folder / (name + ".yaml");
     std::ofstream(path) << text << lines;
     return path;
@@ -102,7 +102,7 @@ TEST(DisplayRun, ReportAndPageSayHowPicturesWereShown) {
     const auto shown = [](const json& drive, std::size_t i) {
         return drive.at("shown_by").at("luminances").at(i).at("shown_cdm2").get<double>();
     };
-    const std::string plain = played(folder, "plain", "");
+    const std::string plain = played(folder, "plain", "shadows: map\n");
     json drive = drive_in(plain);
     EXPECT_EQ(drive.at("shown_by").at("text"), "rational s=20 white=100 cd/m2; display srgb");
     EXPECT_EQ(drive.at("shown_by").at("gamut"), "clip");
