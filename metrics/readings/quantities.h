@@ -81,13 +81,13 @@ struct QuantityRow {
     /// "width_<lx>lx_(road|target)_<lane>_at_<m>m(median|_min)_m".
     const char* forms;
     const char* unit; ///< "m", "cd/m2", "%", "1"
-    SubjectKind subject;
-    Better better;
-    bool is_extent; ///< lit road, measured as `extent` asks
-    Exactness exactness;
-    WithLight with_light;
+    SubjectKind subject = SubjectKind::none;
+    Better better = Better::neither;
+    bool is_extent = false; ///< lit road, measured as `extent` asks
+    Exactness exactness = Exactness::unknown;
+    WithLight with_light = WithLight::unknown;
     const char* words; ///< for people; reading_labels.cpp fills the braces
-    const char *meaning, *equation, *source;
+    const char *meaning, *equation = "", *source = "";
 };
 
 /// In the order of Quantity.

@@ -137,7 +137,7 @@ std::string range_over(const std::vector<CellResult>& cells, int CellResult::*co
 std::string played_in_part(const StudyResult& result) {
     std::vector<std::string> parts;
     if (const std::size_t all = cells_of(result.study).size(); result.cells.size() < all)
-        parts.push_back(fmt::format("only {} of {} cells were asked for (--only {})", result.cells.size(), all, result.only));
+        parts.push_back(fmt::format("Only {} of {} cells were asked for (--only {})", result.cells.size(), all, result.only));
     if (std::ranges::any_of(result.cells, [](const CellResult& cell) { return cell.moments < cell.moments_of_drive; }))
         parts.push_back(fmt::format("{} of {} moments of each drive were played (--frames {})",
                                     range_over(result.cells, &CellResult::moments), range_over(result.cells, &CellResult::moments_of_drive),

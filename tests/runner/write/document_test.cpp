@@ -85,7 +85,7 @@ TEST_F(ToyExperiment, BecomesAPage) {
     EXPECT_THAT(page, Not(HasSubstr("<script")));
 }
 
-/// Every format there is, a new one too: it says all, writes each table to a file, and as exactly as its row here demands.
+/// Every format there is says all, writes each table to a file, and as exactly as its row here demands; a new one needs a row.
 TEST_F(ToyExperiment, BecomesEachFormat) {
     const std::map<std::string, std::pair<std::string, std::string>> exactly{
         {"csv", {"side,\"of all share, %\",of all count\r\nheads | tails,37.5,\r\nedge,\"not measured, it never stood\",\r\n", ""}},
@@ -106,8 +106,7 @@ TEST_F(ToyExperiment, BecomesEachFormat) {
     for (const OutputFormat& format : output_formats()) {
         SCOPED_TRACE(format.name);
         EXPECT_TRUE(extensions.insert(format.extension).second && format.extension[0] == '.');
-        const auto row = exactly.find(format.name);
-        const auto [table, page] = row == exactly.end() ? std::pair<std::string, std::string>{} : row->second;
+        const auto& [table, page] = exactly.at(format.name);
         const auto holds = [](const std::string& exact) {
             return AllOf(HasSubstr("37.5"), HasSubstr("heads"), HasSubstr("tails"), HasSubstr(exact));
         };

@@ -1,5 +1,6 @@
 // Whole studies through the program.
 #include "runner/experiments/study/study_document.h"
+#include "runner/write/formats.h"
 #include "tests/runner/opened_page.h"
 #include "tests/runner/run_readings.h"
 #include "tests/runner/schema_check.h"
@@ -123,8 +124,11 @@ TEST_F(StudyProgram, GoesOnWhereItWasStoppedAndGivesTheSameBytes) {
     const json study = tests::checked(content_of(folder / "out/study.json"), study_members);
     EXPECT_EQ(study.at("context").at("cells").at(0).at("reused"), true);
     EXPECT_EQ(without_times(study), without_times(json::parse(content_of(folder / "whole/study.json"))));
-    for (const char* name : {"study.csv", "study.md", "study.tex"})
-        EXPECT_EQ(content_of(folder / (std::string("out/") + name)), content_of(folder / (std::string("whole/") + name))) << name;
+    EXPECT_EQ(content_of(folder / "out/study.csv"), content_of(folder / "whole/study.csv"));
+    for (const OutputFormat& format : output_formats())
+        if (format.for_papers)
+            EXPECT_EQ(content_of(folder / (std::string("out/study") + format.extension)),
+                      content_of(folder / (std::string("whole/study") + format.extension)));
 }
 
 /// One cell's report is damaged when a study that did not end goes on: that cell is missing and named, all of the other is there.
