@@ -276,7 +276,7 @@ void TrafficFold::add(const Moment& moment) {
 
 Readings TrafficFold::readings() const {
     Readings readings;
-    eye_.say(readings, {.quantity = Quantity::glare_facing, .place = ReadingPlace::own_eyes}, "own driver's eye, other vehicles' lamps", "",
+    eye_.say(readings, {.quantity = Quantity::glare_facing, .place = ReadingPlace::own_eyes}, "own driver's eye, other lamps", "",
              *drive_.seeing.glare);
     return readings;
 }

@@ -50,14 +50,14 @@ enum class Better { neither, higher, lower };
 /// What a quantity's subject is the name of. A drive gives these names, passes apart.
 enum class SubjectKind { none, probe, sensor, eye, mirror, target, pass };
 
-/// What calculation leaves open of a figure.
+/// Where a figure's numerical uncertainty comes from.
 enum class Exactness {
     unknown,
-    double_precision,   ///< calculated at places and by definitions that leave no choice
-    grid_and_drawing,   ///< the grid's error on that line, and the distance between drawing and double precision
+    double_precision,   ///< computed at places and by definitions that leave no choice
+    grid_and_drawing,   ///< the grid's error on that line, and the difference between rendering and twin
     grid,               ///< the grid's error
     grid_columns,       ///< a column of the grid at either end
-    drawing,            ///< the distance between drawing and double precision
+    drawing,            ///< the difference between rendering and twin
     between_moments,    ///< half a step of the drive at either end
     look_step,          ///< a step between the places looked at
     look_step_twice,    ///< one at either end

@@ -17,7 +17,7 @@ const char* aspect_in_words(Aspect aspect) {
                                             ", gained by control",
                                             ", lamps held still",
                                             ", twin",
-                                            ", rendered against twin",
+                                            ", rendered against the twin",
                                             ", error of the grid",
                                             ", by 0.1° of aim",
                                             ", by 10 % of flux",

@@ -389,28 +389,28 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
     if (const std::size_t off = shot.moment.lamps.size() - lamps_.size(); off > 0)
         say(fmt::format("{} of {} lamps", off, shot.moment.lamps.size()), "switched off");
     if (traffic_.left_out() > 0)
-        say(fmt::format("other vehicles' lamps: {} of {}", traffic_.left_out(), traffic_.units()),
+        say(fmt::format("other lamps: {} of {}", traffic_.left_out(), traffic_.units()),
             fmt::format("bring less than {} lx to anything in view", shot.moment.min_traffic_lx));
     if (const TrafficReport& r = traffic_.report(); r.merged + r.by_vertex + r.point + r.left_out > 0)
-        say(fmt::format("other vehicles' lamps one by one: of {} lights on places of all pictures, {} as one beam for two lamps, {} by "
+        say(fmt::format("other lamps one by one: of {} lights on places of all pictures, {} as one beam for two lamps, {} by "
                         "vertex, {} as a point, {} not at all",
                         r.each + r.merged + r.by_vertex + r.point + r.left_out, r.merged, r.by_vertex, r.point, r.left_out),
             fmt::format(
-                "by bounds all that is rendered is off by at most {:.2g} lx at any place, all that is pruned brings at most {:.2g} lx",
+                "by bounds all that is rendered is off by at most {:.2g} lx at any place, all that is left out brings at most {:.2g} lx",
                 r.worst_drawn_lx, r.worst_left_out_lx));
     else if (shot.moment.other_lamps.empty())
-        say("other vehicles' lamps", "there are none");
+        say("other lamps", "there are none");
     if (traffic_shadows_ && traffic_shadows_->max_units_left_out() > 0)
-        say(fmt::format("shadow maps of other vehicles' lamps: those of up to {} pairs or single lamps in a picture",
+        say(fmt::format("shadow maps of other lamps: those of up to {} pairs or single lamps in a picture",
                         traffic_shadows_->max_units_left_out()),
             fmt::format("there are {} maps for the strongest; ", max_traffic_maps) +
                 (traffic_shadows_->worst_left_out_lx() <= max_useful_bound_lx
                      ? fmt::format("by bounds the rest bring at most {:.2g} lx together to any place where their shadows may be missing",
                                    traffic_shadows_->worst_left_out_lx())
-                     : "no useful bound is known of other vehicles' light whose shadows may be missing: one of them stands within the "
+                     : "no useful bound is known of other lamps' light whose shadows may be missing: one of them stands within the "
                        "radius of a piece that it may light, and bounds take a piece's nearest point"));
     else if (traffic_shadows_ && !traffic_shadows_->any() && !shot.moment.other_lamps.empty())
-        say("shadow maps of other vehicles' lamps",
+        say("shadow maps of other lamps",
             fmt::format("nothing stands where one brings more than {} lx", min_traffic_shadow * shot.moment.min_traffic_lx));
     if (!shadows_)
         say("shadows", "the shadow method is none");
@@ -421,7 +421,7 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
     if (shot.moment.weather.extinction_per_m == 0.0)
         say("fog", "the air is clear");
     if (lamps_in_fog_.left_out() > 0)
-        say(fmt::format("other vehicles' beams in the fog: {} of {}", lamps_in_fog_.left_out(), shot.moment.other_lamps.size()),
+        say(fmt::format("other lamps' beams in the fog: {} of {}", lamps_in_fog_.left_out(), shot.moment.other_lamps.size()),
             fmt::format("give the air less than {:.2g} cd/m2 anywhere", static_cast<double>(lamps_in_fog_.min_cdm2())));
     if (shot.moment.weather.wetness == 0.0)
         say("water on the road", "it is dry");

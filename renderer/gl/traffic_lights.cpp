@@ -47,7 +47,7 @@ template <class T> void TrafficLights::fill(Texels& texels, GLenum format, const
         gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
         const std::size_t room = std::max<std::size_t>(2 * values.size(), 64), most = static_cast<std::size_t>(limit) * texel_bytes(format);
         if (values.size() * sizeof(T) > most)
-            throw DeviceError(fmt::format("{} fetches at most {} texels, other vehicles' lamps take {}", context_.info.gl_renderer, limit,
+            throw DeviceError(fmt::format("{} fetches at most {} texels, other lamps take {}", context_.info.gl_renderer, limit,
                                           values.size() * sizeof(T) / texel_bytes(format)));
         texels.room = std::min(room, most / sizeof(T));
         texels.buffer = make_buffer(context_, std::vector<T>(texels.room), GL_DYNAMIC_STORAGE_BIT);

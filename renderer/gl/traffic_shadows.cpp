@@ -39,7 +39,7 @@ TrafficShadows::TrafficShadows(Context& context, const SceneBuffers& scene, cons
       map_buffer_(make_buffer(context, std::vector<glm::vec4>(4 * max_traffic_maps), GL_DYNAMIC_STORAGE_BIT)), layers_(max_traffic_maps) {
     map_texels_ = new_texture(context_, GL_TEXTURE_BUFFER);
     context_.gl.TextureBuffer(map_texels_, GL_RGBA32F, map_buffer_);
-    maps_ = make_shadow_texture(context_, {settings_.width, settings_.height, static_cast<int>(max_traffic_maps), "other vehicles' lamps",
+    maps_ = make_shadow_texture(context_, {settings_.width, settings_.height, static_cast<int>(max_traffic_maps), "other lamps",
                                            "a smaller map_texels, or shadows: none"});
 }
 
@@ -263,7 +263,7 @@ void TrafficShadows::draw(const Shot& shot) {
                 pass_.set_pieces(ego_m_, chosen_[i].pieces);
                 pass_.draw(maps_, layers_[chosen_[i].layer].clip, shot.work, static_cast<GLint>(chosen_[i].layer));
             }
-        pass_.end("rendering shadow maps of other vehicles' lamps");
+        pass_.end("rendering shadow maps of other lamps");
     }
     std::vector<glm::vec4> texels; // as in traffic_shadows.glsl
     for (const Map& map : chosen_) {

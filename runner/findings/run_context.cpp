@@ -58,14 +58,16 @@ std::string simd_class() {
     return "other";
 }
 
-std::string repeat_command(const std::vector<std::string>& call, const std::vector<std::string>& others,
-                           const std::vector<std::string>& choice) {
+std::string repeat_command(const std::vector<std::string>& call, const std::vector<std::string>& choice,
+                           const std::vector<std::string>& others) {
+    if (call.empty())
+        return "";
     std::vector<std::string> words;
+    const auto is = [](const std::string& word, const std::string& flag) { return word == flag || word.starts_with(flag + "="); };
     for (std::size_t i = 0; i < call.size(); ++i)
-        if (call[i] == "--out" || call[i] == "--only")
-            ++i;
-        else if (!call[i].starts_with("--out=") && !call[i].starts_with("--only=") && call[i] != "--resume" &&
-                 std::ranges::find(others, call[i]) == others.end())
+        if (is(call[i], "--out") || (!choice.empty() && is(call[i], "--only")))
+            i += call[i].find('=') == std::string::npos ? 1U : 0U;
+        else if (!is(call[i], "--resume") && std::ranges::find(others, call[i]) == others.end())
             words.push_back(call[i]);
     words.insert(words.end(), choice.begin(), choice.end());
     return shell_quoted(words);

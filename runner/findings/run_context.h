@@ -11,10 +11,10 @@ RunContext make_context(const DeviceInfo& device, const std::vector<std::string>
 /// A command line that a POSIX shell splits back into these words.
 std::string shell_quoted(const std::vector<std::string>& words);
 
-/// How to repeat a part of a call: its words without `others`, without the folder that is taken by now (--out, --resume) and without an
-/// earlier choice (--only), then `choice`; quoted.
-std::string repeat_command(const std::vector<std::string>& call, const std::vector<std::string>& others,
-                           const std::vector<std::string>& choice = {});
+/// How to repeat a part of a call: its words without `others`, without the folder that is taken by now (--out, --resume) and, where there
+/// is a choice, without an earlier one (--only), then the choice; quoted. "" for no call.
+std::string repeat_command(const std::vector<std::string>& call, const std::vector<std::string>& choice = {},
+                           const std::vector<std::string>& others = {});
 
 /// Now as ISO 8601: 2026-01-31T22:15:00Z.
 std::string utc_now();

@@ -1,6 +1,7 @@
 #include "runner/judge/baseline_difference.h"
 
 #include "metrics/images/image_difference.h"
+#include "metrics/readings/reading_labels.h"
 #include "metrics/statistics/statistics.h"
 #include "runner/files/picture_file.h"
 #include "scenarios/values/errors.h"
@@ -13,8 +14,9 @@ namespace fernlicht {
 namespace {
 
 std::string value_text(const AcceptedReading& reading) {
-    return reading.mean.measured() ? with_bound(reading.mean, fmt::format("{:.7g} {}", *reading.mean.figure(), unit_of(reading.key)))
-                                   : "not measured";
+    return reading.mean.measured()
+               ? with_bound(reading.mean, fmt::format("{:.7g}{}", *reading.mean.figure(), unit_suffix(unit_of(reading.key))))
+               : "not measured";
 }
 
 std::string label_of(const AcceptedReading& reading) {
@@ -30,8 +32,9 @@ ResultDifference judge_by_spread(ResultDifference difference, double off, double
                                  const std::string& figures, const BaselineTolerance& tolerance) {
     const double by_chance = test.bound * test.standard_error, allowed = rounding + by_chance;
     difference.of_allowed = off / allowed;
-    difference.text = fmt::format("{}, z = {:.3g}, at most {:.3g} by chance ({} repeats beyond the first), and {:.3g} for rounding",
-                                  figures, off / test.standard_error, test.bound, test.freedom, rounding);
+    difference.text =
+        fmt::format("{}, z = {:.3g}, at most {:.3g} by chance ({} repeats beyond the first), and {:.3g}{} for rounding", figures,
+                    off / test.standard_error, test.bound, test.freedom, rounding, unit_suffix(unit_of(*difference.reading)));
     if (off <= rounding && test.standard_error <= rounding / tolerance.negligible_noise)
         difference.agreement = Agreement::agrees; // as where nothing varies
     else if (off > allowed)
@@ -56,14 +59,15 @@ ResultDifference compare(const AcceptedReading& tested, const AcceptedReading& a
     // A bound by its figure, too: where light ends just at the edge of what is looked at, rounding makes a number of a bound.
     const double was = *accepted.mean.figure(), off = std::abs(*tested.mean.figure() - was);
     const double rounding = tolerance.absolute + tolerance.relative * std::abs(was) + tolerance.of_other * std::abs(other);
-    const std::string figures = fmt::format("{}, off by {:.3g} {}{}", text, off, unit_of(accepted.key),
-                                            was == 0.0 ? "" : fmt::format(" ({:.3g} %)", 100.0 * off / std::abs(was)));
+    const std::string unit = unit_suffix(unit_of(accepted.key)),
+                      figures = fmt::format("{}, off by {:.3g}{}{}", text, off, unit,
+                                            was == 0.0 ? "" : fmt::format(" ({:.3g} % of it)", 100.0 * off / std::abs(was)));
     const auto test = spread_test({tested.count, tested.variance}, {accepted.count, accepted.variance}, tolerance.false_alarm, comparisons);
     if (test)
         return judge_by_spread(difference, off, rounding, *test, figures, tolerance);
     difference.of_allowed = off / rounding;
     difference.agreement = off <= rounding ? Agreement::agrees : Agreement::differs;
-    difference.text = fmt::format("{}, at most {:.3g} {} for rounding", figures, rounding, unit_of(accepted.key));
+    difference.text = fmt::format("{}, at most {:.3g}{} for rounding", figures, rounding, unit);
     return difference;
 }
 

@@ -136,11 +136,11 @@ void apply_known_failures(Report& report, const KnownFailures& known, const std:
             report.listed.push_back({VerdictKind::fail, entry.id,
                                      fmt::format("the entry held until {}: mend what it names, or give it a new date and reason ({})",
                                                  entry.expires, entry_text(known, entry)),
-                                     report.context.command});
+                                     ""});
         else if (!names && report.complete)
             report.listed.push_back({VerdictKind::fail, entry.id,
                                      fmt::format("names no verdict of this run: mend it or take it out ({})", entry_text(known, entry)),
-                                     report.context.command});
+                                     ""});
     }
 }
 

@@ -164,8 +164,7 @@ TEST_F(Traffic, TheStrongestLampsHaveMaps) {
     ASSERT_EQ(moment.other_lamps.size(), 24U);
     EXPECT_EQ(maps(moment), 16) << "as many as there are";
     const std::vector<PrunedFeature> pruned = renderer.pruned();
-    EXPECT_TRUE(
-        std::ranges::any_of(pruned, [](const PrunedFeature& l) { return l.what.starts_with("shadow maps of other vehicles' lamps"); }));
+    EXPECT_TRUE(std::ranges::any_of(pruned, [](const PrunedFeature& l) { return l.what.starts_with("shadow maps of other lamps"); }));
     const double all_lx = shadow_lx(moment);
     EXPECT_GT(all_lx, 1.0);
     for (std::size_t i = 6; i < moment.other_lamps.size(); ++i) // of the cars behind the third
@@ -210,7 +209,7 @@ TEST_F(Traffic, ReportsTheBoundOfMissingShadowsWhereItIsOfUse) {
         Renderer renderer(device_, street.scene, settings());
         renderer.draw(street.at(0.0), driver(120, 80), {.illuminance = true});
         for (const PrunedFeature& one : renderer.pruned())
-            if (one.what.starts_with("shadow maps of other vehicles' lamps: those of up to"))
+            if (one.what.starts_with("shadow maps of other lamps: those of up to"))
                 return one.why;
         return std::string("none");
     };
@@ -220,7 +219,7 @@ TEST_F(Traffic, ReportsTheBoundOfMissingShadowsWhereItIsOfUse) {
     const double lx = std::stod(apart.substr(apart.find(before) + before.size()));
     EXPECT_GT(lx, 0.0);
     EXPECT_LT(lx, 1000.0);
-    EXPECT_NE(close.find("no useful bound is known of other vehicles' light whose shadows may be missing: one of them stands"),
+    EXPECT_NE(close.find("no useful bound is known of other lamps' light whose shadows may be missing: one of them stands"),
               std::string::npos)
         << close;
 }

@@ -94,6 +94,9 @@ TEST(Run, AnIihsDriveMeasuresItsSensorsAsTheExtentDoes) {
     std::ofstream(folder / "drive.yaml") << drive << "limits:\n  - {reading: sensor_right-edge_reach_5lx_m, at_least: 50}\n"
                                          << "  - {reading: glare_lane-centre_facing_max_lx, at_most: 1.4}\n";
     printed("run " + (folder / "drive.yaml") + " --quiet --no-accuracy --out " + (folder / "out"), 1); // xenon: more than 1.4 lx
+    const std::string junit = content_of(folder / "out/junit.xml"), repeat = junit.substr(junit.find("repeat with: "), 1000);
+    EXPECT_THAT(repeat.substr(0, repeat.find('<')),
+                testing::AllOf(testing::HasSubstr("run " + (folder / "drive.yaml")), testing::Not(testing::HasSubstr("--out"))));
     const json report = report_of(folder / "out");
     // README's table has 61.5 m and 70.2 m for the own lane's right edge, by the rendered extent.
     EXPECT_NEAR(reading_of(folder / "out", "sensor_right-edge_reach_5lx_m", "halogen"), 61.5, 0.2);

@@ -174,7 +174,7 @@ Plot contact_sheet(const ContactSheet& sheet) {
     head(part_px, "Illuminance on the surfaces seen",
          fmt::format(
              "below each: at the cross, on the road in the own lane {:.0f} m ahead of the bumper, and its ratio to the {} of the own "
-             "lamps, by the twin there",
+             "lamps, as the twin computes there",
              sheet.spot_ahead_m, lux_text(sheet.twin_lx)));
     draw_bar(canvas, width_px - edge_px - 14.0, part_px + 16.0);
     ground.top = part_px + head_px;

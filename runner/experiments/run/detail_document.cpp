@@ -139,11 +139,11 @@ void add_savings_of(const ComparedDrive& drive, Sections& sections) {
 
 void add_details(const ComparedDrive& drive, Sections& sections) {
     add_readings(drive, sections);
-    sections.push_back({"Lamps, notes, what was pruned", {lamps_table(drive)}, 3});
+    sections.push_back({"Lamps, notes, what was pruned or left out", {lamps_table(drive)}, 3});
     if (std::vector<std::string> notes = merged(drive, &PlayedCell::notes); !notes.empty())
         sections.push_back({"Notes", {Listing(notes)}, 4});
     if (Table left_out = left_out_table(drive); !left_out.rows.empty())
-        sections.push_back({"Pruned because the scene does not need it", {std::move(left_out)}, 4});
+        sections.push_back({"Pruned or left out", {std::move(left_out)}, 4});
     add_savings_of(drive, sections);
 }
 

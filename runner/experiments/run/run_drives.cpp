@@ -334,25 +334,31 @@ void add_warnings(const std::deque<Stage>& stages, const std::vector<Drive>& dri
                 report.warnings.push_back(fmt::format("{}: {}", drive.name, warning));
 }
 
-/// Verdicts that need all of the run, and how each is repeated.
-void judge(const std::vector<Drive>& drives, const RunOptions& options, Report& report) {
+/// Verdicts that need all of the run.
+void judge(const RunOptions& options, Report& report) {
     if (!options.baselines.empty())
         for (PlayedCell& played : report.played)
             std::ranges::copy(judge_against_baselines(played, report.context, options.folder, options.baselines, played.technique,
                                                       options.across_devices),
                               std::back_inserter(played.verdicts));
+    if (options.known) {
+        add_inputs(report.context.inputs, options.known->opened);
+        apply_known_failures(report, *options.known, options.today);
+    }
+}
+
+/// Of each verdict how it is repeated: with its own drive alone.
+void add_reruns(const std::vector<Drive>& drives, const RunOptions& options, Report& report) {
     for (PlayedCell& played : report.played) {
         std::vector<std::string> others;
         for (const Drive& drive : drives)
             if (drive.name != played.drive)
                 others.push_back(drive.file.string());
         for (Verdict& verdict : played.verdicts)
-            verdict.rerun = repeat_command(options.command, others);
+            verdict.rerun = repeat_command(options.command, options.choice, others);
     }
-    if (options.known) {
-        add_inputs(report.context.inputs, options.known->opened);
-        apply_known_failures(report, *options.known, options.today);
-    }
+    for (Verdict& verdict : report.listed)
+        verdict.rerun = repeat_command(options.command, options.choice);
 }
 
 } // namespace
@@ -384,13 +390,14 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
                 run_drive(stage, device, settings, options, report);
         if (options.repeats > 1 && report.complete)
             repeat(stages, device, settings, options, report);
-        judge(drives, options, report);
+        judge(options, report);
     } catch (const std::exception& error) {
         report.complete = false;
         report.interrupted = error.what();
         failure = std::current_exception();
     }
     add_warnings(stages, drives, options.ticks, report);
+    add_reruns(drives, options, report);
     options.write(report, options.folder);
     if (failure)
         std::rethrow_exception(failure);

@@ -23,6 +23,7 @@ struct RunOptions {
     bool accuracy = true;       ///< hold a few moments of each lamp set against the reference
     bool contact_sheet = false; ///< add one moment of each lamp set, drawn in every technique
     std::vector<std::string> command;
+    std::vector<std::string> choice; ///< what the command needs at its end to play these drives alone: "--only", "straight_xenon"
     std::function<void(const Report&, const std::filesystem::path& folder)> write; ///< at the end, or what was done until then
     TakePlot write_plot;                                                           ///< takes contact sheets
 };

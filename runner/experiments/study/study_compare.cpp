@@ -1,4 +1,7 @@
 #include "runner/experiments/study/study_result.h"
+
+#include "metrics/readings/reading_labels.h"
+#include "runner/findings/run_context.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -46,14 +49,15 @@ Verdict verdict_on(const std::string& name, const Value& value, const std::strin
                    const std::optional<double>& most, const std::string& rerun) {
     if (!value.measured())
         return {VerdictKind::not_measured, name, value.reason(), rerun};
-    std::string limits = least ? fmt::format("at least {:g} {}", *least, unit) : "";
+    std::string limits = least ? fmt::format("at least {:g}{}", *least, unit_suffix(unit)) : "";
     if (most)
-        limits += fmt::format("{}at most {:g} {}", limits.empty() ? "" : ", ", *most, unit);
+        limits += fmt::format("{}at most {:g}{}", limits.empty() ? "" : ", ", *most, unit_suffix(unit));
     const std::optional<bool> kept = holds(value, least, most);
     return {!kept   ? VerdictKind::not_measured
             : *kept ? VerdictKind::pass
                     : VerdictKind::fail,
-            name, fmt::format("{} {}, limit {}", with_bound(value, fmt::format("{:.4g}", *value.figure())), unit, limits), rerun};
+            name, fmt::format("{}{}, limit {}", with_bound(value, fmt::format("{:.4g}", *value.figure())), unit_suffix(unit), limits),
+            rerun};
 }
 
 /// Of all cells that were played.
@@ -84,7 +88,7 @@ void judge_deciding(StudyResult& result) {
         return;
     for (const std::string& name : result.study.readings) {
         const auto missing = [&](const std::string& why) {
-            result.verdicts.push_back({VerdictKind::not_measured, "deciding reading " + name, why, result.context.command});
+            result.verdicts.push_back({VerdictKind::not_measured, "deciding reading " + name, why, repeat_command(result.call)});
         };
         const auto key = key_of(name);
         if (!is_in(keys, key))
@@ -105,7 +109,7 @@ void judge_values(StudyResult& result, const StudyLimit& limit) {
                                   : Value::not_measured(cell.failed.empty() ? no_such_reading(limit.reading, keys_in(result))
                                                                             : "the cell was not played: " + cell.failed);
         result.verdicts.push_back(verdict_on(cell.cell.name + ": " + limit.reading, value, known ? unit_of(*key) : "", limit.at_least,
-                                             limit.at_most, cell.command));
+                                             limit.at_most, repeat_command(result.call, {"--only", cell.cell.name})));
     }
 }
 
@@ -117,15 +121,16 @@ void judge_changes(StudyResult& result, const StudyLimit& limit) {
             continue;
         found = true;
         const CellResult& cell = result.cells[change.tested];
-        result.verdicts.push_back(verdict_on(cell.cell.name + ": change of " + limit.reading, change.change(), change.unit(),
-                                             limit.change_at_least, limit.change_at_most, cell.command));
+        result.verdicts.push_back(verdict_on(
+            cell.cell.name + ": change of " + limit.reading, change.change(), change.unit(), limit.change_at_least, limit.change_at_most,
+            repeat_command(result.call, {"--only", cell.cell.name + "," + result.cells[change.against].cell.name})));
     }
     const std::set<ReadingKey> keys = keys_in(result);
     if (!found)
         result.verdicts.push_back(
             {VerdictKind::not_measured, "change of " + limit.reading,
              keys.empty() || is_in(keys, key) ? "no comparison has this reading" : no_such_reading(limit.reading, keys),
-             result.context.command});
+             repeat_command(result.call)});
 }
 
 /// "9", or "9 to 30" where cells differ.
@@ -137,7 +142,8 @@ std::string range_over(const std::vector<CellResult>& cells, int CellResult::*co
 std::string played_in_part(const StudyResult& result) {
     std::vector<std::string> parts;
     if (const std::size_t all = cells_of(result.study).size(); result.cells.size() < all)
-        parts.push_back(fmt::format("Only {} of {} cells were asked for (--only {})", result.cells.size(), all, result.only));
+        parts.push_back(fmt::format("Only {} of {} cells {} asked for (--only {})", result.cells.size(), all,
+                                    result.cells.size() == 1 ? "was" : "were", result.only));
     if (std::ranges::any_of(result.cells, [](const CellResult& cell) { return cell.moments < cell.moments_of_drive; }))
         parts.push_back(fmt::format("{} of {} moments of each drive were played (--frames {})",
                                     range_over(result.cells, &CellResult::moments), range_over(result.cells, &CellResult::moments_of_drive),

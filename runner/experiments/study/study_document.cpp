@@ -44,9 +44,11 @@ Cell cell_of(const Value& value, const std::string& rounded) {
 }
 /// Two, and more where the change (or, without one, the old value) would have less than two digits: glare of 0.0312 and 0.0298 lx is two
 /// values.
+/// But none far below what calculation leaves uncertain.
 int decimals_of(const Change& change) {
-    const double changed = std::abs(change.change().figure().value_or(0.0)), old = std::abs(change.old_value.figure().value_or(0.0));
-    const double size = changed > 1e-6 ? changed : old;
+    const double changed = std::abs(change.change().figure().value_or(0.0));
+    const Value& known = change.old_value.measured() ? change.old_value : change.new_value;
+    const double size = std::max(changed > 1e-6 ? changed : std::abs(known.figure().value_or(0.0)), change.uncertainty.value_or(0.0));
     return size < 0.1 && size > 1e-6 ? std::min(1 - static_cast<int>(std::floor(std::log10(size))), 7) : 2;
 }
 Cell value_cell(const Value& value, int decimals) { return cell_of(value, figure(value.figure().value_or(0.0), decimals)); }
@@ -81,7 +83,7 @@ Card card_of(const StudyResult& result, const Change& change) {
     if (change.noise_effect.value_or(0.0) > 0.0)
         detail += fmt::format(", ±{}{} by noise", open_cell(change.noise_effect).text, unit);
     if (change.aim_effect)
-        detail += fmt::format(", ±{}{} by 0.1° of aim", figure(*change.aim_effect, 2), unit);
+        detail += fmt::format(", ±{}{} by 0.1° of aim", figure(*change.aim_effect, decimals), unit);
     const CellResult& cell = result.cells[change.tested];
     return {reading_label(change.reading),
             change_cell(change).text,
@@ -117,7 +119,7 @@ Table readings_table(const StudyResult& result) {
                                    value_cell(change.old_value, decimals_of(change)), value_cell(change.new_value, decimals_of(change)),
                                    change_cell(change), share ? Cell(signed_figure(100.0 * *share, 1), 100.0 * *share) : Cell(""),
                                    open_cell(change.uncertainty), open_cell(change.noise_effect),
-                                   change.aim_effect ? Cell(figure(*change.aim_effect, 2), *change.aim_effect) : Cell(""),
+                                   change.aim_effect ? Cell(figure(*change.aim_effect, decimals_of(change)), *change.aim_effect) : Cell(""),
                                    unit_label(change.unit()), change_name(change.kind)});
         if (change.kind != ChangeKind::real)
             table.quiet.push_back(table.rows.size() - 1);

@@ -43,9 +43,10 @@ struct StudyFigure {
 
 struct StudyResult : Findings {
     Study study;
-    std::string only;           ///< "straight*,*xenon": the cells asked for; "" for all
-    std::string frames;         ///< "0:8": the moments asked for; "" for all
-    std::string played_in_part; ///< "9 of 660 moments of each drive were played (--frames 0:8)"; "" where all of all cells were
+    std::vector<std::string> call; ///< its words, to repeat parts of it
+    std::string only;              ///< "straight*,*xenon": the cells asked for; "" for all
+    std::string frames;            ///< "0:8": the moments asked for; "" for all
+    std::string played_in_part;    ///< "9 of 660 moments of each drive were played (--frames 0:8)"; "" where all of all cells were
     std::vector<CellResult> cells;
     std::vector<LampComparison> lamps;
     std::vector<Change> changes;      ///< all readings, in the order of comparisons, cells and names

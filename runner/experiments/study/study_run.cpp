@@ -166,6 +166,7 @@ bool play_cell(const Planned& planned, const StudyOptions& options, CellResult& 
     if (!result.reused) {
         RunOptions run = options.run;
         run.folder = folder;
+        run.choice = {"--only", planned.cell.name};
         const Report report = run_drives({planned.drive}, run);
         context = report.context;
         if (!report.complete) {
@@ -174,8 +175,6 @@ bool play_cell(const Planned& planned, const StudyOptions& options, CellResult& 
         }
     }
     read_cell_report(options.folder, result);
-    for (Verdict& verdict : result.verdicts)
-        verdict.rerun = repeat_command(options.run.command, {}, {"--only", planned.cell.name});
     return true;
 }
 
@@ -212,6 +211,7 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
     result.study = study;
     const std::vector<Planned> planned = plan(study, options.only);
     refuse_no_moments(study, planned, options.run.ticks);
+    result.call = options.run.command;
     result.only = fmt::format("{}", fmt::join(options.only, ","));
     result.frames = frames_text(options.run.ticks);
     result.lamps = compare_lamp_files(study);

@@ -1,5 +1,7 @@
 #include "runner/experiments/study/study_document.h"
 
+#include "runner/findings/run_context.h"
+
 #include <fmt/format.h>
 
 namespace fernlicht {
@@ -37,6 +39,7 @@ void apply_known_failures(StudyResult& result, const KnownFailures& known, const
     result.verdicts = std::move(report.played.back().verdicts);
     for (Verdict& listed : report.listed) {
         listed.name = "known failure " + listed.name;
+        listed.rerun = repeat_command(result.call);
         result.verdicts.push_back(std::move(listed));
     }
     result.warnings = std::move(report.warnings);
@@ -57,7 +60,7 @@ Report suites_of(const StudyResult& result) {
                                                           : Verdict{VerdictKind::not_measured, "played", cell.failed, cell.command});
     }
     if (std::vector<Verdict>& own = report.played.back().verdicts; !result.played_in_part.empty())
-        own.insert(own.begin(), {VerdictKind::pass, "played in part", result.played_in_part, result.context.command});
+        own.insert(own.begin(), {VerdictKind::pass, "played in part", result.played_in_part, repeat_command(result.call)});
     report.played.back().lamp_set = "limits of the study";
     report.played.back().technique = "photometric";
     report.complete = result.interrupted.empty();

@@ -43,7 +43,7 @@ template <class One> std::vector<One> evenly_spread(const std::vector<One>& all,
 bool is_shadowed(const Moment& moment, const Renderer& renderer) {
     const std::vector<PrunedFeature> pruned = renderer.pruned();
     const auto needed = [&](std::string_view what) { return std::ranges::find(pruned, what, &PrunedFeature::what) == pruned.end(); };
-    return needed("shadow maps") || (!moment.other_lamps.empty() && needed("shadow maps of other vehicles' lamps")) ||
+    return needed("shadow maps") || (!moment.other_lamps.empty() && needed("shadow maps of other lamps")) ||
            moment.daylight.direct() != nullptr;
 }
 

@@ -213,7 +213,7 @@ TEST(ReadingWords, SayWhatANameSaysAndLeaveNothingOpen) {
     const std::pair<const char*, const char*> readings[] = {
         {"reach_5lx_target_own_m", "reach at 5 lx on a target, own lane"},
         {"reach_0.5lx_road_left_1_left_edge_m", "reach at 0.5 lx on the road, left 1, left edge"},
-        {"reach_5lx_road_own_twin_difference_worst_m", "reach at 5 lx on the road, own lane, largest, rendered against twin"},
+        {"reach_5lx_road_own_twin_difference_worst_m", "reach at 5 lx on the road, own lane, largest, rendered against the twin"},
         {"width_1lx_road_all_at_20m_m", "width at 1 lx on the road, whole width, 20 m ahead"},
         {"width_1lx_road_all_at_20m_min_m", "width at 1 lx on the road, whole width, 20 m ahead, least"},
         {"area_1lx_road_all_p05_m2", "area at 1 lx on the road, whole width, 5th percentile"},

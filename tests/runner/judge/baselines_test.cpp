@@ -122,7 +122,8 @@ TEST_F(Baselines, AReadingTwoPercentOffIsRed) {
     const auto verdicts = other.judged(store);
     EXPECT_EQ(verdicts[0].kind, VerdictKind::fail);
     EXPECT_EQ(verdicts[0].name, "baseline reading reach_5lx_road_own_m");
-    EXPECT_EQ(verdicts[0].text, "61.2 m, accepted 60 m, off by 1.2 m (2 %), at most 0.0601 m for rounding (" + id_of("halogen") + ")");
+    EXPECT_EQ(verdicts[0].text,
+              "61.2 m, accepted 60 m, off by 1.2 m (2 % of it), at most 0.0601 m for rounding (" + id_of("halogen") + ")");
 }
 
 TEST_F(Baselines, WhatOnlyOneSideHasIsRed) {
@@ -275,8 +276,9 @@ TEST_F(Baselines, OtherInputsAreAnotherKeyAndAreNamed) {
     EXPECT_THAT(verdicts[0].text, HasSubstr("with these inputs; " + id_of("halogen") + " had another road"));
     EXPECT_THAT(verdicts[0].text, HasSubstr(": all 2 readings agree"));
     other.report.played[0].readings[0].value = 61.8;
-    EXPECT_THAT(other.judged(store)[0].text,
-                HasSubstr(": of 2 readings 1 differ, the farthest off: reach_5lx_road_own_m, 61.8 m, accepted 60 m, off by 1.8 m (3 %)"));
+    EXPECT_THAT(
+        other.judged(store)[0].text,
+        HasSubstr(": of 2 readings 1 differ, the farthest off: reach_5lx_road_own_m, 61.8 m, accepted 60 m, off by 1.8 m (3 % of it)"));
     other = run;
     other.report.played[0].lamp_set = "h7-new";
     other.report.played[0].readings[0].value = 61.8;

@@ -88,6 +88,7 @@ TEST_F(ToyExperiment, BecomesAPage) {
 /// Every format there is says all, writes each table to a file, and as exactly as its row here demands; a new one needs a row.
 TEST_F(ToyExperiment, BecomesEachFormat) {
     const std::map<std::string, std::pair<std::string, std::string>> exactly{
+        {"html", {"", "<td class=\"text\" title=\"the eagle\">50 % heads</td><td class=\"n\" data-key=\"37.5\">37.5</td>"}},
         {"csv", {"side,\"of all share, %\",of all count\r\nheads | tails,37.5,\r\nedge,\"not measured, it never stood\",\r\n", ""}},
         {"markdown",
          {"| side | of all share, % | of all count |\n|---|--:|--:|\n| heads \\| tails | 37.5 | - |\n| edge | not measured, it never "
@@ -106,6 +107,7 @@ TEST_F(ToyExperiment, BecomesEachFormat) {
     for (const OutputFormat& format : output_formats()) {
         SCOPED_TRACE(format.name);
         EXPECT_TRUE(extensions.insert(format.extension).second && format.extension[0] == '.');
+        ASSERT_TRUE(exactly.contains(format.name));
         const auto& [table, page] = exactly.at(format.name);
         const auto holds = [](const std::string& exact) {
             return AllOf(HasSubstr("37.5"), HasSubstr("heads"), HasSubstr("tails"), HasSubstr(exact));

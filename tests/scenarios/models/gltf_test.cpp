@@ -238,7 +238,7 @@ TEST_F(Gltf, ACarOfOthersHasItsSizeAndItsPicture) {
 }
 
 // Files with bytes changed, cut out, doubled or swapped at random: each is read or refused in one sentence, and nothing else happens.
-// Under AddressSanitizer (ci/test) this is where the reader is tried.
+// Under AddressSanitizer (ci/sanitize) this is where the reader is tried.
 
 std::string mutated(std::string bytes, std::mt19937& random) {
     const auto below = [&](std::size_t n) { return n == 0 ? 0 : random() % n; };

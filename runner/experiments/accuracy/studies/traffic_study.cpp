@@ -43,9 +43,10 @@ WorkPrecision traffic_study(const Stage& stage, const LampSet& lamp_set, Device&
         "lx",
         "time of a frame",
         "",
-        {fmt::format("against each lamp with its own beam and nothing pruned above {:g} lx; by bounds no pair of lamps is off by more than "
-                     "{:g} times the least lux. Shadows that road users cast in other vehicles' light are in neither",
-                     nothing_left_out_lx, worst_traffic_error)},
+        {fmt::format(
+            "against each lamp with its own beam and nothing left out above {:g} lx; by bounds no pair of lamps is off by more than "
+            "{:g} times the least lux. Shadows that road users cast in other vehicles' light are in neither",
+            nothing_left_out_lx, worst_traffic_error)},
         {}};
     Moment moment = moments_at({tick_count(stage.drive) / 2}, stage, lamp_set).front();
     const View* const view = driver_view(stage.drive);

@@ -127,7 +127,7 @@ MediumStudy sun_ways(const Moment& moment, const RendererSettings& drawn) {
 
 MediumStudy lamp_ways(const Moment& moment, const RendererSettings& drawn) {
     MediumStudy study{"street-lamps", fmt::format("Street lamps, {}", std::ranges::count_if(moment.other_lamps, stands_beside)),
-                      "light of any one lamp fainter than this is pruned (traffic_light: min_lx); shadows by maps but in the way without",
+                      "light of any one lamp fainter than this is left out (traffic_light: min_lx); shadows by maps but in the way without",
                       moment, drawn};
     for (const double min_lx : {0.005, 0.05, 0.2, 1.0, 5.0})
         study

@@ -157,8 +157,8 @@ std::vector<StabilityCase> weather_cases() {
              "ranges of 1 mm and 1e9 m; lamps in the eye, before and behind it, of the own car and of other vehicles", 0.0,
              "luminances that are no number, or light through a wall of fog",
              "exp underflows to 0, and rays near a lamp count from 1 mm on", fog_at_its_ends},
-            {"weather", "street-lamp-on-the-ground", "another vehicle's lamp in the surface that it lights: 0/0 in direction and distance",
-             0.0, "pixels that are not finite", "other vehicles' lamps count from 1 mm on", street_lamp_on_the_ground}};
+            {"weather", "street-lamp-on-the-ground", "a street lamp in the surface that it lights: 0/0 in direction and distance", 0.0,
+             "pixels that are not finite", "other lamps count from 1 mm on", street_lamp_on_the_ground}};
 }
 
 std::vector<StabilityCase> traffic_cases() {

@@ -62,7 +62,7 @@ TEST(ContactSheet, NamesEveryTechniqueTwiceAndSaysWhereNothingIsMeasured) {
     EXPECT_EQ(count(svg, ">no lux image</text>"), techniques().size() - with_lux);
     EXPECT_EQ(count(svg, ">5.00 lx, x 1.25</text>"), with_lux); // 5 lx over the 4 lx calculated
     EXPECT_THAT(svg, HasSubstr("A &lt;bend&gt; &amp; more, xenon: after 1.50 s, 30.0 m along the route"));
-    EXPECT_THAT(svg, HasSubstr("20 m ahead of the bumper, and its ratio to the 4.00 lx of the own lamps, by the twin there"));
+    EXPECT_THAT(svg, HasSubstr("20 m ahead of the bumper, and its ratio to the 4.00 lx of the own lamps, as the twin computes there"));
     EXPECT_THAT(svg, HasSubstr(">as published, row 4 of Table 6.1</text>"));
     for (const char* tick : {">0.1</text>", ">1</text>", ">10</text>", ">100</text>"})
         EXPECT_THAT(svg, HasSubstr(tick));

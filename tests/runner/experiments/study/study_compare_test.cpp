@@ -71,6 +71,31 @@ TEST(StudyCompare, AChangeIsRealBeyondCalculationAndAim) {
     EXPECT_EQ(kind_for(40.0, 35.9), ChangeKind::real);
 }
 
+/// Glare of 0.0312 and 0.0298 lx is two values, also where reach has two decimals; what is uncertain has no more.
+TEST(StudyCompare, DigitsTellOldAndNewApart) {
+    StudyResult result = two_cells(40.0, 40.00002);
+    result.study.readings = {"reach_5lx_target_own_m", "glare_opposite_facing_max_lx"};
+    for (CellResult& cell : result.cells)
+        put(cell, "glare_opposite_facing_max_lx", cell.cell.lamp == 0 ? 0.0312 : 0.0298);
+    compare_cells(result);
+    const std::string paper = document_markdown(study_paper(result));
+    EXPECT_THAT(paper, HasSubstr(" 0.0312 | 0.0298 | -0.0014 |"));
+    EXPECT_THAT(paper, HasSubstr(" 40.00 | 40.00 | +0.00 |"));
+    EXPECT_THAT(document_html(document(result), result), AllOf(HasSubstr(">0.0312<"), HasSubstr(">0.0298<"), HasSubstr(">−0.0014<")));
+}
+
+TEST(StudyCompare, WhatWasLeftOutStandsBesideTheVerdict) {
+    StudyResult result = two_cells(40.0, 41.0);
+    result.cells.pop_back();
+    result.study.techniques = {"photometric"};
+    result.only = "*old";
+    compare_cells(result);
+    const std::string said = "Only 1 of 2 cells was asked for (--only *old)";
+    for (const std::string& text : {document_text(study_summary(result)), document_html(document(result), result), study_json_of(result),
+                                    report_junit(suites_of(result))})
+        EXPECT_THAT(text, HasSubstr(said));
+}
+
 TEST(StudyCompare, RanksByShareEachReadingOnce) {
     StudyResult result = two_cells(40.0, 50.0); // 20 % of the larger
     result.study.readings = {"reach_5lx_target_own_m", "reach_1lx_road_own_m", "width_1lx_road_all_at_20m_m"};
