@@ -6,6 +6,7 @@
 #include "runner/commands/run_files.h"
 #include "runner/experiments/run/run_drives.h"
 #include "runner/judge/verdict_line.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
