@@ -42,9 +42,8 @@ std::string lamps_of(const StudyResult& result, const Change& change) {
 Cell cell_of(const Value& value, const std::string& rounded) {
     return value.measured() ? Cell(with_bound(value, rounded), *value.figure()) : Cell("not measured");
 }
-/// Two, and more where the change (or, without one, the old value) would have less than two digits: glare of 0.0312 and 0.0298 lx is two
-/// values.
-/// But none far below what calculation leaves uncertain.
+/// Two; more where the change, or else the value, would show less than two digits (glare of 0.0312 and 0.0298 lx is two values), but none
+/// finer than the numerical uncertainty.
 int decimals_of(const Change& change) {
     const double changed = std::abs(change.change().figure().value_or(0.0));
     const Value& known = change.old_value.measured() ? change.old_value : change.new_value;
