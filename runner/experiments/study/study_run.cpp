@@ -141,8 +141,8 @@ std::string repeating(const StudyOptions& options, const fs::path& folder, const
         words.emplace_back("--frames");
         words.push_back(frames);
     }
-    words.emplace_back("--out");
-    words.push_back("out/" + planned.cell.name);
+    if (!options.run.accuracy)
+        words.emplace_back("--no-accuracy");
     return shell_quoted(words);
 }
 
