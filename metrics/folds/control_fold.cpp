@@ -69,7 +69,7 @@ LampSet without_control(const LampSet& lamp_set) {
     return still;
 }
 
-ControlFold::ControlFold(const Drive& drive, const Route& route) : drive_(drive), route_(route) {
+ControlFold::ControlFold(const Drive& drive, const Route& route, const Nudge& nudge) : drive_(drive), route_(route), nudge_(nudge) {
     for (const LampSet& lamp_set : drive.lamp_sets)
         for (const MountedLamp& lamp : lamp_set.lamps)
             if (std::ranges::find(lamps_, lamp.name) == lamps_.end())
@@ -116,7 +116,7 @@ void ControlFold::add(const Moment& moment, const LampSet& lamp_set) {
     row.level.resize(lamps_.size());
     if (const ControlRun* const run = lamp_set.motion && lamp_set.motion->control ? &*lamp_set.motion->control : nullptr) {
         const State state{moment.tick, moment.time_s, moment.distance_m, moment.speed_mps};
-        row.still = light(moment_at(state, drive_, route_, *still_), curvature);
+        row.still = light(nudged(moment_at(state, drive_, route_, *still_), nudge_), curvature);
         for (std::size_t i = 0; i < lamps_.size(); ++i) {
             const std::size_t lamp = run->lamp(lamps_[i]);
             if (lamp == run->lamps.size())

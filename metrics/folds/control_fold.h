@@ -4,7 +4,7 @@
 
 #include "metrics/folds/seeing_series.h"
 #include "metrics/readings/readings.h"
-#include "scenarios/drives/play/moment.h"
+#include "scenarios/drives/play/nudge.h"
 
 namespace fernlicht {
 
@@ -15,7 +15,8 @@ LampSet without_control(const LampSet& lamp_set);
 class ControlFold {
   public:
     /// Some lamp set of the drive must have control; those without are measured too, for comparison. Drive and route must outlive the fold.
-    ControlFold(const Drive& drive, const Route& route);
+    /// `nudge`: of the lamps of the moments to come, and so of those held still.
+    ControlFold(const Drive& drive, const Route& route, const Nudge& nudge = {});
 
     void add(const Moment& moment, const LampSet& lamp_set);
     /// control_swivel_max_deg; medians over the moments in bends (radius below 1500 m) to each side: control_left_bends_inside_at_50m_lx
@@ -41,6 +42,7 @@ class ControlFold {
 
     const Drive& drive_;
     const Route& route_;
+    Nudge nudge_;
     std::vector<std::string> lamps_; ///< of all lamp sets
     std::vector<Row> rows_;
     std::shared_ptr<const LampSet> still_;

@@ -40,6 +40,22 @@ LaneLight lane_light(const Drive& drive, const Route& route, const Moment& momen
     return light;
 }
 
+/// On targets across the own lane, that far ahead of the bumper.
+Value uniformity_at(const Drive& drive, const Route& route, const Moment& moment, double ahead_m) {
+    constexpr double target_m = 0.25;
+    const double at_m = moment.distance_m + drive.bumper_m + ahead_m;
+    if (at_m > route.length_m())
+        return Value::not_measured("beyond the route's end");
+    std::vector<double> lx;
+    for (const RouteLane& lane : route.cross_section(at_m).lanes)
+        if (lane.name == "own")
+            for (int k = 0; lane.right_m + k * across_m <= lane.left_m + 1e-9; ++k) {
+                const Pose pose = route.pose(at_m, lane.right_m + k * across_m);
+                lx.push_back(target_illuminance_lx(moment, pose.position_m + target_m * pose.up()));
+            }
+    return uniformity(lx);
+}
+
 } // namespace
 
 void HomogeneityFold::add(const Moment& moment) {
@@ -49,8 +65,15 @@ void HomogeneityFold::add(const Moment& moment) {
     if (lit.lamps.empty())
         return;
     const LaneLight light = lane_light(drive_, route_, lit, to_parent(moment.ego, driver_eye_m(drive_)));
-    rows_.push_back({moment.tick, moment.distance_m, largest_gradients(light, asked.min_lx),
-                     patches(light, asked.min_lx, asked.patch_factor), foreground_ratio(light)});
+    Row& row = rows_.emplace_back(Row{moment.tick,
+                                      moment.distance_m,
+                                      largest_gradients(light, asked.min_lx),
+                                      patches(light, asked.min_lx, asked.patch_factor),
+                                      foreground_lx(light),
+                                      foreground_ratio(light),
+                                      {}});
+    for (const double ahead_m : asked.distances_m)
+        row.uniformity.push_back(uniformity_at(drive_, route_, lit, ahead_m));
 }
 
 Readings HomogeneityFold::readings() const {
@@ -80,17 +103,24 @@ Readings HomogeneityFold::readings() const {
         [](const Row& row) { return row.patches.dark.longest_m; });
     say(Quantity::patch_bright, ReadingPlace::none, "longest patch brighter" + beyond,
         [](const Row& row) { return row.patches.bright.longest_m; });
-    std::vector<double> ratios;
-    std::string missing = rows_.empty() ? "no lamp was lit in any moment" : "";
-    for (const Row& row : rows_) {
-        if (const auto ratio = row.foreground.number())
-            ratios.push_back(*ratio);
-        else
-            missing = "in some moment: " + row.foreground.reason();
-    }
-    readings.push_back({{.quantity = Quantity::foreground_ratio, .lane = "own", .statistic = Statistic::median},
-                        missing.empty() ? median_value(ratios, missing) : Value::not_measured(missing),
-                        "own lane, mean from 5 to 15 m over mean from 40 to 60 m before the lamps, median"});
+    const auto median = [&](const ReadingKey& key, const std::string& where, const std::function<Value(const Row&)>& figure) {
+        CensoredSamples moments("no lamp was lit in any moment");
+        for (const Row& row : rows_)
+            moments.add(figure(row));
+        readings.push_back({key, moments.quantile(0.5), fmt::format("own lane, {}, median; {}", where, moments.account())});
+    };
+    median({.quantity = Quantity::foreground, .lane = "own", .statistic = Statistic::median}, "mean from 5 to 15 m before the lamps",
+           [](const Row& row) { return row.foreground_lx; });
+    median({.quantity = Quantity::foreground_ratio, .lane = "own", .statistic = Statistic::median},
+           "mean from 5 to 15 m over mean from 40 to 60 m before the lamps", [](const Row& row) { return row.foreground_ratio; });
+    for (std::size_t i = 0; i < asked.distances_m.size(); ++i)
+        median({.quantity = Quantity::uniformity,
+                .surface = ReadingSurface::target,
+                .lane = "own",
+                .distance_m = asked.distances_m[i],
+                .statistic = Statistic::median},
+               fmt::format("smallest over mean on targets across the lane {} m ahead", asked.distances_m[i]),
+               [&](const Row& row) { return row.uniformity[i]; });
     return readings;
 }
 
@@ -103,7 +133,7 @@ std::vector<SeeingSeries> HomogeneityFold::series() const {
     series.add({"gradient_along_per_m", "largest gradient along", "1/m"}, rows_, [](const Row& row) { return row.gradients.along.per_m; });
     series.add({"gradient_across_per_m", "largest gradient across", "1/m"}, rows_,
                [](const Row& row) { return row.gradients.across.per_m; });
-    series.add({"foreground_ratio", "foreground ratio", ""}, rows_, [](const Row& row) { return row.foreground; });
+    series.add({"foreground_ratio", "foreground ratio", ""}, rows_, [](const Row& row) { return row.foreground_ratio; });
     return {series};
 }
 

@@ -15,7 +15,7 @@ class HomogeneityFold {
 
     void add(const Moment& moment);
     /// gradient_along_own_per_m and _per_deg, gradient_across_..., patch_dark_own_m and patch_bright_own_m (the longest), medians and
-    /// _max_; foreground_ratio_own, median.
+    /// _max_; foreground_own_lx, foreground_ratio_own, uniformity_target_own_at_20m ..., medians.
     Readings readings() const;
     std::vector<SeeingSeries> series() const;
 
@@ -25,7 +25,8 @@ class HomogeneityFold {
         double along_m = 0.0;
         Gradients gradients;
         Unevenness patches;
-        Value foreground;
+        Value foreground_lx, foreground_ratio;
+        std::vector<Value> uniformity; ///< by distance
     };
     const Drive& drive_;
     const Route& route_;

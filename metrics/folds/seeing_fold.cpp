@@ -26,7 +26,7 @@ void check_place(const Drive& drive, const Route& route, const std::string& key,
 
 } // namespace
 
-SeeingFold::SeeingFold(const Drive& drive, const Route& route) {
+SeeingFold::SeeingFold(const Drive& drive, const Route& route, const Nudge& nudge) : nudge_(nudge) {
     const SeeingParameters& asked = drive.seeing;
     if (asked.sensors) {
         for (const Sensor& sensor : asked.sensors->points)
@@ -49,10 +49,11 @@ SeeingFold::SeeingFold(const Drive& drive, const Route& route) {
     if (asked.places)
         places_.emplace(drive, route);
     if (std::ranges::any_of(drive.lamp_sets, [](const LampSet& lamp_set) { return lamp_set.control != nullptr; }))
-        control_.emplace(drive, route);
+        control_.emplace(drive, route, nudge);
 }
 
-void SeeingFold::add(const Moment& moment, const LampSet& lamp_set) {
+void SeeingFold::add(const Moment& as_is, const LampSet& lamp_set) {
+    const Moment moment = nudged(as_is, nudge_);
     each_asked([&](auto& fold) { fold.add(moment); }, sensors_, oncoming_, mirrors_, traffic_, visibility_, homogeneity_, places_);
     if (control_)
         control_->add(moment, lamp_set);

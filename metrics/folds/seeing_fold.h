@@ -7,13 +7,14 @@
 #include "metrics/folds/place_fold.h"
 #include "metrics/folds/visibility_fold.h"
 #include "metrics/readings/readings.h"
+#include "scenarios/drives/play/nudge.h"
 
 namespace fernlicht {
 
 class SeeingFold {
   public:
-    /// Drive and route must outlive the fold. Throws InputError for places beyond the route's end.
-    SeeingFold(const Drive& drive, const Route& route);
+    /// Drive and route must outlive the fold. Every moment's lamps are nudged. Throws InputError for places beyond the route's end.
+    SeeingFold(const Drive& drive, const Route& route, const Nudge& nudge = {});
 
     /// `lamp_set`: the one that the moment is of; only lamp control asks for it.
     void add(const Moment& moment, const LampSet& lamp_set);
@@ -22,6 +23,7 @@ class SeeingFold {
     std::vector<SeeingSeries> series() const;
 
   private:
+    Nudge nudge_;
     std::optional<SensorFold> sensors_;
     std::optional<OncomingFold> oncoming_;
     std::optional<MirrorFold> mirrors_;

@@ -30,7 +30,9 @@ enum class Quantity {
     gradient_per_deg,
     patch_dark,
     patch_bright,
+    foreground,
     foreground_ratio,
+    uniformity,
     kerb_illuminance,
     board_illuminance,
     board_luminance,
@@ -68,10 +70,9 @@ enum class Exactness {
 enum class WithLight {
     unknown,
     proportional,
-    twice,           ///< a ratio of two places: one may go up and the other down
-    like_de_boer,    ///< 2 less for ten times the light
-    over_thresholds, ///< as it changes from one threshold to the next
-    over_distance    ///< as the visibility level changes from one distance to the next
+    twice,        ///< a ratio of two places: one may go up and the other down
+    like_de_boer, ///< 2 less for ten times the light
+    as_nudged     ///< as 10 % of flux move it
 };
 
 struct QuantityRow {

@@ -1,5 +1,7 @@
 #include "metrics/readings/reading_key.h"
 
+#include "scenarios/values/glob.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
@@ -37,8 +39,6 @@ constexpr Word known_words[] = {
     {.word = "_twin", .aspect = Aspect::twin, .statistic = Statistic::median},
     {.word = "_twin_difference", .aspect = Aspect::twin_difference, .statistic = Statistic::median},
     {.word = "_twin_difference_worst", .aspect = Aspect::twin_difference, .statistic = Statistic::maximum},
-    {.word = "_per_tenth_degree", .aspect = Aspect::per_tenth_degree, .statistic = Statistic::median},
-    {.word = "_per_tenth_flux", .aspect = Aspect::per_tenth_flux, .statistic = Statistic::median},
     {.word = "_grid_error", .aspect = Aspect::grid_error, .statistic = Statistic::median},
     {.word = "_edge_grid_error", .aspect = Aspect::grid_error, .statistic = Statistic::median, .place = ReadingPlace::edges},
     {.word = "_left_edge", .statistic = Statistic::median, .place = ReadingPlace::left_edge},
@@ -343,8 +343,10 @@ std::optional<ReadingKey> key_of(std::string_view name) {
     return std::nullopt;
 }
 
-bool is_named(const ReadingKey& key, const std::vector<std::string>& names) {
-    return std::ranges::any_of(names, [&](const std::string& name) { return key_of(name) == key; });
+std::optional<std::size_t> place_among(const ReadingKey& key, const std::vector<std::string>& names) {
+    const std::string own = name_of(key);
+    const auto found = std::ranges::find_if(names, [&](const std::string& name) { return matches(name, own); });
+    return found == names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - names.begin()));
 }
 
 bool is_clear_subject(SubjectKind kind, std::string_view subject) {
@@ -422,8 +424,7 @@ std::vector<std::string> forms_in_words(const QuantityRow& row) {
 }
 
 const char* name_of(Aspect aspect) {
-    static constexpr const char* names[] = {"value",      "by_control",       "held_still",     "twin",          "twin_difference",
-                                            "grid_error", "per_tenth_degree", "per_tenth_flux", "standard_error"};
+    static constexpr const char* names[] = {"value", "by_control", "held_still", "twin", "twin_difference", "grid_error", "standard_error"};
     return names[static_cast<std::size_t>(aspect)];
 }
 

@@ -15,12 +15,10 @@ enum class Aspect {
     value,
     by_control, ///< what lamp control adds: against the same lamps held still
     held_still, ///< with lamps held still
-    // How exact or how sensitive the value is:
+    // How exact the value is:
     twin,
     twin_difference,
     grid_error,
-    per_tenth_degree, ///< of pitch of all lamps
-    per_tenth_flux,
     standard_error
 };
 enum class Statistic { none, median, minimum, maximum, p05, p95, spread, mean };
@@ -67,8 +65,8 @@ std::string name_of(const ReadingKey& key);
 /// The inverse; nullopt for what is no reading's name.
 std::optional<ReadingKey> key_of(std::string_view name);
 
-/// Whether one of the names is the key's.
-bool is_named(const ReadingKey& key, const std::vector<std::string>& names);
+/// The first of the names or patterns of names (glob.h) that fits the key; nullopt: none does.
+std::optional<std::size_t> place_among(const ReadingKey& key, const std::vector<std::string>& names);
 
 /// Whether every name with this subject leads back to it. A probe "x_min" is not clear: its median and the minimum of "x" have one name.
 bool is_clear_subject(SubjectKind kind, std::string_view subject);
@@ -81,7 +79,7 @@ std::optional<ReadingKey> eye_of(std::string_view name);
 const char* unit_of(const ReadingKey& key); ///< "m", "cd/m2", "%", "1"
 bool is_extent(const ReadingKey& key);      ///< reach, unlit length, width, area
 bool is_time(const ReadingKey& key);        ///< of this machine: reported, never compared
-bool is_uncertainty(const ReadingKey& key); ///< of another reading, or how sensitive that is: never compared itself
+bool is_uncertainty(const ReadingKey& key); ///< of another reading: never compared itself
 
 /// Every key of the sample's quantity, with its subject, lane, distance and threshold's value where names have them.
 std::vector<ReadingKey> shapes_of(const ReadingKey& sample);

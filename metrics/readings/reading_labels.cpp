@@ -19,8 +19,6 @@ const char* aspect_in_words(Aspect aspect) {
                                             ", twin",
                                             ", rendered against the twin",
                                             ", error of the grid",
-                                            ", by 0.1° of aim",
-                                            ", by 10 % of flux",
                                             ", standard error"};
     return words[static_cast<std::size_t>(aspect)];
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "metrics/readings/reading_key.h"
+#include "metrics/readings/sensitivity.h"
 #include "metrics/readings/value.h"
 
 namespace fernlicht {
@@ -11,6 +12,7 @@ struct Reading {
     Value value;
     std::string where = {}; ///< "own lane, centre" - free text for people
     int tick = -1;          ///< -1: of the whole drive
+    Sensitivity sensitivity = {};
 
     std::string name() const { return name_of(key); }
     const char* unit() const { return unit_of(key); }

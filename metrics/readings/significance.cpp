@@ -89,69 +89,9 @@ constexpr double noise_deviations = 3.0;
 
 constexpr double rating_by_light = 2.0 / 2.302585092994046; // de Boer: W = 5 - 2 lg (E ...), after ln E
 
-/// The same figure at all thresholds that have it, by their values.
-std::map<double, double> over_thresholds(const ReadingsOfCell& played, ReadingKey key) {
-    std::map<double, double> by_threshold;
-    for (const auto& [other, found] : played.readings) {
-        key.threshold.value = other.threshold.value;
-        if (key == other && found.value.number())
-            by_threshold[other.threshold.value] = *found.value.number();
-    }
-    return by_threshold;
-}
-
-/// The steeper of the slopes to the thresholds next to this one, over the logarithm of the light.
-std::optional<double> slope_over_limits(const ReadingsOfCell& played, const Reading& reading) {
-    const double own_lx = reading.key.threshold.value;
-    std::map<double, double> by_lx = over_thresholds(played, reading.key);
-    std::erase_if(by_lx, [](const auto& at) { return !(at.first > 0.0); });
-    std::optional<double> slope;
-    const auto own = by_lx.find(own_lx);
-    if (own == by_lx.end())
-        return slope;
-    if (own != by_lx.begin())
-        slope = std::abs(std::prev(own)->second - own->second) / std::log(own_lx / std::prev(own)->first);
-    if (const auto above = std::next(own); above != by_lx.end())
-        slope = std::max(slope.value_or(0.0), std::abs(above->second - own->second) / std::log(above->first / own_lx));
-    return slope;
-}
-
-/// Times and lengths below a rating, over the ratings that have them: the steepest slope, by how the rating goes with the light.
-std::optional<double> slope_over_ratings(const ReadingsOfCell& played, const Reading& reading) {
-    const std::map<double, double> by_rating = over_thresholds(played, reading.key);
-    std::optional<double> slope;
-    for (auto above = by_rating.begin(); above != by_rating.end(); ++above)
-        if (above != by_rating.begin()) {
-            const auto below = std::prev(above);
-            slope = std::max(slope.value_or(0.0), std::abs(above->second - below->second) / (above->first - below->first));
-        }
-    return slope ? std::optional(*slope * rating_by_light) : std::nullopt;
-}
-
-/// Detection: the level of a target goes with the light at most, so the distance moves no further than the steepest fall of the level over
-/// the distance lets it.
-std::optional<double> slope_over_distance(const ReadingsOfCell& played, const Reading& reading) {
-    const ReadingKey& key = reading.key;
-    std::map<double, double> levels;
-    for (const auto& [other, found] : played.readings)
-        if (other.quantity == Quantity::visibility_level && other.subject == key.subject && other.lane == key.lane &&
-            other.place == key.place && other.aspect == Aspect::value && found.value.number().value_or(0.0) > 0.0)
-            levels[*other.distance_m] = *found.value.number();
-    std::optional<double> slope;
-    for (auto far = levels.begin(); far != levels.end(); ++far)
-        if (far != levels.begin()) {
-            const auto near = std::prev(far);
-            const double fall = std::abs(std::log(far->second / near->second));
-            if (fall > 0.0)
-                slope = std::max(slope.value_or(0.0), (far->first - near->first) / fall);
-        }
-    return slope;
-}
-
 /// What 100 % more light would move a reading by, going on as it begins: its derivative after the logarithm of the light. Illuminance and
-/// luminance go with the light; reach has its sensitivity to flux; other extents take the steeper slope to the same extent at the next
-/// limits, for twice the light reaches twice the limit. nullopt when nothing tells.
-std::optional<double> light_sensitivity(const ReadingsOfCell& played, const Reading& reading) {
+/// luminance go with the light; what ends where a limit is reached has its sensitivity to flux. nullopt when nothing tells.
+std::optional<double> light_sensitivity(const Reading& reading) {
     if (!reading.value.number())
         return std::nullopt;
     const double size = std::abs(*reading.value.number());
@@ -162,21 +102,14 @@ std::optional<double> light_sensitivity(const ReadingsOfCell& played, const Read
         return 2.0 * size;
     case WithLight::like_de_boer:
         return rating_by_light;
-    case WithLight::over_distance:
-        return slope_over_distance(played, reading);
-    case WithLight::over_thresholds:
-        break;
+    case WithLight::as_nudged:
+        if (const auto tenth = by_flux(reading.sensitivity))
+            return *tenth / 0.1;
+        return std::nullopt;
     case WithLight::unknown:
-        return std::nullopt;
+        break;
     }
-    if (reading.key.threshold.unit == ThresholdUnit::percent)
-        return std::nullopt;
-    if (reading.key.threshold.unit == ThresholdUnit::de_boer)
-        return slope_over_ratings(played, reading);
-    const auto slope = slope_over_limits(played, reading);
-    const auto tenth =
-        reading.key.quantity == Quantity::reach ? about_lane(played, Quantity::reach, reading.key, Aspect::per_tenth_flux) : std::nullopt;
-    return tenth ? std::optional(std::max(slope.value_or(0.0), std::abs(*tenth) / 0.1)) : slope;
+    return std::nullopt;
 }
 
 /// The spread between repeats on top of what calculation leaves open, where they differ.
@@ -188,21 +121,11 @@ std::optional<double> with_repeats(const ReadingsOfCell& cell, const Reading& re
     return spread == cell.by_repeats.end() ? calculated : std::hypot(calculated.value_or(0.0), spread->second);
 }
 
-std::optional<double> aim_effect(const ReadingsOfCell& a, const ReadingsOfCell& b, const ReadingKey& key) {
-    const auto first = about_lane(a, Quantity::reach, key, Aspect::per_tenth_degree),
-               second = about_lane(b, Quantity::reach, key, Aspect::per_tenth_degree);
-    if (key.quantity != Quantity::reach || (!first && !second))
-        return std::nullopt;
-    return std::max(std::abs(first.value_or(0.0)), std::abs(second.value_or(0.0)));
-}
-
-std::optional<double> noise_effect(const ReadingsOfCell& a, const ReadingsOfCell& b, const ReadingKey& key, double lamp_noise) {
+std::optional<double> noise_effect(const Reading& a, const Reading& b, double lamp_noise) {
     if (lamp_noise == 0.0)
         return 0.0;
-    const auto now = light_sensitivity(a, a.readings.at(key)), before = light_sensitivity(b, b.readings.at(key));
-    if (!now && !before)
-        return std::nullopt;
-    return noise_deviations * lamp_noise * std::max(now.value_or(0.0), before.value_or(0.0));
+    const auto by_light = larger(light_sensitivity(a), light_sensitivity(b));
+    return by_light ? std::optional(noise_deviations * lamp_noise * *by_light) : std::nullopt;
 }
 
 void judge(ReadingChange& change, const std::optional<double>& tested, const std::optional<double>& against) {
@@ -225,9 +148,13 @@ void judge(ReadingChange& change, const std::optional<double>& tested, const std
         change.reason_unknown = "nothing tells how noise of the lamp tables moves this reading";
         return;
     }
-    change.kind = size <= unsure                                                        ? ChangeKind::none
-                  : change.aim_effect && size <= std::hypot(*change.aim_effect, unsure) ? ChangeKind::within_aim
-                                                                                        : ChangeKind::real;
+    if (size > unsure && !change.aim_effect) {
+        change.reason_unknown = "nothing tells what 0.1 degrees of aim would do to this reading";
+        return;
+    }
+    change.kind = size <= unsure                                   ? ChangeKind::none
+                  : size <= std::hypot(*change.aim_effect, unsure) ? ChangeKind::within_aim
+                                                                   : ChangeKind::real;
     if (found.censored() && change.kind != ChangeKind::real) { // it may be much more
         change.kind = ChangeKind::unknown;
         change.reason_unknown = "one of both lies beyond what was looked at";
@@ -261,8 +188,11 @@ ReadingChange change_of_reading(const ReadingKey& key, const ReadingsOfCell& now
     ReadingChange change{.reading = key,
                          .new_value = tested.value,
                          .old_value = against.value,
-                         .aim_effect = aim_effect(now, before, key),
-                         .noise_effect = noise_effect(now, before, key, lamp_noise)};
+                         .aim_effect = larger(by_aim(tested.sensitivity), by_aim(against.sensitivity)),
+                         .flux_effect = larger(by_flux(tested.sensitivity), by_flux(against.sensitivity)),
+                         .height_effect = larger(by_height(tested.sensitivity), by_height(against.sensitivity)),
+                         .load_effect = larger(by_load(tested.sensitivity), by_load(against.sensitivity)),
+                         .noise_effect = noise_effect(tested, against, lamp_noise)};
     judge(change, with_repeats(now, tested), with_repeats(before, against));
     return change;
 }

@@ -21,8 +21,10 @@ const char* change_name(ChangeKind kind); ///< "real", "within aim", "no differe
 struct ReadingChange {
     ReadingKey reading = {};
     Value new_value = {}, old_value = {};
-    std::optional<double> uncertainty = {};  ///< of the difference, same unit; docs/studies.md
-    std::optional<double> aim_effect = {};   ///< what 0.1 degrees of aim moves the reading by, the larger of both sides
+    std::optional<double> uncertainty = {}; ///< of the difference, same unit; docs/studies.md
+    /// What 0.1 degrees of aim, 10 % of flux, 10 mm of height and 75 kg over the rear axle move the reading by, the larger of both sides
+    /// and of either way. Aim alone decides what is real: flux and place of a lamp are measured, its aim is set by hand.
+    std::optional<double> aim_effect = {}, flux_effect = {}, height_effect = {}, load_effect = {};
     std::optional<double> noise_effect = {}; ///< what three standard deviations of the lamps' noise move it by; nullopt when nothing tells
     ChangeKind kind = ChangeKind::unknown;
     std::string reason_unknown = {}; ///< for unknown

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "metrics/readings/readings.h"
-#include "scenarios/drives/play/moment.h"
+#include "scenarios/drives/play/nudge.h"
 
 #include <array>
 #include <optional>
@@ -71,18 +71,17 @@ std::vector<double> twin_lux_near_thresholds(const ExtentGrid& grid, const Momen
 std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector<double>& lx, Surface surface,
                                        const std::vector<double>& thresholds_lx, const std::vector<double>& width_at_m);
 
-/// How the reach on the own lane's centre answers to what is never known exactly. From the twin, which is asked between the grid's
-/// rows too. A limit whose reach is nowhere or cut off, as it is or with a lamp changed, has no difference to give and no entry.
-struct ReachSensitivity {
-    static constexpr const char* lane = "own";
-    double threshold_lx = 0.0;
-    Surface surface = Surface::road;
-    double metres_per_tenth_degree = 0.0; ///< central difference of +-0.1 degrees of pitch of all lamps
-    double metres_per_tenth_flux = 0.0;   ///< central difference of +-10 % of flux
-};
-std::vector<ReachSensitivity> reach_sensitivity(const ExtentGrid& grid, const Moment& moment, const std::vector<double>& thresholds_lx);
-
 inline constexpr const char* reach_beyond = "the reach lies beyond the end of grid, road or lane";
+
+/// Extents by the twin as the moment's lamps are, and nudged, in the order of NudgeKind; none where a nudge is nullopt. For differences:
+/// the grid is coarser than the drive's.
+struct NudgedExtents {
+    std::vector<LaneExtent> as_is;
+    std::array<std::vector<LaneExtent>, nudge_kinds> nudged;
+};
+/// Rows every 2 cell_m, columns likewise. Less and more flux are the same light against other limits.
+NudgedExtents nudged_extents(const Route& route, const Moment& moment, double bumper_m, const ExtentParameters& parameters,
+                             const Nudges& nudges);
 
 /// |difference| of one lane's extents between the grid and every second row and column of it, metres and m2. Where the error goes as the
 /// square of the cell, the grid's own is a third of this.

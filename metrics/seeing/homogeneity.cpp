@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
@@ -118,34 +120,51 @@ Unevenness patches(const LaneLight& light, double min_lx, double factor) {
     return {connected(dark, row_m), connected(bright, row_m)};
 }
 
-Value foreground_ratio(const LaneLight& light) {
+namespace {
+
+/// Mean of the lane between two distances, by trapezia cut at the ends: whether a row lies a rounding error within or without makes no
+/// difference. Not measured where the grid does not reach.
+Value mean_lx(const LaneLight& light, double from_m, double to_m) {
     check(light);
     const std::size_t columns = light.offset_m.size();
+    if (light.ahead_m.empty() || columns == 0 || light.ahead_m.back() < to_m || light.ahead_m.front() > from_m)
+        return Value::not_measured(fmt::format("the lane is not known from {:g} to {:g} m ahead", from_m, to_m));
     const auto row_mean = [&](std::size_t r) {
         double sum = 0.0;
         for (std::size_t c = 0; c < columns; ++c)
             sum += light.lx[r * columns + c];
         return sum / static_cast<double>(columns);
     };
-    // By trapezia cut at the ends: whether a row lies a rounding error within or without makes no difference.
-    const auto mean = [&](double from_m, double to_m) {
-        double integral = 0.0;
-        for (std::size_t r = 1; r < light.ahead_m.size(); ++r) {
-            const double a_m = light.ahead_m[r - 1], b_m = light.ahead_m[r];
-            const double low_m = std::max(a_m, from_m), high_m = std::min(b_m, to_m);
-            if (!(high_m > low_m))
-                continue;
-            const double a = row_mean(r - 1), slope = (row_mean(r) - a) / (b_m - a_m);
-            integral += (a + slope * (0.5 * (low_m + high_m) - a_m)) * (high_m - low_m);
-        }
-        return integral / (to_m - from_m);
-    };
-    if (light.ahead_m.empty() || columns == 0 || light.ahead_m.back() < 60.0 || light.ahead_m.front() > 5.0)
-        return Value::not_measured("the lane is not known from 5 to 60 m ahead");
-    const double far_lx = mean(40.0, 60.0);
-    if (!(far_lx > 0.0))
+    double integral = 0.0;
+    for (std::size_t r = 1; r < light.ahead_m.size(); ++r) {
+        const double a_m = light.ahead_m[r - 1], b_m = light.ahead_m[r];
+        const double low_m = std::max(a_m, from_m), high_m = std::min(b_m, to_m);
+        if (!(high_m > low_m))
+            continue;
+        const double a = row_mean(r - 1), slope = (row_mean(r) - a) / (b_m - a_m);
+        integral += (a + slope * (0.5 * (low_m + high_m) - a_m)) * (high_m - low_m);
+    }
+    return integral / (to_m - from_m);
+}
+
+} // namespace
+
+Value foreground_lx(const LaneLight& light) { return mean_lx(light, 5.0, 15.0); }
+
+Value foreground_ratio(const LaneLight& light) {
+    const Value near_lx = foreground_lx(light), far_lx = mean_lx(light, 40.0, 60.0);
+    if (!near_lx.measured() || !far_lx.measured())
+        return near_lx.measured() ? far_lx : near_lx;
+    if (!(*far_lx.number() > 0.0))
         return Value::not_measured("dark from 40 to 60 m ahead");
-    return mean(5.0, 15.0) / far_lx;
+    return *near_lx.number() / *far_lx.number();
+}
+
+Value uniformity(const std::vector<double>& lx) {
+    if (lx.empty())
+        return Value::not_measured("the lane is not there");
+    const double mean = std::accumulate(lx.begin(), lx.end(), 0.0) / static_cast<double>(lx.size());
+    return mean > 0.0 ? Value(*std::ranges::min_element(lx) / mean) : Value::not_measured("dark across the lane");
 }
 
 } // namespace fernlicht

@@ -39,6 +39,13 @@ struct Unevenness {
 };
 Unevenness patches(const LaneLight& light, double min_lx, double factor);
 
+/// Mean illuminance from 5 to 15 m, by `ahead_m`: the light on the road at the car's nose, which pleases and shows nothing far. Not
+/// measured where the grid does not reach.
+Value foreground_lx(const LaneLight& light);
+
+/// Smallest over mean, 0 to 1: 1 is even. Not measured of nothing and in the dark.
+Value uniformity(const std::vector<double>& lx);
+
 /// Mean illuminance from 5 to 15 m over that from 40 to 60 m, by `ahead_m`. Not measured where the grid does not reach or the distance is
 /// dark.
 Value foreground_ratio(const LaneLight& light);

@@ -50,9 +50,11 @@ void check_readings(const YamlValue& tree, std::vector<std::string>& unmatched) 
         for (const YamlValue& limit : limits->items)
             if (const YamlValue* reading = find_member(limit, "reading"))
                 check_reading(*reading, unmatched);
-    if (const YamlValue* readings = find_member(tree, "readings"))
-        for (const YamlValue& reading : readings->items)
-            check_reading(reading, unmatched);
+    for (const char* const decide : {"decide", "readings"})
+        if (const YamlValue* readings = find_member(tree, decide))
+            for (const YamlValue& reading : readings->items)
+                if (reading.text.find_first_of("*?") == std::string::npos)
+                    check_reading(reading, unmatched);
 }
 
 /// A reading, a word of its own, or several words.

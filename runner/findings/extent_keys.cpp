@@ -12,7 +12,6 @@ std::span<const ExtentFigure> extent_figures() {
     static constexpr ExtentLine left{&LaneExtent::reach_left_edge_m, &LaneExtent::left_edge_is_cut_off};
     static constexpr ExtentLine right{&LaneExtent::reach_right_edge_m, &LaneExtent::right_edge_is_cut_off};
     static constexpr const char *on_centre = ", centre", *of_all = ", line that reaches farthest", *by_half = ", grid of half the samples";
-    static constexpr auto is_own = [](const std::string& lane) { return lane == "own"; };
     static constexpr auto is_all = [](const std::string& lane) { return lane == "all"; };
     static constexpr auto is_lane = [](const std::string& lane) { return lane != "all"; };
     // clang-format off
@@ -28,10 +27,6 @@ std::span<const ExtentFigure> extent_figures() {
         {.quantity = area, .statistics = spread, .member = &LaneExtent::area_m2},
         {.quantity = reach, .aspect = Aspect::twin_difference, .statistics = worst, .where = ", |rendered - twin|",
          .member = centre.reach_m, .line = &centre},
-        {.quantity = reach, .aspect = Aspect::per_tenth_degree, .is_of = is_own,
-         .where = ", gained by 0.1 degrees more pitch of all lamps", .sensitivity = &ReachSensitivity::metres_per_tenth_degree},
-        {.quantity = reach, .aspect = Aspect::per_tenth_flux, .is_of = is_own, .where = ", gained by 10 % more flux",
-         .sensitivity = &ReachSensitivity::metres_per_tenth_flux},
         {.quantity = area, .aspect = Aspect::grid_error, .is_of = is_all, .where = by_half, .grid_error = &GridError::area,
          .error_column_of = "all"},
         {.quantity = reach, .aspect = Aspect::grid_error, .where = by_half, .grid_error = &GridError::reach, .error_column_of = "own"},

@@ -31,10 +31,9 @@ struct ExtentFigure {
     std::array<Statistic, 3> statistics = {Statistic::median}; ///< over the moments; none: no more
     const char* where = "";                                    ///< for people, behind the lane
     const char* where_of_all = nullptr;                        ///< the same of "all", which has no lines of its own; nullptr: as any lane's
-    // What it is in a moment, one of these three; width has none.
+    // What it is in a moment, one of these two; width has none.
     double LaneExtent::*member = nullptr;
     const ExtentLine* line = nullptr; ///< whose end the member is known up to; nullptr: that of each line
-    double ReachSensitivity::*sensitivity = nullptr;
     Value GridError::*grid_error = nullptr;
     const char* error_column_of = ""; ///< the lane whose grid error is a column of moments
 };
@@ -49,7 +48,7 @@ ReadingKey extent_reading(const ExtentKey& key, Quantity quantity, ReadingPlace 
 const CensoredSamples& moments_of(const ExtentSummary& summary, Quantity quantity, Aspect aspect = Aspect::value,
                                   const std::optional<double>& distance_m = {});
 
-/// The extent (its sensitivity, its grid error) of that key in one moment's list; nullptr where there is none, as of a lane that ended.
+/// The extent (its grid error) of that key in one moment's list; nullptr where there is none, as of a lane that ended.
 template <typename Of> const Of* find_extent(const std::vector<Of>& extents, const ExtentKey& key) {
     const auto found = std::ranges::find_if(extents, [&](const Of& extent) {
         return extent.surface == key.surface && extent.threshold_lx == key.threshold_lx && extent.lane == key.lane;

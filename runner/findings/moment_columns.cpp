@@ -78,15 +78,11 @@ void add_lane(Columns& columns, const PlayedCell& played, const ExtentKey& key) 
         }
 }
 
-/// What moves the own lane's reach, and the grid's error in it and in the area.
+/// The grid's error in the own lane's reach and in the area.
 void add_uncertainty(Columns& columns, const ExtentRow& row, std::size_t moment) {
     const auto add = [&](const auto& entry, const ExtentFigure& figure, double value) {
         columns.metres(figure_name({entry.surface, entry.lane, entry.threshold_lx}, figure), moment, value);
     };
-    for (const ReachSensitivity& of : row.sensitivity)
-        for (const ExtentFigure& figure : extent_figures())
-            if (figure.sensitivity)
-                add(of, figure, of.*figure.sensitivity);
     for (const GridError& error : row.grid_errors)
         for (const ExtentFigure& figure : extent_figures())
             if (figure.grid_error && error.lane == figure.error_column_of && (error.*figure.grid_error).measured())

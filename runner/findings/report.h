@@ -55,7 +55,9 @@ struct ExtentSummary {
     ExtentKey key;
     bool same_direction = true;                         ///< as LaneExtent has it
     std::map<ReadingKey, CensoredSamples> moments = {}; ///< of extent_figures(), without a statistic; widths by distance ahead
-    std::size_t cut_off = 0;                            ///< moments whose reach is a lower bound, by road's end or grid's
+    /// Of the figures themselves by the twin: as the lamps are, then nudged in the order of NudgeKind.
+    std::map<ReadingKey, std::array<CensoredSamples, 1 + nudge_kinds>> nudged = {};
+    std::size_t cut_off = 0; ///< moments whose reach is a lower bound, by road's end or grid's
 };
 
 /// Extents of one moment.
@@ -63,8 +65,8 @@ struct ExtentRow {
     int tick = 0;
     double time_s = 0.0, distance_m = 0.0;
     std::vector<LaneExtent> rendered, twin;
-    std::vector<ReachSensitivity> sensitivity;
     std::vector<GridError> grid_errors;
+    NudgedExtents nudged;
 };
 
 struct PassTime {

@@ -13,7 +13,6 @@ namespace {
 /// A lane's extent in one moment; nullptr: not there.
 struct LaneMoment {
     const LaneExtent *rendered, *twin;
-    const ReachSensitivity* sensitivity;
     const GridError* grid_error;
 };
 
@@ -29,21 +28,20 @@ Value in_picture(const ExtentFigure& figure, const LaneExtent& extent, double la
     return goes_on ? Value::at_least(extent.*figure.member) : Value(extent.*figure.member);
 }
 
+Value width_at(const LaneExtent& extent, double at_m) {
+    const auto width = std::ranges::find(extent.widths, at_m, &LaneExtent::Width::at_m);
+    return width == extent.widths.end() ? Value() : width->cut_off ? Value::at_least(width->width_m) : Value(width->width_m);
+}
+
 /// Not measured without a reason: the moment says nothing of it.
 Value in_moment(const ExtentFigure& figure, const LaneMoment& moment, double last_row_m, const std::optional<double>& distance_m) {
-    const auto& [rendered, twin, sensitivity, grid_error] = moment;
+    const auto& [rendered, twin, grid_error] = moment;
     if (figure.grid_error)
         return grid_error ? grid_error->*figure.grid_error : Value();
-    if (figure.sensitivity)
-        return sensitivity ? Value(sensitivity->*figure.sensitivity)
-               : twin      ? Value::not_measured(twin->reach_is_cut_off ? reach_beyond : "no reach on both sides of the change")
-                           : Value();
     if (!rendered || (figure.aspect == Aspect::twin_difference && !twin))
         return {};
-    if (distance_m) {
-        const auto width = std::ranges::find(rendered->widths, *distance_m, &LaneExtent::Width::at_m);
-        return width == rendered->widths.end() ? Value() : width->cut_off ? Value::at_least(width->width_m) : Value(width->width_m);
-    }
+    if (distance_m)
+        return width_at(*rendered, *distance_m);
     const Value value = in_picture(figure, *rendered, last_row_m);
     if (figure.aspect == Aspect::value)
         return value;
@@ -51,6 +49,26 @@ Value in_moment(const ExtentFigure& figure, const LaneMoment& moment, double las
     return gap.number()     ? Value(std::abs(*gap.number()))
            : gap.censored() ? Value::at_least(std::max(0.0, std::max(gap.low(), -gap.high())))
                             : gap;
+}
+
+/// The twin's figure in all moments: as the lamps are, and nudged.
+std::array<CensoredSamples, 1 + nudge_kinds> nudged_moments(const PlayedCell& played, const ExtentKey& key, const ExtentFigure& figure,
+                                                            double last_row_m, const std::optional<double>& distance_m) {
+    std::array<CensoredSamples, 1 + nudge_kinds> moments;
+    for (const ExtentRow& row : played.extents)
+        for (std::size_t i = 0; i < moments.size(); ++i)
+            if (const LaneExtent* const extent = find_extent(i == 0 ? row.nudged.as_is : row.nudged.nudged[i - 1], key))
+                if (const Value value = distance_m ? width_at(*extent, *distance_m) : in_picture(figure, *extent, last_row_m);
+                    value.measured() || !value.reason().empty())
+                    moments[i].add(value);
+    return moments;
+}
+
+Sensitivity sensitivity_of(const std::array<CensoredSamples, 1 + nudge_kinds>& nudged, double share) {
+    Sensitivity moves;
+    for (std::size_t kind = 0; kind < nudge_kinds; ++kind)
+        moves.*sensitivity_rows[kind].member = move_of(nudged[1 + kind].quantile(share), nudged.front().quantile(share));
+    return moves;
 }
 
 void add_extent(Readings& readings, const ExtentSummary& summary, const ExtentFigure& figure) {
@@ -72,6 +90,8 @@ void add_extent(Readings& readings, const ExtentSummary& summary, const ExtentFi
             if (std::ranges::count(figure.statistics, statistic) > 0) {
                 key.statistic = statistic;
                 readings.push_back({key, moments.quantile(share), fmt::format("{}, {}; {}", where, words, moments.account())});
+                if (const auto nudged = summary.nudged.find(reading); nudged != summary.nudged.end())
+                    readings.back().sensitivity = sensitivity_of(nudged->second, share);
             }
     }
 }
@@ -99,15 +119,14 @@ std::vector<ExtentSummary> summarise_extents(const PlayedCell& played, const Ext
         ExtentSummary& summary = summaries.emplace_back(ExtentSummary{key});
         std::vector<LaneMoment> moments;
         for (const ExtentRow& row : played.extents) {
-            moments.push_back({find_extent(row.rendered, key), find_extent(row.twin, key), find_extent(row.sensitivity, key),
-                               find_extent(row.grid_errors, key)});
+            moments.push_back({find_extent(row.rendered, key), find_extent(row.twin, key), find_extent(row.grid_errors, key)});
             if (const LaneExtent* const lane = moments.back().rendered ? moments.back().rendered : moments.back().twin)
                 summary.same_direction = lane->same_direction;
             summary.cut_off += moments.back().rendered && moments.back().rendered->reach_is_cut_off ? 1U : 0U;
         }
         const std::string& not_drawn = key.surface == Surface::road ? played.no_road_lx : played.no_target_lx;
         for (const ExtentFigure& figure : extent_figures()) {
-            const bool drawn = !figure.sensitivity && !figure.grid_error;
+            const bool drawn = !figure.grid_error;
             if (figure.is_of(key.lane))
                 for (const std::optional<double>& distance_m : figure.quantity == Quantity::width ? ahead_m : nowhere) {
                     CensoredSamples samples = drawn && !not_drawn.empty() ? CensoredSamples(not_drawn) : CensoredSamples();
@@ -115,11 +134,20 @@ std::vector<ExtentSummary> summarise_extents(const PlayedCell& played, const Ext
                         if (const Value value = in_moment(figure, moment, last_row_m, distance_m);
                             value.measured() || !value.reason().empty())
                             samples.add(value);
-                    summary.moments.emplace(extent_reading(key, figure.quantity, figure.place, figure.aspect, distance_m), samples);
+                    const ReadingKey reading = extent_reading(key, figure.quantity, figure.place, figure.aspect, distance_m);
+                    summary.moments.emplace(reading, samples);
+                    if (figure.aspect == Aspect::value)
+                        summary.nudged.emplace(reading, nudged_moments(played, key, figure, last_row_m, distance_m));
                 }
         }
     }
     return summaries;
+}
+
+Value reach_moved_m(const ExtentSummary& summary, std::optional<double> (*by)(const Sensitivity&)) {
+    const auto nudged = summary.nudged.find(extent_reading(summary.key, Quantity::reach));
+    return Value::of(nudged == summary.nudged.end() ? std::nullopt : by(sensitivity_of(nudged->second, 0.5)),
+                     "no reach on both sides of the change");
 }
 
 Readings extent_readings(const PlayedCell& played) {

@@ -75,13 +75,14 @@ MovedReadings moved_readings(const Baseline& run, const Baseline& accepted, cons
     if (differences.empty())
         return {0, fmt::format("all {} readings agree", all)};
     const ResultDifference& farthest = *std::ranges::max_element(differences, {}, [](const ResultDifference& difference) {
-        return std::tuple(is_named(*difference.reading, default_readings()), !is_uncertainty(*difference.reading), difference.of_allowed);
+        return std::tuple(place_among(*difference.reading, decides_by_default()).has_value(), !is_uncertainty(*difference.reading),
+                          difference.of_allowed);
     });
-    return {
-        differences.size(),
-        fmt::format("of {} readings {} differ, {}: {}, {}", all, differences.size(),
-                    is_named(*farthest.reading, default_readings()) ? "of those that usually decide the farthest off" : "the farthest off",
-                    farthest.what, farthest.text)};
+    return {differences.size(),
+            fmt::format("of {} readings {} differ, {}: {}, {}", all, differences.size(),
+                        place_among(*farthest.reading, decides_by_default()) ? "of those that usually decide the farthest off"
+                                                                             : "the farthest off",
+                        farthest.what, farthest.text)};
 }
 
 /// Why there is nothing to judge by. Where all but the inputs is known, which of them are others, and what that came to.

@@ -1,6 +1,7 @@
 #include "runner/judge/known_failures.h"
 
 #include "scenarios/values/errors.h"
+#include "scenarios/values/glob.h"
 #include "scenarios/yaml/yaml_entry.h"
 
 #include <algorithm>
@@ -84,23 +85,6 @@ bool is_date(const std::string& text) {
     };
     using namespace std::chrono;
     return year_month_day(year(static_cast<int>(number(0, 4))), month(number(5, 2)), day(number(8, 2))).ok();
-}
-
-bool matches(const std::string& pattern, const std::string& text) {
-    std::size_t p = 0, t = 0, star = std::string::npos, taken = 0;
-    while (t < text.size())
-        if (p < pattern.size() && pattern[p] == '*') {
-            star = p++;
-            taken = t;
-        } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
-            ++p;
-            ++t;
-        } else if (star != std::string::npos) {
-            p = star + 1; // the star takes one character more
-            t = ++taken;
-        } else
-            return false;
-    return pattern.find_first_not_of('*', p) == std::string::npos;
 }
 
 std::string verdict_id(const PlayedCell& played, const Verdict& verdict) {

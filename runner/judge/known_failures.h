@@ -26,9 +26,6 @@ KnownFailures read_known_failures(const std::filesystem::path& file);
 /// A date as 2026-12-31 that the calendar has.
 bool is_date(const std::string& text);
 
-/// `text` with `pattern`'s `*` and `?` filled in.
-bool matches(const std::string& pattern, const std::string& text);
-
 /// "straight/halogen/photometric/reach_5lx_road_own_m".
 std::string verdict_id(const PlayedCell& played, const Verdict& verdict);
 

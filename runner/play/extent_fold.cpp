@@ -129,11 +129,15 @@ ExtentRow ExtentFold::measure(const ExtentDrawing& drawing) const {
         std::ranges::copy(measured, std::back_inserter(row.twin));
         std::ranges::copy(grid_errors(grid, truth, surface, p.thresholds_lx, measured), std::back_inserter(row.grid_errors));
     }
-    row.sensitivity = reach_sensitivity(grid, moment, p.thresholds_lx);
+    row.nudged = nudged_extents(route_, moment, drive_.bumper_m, p, nudges_);
     return row;
 }
 
 namespace {
+
+double figure_of(const Spread& spread, Statistic statistic) {
+    return statistic == Statistic::minimum ? spread.minimum : statistic == Statistic::maximum ? spread.maximum : spread.median;
+}
 
 constexpr double patch_m = 0.03; // three pixels of a centimetre, the probe in the middle one
 
@@ -165,7 +169,13 @@ void ProbeFold::add(const Moment& moment, const Draw& draw) {
         const CrossSection across = route_.cross_section(moment.distance_m + probe.ahead_m);
         found_[i].beside_road =
             found_[i].beside_road || (on_surface && (probe.left_m > across.paved_left_m || probe.left_m < across.paved_right_m));
-        found_[i].twin.push_back(on_surface ? surface_illuminance_lx(moment, point, pose.up()) : target_illuminance_lx(moment, point));
+        const auto twin_lx = [&](const Moment& lit) {
+            return on_surface ? surface_illuminance_lx(lit, point, pose.up()) : target_illuminance_lx(lit, point);
+        };
+        found_[i].twin.push_back(twin_lx(moment));
+        for (std::size_t kind = 0; kind < nudge_kinds; ++kind)
+            if (nudges_[kind])
+                found_[i].nudged[kind].push_back(twin_lx(nudged(moment, *nudges_[kind])));
         if (!on_surface)
             continue;
         const Frame frame = draw(moment, map_around(pose.position_m, moment), {.illuminance = true})();
@@ -184,6 +194,10 @@ Readings ProbeFold::finish() const {
         const auto say = [&](Statistic statistic, Aspect aspect, std::optional<double> value, const std::string& why_not) {
             const ReadingKey key{.quantity = Quantity::probe_illuminance, .subject = probe.name, .aspect = aspect, .statistic = statistic};
             readings.push_back({key, Value::of(value, why_not), where});
+            for (std::size_t kind = 0; kind < nudge_kinds && value && !found_[i].beside_road; ++kind)
+                if (const std::optional<Spread> as_is = spread_of(found_[i].twin), nudged = spread_of(found_[i].nudged[kind]); nudged)
+                    readings.back().sensitivity.*sensitivity_rows[kind].member =
+                        figure_of(*nudged, statistic) - figure_of(*as_is, statistic);
         };
         const std::optional<Spread> drawn = spread_of(found_[i].drawn), twin = spread_of(found_[i].twin);
         const std::string unseen = probe.above_m != 0.0  ? "the point is not on a rendered surface"

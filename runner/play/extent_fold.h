@@ -16,8 +16,8 @@ struct ExtentDrawing {
 
 class ExtentFold {
   public:
-    /// The drive must ask for an extent. Drive and route must outlive the fold.
-    ExtentFold(const Drive& drive, const Route& route) : drive_(drive), route_(route) {}
+    /// The drive must ask for an extent. Drive and route must outlive the fold. `nudges`: of which the twin tells the effect.
+    ExtentFold(const Drive& drive, const Route& route, const Nudges& nudges = {}) : drive_(drive), route_(route), nudges_(nudges) {}
 
     /// By the thread that draws.
     ExtentDrawing draw(const Moment& moment, const Draw& draw) const;
@@ -29,6 +29,7 @@ class ExtentFold {
   private:
     const Drive& drive_;
     const Route& route_;
+    Nudges nudges_;
 };
 
 /// The smallest map view of this moment that covers the grid, at most 0.25 m a pixel where 1024 pixels a side allow.
@@ -39,7 +40,8 @@ View map_around(const glm::dvec3& point_m, const Moment& moment);
 
 class ProbeFold {
   public:
-    ProbeFold(const Drive& drive, const Route& route) : drive_(drive), route_(route), found_(drive.probes.size()) {}
+    ProbeFold(const Drive& drive, const Route& route, const Nudges& nudges = {})
+        : drive_(drive), route_(route), nudges_(nudges), found_(drive.probes.size()) {}
 
     void add(const Moment& moment, const Draw& draw);
     /// For each probe NAME: probe_NAME_lx (drawn) and probe_NAME_twin_lx, medians over the drive; probe_NAME_min_lx and _max_lx (drawn).
@@ -49,12 +51,14 @@ class ProbeFold {
   private:
     struct Series {
         std::vector<double> drawn, twin;
+        std::array<std::vector<double>, nudge_kinds> nudged; ///< of the twin
         bool beside_road = false; ///< beyond the pavement at some moment: what is drawn there is the verge, which the twin does not know
         bool not_drawn = false;   ///< the technique computes no illuminance
         bool near_field = false;  ///< nearer to a lamp than its photometric distance at some moment
     };
     const Drive& drive_;
     const Route& route_;
+    Nudges nudges_;
     std::vector<Series> found_;
 };
 

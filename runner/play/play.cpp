@@ -1,6 +1,6 @@
 #include "runner/play/play.h"
 
-#include "metrics/folds/seeing_fold.h"
+#include "metrics/folds/sensitivity_fold.h"
 #include "runner/play/display_pipeline.h"
 #include "runner/play/extent_fold.h"
 #include "runner/play/frame_times.h"
@@ -162,10 +162,12 @@ PlayedCell play(const Drive& drive, const Route& route, const LampSet& lamp_set,
     played.ticks_planned = ticks_to_play(drive, options.ticks);
     FrameTimes times(options.warm_up, options.profile);
     Pictures pictures(drive, route, options, played, writers, times);
-    const ExtentFold extent(drive, route);
+    const Nudges nudges = usual_nudges(drive, lamp_set);
+    const ExtentFold extent(drive, route, nudges);
     Measuring measuring(extent, played.extents);
-    ProbeFold probes(drive, route);
+    ProbeFold probes(drive, route, nudges);
     SeeingFold seeing(drive, route);
+    SensitivityFold sensitivity(drive, route, lamp_set);
 
     State state = start(drive);
     while (state.tick < std::max(0, options.ticks.first) && state.tick + 1 < tick_count(drive))
@@ -194,6 +196,7 @@ PlayedCell play(const Drive& drive, const Route& route, const LampSet& lamp_set,
         probes.add(moment, draw);
         times.end_moment();
         seeing.add(moment, lamp_set);
+        sensitivity.add(moment);
         pictures.store(moment);
         if (drawn)
             measuring.add(std::move(*drawn));
@@ -209,7 +212,9 @@ PlayedCell play(const Drive& drive, const Route& route, const LampSet& lamp_set,
     times.finish(played);
     pictures.finish(played.ticks_done == played.ticks_planned);
     played.readings = probes.finish();
-    std::ranges::copy(seeing.readings(), std::back_inserter(played.readings));
+    Readings seen = seeing.readings();
+    sensitivity.tell(seen);
+    std::ranges::move(seen, std::back_inserter(played.readings));
     played.seeing = seeing.series();
     return played;
 }

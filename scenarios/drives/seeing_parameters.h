@@ -108,6 +108,7 @@ struct HomogeneityParameters {
     double min_lx = 1.0;   ///< darker ground does not count
     double ahead_m = 80.0; ///< how far is looked, from the front bumper
     double patch_factor = 1.5;
+    std::vector<double> distances_m{20.0, 50.0}; ///< from the front bumper, where evenness across is told
 
     bool operator==(const HomogeneityParameters&) const = default;
 };

@@ -301,10 +301,24 @@ void refuse_too_many(const Study& study, const YamlEntry& entry) {
 
 } // namespace
 
-const std::vector<std::string>& default_readings() {
-    // How far a target and the road are lit, how wide, how much.
-    static const std::vector<std::string> readings{"reach_1lx_target_own_m",      "reach_5lx_target_own_m",      "reach_1lx_road_own_m",
-                                                   "width_1lx_road_all_at_20m_m", "width_1lx_road_all_at_50m_m", "area_1lx_road_all_m2"};
+const std::vector<std::string>& decides_by_default() {
+    static const std::vector<std::string> readings{
+        "reach_5lx_target_own_right_edge_m",
+        "reach_5lx_target_own_m",
+        "reach_5lx_target_own_left_edge_m",
+        "reach_3lx_target_own_m",
+        "reach_1lx_target_own_m",
+        "glare_*_facing_30_to_60m_max_lx",
+        "glare_*_facing_60_to_120m_max_lx",
+        "glare_mirrors_at_*_facing_max_lx",
+        "detection_*_own_m",
+        "detection_*_right_m",
+        "detection_*_left_m",
+        "width_3lx_target_all_at_20m_m",
+        "width_3lx_target_all_at_50m_m",
+        "uniformity_target_own_at_20m",
+        "uniformity_target_own_at_50m",
+    };
     return readings;
 }
 
@@ -323,7 +337,8 @@ const Fields<Study>& study_fields() {
         form<Study>("compare", FieldKind::list, names(0, max_entries), "all with the first by default", read_comparisons)
             .of(comparison_fields()),
         field("measure", 5, &Study::measure, seeing_fields(), "in every drive that does not ask itself"),
-        values_form("readings", &Study::readings, reading_name, false, text, "that decide, by name"),
+        values_form("decide", &Study::decide, reading_name, false, text,
+                    "readings that decide, by name or pattern, the most important first"),
         list("limits", 6, &Study::limits, 0, max_entries, study_limit_fields(), "beyond these the study fails").read_by(read_study_limits),
         field("pictured_moments", 7, &Study::pictured_moments, range(1.0, 12.0), "stored moments of each cell"),
         form<Study>("resolution_px", FieldKind::own, {}, "width, height of the cameras' views; the drives' own by default",
@@ -347,7 +362,7 @@ Study read_study(const std::filesystem::path& path) {
         keys.require("fernlicht_study").refuse(fmt::format("{}, the version of the study file's schema", schema_version));
     study.name = name_from(path);
     study.conditions.times_of_day = {Daylight{}};
-    study.readings = default_readings();
+    study.decide = decides_by_default();
     read_group(study_fields(), keys, &study);
     if (study.title.empty())
         study.title = study.name;

@@ -46,7 +46,7 @@ struct Study {
     StudyConditions conditions;
     SeeingParameters measure; ///< what every drive measures of seeing and glare where it does not ask for it itself
     std::vector<StudyComparison> comparisons;
-    std::vector<std::string> readings; ///< that decide, by name
+    std::vector<std::string> decide; ///< readings by name or pattern (glob.h), the most important first
     std::vector<StudyLimit> limits;
     int pictured_moments = 4;                         ///< stored moments of each cell
     std::optional<std::pair<int, int>> resolution_px; ///< of the camera views; nullopt: the drives' own
@@ -79,7 +79,7 @@ std::vector<StudyCell> cells_of(const Study& study);
 /// InputError for what the drive file or the lamp refuses, and for a drive with high beams where the lamp set has none.
 Drive cell_drive(const Study& study, const StudyCell& cell);
 
-/// The readings that decide where nobody names any.
-const std::vector<std::string>& default_readings();
+/// The readings that decide where nobody names any: what is bought with light (docs/studies.md#what-decides).
+const std::vector<std::string>& decides_by_default();
 
 } // namespace fernlicht

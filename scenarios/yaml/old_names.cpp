@@ -16,6 +16,7 @@ struct OldKey {
 
 constexpr OldKey keys[] = {
     {"", "variants", "lamp_sets"},
+    {"", "readings", "decide"},
     {"extent", "limits_lx", "thresholds_lx"},
     {"sensors", "limits_lx", "thresholds_lx"},
     {"glare", "limits_lx", "thresholds_lx"},

@@ -2,6 +2,7 @@
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/findings/figures.h"
+#include "runner/findings/summary.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -74,7 +75,7 @@ std::vector<Column> extent_columns(const ComparedDrive& drive, const Axes& axes,
     add_heads(columns, drive, "area", "m\u00b2");
     columns.push_back({"reach, min to max", "m"});
     if (own)
-        columns.insert(columns.end(), {{"per 0.1° of aim", "m"}, {"per 10 % of flux", "m"}});
+        columns.insert(columns.end(), {{"by 0.1° of aim", "m"}, {"by 10 % of flux", "m"}});
     columns.push_back({"twin off by ≤", "m"});
     if (own)
         columns.push_back({"grid error", "m"});
@@ -96,7 +97,7 @@ std::vector<Cell> extent_cells(const ComparedDrive& drive, const ExtentSummary& 
                            ? of_reach(Aspect::value, 0.0, 1).text + "\u2009\u2026\u2009" + of_reach(Aspect::value, 1.0, 1).text
                            : nothing);
     if (own)
-        cells.insert(cells.end(), {of_reach(Aspect::per_tenth_degree, 0.5, 1), of_reach(Aspect::per_tenth_flux, 0.5, 1)});
+        cells.insert(cells.end(), {value_cell(reach_moved_m(summary, by_aim), 1), value_cell(reach_moved_m(summary, by_flux), 1)});
     cells.push_back(of_reach(Aspect::twin_difference, 1.0, 2));
     if (own)
         cells.push_back(of_reach(Aspect::grid_error, 0.5, 2));
@@ -136,13 +137,12 @@ Cards reaches_at_a_glance(const ComparedDrive& drive) {
             const auto found = std::ranges::find(all, ExtentKey{Surface::road, "own", threshold_lx}, &ExtentSummary::key);
             if (found == all.end() || moments_of(*found, Quantity::reach).count() == 0)
                 continue;
-            const Value reach = moments_of(*found, Quantity::reach).quantile(0.5),
-                        by_aim = moments_of(*found, Quantity::reach, Aspect::per_tenth_degree).quantile(0.5);
+            const Value reach = moments_of(*found, Quantity::reach).quantile(0.5), by_tenth_degree = reach_moved_m(*found, by_aim);
             const Value change = i == 0 ? Value() : difference(reach, first, "");
             first = i == 0 ? reach : first;
             reaches.push_back({fmt::format("reach at {:g} lx", threshold_lx), value_cell(reach, 1).text, "m",
                                change.measured() ? fmt::format("({} m)", with_bound(change, signed_figure(*change.figure(), 1))) : "",
-                               by_aim.measured() ? fmt::format("{} m per 0.1° of aim", value_cell(by_aim, 1).text) : "",
+                               by_tenth_degree.measured() ? fmt::format("±{} m by 0.1° of aim", value_cell(by_tenth_degree, 1).text) : "",
                                lamp_cell(drive, i)});
         }
     }

@@ -7,6 +7,7 @@
 #include "runner/findings/context_json.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/findings/moment_columns.h"
+#include "runner/findings/summary.h"
 #include "runner/judge/verdict_json.h"
 #include "runner/play/display_pipeline.h"
 #include "runner/play/live/live_figures.h"
@@ -94,8 +95,8 @@ JsonMembers summary_members(ExtentSummary& summary) {
                    {"widths_m", std::move(widths), width_members},
                    {"area_m2", moments_part(moments_of(summary, Quantity::area))}},
                   with_reasons({{"largest_twin_difference_m", of_reach(Aspect::twin_difference, 1.0)}},
-                               {{"metres_per_tenth_degree", of_reach(Aspect::per_tenth_degree, 0.5)},
-                                {"metres_per_tenth_flux", of_reach(Aspect::per_tenth_flux, 0.5)},
+                               {{"by_tenth_degree_m", reach_moved_m(summary, by_aim)},
+                                {"by_tenth_flux_m", reach_moved_m(summary, by_flux)},
                                 {"grid_error_m", of_reach(Aspect::grid_error, 0.5)}},
                                summary.key.lane == "own"));
 }
@@ -376,6 +377,9 @@ void take_readings(const CsvFile& csv, Report& report) {
                             : row[bound] == "at_most"  ? Value::at_most(number)
                                                        : (csv.refuse(i, bound, "at_least or at_most"), Value());
         }
+        for (const SensitivityRow& moves : sensitivity_rows)
+            if (const std::size_t column = csv.column(moves.name); !row[column].empty())
+                reading.sensitivity.*moves.member = csv.number(i, column);
         for (PlayedCell& played : report.played)
             if (clean_text(played.drive) == row[drive] && clean_text(played.lamp_set) == row[set])
                 played.readings.push_back(reading);

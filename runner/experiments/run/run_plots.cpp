@@ -48,11 +48,17 @@ plots::Polyline reach_line(const PlayedCell& played, std::vector<LaneExtent> Ext
 plots::Band aim_band(const PlayedCell& played, const ExtentKey& key, const plots::Polyline& reach) {
     plots::Band band;
     for (std::size_t i = 0; i < reach.size(); ++i) {
-        const ReachSensitivity* const found = find_extent(played.extents[i].sensitivity, key);
-        const double half_m = found ? std::abs(found->metres_per_tenth_degree) : not_a_number;
+        const NudgedExtents& twin = played.extents[i].nudged;
+        const auto moved_m = [&](NudgeKind kind) {
+            const LaneExtent *const as_is = find_extent(twin.as_is, key), *const nudged =
+                                                                              find_extent(twin.nudged[static_cast<std::size_t>(kind)], key);
+            return as_is && nudged && !as_is->reach_is_cut_off && !nudged->reach_is_cut_off ? nudged->reach_centre_m - as_is->reach_centre_m
+                                                                                            : not_a_number;
+        };
+        const double up_m = moved_m(NudgeKind::aim_up), down_m = moved_m(NudgeKind::aim_down);
         band.x.push_back(reach[i].x);
-        band.low.push_back(std::max(0.0, reach[i].y - half_m));
-        band.high.push_back(reach[i].y + half_m);
+        band.low.push_back(std::max(0.0, reach[i].y + std::min(up_m, down_m)));
+        band.high.push_back(reach[i].y + std::max(up_m, down_m));
     }
     return band;
 }

@@ -28,7 +28,7 @@ Change change_of(const StudyResult& result, std::size_t tested, std::size_t agai
     change.id = fmt::format("c{}", result.changes.size());
     change.tested = tested;
     change.against = against;
-    change.decides = is_named(key, result.study.readings);
+    change.decides = place_among(key, result.study.decide).has_value();
     return change;
 }
 
@@ -84,16 +84,16 @@ bool is_in(const std::set<ReadingKey>& keys, const std::optional<ReadingKey>& ke
 /// drive need not have all.
 void judge_deciding(StudyResult& result) {
     const std::set<ReadingKey> keys = keys_in(result);
-    if (result.study.readings == default_readings() || keys.empty()) // cells that were not played say so themselves
+    if (result.study.decide == decides_by_default() || keys.empty()) // cells that were not played say so themselves
         return;
-    for (const std::string& name : result.study.readings) {
+    for (const std::string& name : result.study.decide) {
         const auto missing = [&](const std::string& why) {
             result.verdicts.push_back({VerdictKind::not_measured, "deciding reading " + name, why, repeat_command(result.call)});
         };
-        const auto key = key_of(name);
-        if (!is_in(keys, key))
-            missing(no_such_reading(name, keys));
-        else if (!result.changes.empty() && std::ranges::find(result.changes, *key, &ReadingChange::reading) == result.changes.end())
+        const auto fits = [&](const ReadingKey& key) { return place_among(key, {name}).has_value(); };
+        if (std::ranges::none_of(keys, fits))
+            missing(name.find_first_of("*?") == std::string::npos ? no_such_reading(name, keys) : "no reading's name fits");
+        else if (!result.changes.empty() && std::ranges::none_of(result.changes, fits, &ReadingChange::reading))
             missing("no two cells were compared by it: it is a time, says how exact another is, or one lamp alone has it");
     }
 }

@@ -1,13 +1,15 @@
 #include "runner/experiments/study/study_document.h"
 #include "metrics/readings/reading_labels.h"
+#include "runner/experiments/study/change_text.h"
+#include "runner/experiments/study/study_decision.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/findings/figures.h"
 #include "runner/judge/verdict_line.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace fernlicht {
 namespace {
@@ -38,24 +40,6 @@ std::string nothing_compared(const StudyResult& result) {
 std::string lamps_of(const StudyResult& result, const Change& change) {
     return result.lamp_of(change.tested) + " / " + result.lamp_of(change.against);
 }
-
-Cell cell_of(const Value& value, const std::string& rounded) {
-    return value.measured() ? Cell(with_bound(value, rounded), *value.figure()) : Cell("not measured");
-}
-/// Two; more where the change, or else the value, would show less than two digits (glare of 0.0312 and 0.0298 lx is two values), but none
-/// finer than the numerical uncertainty.
-int decimals_of(const Change& change) {
-    const double changed = std::abs(change.change().figure().value_or(0.0));
-    const Value& known = change.old_value.measured() ? change.old_value : change.new_value;
-    const double size = std::max(changed > 1e-6 ? changed : std::abs(known.figure().value_or(0.0)), change.uncertainty.value_or(0.0));
-    return size < 0.1 && size > 1e-6 ? std::min(1 - static_cast<int>(std::floor(std::log10(size))), 7) : 2;
-}
-Cell value_cell(const Value& value, int decimals) { return cell_of(value, figure(value.figure().value_or(0.0), decimals)); }
-Cell change_cell(const Change& change) {
-    const Value found = change.change();
-    return found.measured() ? cell_of(found, signed_figure(*found.figure(), decimals_of(change))) : Cell("");
-}
-Cell open_cell(const std::optional<double>& value) { return value ? Cell(fmt::format("{:.2g}", *value), *value) : Cell(""); }
 
 std::string with_unit(const Value& value, const std::string& unit) {
     return value.measured() ? with_bound(value, fmt::format("{:.4g}{}", *value.figure(), unit_suffix(unit))) : "not measured";
@@ -97,8 +81,11 @@ Table readings_table(const StudyResult& result) {
     const bool several_lamps = result.study.comparisons.size() > 1;
     const bool several_conditions = std::ranges::any_of(
         result.cells, [&](const CellResult& cell) { return cell.cell.condition != result.cells.front().cell.condition; });
-    const std::string heads = std::string("row") + (several_lamps ? "|new / old<" : "") + "|drive<" +
-                              (several_conditions ? "|condition<" : "") + "|reading<|old|new|change|%|± numerical|± noise|± aim|unit<|is<";
+    const bool loaded =
+        std::ranges::any_of(result.changes, [](const Change& change) { return change.decides && change.load_effect.has_value(); });
+    const std::string heads =
+        std::string("row") + (several_lamps ? "|new / old<" : "") + "|drive<" + (several_conditions ? "|condition<" : "") +
+        "|reading<|old|new|change|%|± numerical|± noise|± aim|± flux|± height|" + (loaded ? "± load|" : "") + "unit<|is<";
     Table table{.name = "readings", .caption = "", .columns = columns_of(heads), .rows = {}, .sortable = true, .led_to = true};
     if (!several_lamps && !result.study.comparisons.empty())
         table.caption = fmt::format("new: {}; old: {}", result.study.comparisons.front().tested, result.study.comparisons.front().against);
@@ -114,12 +101,15 @@ Table readings_table(const StudyResult& result) {
         if (several_conditions)
             cells.emplace_back(cell.cell.condition);
         const std::optional<double> share = change.relative();
+        const auto effect = [&](const std::optional<double>& by) { return by ? Cell(figure(*by, decimals_of(change)), *by) : Cell(""); };
         cells.insert(cells.end(), {Cell(reading_label(change.reading)).hinted(name_of(change.reading)),
                                    value_cell(change.old_value, decimals_of(change)), value_cell(change.new_value, decimals_of(change)),
                                    change_cell(change), share ? Cell(signed_figure(100.0 * *share, 1), 100.0 * *share) : Cell(""),
-                                   open_cell(change.uncertainty), open_cell(change.noise_effect),
-                                   change.aim_effect ? Cell(figure(*change.aim_effect, decimals_of(change)), *change.aim_effect) : Cell(""),
-                                   unit_label(change.unit()), change_name(change.kind)});
+                                   open_cell(change.uncertainty), open_cell(change.noise_effect), effect(change.aim_effect),
+                                   effect(change.flux_effect), effect(change.height_effect)});
+        if (loaded)
+            cells.push_back(effect(change.load_effect));
+        cells.insert(cells.end(), {unit_label(change.unit()), change_name(change.kind)});
         if (change.kind != ChangeKind::real)
             table.quiet.push_back(table.rows.size() - 1);
     }
@@ -147,8 +137,6 @@ Table failures_table(const StudyResult& result) {
 
 /// The verdict as people say it.
 std::string verdict_words(const StudyResult& result) {
-    if (!was_judged(result))
-        return "No limits were set";
     const auto exceeds = [](const std::vector<Verdict>& verdicts) {
         return std::ranges::any_of(verdicts,
                                    [](const Verdict& one) { return one.kind == VerdictKind::fail && !one.name.starts_with("baseline"); });
@@ -167,18 +155,30 @@ std::string verdict_words(const StudyResult& result) {
     return "Not all was measured";
 }
 
-Section verdict_section(const StudyResult& result) {
-    Section section{verdict_words(result), {}, 2, false, was_judged(result) ? verdict_name(overall(result)) : "none"};
-    if (!result.interrupted.empty())
-        section.blocks.emplace_back("The study did not end; --resume goes on.");
-    section.blocks.emplace_back(study_sentence(result));
+/// What the study was played for comes first: better, worse, undecided.
+Section decision_section(const StudyResult& result, const std::vector<Decision>& decisions) {
+    const std::string nothing = nothing_compared(result);
+    Section section{nothing.empty() ? decision_heading(result, decisions) : "Nothing was compared", {}};
+    if (!nothing.empty())
+        section.blocks.emplace_back(nothing);
+    for (const Decision& decision : decisions)
+        section.blocks.emplace_back(decision_sentence(result, decision));
+    if (!was_judged(result))
+        section.blocks.emplace_back("No limits were set.");
     if (!result.played_in_part.empty())
         section.blocks.emplace_back(result.played_in_part + ".");
-    Listing lamps;
-    for (const LampComparison& pair : result.lamps)
-        lamps.items.emplace_back(lamp_verdict(pair));
-    if (!lamps.items.empty())
-        section.blocks.emplace_back(std::move(lamps));
+    if (Table table = decision_table(result, decisions); !table.rows.empty())
+        section.blocks.emplace_back(std::move(table));
+    if (const std::vector<std::string> same = same_results(result, decisions); !same.empty())
+        section.blocks.emplace_back(Listing(same));
+    return section;
+}
+
+/// Only where something was judged or is missing.
+Section verdict_section(const StudyResult& result) {
+    Section section{verdict_words(result), {}, 2, false, verdict_name(overall(result))};
+    if (!result.interrupted.empty())
+        section.blocks.emplace_back("The study did not end; --resume goes on.");
     if (Table failures = failures_table(result); !failures.rows.empty())
         section.blocks.emplace_back(std::move(failures));
     return section;
@@ -201,6 +201,11 @@ Section largest_section(const StudyResult& result) {
 
 Section lamps_section(const StudyResult& result) {
     Section section{"The lamps themselves", {}};
+    Listing lamps;
+    for (const LampComparison& pair : result.lamps)
+        lamps.items.emplace_back(lamp_verdict(pair));
+    if (!lamps.items.empty())
+        section.blocks.emplace_back(std::move(lamps));
     constexpr std::size_t most = 5;
     for (const LampComparison& pair : result.lamps) {
         const std::vector<std::string> all = sentences_of(pair.difference);
@@ -249,10 +254,10 @@ std::string study_sentence(const StudyResult& result) {
         return "Nothing was to be compared.";
     if (const std::string nothing = nothing_compared(result); !nothing.empty())
         return nothing;
-    const std::size_t unknown = count_deciding(result, ChangeKind::unknown);
-    return fmt::format("Of {} deciding readings {} changed for real, {} by less than 0.1° of aim would do{}.", count_deciding(result),
-                       count_deciding(result, ChangeKind::real), count_deciding(result, ChangeKind::within_aim),
-                       unknown > 0 ? fmt::format("; of {} it is not known", unknown) : "");
+    std::vector<std::string> sentences;
+    for (const Decision& decision : decide(result))
+        sentences.push_back(decision_sentence(result, decision));
+    return fmt::format("{}", fmt::join(sentences, " "));
 }
 
 Document document(const StudyResult& result, const std::vector<std::string>& papers) {
@@ -271,12 +276,18 @@ Document document(const StudyResult& result, const std::vector<std::string>& pap
     for (const std::string& paper : papers)
         files.items.push_back(Cell((paper == papers.front() ? "for papers: " : "") + paper).linked(paper));
     const Section readings{
-        "Readings that decide",
+        "Deciding readings, route by route",
         {"A heading sorts, again the other way round. ± numerical is the numerical uncertainty of the change, ± noise what three standard "
-         "deviations of the noise of the candela tables would do, ± aim what 0.1° of aim would do. Each line is the row of its number in "
-         "study.json and study.csv, which have all other readings too.",
+         "deviations of the noise of the candela tables would do. ± aim, flux, height, load: what 0.1°, 10 %, 10 mm of mounting height and "
+         "75 kg over the rear axle would do, up or down, to either lamp; aim alone decides what is real. Each line is the row of its "
+         "number "
+         "in study.json and study.csv, which have all other readings too.",
          files, readings_table(result)}};
-    Document document{short_text(result.study.title, 160), {verdict_section(result), largest_section(result)}};
+    const std::vector<Decision> decisions = decide(result);
+    Document document{short_text(result.study.title, 160), {decision_section(result, decisions)}};
+    if (was_judged(result))
+        document.sections.push_back(verdict_section(result));
+    document.sections.push_back(largest_section(result));
     for (const Section& section : {lamps, reach, glare, readings, views_section(result), maps, cells})
         if (!section.blocks.empty())
             document.sections.push_back(section);
@@ -295,7 +306,8 @@ Document study_summary(const StudyResult& result) {
             say(line.substr(0, line.find_last_not_of('\n') + 1));
         }
     };
-    say(result.study.title + ": " + (was_judged(result) ? verdict_name(overall(result)) : "no limits were set"));
+    say(result.study.title + (was_judged(result) ? std::string(": ") + verdict_name(overall(result)) : ""));
+    say(study_sentence(result));
     say(result.played_in_part);
     say(result.interrupted.empty() ? "" : "incomplete: " + result.interrupted);
     for (const CellResult& cell : result.cells)
@@ -307,10 +319,8 @@ Document study_summary(const StudyResult& result) {
         say("warning: " + warning);
     for (const LampComparison& lamps : result.lamps)
         say(lamp_verdict(lamps));
-    const std::string nothing = nothing_compared(result);
-    if (nothing.empty() && result.largest.empty())
-        say("no deciding reading changed beyond numerical uncertainty, the candela tables' noise and 0.1 degrees of aim");
-    say(nothing);
+    for (const std::string& same : same_results(result, decide(result)))
+        say(same);
     for (const std::size_t i : result.largest)
         say(change_sentence(result, result.changes[i]));
     return {result.study.title, {section}};
@@ -342,7 +352,7 @@ Document study_paper(const StudyResult& result) {
 
 std::string study_csv(const StudyResult& result) {
     std::string csv = "id,new,against,drive,technique,condition,reading,unit,old_value,new_value,change,uncertainty,by_tenth_degree,by_"
-                      "noise,kind,decides,"
+                      "tenth_flux,by_10mm,by_75kg,by_noise,kind,decides,"
                       "new_cell,old_cell,why_not,old_bound,new_bound,change_bound\r\n";
     for (const Change& c : result.changes) {
         const CellResult &now = result.cells[c.tested], &before = result.cells[c.against];
@@ -350,9 +360,10 @@ std::string study_csv(const StudyResult& result) {
             csv_line(c.id, csv_text(result.study.lamps[now.cell.lamp].name), csv_text(result.study.lamps[before.cell.lamp].name),
                      csv_text(now.drive), csv_text(result.study.techniques[now.cell.technique]), csv_text(now.cell.condition),
                      csv_text(name_of(c.reading)), csv_text(c.unit()), csv_number(c.old_value.figure()), csv_number(c.new_value.figure()),
-                     csv_number(c.change().figure()), csv_number(c.uncertainty), csv_number(c.aim_effect), csv_number(c.noise_effect),
-                     change_name(c.kind), c.decides ? "yes" : "no", csv_text(now.cell.name), csv_text(before.cell.name),
-                     csv_text(c.reason_unknown), bound_name(c.old_value), bound_name(c.new_value), bound_name(c.change()));
+                     csv_number(c.change().figure()), csv_number(c.uncertainty), csv_number(c.aim_effect), csv_number(c.flux_effect),
+                     csv_number(c.height_effect), csv_number(c.load_effect), csv_number(c.noise_effect), change_name(c.kind),
+                     c.decides ? "yes" : "no", csv_text(now.cell.name), csv_text(before.cell.name), csv_text(c.reason_unknown),
+                     bound_name(c.old_value), bound_name(c.new_value), bound_name(c.change()));
     }
     return csv;
 }

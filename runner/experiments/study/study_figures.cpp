@@ -96,7 +96,7 @@ std::set<std::pair<Surface, double>> plotted_reaches(const StudyResult& result) 
     std::set<std::pair<Surface, double>> keys;
     for (const CellResult& cell : result.cells)
         for (const ReachOverDrive& reach : cell.reaches) {
-            if (is_named(reach.key(), result.study.readings))
+            if (place_among(reach.key(), result.study.decide))
                 keys.emplace(reach.surface, reach.threshold_lx);
         }
     return keys;

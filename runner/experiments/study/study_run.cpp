@@ -12,6 +12,7 @@
 #include "runner/play/stage.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/glob.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -244,6 +244,8 @@ const Fields<SeeingParameters>& seeing_fields() {
                       field("min_lx", 1, &HomogeneityParameters::min_lx, range(1.0e-6, 1.0e6), "darker ground does not count"),
                       field("ahead_m", 2, &HomogeneityParameters::ahead_m, range(10.0, 500.0), "how far is looked, from the front bumper"),
                       field("patch_factor", 3, &HomogeneityParameters::patch_factor, range(1.01, 1000.0), "what counts as a patch"),
+                      field("distances_m", 4, &HomogeneityParameters::distances_m, numbers(0, 16, 1.0, farthest_seen_m),
+                            "from the front bumper, where evenness across the lane is told"),
                   },
                   "how evenly the own lane is lit")
                 .or_flag(),

@@ -32,7 +32,7 @@ bool is_deciding(const ReadingKey& reading, const DriveComparison& drives) {
                    return limited && key_of(limited->text) == reading;
                });
     };
-    return !is_extent(reading) || is_named(reading, default_readings()) || is_limited(drives.before) || is_limited(drives.now);
+    return !is_extent(reading) || place_among(reading, decides_by_default()) || is_limited(drives.before) || is_limited(drives.now);
 }
 
 void compare_readings(DriveComparison& drive) {

@@ -47,7 +47,7 @@ void add_reaches(DriveComparison& drive) {
     for (const ReachOverDrive& now : drive.now.reaches) {
         const auto old = std::ranges::find_if(
             drive.before.reaches, [&](const ReachOverDrive& r) { return r.surface == now.surface && r.threshold_lx == now.threshold_lx; });
-        if (old == drive.before.reaches.end() || !is_named(now.key(), default_readings()))
+        if (old == drive.before.reaches.end() || !place_among(now.key(), decides_by_default()))
             continue;
         add_lines(
             drive, fmt::format("reach-{:g}lx-{}", now.threshold_lx, surface_name(now.surface)),

@@ -17,6 +17,9 @@ JsonMembers reading_change_members(ReadingChange& c) {
             {"relative_change", c.relative()},
             {"uncertainty", c.uncertainty},
             {"by_tenth_degree", c.aim_effect},
+            {"by_tenth_flux", c.flux_effect},
+            {"by_10mm", c.height_effect},
+            {"by_75kg", c.load_effect},
             {"by_noise", c.noise_effect},
             {"kind", one_of(c.kind, names_of<ChangeKind>(change_name, 4))},
             {"why_not", null_unless(c.kind == ChangeKind::unknown, json_leaf(c.reason_unknown))}};
@@ -90,9 +93,10 @@ std::string change_line(const std::string& id, const DriveComparison& drive, con
     return csv_line(id, csv_text(drive.now.drive), csv_text(drive.before.lamp_set), csv_text(drive.now.lamp_set),
                     csv_text(drive.before.technique), csv_text(drive.now.technique), csv_text(name_of(c.reading)), csv_text(c.unit()),
                     csv_number(c.old_value.figure()), csv_number(c.new_value.figure()), csv_number(c.change().figure()),
-                    csv_number(c.relative()), csv_number(c.uncertainty), csv_number(c.aim_effect), csv_number(c.noise_effect),
-                    change_name(c.kind), decides ? "yes" : "no", csv_text(c.reason_unknown), bound_name(c.old_value),
-                    bound_name(c.new_value), bound_name(c.change()));
+                    csv_number(c.relative()), csv_number(c.uncertainty), csv_number(c.aim_effect), csv_number(c.flux_effect),
+                    csv_number(c.height_effect), csv_number(c.load_effect), csv_number(c.noise_effect), change_name(c.kind),
+                    decides ? "yes" : "no", csv_text(c.reason_unknown), bound_name(c.old_value), bound_name(c.new_value),
+                    bound_name(c.change()));
 }
 
 } // namespace
@@ -120,7 +124,7 @@ JsonMembers runs_members(RunComparison& runs) {
 std::string runs_csv(const RunComparison& runs) {
     std::string csv =
         "id,drive,old_lamp_set,new_lamp_set,old_technique,new_technique,reading,unit,old_value,new_value,change,relative_change,"
-        "uncertainty,by_tenth_degree,by_noise,kind,decides,why_not,old_bound,new_bound,change_bound\r\n";
+        "uncertainty,by_tenth_degree,by_tenth_flux,by_10mm,by_75kg,by_noise,kind,decides,why_not,old_bound,new_bound,change_bound\r\n";
     for (std::size_t d = 0; d < runs.drives.size(); ++d) {
         const DriveComparison& drive = runs.drives[d];
         for (std::size_t i = 0; i < drive.changes.size(); ++i)

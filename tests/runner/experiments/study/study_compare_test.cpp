@@ -30,7 +30,7 @@ StudyResult two_cells(double old_reach_m, double new_reach_m) {
     result.study.drives = {"one.yaml"};
     result.study.conditions.times_of_day = {{}};
     result.study.comparisons = {{"new", "old"}};
-    result.study.readings = {"reach_5lx_target_own_m"};
+    result.study.decide = {"reach_5lx_target_own_m"};
     for (std::size_t lamp = 0; lamp < 2; ++lamp) {
         CellResult cell;
         cell.cell.lamp = lamp;
@@ -74,7 +74,7 @@ TEST(StudyCompare, AChangeIsRealBeyondCalculationAndAim) {
 /// Glare of 0.0312 and 0.0298 lx is two values, also where reach has two decimals; what is uncertain has no more.
 TEST(StudyCompare, DigitsTellOldAndNewApart) {
     StudyResult result = two_cells(40.0, 40.00002);
-    result.study.readings = {"reach_5lx_target_own_m", "glare_opposite_facing_max_lx"};
+    result.study.decide = {"reach_5lx_target_own_m", "glare_opposite_facing_max_lx"};
     for (CellResult& cell : result.cells)
         put(cell, "glare_opposite_facing_max_lx", cell.cell.lamp == 0 ? 0.0312 : 0.0298);
     compare_cells(result);
@@ -98,7 +98,7 @@ TEST(StudyCompare, WhatWasLeftOutStandsBesideTheVerdict) {
 
 TEST(StudyCompare, RanksByShareEachReadingOnce) {
     StudyResult result = two_cells(40.0, 50.0); // 20 % of the larger
-    result.study.readings = {"reach_5lx_target_own_m", "reach_1lx_road_own_m", "width_1lx_road_all_at_20m_m"};
+    result.study.decide = {"reach_5lx_target_own_m", "reach_1lx_road_own_m", "width_1lx_road_all_at_20m_m"};
     for (CellResult& cell : result.cells) {
         put(cell, "reach_1lx_road_own_m", cell.cell.lamp == 0 ? 20.0 : 10.0); // 50 %
         put(cell, "reach_1lx_road_own_grid_error_m", 0.1);
@@ -244,7 +244,7 @@ TEST(StudyCompare, LimitsHoldForValuesAndForChanges) {
 
 TEST(StudyCompare, ADecidingReadingThatNothingHasIsNotMeasured) {
     StudyResult result = two_cells(40.0, 50.0);
-    result.study.readings = {"reach_5lx_tarket_own_m", "reach_5lx_target_own_grid_error_m"};
+    result.study.decide = {"reach_5lx_tarket_own_m", "reach_5lx_target_own_grid_error_m"};
     result.study.limits.resize(2);
     result.study.limits[0].reading = result.study.limits[1].reading = "reach_5lx_tarket_own_m";
     result.study.limits[0].lamp = "new";
@@ -355,7 +355,7 @@ TEST(StudyText, TablesEscapeWhatTheirFormatsMean) {
     EXPECT_THAT(study_csv(result), HasSubstr("c0,a_b|c%,old,one-1"));
     for (CellResult& cell : result.cells)
         put(cell, "area_1lx_road_all_m2", cell.cell.lamp == 0 ? 10.0 : 90.0);
-    result.study.readings = {"area_1lx_road_all_m2"};
+    result.study.decide = {"area_1lx_road_all_m2"};
     result.changes.clear();
     compare_cells(result);
     EXPECT_THAT(document_latex(study_paper(result)),

@@ -1,0 +1,236 @@
+#include "runner/experiments/study/study_decision.h"
+
+#include "metrics/readings/reading_labels.h"
+#include "runner/experiments/study/change_text.h"
+#include "runner/findings/figures.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <map>
+
+namespace fernlicht {
+namespace {
+
+/// Whether two figures are one, within what is not known of them.
+bool is_same(const Value& a, const Value& b, double uncertainty) {
+    return a.kind() == b.kind() && (!a.measured() || std::abs(*a.figure() - *b.figure()) <= uncertainty);
+}
+
+bool is_same_result(const Change& a, const Change& b) {
+    const double unsure = std::max(a.uncertainty.value_or(0.0), b.uncertainty.value_or(0.0));
+    return a.kind == b.kind && is_same(a.old_value, b.old_value, unsure) && is_same(a.new_value, b.new_value, unsure);
+}
+
+/// Better is more: 1; less: -1.
+double direction(const ReadingKey& reading) {
+    const Better better = row_of(reading.quantity).better;
+    return better == Better::higher ? 1.0 : better == Better::lower ? -1.0 : 0.0;
+}
+
+/// By one change that is real.
+Outcome outcome_of(const Change& change) {
+    const Value found = change.change();
+    const double gain = direction(change.reading) * (found.low() > 0.0 ? 1.0 : -1.0);
+    return gain > 0.0 ? Outcome::better : gain < 0.0 ? Outcome::worse : Outcome::changed;
+}
+
+void conclude(const StudyResult& result, DecidedReading& decided) {
+    const auto of_kind = [&](ChangeKind kind) {
+        std::vector<std::size_t> found;
+        std::ranges::copy_if(decided.changes, std::back_inserter(found), [&](std::size_t i) { return result.changes[i].kind == kind; });
+        return found;
+    };
+    for (const auto& [kind, outcome] : {std::pair(ChangeKind::real, Outcome::changed),
+                                        {ChangeKind::within_aim, Outcome::within_aim},
+                                        {ChangeKind::none, Outcome::same},
+                                        {ChangeKind::unknown, Outcome::undecided}})
+        if (decided.decided_by = of_kind(kind); !decided.decided_by.empty()) {
+            decided.outcome = outcome;
+            break;
+        }
+    if (decided.outcome == Outcome::changed) {
+        decided.outcome = outcome_of(result.changes[decided.decided_by.front()]);
+        if (std::ranges::any_of(decided.decided_by, [&](std::size_t i) { return outcome_of(result.changes[i]) != decided.outcome; }))
+            decided.outcome = direction(decided.reading) == 0.0 ? Outcome::changed : Outcome::mixed;
+    }
+    std::vector<std::size_t> by_size = decided.decided_by;
+    std::ranges::stable_sort(by_size, {}, [&](std::size_t i) { return result.changes[i].size(); });
+    decided.told = by_size[by_size.size() / 2];
+}
+
+bool differ_by_aim_alone(const StudyResult& result, const StudyComparison& comparison) {
+    bool aimed = false;
+    for (const LampComparison& lamps : result.lamps)
+        if (lamps.tested == comparison.tested && lamps.against == comparison.against) {
+            const LampDifference& d = lamps.difference;
+            if (d.cut_off_up_deg || d.level || !d.zones.empty())
+                return false;
+            aimed = aimed || d.aim_up_deg;
+        }
+    return aimed;
+}
+
+const StudyComparison& comparison_of(const StudyResult& result, const Decision& decision) {
+    return result.study.comparisons[decision.comparison];
+}
+
+/// "reach at 5 lx on a target, own lane +14.2 m (+21 %) in 3 of 4 results"
+std::string told(const StudyResult& result, const DecidedReading& decided) {
+    const std::size_t of = decided.changes.size(), by = decided.decided_by.size();
+    return fmt::format("{} {}{}", reading_label(decided.reading), change_words(result.changes[decided.told]),
+                       by < of ? fmt::format(" in {} of {} results", by, of) : "");
+}
+
+std::string listed(const StudyResult& result, const Decision& decision, Outcome outcome, const char* words) {
+    constexpr std::size_t most = 4;
+    std::vector<std::string> items;
+    for (const DecidedReading& decided : decision.readings)
+        if (decided.outcome == outcome)
+            items.push_back(told(result, decided));
+    const std::size_t more = items.size() > most ? items.size() - most : 0;
+    items.resize(items.size() - more);
+    return items.empty() ? "" : fmt::format("{}: {}{}", words, fmt::join(items, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
+}
+
+std::string undecided(const StudyResult& result, const Decision& decision) {
+    std::map<std::string, std::vector<std::string>> by_reason;
+    for (const DecidedReading& decided : decision.readings)
+        if (decided.outcome == Outcome::undecided)
+            by_reason[result.changes[decided.told].reason_unknown].push_back(reading_label(decided.reading));
+    std::string text;
+    for (const auto& [reason, readings] : by_reason)
+        text += fmt::format("{}{} because {}", text.empty() ? "undecided: " : "; ",
+                            readings.size() > 2 ? fmt::format("{} readings, {} among them,", readings.size(), readings.front())
+                                                : fmt::format("{}", fmt::join(readings, " and ")),
+                            reason);
+    return text;
+}
+
+} // namespace
+
+const char* outcome_name(Outcome outcome) {
+    static constexpr const char* names[] = {"better", "worse", "better and worse", "changed", "within aim", "undecided", "no difference"};
+    return names[static_cast<std::size_t>(outcome)];
+}
+
+std::size_t Decision::count(Outcome outcome) const {
+    return static_cast<std::size_t>(std::ranges::count(readings, outcome, &DecidedReading::outcome));
+}
+
+std::vector<Decision> decide(const StudyResult& result) {
+    std::vector<Decision> decisions;
+    for (std::size_t comparison = 0; comparison < result.study.comparisons.size(); ++comparison) {
+        const StudyComparison& pair = result.study.comparisons[comparison];
+        std::map<std::pair<std::size_t, ReadingKey>, DecidedReading> by_place;
+        for (std::size_t i = 0; i < result.changes.size(); ++i) {
+            const Change& change = result.changes[i];
+            if (result.lamp_of(change.tested) != pair.tested || result.lamp_of(change.against) != pair.against)
+                continue;
+            const auto place = place_among(change.reading, result.study.decide);
+            if (!place)
+                continue;
+            DecidedReading& decided = by_place[{*place, change.reading}];
+            decided.reading = change.reading;
+            const auto same =
+                std::ranges::find_if(decided.changes, [&](std::size_t k) { return is_same_result(result.changes[k], change); });
+            decided.places.emplace_back(i, same == decided.changes.end() ? i : *same);
+            if (same == decided.changes.end())
+                decided.changes.push_back(i);
+        }
+        Decision decision{.comparison = comparison, .readings = {}, .aim_alone = differ_by_aim_alone(result, pair)};
+        for (auto& [place, decided] : by_place) {
+            conclude(result, decided);
+            decision.readings.push_back(std::move(decided));
+        }
+        if (!decision.readings.empty())
+            decisions.push_back(std::move(decision));
+    }
+    return decisions;
+}
+
+std::string decision_sentence(const StudyResult& result, const Decision& decision) {
+    std::vector<std::string> parts;
+    for (const auto& [outcome, words] : {std::pair(Outcome::better, "better by"),
+                                         {Outcome::worse, "worse by"},
+                                         {Outcome::mixed, "better in some places and worse in others by"},
+                                         {Outcome::changed, "changed, neither better nor worse"}})
+        parts.push_back(listed(result, decision, outcome, words));
+    parts.push_back(undecided(result, decision));
+    if (const std::size_t within = decision.count(Outcome::within_aim))
+        parts.push_back(fmt::format("{} by less than 0.1° of aim would do", counted(within, "reading")));
+    if (const std::size_t same = decision.count(Outcome::same))
+        parts.push_back(fmt::format("{} without a difference", counted(same, "reading")));
+    std::erase(parts, "");
+    const StudyComparison& pair = comparison_of(result, decision);
+    return fmt::format("{} against {}: {}.{}", pair.tested, pair.against, fmt::join(parts, ". "),
+                       decision.aim_alone ? " The tables of both lamps differ by their aim alone: it is the aim, not the lamp." : "");
+}
+
+std::string decision_heading(const StudyResult& result, const std::vector<Decision>& decisions) {
+    if (decisions.size() != 1)
+        return decisions.empty() ? "Nothing was compared" : fmt::format("What {} decide", counted(decisions.size(), "comparison"));
+    const Decision& decision = decisions.front();
+    const StudyComparison& pair = comparison_of(result, decision);
+    const std::size_t better = decision.count(Outcome::better), worse = decision.count(Outcome::worse),
+                      mixed = decision.count(Outcome::mixed), within = decision.count(Outcome::within_aim);
+    const std::string of = fmt::format("of {}", counted(decision.readings.size(), "deciding reading"));
+    if (better + worse + mixed == 0)
+        return within > 0                               ? fmt::format("{} is within 0.1° of aim of {}", pair.tested, pair.against)
+               : decision.count(Outcome::undecided) > 0 ? fmt::format("{} and {}: undecided", pair.tested, pair.against)
+                                                        : fmt::format("{} and {} do not differ", pair.tested, pair.against);
+    std::vector<std::string> parts;
+    if (better > 0)
+        parts.push_back(fmt::format("better in {}", better));
+    if (worse > 0)
+        parts.push_back(fmt::format("worse in {}", worse));
+    if (mixed > 0)
+        parts.push_back(fmt::format("both in {}", mixed));
+    return fmt::format("{} is {} {}", pair.tested, fmt::join(parts, ", "), of);
+}
+
+std::vector<std::string> same_results(const StudyResult& result, const std::vector<Decision>& decisions) {
+    std::map<std::pair<std::string, std::string>, std::size_t> alike;
+    for (const Decision& decision : decisions)
+        for (const DecidedReading& decided : decision.readings)
+            for (const auto& [change, counts_as] : decided.places)
+                if (change != counts_as)
+                    ++alike[{result.cells[result.changes[counts_as].tested].drive, result.cells[result.changes[change].tested].drive}];
+    std::vector<std::string> sentences;
+    for (const auto& [drives, readings] : alike)
+        if (drives.first != drives.second)
+            sentences.push_back(fmt::format("{} and {} give one result in {}; it counts once", drives.first, drives.second,
+                                            counted(readings, "deciding reading")));
+    return sentences;
+}
+
+Table decision_table(const StudyResult& result, const std::vector<Decision>& decisions) {
+    const bool several = decisions.size() > 1;
+    Table table{.name = "decision",
+                .caption = "",
+                .columns = columns_of(std::string(several ? "new / old<|" : "") +
+                                      "reading<|is<|old|new|change|%|± 0.1° of aim|unit<|results|where<"),
+                .rows = {},
+                .off_terminal = true};
+    for (const Decision& decision : decisions)
+        for (const DecidedReading& decided : decision.readings) {
+            const Change& change = result.changes[decided.told];
+            const int decimals = decimals_of(change);
+            const std::optional<double> share = change.relative();
+            std::vector<Cell>& cells = table.rows.emplace_back();
+            if (several)
+                cells.emplace_back(comparison_of(result, decision).tested + " / " + comparison_of(result, decision).against);
+            cells.insert(cells.end(),
+                         {Cell(reading_label(decided.reading)).hinted(name_of(decided.reading)), outcome_name(decided.outcome),
+                          value_cell(change.old_value, decimals), value_cell(change.new_value, decimals), change_cell(change),
+                          share ? Cell(signed_figure(100.0 * *share, 1), 100.0 * *share) : Cell(""),
+                          change.aim_effect ? Cell(figure(*change.aim_effect, decimals), *change.aim_effect) : Cell(""),
+                          unit_label(change.unit()), fmt::format("{} of {}", decided.decided_by.size(), decided.changes.size()),
+                          Cell(result.cells[change.tested].drive).linked("#" + change.id)});
+            if (decided.outcome > Outcome::changed)
+                table.quiet.push_back(table.rows.size() - 1);
+        }
+    return table;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,49 @@
+// What a study decides: of each deciding reading whether the new lamp is better, over all routes and conditions.
+#pragma once
+
+#include "runner/experiments/study/study_result.h"
+
+namespace fernlicht {
+
+enum class Outcome {
+    better,
+    worse,
+    mixed,      ///< better in some places, worse in others
+    changed,    ///< for real, by a reading of which neither more nor less is better
+    within_aim, ///< nowhere by more than 0.1 degrees of aim would do
+    undecided,  ///< nothing tells in any place
+    same
+};
+const char* outcome_name(Outcome outcome); ///< "better", "within aim"
+
+/// One deciding reading of one comparison.
+struct DecidedReading {
+    ReadingKey reading;
+    Outcome outcome = Outcome::same;
+    std::vector<std::size_t> changes; ///< of the study, one a distinct result: places that give the same one count once
+    std::vector<std::pair<std::size_t, std::size_t>> places; ///< every change, and the one among `changes` that it counts as
+    std::vector<std::size_t> decided_by;                     ///< those of `changes` that make the outcome
+    std::size_t told = 0;                                    ///< of `decided_by` the one whose change is the median in size
+};
+
+struct Decision {
+    std::size_t comparison = 0;           ///< of the study
+    std::vector<DecidedReading> readings; ///< in the order in which the study names them
+    bool aim_alone = false;               ///< the tables of the two lamps differ by their aim and by nothing else
+    std::size_t count(Outcome outcome) const;
+};
+
+/// For each comparison of which something was compared. Two changes are the same result where neither their old nor their new values differ
+/// by more than their uncertainty.
+std::vector<Decision> decide(const StudyResult& result);
+
+/// "xenon against halogen: better by ...; worse by ...; within 0.1 degrees of aim: ...; undecided: ... because ...."
+std::string decision_sentence(const StudyResult& result, const Decision& decision);
+/// "xenon is better in 9 and worse in 4 of 22 deciding readings".
+std::string decision_heading(const StudyResult& result, const std::vector<Decision>& decisions);
+/// "straight-1 and village-1 give one result in 7 deciding readings; it counts once"; one for each such pair of places.
+std::vector<std::string> same_results(const StudyResult& result, const std::vector<Decision>& decisions);
+/// One row for each deciding reading of each comparison.
+Table decision_table(const StudyResult& result, const std::vector<Decision>& decisions);
+
+} // namespace fernlicht
