@@ -26,14 +26,15 @@ void check_place(const Drive& drive, const Route& route, const std::string& key,
 
 } // namespace
 
-SeeingFold::SeeingFold(const Drive& drive, const Route& route, const Nudge& nudge) : nudge_(nudge) {
+SeeingFold::SeeingFold(const Drive& drive, const Route& route, const Nudge& nudge, SeeingPart part) : nudge_(nudge) {
     const SeeingParameters& asked = drive.seeing;
-    if (asked.sensors) {
+    const bool medians = part != SeeingPart::of_every_moment, others = part != SeeingPart::medians;
+    if (asked.sensors && others) {
         for (const Sensor& sensor : asked.sensors->points)
             check_place(drive, route, fmt::format("measure.sensors.points.{}.at_m", sensor.name), sensor.at_m);
         sensors_.emplace(drive, route);
     }
-    if (asked.glare) {
+    if (asked.glare && others) {
         for (const GlareObserver& observer : asked.glare->oncoming)
             check_place(drive, route, fmt::format("measure.glare.oncoming.{}.at_m", observer.name), observer.at_m);
         oncoming_.emplace(drive, route);
@@ -42,13 +43,13 @@ SeeingFold::SeeingFold(const Drive& drive, const Route& route, const Nudge& nudg
         if (!drive.traffic.empty())
             traffic_.emplace(drive);
     }
-    if (asked.visibility)
+    if (asked.visibility && medians)
         visibility_.emplace(drive, route);
-    if (asked.homogeneity)
+    if (asked.homogeneity && medians)
         homogeneity_.emplace(drive, route);
-    if (asked.places)
+    if (asked.places && others)
         places_.emplace(drive, route);
-    if (std::ranges::any_of(drive.lamp_sets, [](const LampSet& lamp_set) { return lamp_set.control != nullptr; }))
+    if (others && std::ranges::any_of(drive.lamp_sets, [](const LampSet& lamp_set) { return lamp_set.control != nullptr; }))
         control_.emplace(drive, route, nudge);
 }
 

@@ -11,10 +11,13 @@
 
 namespace fernlicht {
 
+/// Some of it needs every moment, for what is largest or smallest; visibility and evenness, which take the most time, are medians.
+enum class SeeingPart { all, of_every_moment, medians };
+
 class SeeingFold {
   public:
     /// Drive and route must outlive the fold. Every moment's lamps are nudged. Throws InputError for places beyond the route's end.
-    SeeingFold(const Drive& drive, const Route& route, const Nudge& nudge = {});
+    SeeingFold(const Drive& drive, const Route& route, const Nudge& nudge = {}, SeeingPart part = SeeingPart::all);
 
     /// `lamp_set`: the one that the moment is of; only lamp control asks for it.
     void add(const Moment& moment, const LampSet& lamp_set);

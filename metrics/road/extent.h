@@ -73,15 +73,15 @@ std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector
 
 inline constexpr const char* reach_beyond = "the reach lies beyond the end of grid, road or lane";
 
-/// Extents by the twin as the moment's lamps are, and nudged, in the order of NudgeKind; none where a nudge is nullopt. For differences:
-/// the grid is coarser than the drive's.
+/// Extents by the twin as the moment's lamps are, and nudged, in the order of NudgeKind; none where a nudge is nullopt. For differences: a
+/// grid of twice the drive's cell_m does.
 struct NudgedExtents {
     std::vector<LaneExtent> as_is;
     std::array<std::vector<LaneExtent>, nudge_kinds> nudged;
 };
-/// Rows every 2 cell_m, columns likewise. Less and more flux are the same light against other limits.
-NudgedExtents nudged_extents(const Route& route, const Moment& moment, double bumper_m, const ExtentParameters& parameters,
-                             const Nudges& nudges);
+/// Less and more flux are the same light against other limits.
+NudgedExtents nudged_extents(const ExtentGrid& grid, const Moment& moment, const std::vector<double>& thresholds_lx,
+                             const std::vector<double>& width_at_m, const Nudges& nudges);
 
 /// |difference| of one lane's extents between the grid and every second row and column of it, metres and m2. Where the error goes as the
 /// square of the cell, the grid's own is a third of this.

@@ -61,23 +61,20 @@ std::vector<double> twin_lux_near_thresholds(const ExtentGrid& grid, const Momen
         [&](std::size_t i) { return twin_lx(lit, grid.surface[i], grid.target_height_m, surface); });
 }
 
-NudgedExtents nudged_extents(const Route& route, const Moment& moment, double bumper_m, const ExtentParameters& parameters,
-                             const Nudges& nudges) {
-    ExtentParameters coarse = parameters;
-    coarse.cell_m *= 2.0;
-    const ExtentGrid grid = make_extent_grid(route, moment, bumper_m, coarse);
+NudgedExtents nudged_extents(const ExtentGrid& grid, const Moment& moment, const std::vector<double>& thresholds_lx,
+                             const std::vector<double>& width_at_m, const Nudges& nudges) {
     NudgedExtents extents;
     const auto measure = [&](const std::vector<double>& lx, Surface surface, double factor, std::vector<LaneExtent>& into) {
-        std::vector<LaneExtent> found = measure_extent(grid, lx, surface, divided(parameters.thresholds_lx, factor), parameters.width_at_m);
-        for (LaneExtent& extent : found)
+        for (LaneExtent& extent : measure_extent(grid, lx, surface, divided(thresholds_lx, factor), width_at_m)) {
             extent.threshold_lx = *std::ranges::min_element(
-                parameters.thresholds_lx, {}, [&](double threshold_lx) { return std::abs(threshold_lx / factor - extent.threshold_lx); });
-        std::ranges::move(found, std::back_inserter(into));
+                thresholds_lx, {}, [&](double threshold_lx) { return std::abs(threshold_lx / factor - extent.threshold_lx); });
+            into.push_back(std::move(extent));
+        }
     };
-    std::vector<double> with_flux = parameters.thresholds_lx;
+    std::vector<double> with_flux = thresholds_lx;
     for (const std::optional<Nudge>& nudge : nudges)
         if (nudge && nudge->flux_factor != 1.0)
-            std::ranges::copy(divided(parameters.thresholds_lx, nudge->flux_factor), std::back_inserter(with_flux));
+            std::ranges::copy(divided(thresholds_lx, nudge->flux_factor), std::back_inserter(with_flux));
     for (const Surface surface : {Surface::road, Surface::target}) {
         const std::vector<double> as_is = twin_lux_near_thresholds(grid, moment, surface, with_flux);
         measure(as_is, surface, 1.0, extents.as_is);
@@ -85,8 +82,7 @@ NudgedExtents nudged_extents(const Route& route, const Moment& moment, double bu
             if (const std::optional<Nudge>& nudge = nudges[kind]; nudge && nudge->flux_factor != 1.0)
                 measure(as_is, surface, nudge->flux_factor, extents.nudged[kind]);
             else if (nudge)
-                measure(twin_lux_near_thresholds(grid, nudged(moment, *nudge), surface, parameters.thresholds_lx), surface, 1.0,
-                        extents.nudged[kind]);
+                measure(twin_lux_near_thresholds(grid, nudged(moment, *nudge), surface, thresholds_lx), surface, 1.0, extents.nudged[kind]);
     }
     return extents;
 }

@@ -93,7 +93,7 @@ View map_over(const ExtentGrid& grid, const Moment& moment) {
 }
 
 ExtentDrawing ExtentFold::draw(const Moment& moment, const Draw& draw) const {
-    ExtentDrawing drawing{moment, make_extent_grid(route_, moment, drive_.bumper_m, *drive_.extent), {}, {}};
+    ExtentDrawing drawing{moment, make_extent_grid(route_, moment, drive_.bumper_m, *drive_.extent), {}, {}, false};
     drawing.view = map_over(drawing.grid, moment);
     if (!moment.other_lamps.empty())
         drawing.moment.other_lamps.clear(); // reach is the own lamps'
@@ -102,7 +102,7 @@ ExtentDrawing ExtentFold::draw(const Moment& moment, const Draw& draw) const {
 }
 
 std::vector<LaneExtent> ExtentFold::rendered(const ExtentDrawing& drawing) const {
-    const auto& [moment, grid, view, frame] = drawing;
+    const auto& [moment, grid, view, frame, nudged] = drawing;
     const ExtentParameters& p = *drive_.extent;
     const std::vector<PixelPlace> places = places_of(grid, view, moment);
     std::vector<LaneExtent> extents;
@@ -116,7 +116,7 @@ std::vector<LaneExtent> ExtentFold::rendered(const ExtentDrawing& drawing) const
 }
 
 ExtentRow ExtentFold::measure(const ExtentDrawing& drawing) const {
-    const auto& [moment, grid, view, frame] = drawing;
+    const auto& [moment, grid, view, frame, nudged] = drawing;
     const ExtentParameters& p = *drive_.extent;
     ExtentRow row;
     row.tick = moment.tick;
@@ -129,7 +129,11 @@ ExtentRow ExtentFold::measure(const ExtentDrawing& drawing) const {
         std::ranges::copy(measured, std::back_inserter(row.twin));
         std::ranges::copy(grid_errors(grid, truth, surface, p.thresholds_lx, measured), std::back_inserter(row.grid_errors));
     }
-    row.nudged = nudged_extents(route_, moment, drive_.bumper_m, p, nudges_);
+    if (!nudged)
+        return row;
+    ExtentParameters coarse = p;
+    coarse.cell_m *= 2.0;
+    row.nudged = nudged_extents(make_extent_grid(route_, moment, drive_.bumper_m, coarse), moment, p.thresholds_lx, p.width_at_m, nudges_);
     return row;
 }
 

@@ -11,7 +11,8 @@ struct ExtentDrawing {
     Moment moment;
     ExtentGrid grid;
     View view;
-    Frame frame; ///< its lux images are empty where the technique computes none
+    Frame frame;         ///< its lux images are empty where the technique computes none
+    bool nudged = false; ///< whether the twin is asked for what nudges do
 };
 
 class ExtentFold {

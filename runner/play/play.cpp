@@ -185,6 +185,7 @@ PlayedCell play(const Drive& drive, const Route& route, const LampSet& lamp_set,
         std::optional<ExtentDrawing> drawn;
         if (drive.extent) {
             drawn = extent.draw(moment, draw);
+            drawn->nudged = tells_sensitivity(k, played.ticks_planned);
             times.add("extent map", drawn->frame);
             if (drawn->frame.illuminance_lx.empty())
                 played.no_road_lx = no_illuminance(drive.technique);
@@ -196,7 +197,7 @@ PlayedCell play(const Drive& drive, const Route& route, const LampSet& lamp_set,
         probes.add(moment, draw);
         times.end_moment();
         seeing.add(moment, lamp_set);
-        sensitivity.add(moment);
+        sensitivity.add(moment, tells_sensitivity(k, played.ticks_planned));
         pictures.store(moment);
         if (drawn)
             measuring.add(std::move(*drawn));

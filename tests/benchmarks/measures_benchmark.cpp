@@ -42,7 +42,8 @@ BENCHMARK(lit_road)->Unit(benchmark::kMillisecond);
 void sensitivity_of_reach(benchmark::State& state) {
     const ExtentGrid grid = grid_ahead();
     for (auto _ : state)
-        benchmark::DoNotOptimize(reach_sensitivity(grid, country_road().moment, parameters.thresholds_lx));
+        benchmark::DoNotOptimize(
+            nudged_extents(grid, country_road().moment, parameters.thresholds_lx, parameters.width_at_m, usual_nudges({}, {})));
 }
 BENCHMARK(sensitivity_of_reach)->Unit(benchmark::kMillisecond);
 

@@ -55,6 +55,8 @@ plots::Band aim_band(const PlayedCell& played, const ExtentKey& key, const plots
             return as_is && nudged && !as_is->reach_is_cut_off && !nudged->reach_is_cut_off ? nudged->reach_centre_m - as_is->reach_centre_m
                                                                                             : not_a_number;
         };
+        if (twin.as_is.empty())
+            continue; // not a moment that tells
         const double up_m = moved_m(NudgeKind::aim_up), down_m = moved_m(NudgeKind::aim_down);
         band.x.push_back(reach[i].x);
         band.low.push_back(std::max(0.0, reach[i].y + std::min(up_m, down_m)));

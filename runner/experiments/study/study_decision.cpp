@@ -29,10 +29,10 @@ double direction(const ReadingKey& reading) {
 }
 
 /// By one change that is real.
-Outcome outcome_of(const Change& change) {
+DecisionOutcome outcome_of(const Change& change) {
     const Value found = change.change();
     const double gain = direction(change.reading) * (found.low() > 0.0 ? 1.0 : -1.0);
-    return gain > 0.0 ? Outcome::better : gain < 0.0 ? Outcome::worse : Outcome::changed;
+    return gain > 0.0 ? DecisionOutcome::better : gain < 0.0 ? DecisionOutcome::worse : DecisionOutcome::changed;
 }
 
 void conclude(const StudyResult& result, DecidedReading& decided) {
@@ -41,18 +41,18 @@ void conclude(const StudyResult& result, DecidedReading& decided) {
         std::ranges::copy_if(decided.changes, std::back_inserter(found), [&](std::size_t i) { return result.changes[i].kind == kind; });
         return found;
     };
-    for (const auto& [kind, outcome] : {std::pair(ChangeKind::real, Outcome::changed),
-                                        {ChangeKind::within_aim, Outcome::within_aim},
-                                        {ChangeKind::none, Outcome::same},
-                                        {ChangeKind::unknown, Outcome::undecided}})
+    for (const auto& [kind, outcome] : {std::pair(ChangeKind::real, DecisionOutcome::changed),
+                                        {ChangeKind::within_aim, DecisionOutcome::within_aim},
+                                        {ChangeKind::none, DecisionOutcome::same},
+                                        {ChangeKind::unknown, DecisionOutcome::undecided}})
         if (decided.decided_by = of_kind(kind); !decided.decided_by.empty()) {
             decided.outcome = outcome;
             break;
         }
-    if (decided.outcome == Outcome::changed) {
+    if (decided.outcome == DecisionOutcome::changed) {
         decided.outcome = outcome_of(result.changes[decided.decided_by.front()]);
         if (std::ranges::any_of(decided.decided_by, [&](std::size_t i) { return outcome_of(result.changes[i]) != decided.outcome; }))
-            decided.outcome = direction(decided.reading) == 0.0 ? Outcome::changed : Outcome::mixed;
+            decided.outcome = direction(decided.reading) == 0.0 ? DecisionOutcome::changed : DecisionOutcome::mixed;
     }
     std::vector<std::size_t> by_size = decided.decided_by;
     std::ranges::stable_sort(by_size, {}, [&](std::size_t i) { return result.changes[i].size(); });
@@ -82,7 +82,7 @@ std::string told(const StudyResult& result, const DecidedReading& decided) {
                        by < of ? fmt::format(" in {} of {} results", by, of) : "");
 }
 
-std::string listed(const StudyResult& result, const Decision& decision, Outcome outcome, const char* words) {
+std::string listed(const StudyResult& result, const Decision& decision, DecisionOutcome outcome, const char* words) {
     constexpr std::size_t most = 4;
     std::vector<std::string> items;
     for (const DecidedReading& decided : decision.readings)
@@ -90,17 +90,17 @@ std::string listed(const StudyResult& result, const Decision& decision, Outcome 
             items.push_back(told(result, decided));
     const std::size_t more = items.size() > most ? items.size() - most : 0;
     items.resize(items.size() - more);
-    return items.empty() ? "" : fmt::format("{}: {}{}", words, fmt::join(items, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
+    return items.empty() ? "" : fmt::format("{} {}{}", words, fmt::join(items, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
 }
 
 std::string undecided(const StudyResult& result, const Decision& decision) {
     std::map<std::string, std::vector<std::string>> by_reason;
     for (const DecidedReading& decided : decision.readings)
-        if (decided.outcome == Outcome::undecided)
+        if (decided.outcome == DecisionOutcome::undecided)
             by_reason[result.changes[decided.told].reason_unknown].push_back(reading_label(decided.reading));
     std::string text;
     for (const auto& [reason, readings] : by_reason)
-        text += fmt::format("{}{} because {}", text.empty() ? "undecided: " : "; ",
+        text += fmt::format("{}{} because {}", text.empty() ? "Undecided: " : "; ",
                             readings.size() > 2 ? fmt::format("{} readings, {} among them,", readings.size(), readings.front())
                                                 : fmt::format("{}", fmt::join(readings, " and ")),
                             reason);
@@ -109,12 +109,12 @@ std::string undecided(const StudyResult& result, const Decision& decision) {
 
 } // namespace
 
-const char* outcome_name(Outcome outcome) {
+const char* outcome_name(DecisionOutcome outcome) {
     static constexpr const char* names[] = {"better", "worse", "better and worse", "changed", "within aim", "undecided", "no difference"};
     return names[static_cast<std::size_t>(outcome)];
 }
 
-std::size_t Decision::count(Outcome outcome) const {
+std::size_t Decision::count(DecisionOutcome outcome) const {
     return static_cast<std::size_t>(std::ranges::count(readings, outcome, &DecidedReading::outcome));
 }
 
@@ -149,22 +149,30 @@ std::vector<Decision> decide(const StudyResult& result) {
     return decisions;
 }
 
-std::string decision_sentence(const StudyResult& result, const Decision& decision) {
+std::vector<std::string> decision_parts(const StudyResult& result, const Decision& decision) {
     std::vector<std::string> parts;
-    for (const auto& [outcome, words] : {std::pair(Outcome::better, "better by"),
-                                         {Outcome::worse, "worse by"},
-                                         {Outcome::mixed, "better in some places and worse in others by"},
-                                         {Outcome::changed, "changed, neither better nor worse"}})
+    for (const auto& [outcome, words] : {std::pair(DecisionOutcome::better, "Better by"),
+                                         {DecisionOutcome::worse, "Worse by"},
+                                         {DecisionOutcome::mixed, "Better in some places and worse in others by"},
+                                         {DecisionOutcome::changed, "Changed, neither for better nor for worse:"}})
         parts.push_back(listed(result, decision, outcome, words));
     parts.push_back(undecided(result, decision));
-    if (const std::size_t within = decision.count(Outcome::within_aim))
-        parts.push_back(fmt::format("{} by less than 0.1° of aim would do", counted(within, "reading")));
-    if (const std::size_t same = decision.count(Outcome::same))
+    if (const std::size_t within = decision.count(DecisionOutcome::within_aim))
+        parts.push_back(fmt::format("{} changed by less than 0.1° of aim would do", counted(within, "reading")));
+    if (const std::size_t same = decision.count(DecisionOutcome::same))
         parts.push_back(fmt::format("{} without a difference", counted(same, "reading")));
+    if (decision.aim_alone)
+        parts.emplace_back("The tables of both lamps differ by their aim alone: it is the aim, not the lamp");
     std::erase(parts, "");
+    return parts;
+}
+
+std::string decision_sentence(const StudyResult& result, const Decision& decision) {
     const StudyComparison& pair = comparison_of(result, decision);
-    return fmt::format("{} against {}: {}.{}", pair.tested, pair.against, fmt::join(parts, ". "),
-                       decision.aim_alone ? " The tables of both lamps differ by their aim alone: it is the aim, not the lamp." : "");
+    std::string text = fmt::format("{}.", fmt::join(decision_parts(result, decision), ". "));
+    if (text.front() >= 'A' && text.front() <= 'Z')
+        text.front() = static_cast<char>(text.front() - 'A' + 'a');
+    return fmt::format("{} against {}: {}", pair.tested, pair.against, text);
 }
 
 std::string decision_heading(const StudyResult& result, const std::vector<Decision>& decisions) {
@@ -172,13 +180,13 @@ std::string decision_heading(const StudyResult& result, const std::vector<Decisi
         return decisions.empty() ? "Nothing was compared" : fmt::format("What {} decide", counted(decisions.size(), "comparison"));
     const Decision& decision = decisions.front();
     const StudyComparison& pair = comparison_of(result, decision);
-    const std::size_t better = decision.count(Outcome::better), worse = decision.count(Outcome::worse),
-                      mixed = decision.count(Outcome::mixed), within = decision.count(Outcome::within_aim);
+    const std::size_t better = decision.count(DecisionOutcome::better), worse = decision.count(DecisionOutcome::worse),
+                      mixed = decision.count(DecisionOutcome::mixed), within = decision.count(DecisionOutcome::within_aim);
     const std::string of = fmt::format("of {}", counted(decision.readings.size(), "deciding reading"));
     if (better + worse + mixed == 0)
-        return within > 0                               ? fmt::format("{} is within 0.1° of aim of {}", pair.tested, pair.against)
-               : decision.count(Outcome::undecided) > 0 ? fmt::format("{} and {}: undecided", pair.tested, pair.against)
-                                                        : fmt::format("{} and {} do not differ", pair.tested, pair.against);
+        return within > 0                                       ? fmt::format("{} is within 0.1° of aim of {}", pair.tested, pair.against)
+               : decision.count(DecisionOutcome::undecided) > 0 ? fmt::format("{} and {}: undecided", pair.tested, pair.against)
+                                                                : fmt::format("{} and {} do not differ", pair.tested, pair.against);
     std::vector<std::string> parts;
     if (better > 0)
         parts.push_back(fmt::format("better in {}", better));
@@ -227,7 +235,7 @@ Table decision_table(const StudyResult& result, const std::vector<Decision>& dec
                           change.aim_effect ? Cell(figure(*change.aim_effect, decimals), *change.aim_effect) : Cell(""),
                           unit_label(change.unit()), fmt::format("{} of {}", decided.decided_by.size(), decided.changes.size()),
                           Cell(result.cells[change.tested].drive).linked("#" + change.id)});
-            if (decided.outcome > Outcome::changed)
+            if (decided.outcome > DecisionOutcome::changed)
                 table.quiet.push_back(table.rows.size() - 1);
         }
     return table;

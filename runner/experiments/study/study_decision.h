@@ -5,7 +5,7 @@
 
 namespace fernlicht {
 
-enum class Outcome {
+enum class DecisionOutcome {
     better,
     worse,
     mixed,      ///< better in some places, worse in others
@@ -14,12 +14,12 @@ enum class Outcome {
     undecided,  ///< nothing tells in any place
     same
 };
-const char* outcome_name(Outcome outcome); ///< "better", "within aim"
+const char* outcome_name(DecisionOutcome outcome); ///< "better", "within aim"
 
 /// One deciding reading of one comparison.
 struct DecidedReading {
     ReadingKey reading;
-    Outcome outcome = Outcome::same;
+    DecisionOutcome outcome = DecisionOutcome::same;
     std::vector<std::size_t> changes; ///< of the study, one a distinct result: places that give the same one count once
     std::vector<std::pair<std::size_t, std::size_t>> places; ///< every change, and the one among `changes` that it counts as
     std::vector<std::size_t> decided_by;                     ///< those of `changes` that make the outcome
@@ -30,14 +30,16 @@ struct Decision {
     std::size_t comparison = 0;           ///< of the study
     std::vector<DecidedReading> readings; ///< in the order in which the study names them
     bool aim_alone = false;               ///< the tables of the two lamps differ by their aim and by nothing else
-    std::size_t count(Outcome outcome) const;
+    std::size_t count(DecisionOutcome outcome) const;
 };
 
 /// For each comparison of which something was compared. Two changes are the same result where neither their old nor their new values differ
 /// by more than their uncertainty.
 std::vector<Decision> decide(const StudyResult& result);
 
-/// "xenon against halogen: better by ...; worse by ...; within 0.1 degrees of aim: ...; undecided: ... because ...."
+/// "Better by ...", "Worse by ...", "Undecided: ... because ...": what there is of these, without full stops.
+std::vector<std::string> decision_parts(const StudyResult& result, const Decision& decision);
+/// "xenon against halogen: better by .... Worse by .... Undecided: ... because ...."
 std::string decision_sentence(const StudyResult& result, const Decision& decision);
 /// "xenon is better in 9 and worse in 4 of 22 deciding readings".
 std::string decision_heading(const StudyResult& result, const std::vector<Decision>& decisions);

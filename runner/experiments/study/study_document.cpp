@@ -161,8 +161,12 @@ Section decision_section(const StudyResult& result, const std::vector<Decision>&
     Section section{nothing.empty() ? decision_heading(result, decisions) : "Nothing was compared", {}};
     if (!nothing.empty())
         section.blocks.emplace_back(nothing);
-    for (const Decision& decision : decisions)
-        section.blocks.emplace_back(decision_sentence(result, decision));
+    for (const Decision& decision : decisions) {
+        const StudyComparison& pair = result.study.comparisons[decision.comparison];
+        Listing parts(decision_parts(result, decision));
+        parts.caption = fmt::format("{} against {}", pair.tested, pair.against);
+        section.blocks.emplace_back(std::move(parts));
+    }
     if (!was_judged(result))
         section.blocks.emplace_back("No limits were set.");
     if (!result.played_in_part.empty())

@@ -309,7 +309,7 @@ TEST(ExtentGrid, WithoutRowsGivesNoExtents) {
     EXPECT_TRUE(lx.empty());
     EXPECT_TRUE(measure_extent(grid, lx, Surface::road, {1.0}, {20.0}).empty());
     EXPECT_TRUE(grid_errors(grid, lx, Surface::road, {1.0}, {}).empty());
-    EXPECT_TRUE(reach_sensitivity(grid, moment, {1.0}).empty());
+    EXPECT_TRUE(nudged_extents(grid, moment, {1.0}, {20.0}, usual_nudges({}, {})).as_is.empty());
 }
 
 // A lane is as long as its arc: between two rows the own lane's centre advances by the cell, also on clothoids and arcs.

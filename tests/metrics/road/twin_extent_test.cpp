@@ -7,6 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
+#include <stdexcept>
 
 namespace fernlicht {
 namespace {
@@ -89,39 +90,62 @@ TEST(TwinExtent, ReachesWhereTheLawSaysOrTheCutOffEnds) {
     EXPECT_FALSE(extent_of(extents, "own", 1.0).reach_is_cut_off);
 }
 
-// The cut-off meets the road at h / tan(dip): the derivative at 1 % is h / sin^2 = 113 m per degree. The central difference over +-0.1
-// degrees is h sin(0.2 deg) / (2 sin(dip - 0.1 deg) sin(dip + 0.1 deg)), 3 % more, since the reach curves upwards.
-TEST(ReachSensitivity, CutOffAnswersToAimAndNotToFlux) {
-    const ExtentGrid grid = straight_grid({.ahead_m = 100.0, .beside_m = 1.0});
-    const auto sensitivities = reach_sensitivity(grid, moment_of({dipped_lamp()}), {1.0, 3.0});
-    ASSERT_EQ(sensitivities.size(), 4U);
-    const double dip = std::atan(0.01), tenth = radians(0.1);
-    const double central_m = 0.65 * std::sin(2.0 * tenth) / (2.0 * std::sin(dip - tenth) * std::sin(dip + tenth));
-    const double metres_per_degree = 0.65 / (std::sin(dip) * std::sin(dip)) * radians(1.0);
-    ASSERT_NEAR(metres_per_degree, 113.4, 0.1);
-    for (const ReachSensitivity& sensitivity : sensitivities)
-        if (sensitivity.surface == Surface::target) {
-            EXPECT_NEAR(sensitivity.metres_per_tenth_degree, central_m, 1e-5) << sensitivity.threshold_lx;
-            EXPECT_NEAR(sensitivity.metres_per_tenth_degree / (0.1 * metres_per_degree), 1.0, 0.035);
-            EXPECT_NEAR(sensitivity.metres_per_tenth_flux, 0.0, 1e-5);
-        }
+/// Of a reach on the own lane, metres: nudged less as it is.
+double moved_m(const NudgedExtents& extents, NudgeKind kind, Surface surface, double threshold_lx) {
+    const auto reach_m = [&](const std::vector<LaneExtent>& all) {
+        for (const LaneExtent& extent : all)
+            if (extent.surface == surface && extent.lane == "own" && extent.threshold_lx == threshold_lx)
+                return extent.reach_centre_m;
+        throw std::out_of_range("no such extent");
+    };
+    return reach_m(extents.nudged[static_cast<std::size_t>(kind)]) - reach_m(extents.as_is);
 }
 
-// Constant intensity does not care for aim; d' = sqrt(I / E) answers to flux: (sqrt(1.1) - sqrt(0.9)) / 2 of the distance.
-TEST(ReachSensitivity, BareLampAnswersToFluxAndNotToAim) {
-    const ExtentGrid grid = straight_grid({.ahead_m = 120.0, .beside_m = 1.0, .target_height_m = 0.65});
-    const auto sensitivities = reach_sensitivity(grid, moment_of({lamp_with(everywhere(10000.0), {0.0, 0.0, 0.65})}), {1.0});
-    ASSERT_EQ(sensitivities.size(), 2U);
-    EXPECT_EQ(sensitivities[1].surface, Surface::target);
-    EXPECT_NEAR(sensitivities[1].metres_per_tenth_flux, 100.0 * 0.5 * (std::sqrt(1.1) - std::sqrt(0.9)), 1e-5);
-    EXPECT_NEAR(sensitivities[1].metres_per_tenth_degree, 0.0, 1e-5);
+Nudges nudges_on_rails() { return usual_nudges({}, {}); }
+
+// The cut-off meets the road at h / tan(dip). 65 m away 0.1 degrees more reach 77.5 m, less 55.3 m, 10 mm more height one metre more; flux
+// does nothing, for the light ends at the cut-off.
+TEST(NudgedExtents, CutOffAnswersToAimAndHeightAndNotToFlux) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 100.0, .beside_m = 2.5});
+    const NudgedExtents extents = nudged_extents(grid, moment_of({dipped_lamp()}), {1.0, 3.0}, {}, nudges_on_rails());
+    const double dip = std::atan(0.01), tenth = radians(0.1), between_rows_m = 0.5;
+    for (const double threshold_lx : {1.0, 3.0}) {
+        const auto moved = [&](NudgeKind kind) { return moved_m(extents, kind, Surface::target, threshold_lx); };
+        EXPECT_NEAR(moved(NudgeKind::aim_up), 0.65 / std::tan(dip - tenth) - 65.0, between_rows_m);
+        EXPECT_NEAR(moved(NudgeKind::aim_down), 0.65 / std::tan(dip + tenth) - 65.0, between_rows_m);
+        EXPECT_NEAR(moved(NudgeKind::higher), 1.0, between_rows_m);
+        EXPECT_NEAR(moved(NudgeKind::lower), -1.0, between_rows_m);
+        EXPECT_NEAR(moved(NudgeKind::brighter), 0.0, 0.05);
+        EXPECT_NEAR(moved(NudgeKind::dimmer), 0.0, 0.05);
+    }
+    EXPECT_TRUE(extents.nudged[static_cast<std::size_t>(NudgeKind::loaded)].empty()) << "nobody knows the springs";
 }
 
-TEST(ReachSensitivity, HasNothingToSayOfADarkOrUnendingReach) {
-    const ExtentGrid grid = straight_grid({.ahead_m = 50.0, .beside_m = 1.0});
-    EXPECT_TRUE(reach_sensitivity(grid, moment_of({}), {1.0}).empty());
-    EXPECT_TRUE(reach_sensitivity(grid, moment_of({lamp_with(everywhere(1e7), {0.0, 0.0, 0.65})}), {1.0}).empty());
-    EXPECT_TRUE(reach_sensitivity({}, moment_of({}), {1.0}).empty());
+// Constant intensity does not care for aim; d' = sqrt(I / E) answers to flux.
+TEST(NudgedExtents, BareLampAnswersToFluxAndNotToAim) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 120.0, .beside_m = 2.5, .target_height_m = 0.65});
+    const NudgedExtents extents =
+        nudged_extents(grid, moment_of({lamp_with(everywhere(10000.0), {0.0, 0.0, 0.65})}), {1.0}, {}, nudges_on_rails());
+    EXPECT_NEAR(moved_m(extents, NudgeKind::brighter, Surface::target, 1.0), 100.0 * (std::sqrt(1.1) - 1.0), 1e-3);
+    EXPECT_NEAR(moved_m(extents, NudgeKind::dimmer, Surface::target, 1.0), 100.0 * (std::sqrt(0.9) - 1.0), 1e-3);
+    EXPECT_NEAR(moved_m(extents, NudgeKind::aim_up, Surface::target, 1.0), 0.0, 1e-9);
+}
+
+// 75 kg over the rear axle: 735.5 N press springs of 43 kN/m by 17.1 mm and tyres of 400 kN/m by 1.84 mm. On 2.7 m the nose goes up by
+// 0.402 degrees; levelling takes back the springs' 0.363. A lamp 3.4 m ahead and 0.65 m up rises by 3.4 sin - 18.9 mm.
+TEST(Nudge, LoadTurnsTheCarAndLevellingTakesItBack) {
+    Drive drive;
+    drive.vehicle.emplace();
+    LampSet lamp_set;
+    Moment moment = moment_of({lamp_with(everywhere(1.0), {3.4, 0.6, 0.65})});
+    const auto loaded = [&] { return nudged(moment, usual_nudges(drive, lamp_set).back().value()).lamps.front().pose; };
+    const double springs_m = 75.0 * 9.80665 / 43e3, tyres_m = 75.0 * 9.80665 / 400e3, pitch_rad = (springs_m + tyres_m) / 2.7;
+    EXPECT_NEAR(degrees(pitch_rad), 0.402, 0.001);
+    EXPECT_NEAR(std::asin(loaded().forward().z), pitch_rad, 1e-12);
+    EXPECT_NEAR(loaded().position_m.z, 0.65 * std::cos(pitch_rad) + 3.4 * std::sin(pitch_rad) - springs_m - tyres_m, 1e-12);
+    lamp_set.levelling.emplace();
+    EXPECT_NEAR(std::asin(loaded().forward().z), tyres_m / 2.7, 1e-12);
+    EXPECT_FALSE(usual_nudges({}, {}).back().has_value());
 }
 
 } // namespace

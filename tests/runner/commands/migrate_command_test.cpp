@@ -59,7 +59,7 @@ control: {bend: {min_deg: -15, max_deg: 15}}
 
 TEST_F(Migrate, StudiesAndKnownFailures) {
     expect_becomes("study.yaml", "fernlicht_study: 1\nmeasure: {sensors: {limits_lx: [5]}}\nreadings: [area_1lx_road_all_m2]\n",
-                   "fernlicht_study: 1\nmeasure: {sensors: {thresholds_lx: [5]}}\nreadings: [area_1lx_road_all_m2]\n");
+                   "fernlicht_study: 1\nmeasure: {sensors: {thresholds_lx: [5]}}\ndecide: [area_1lx_road_all_m2]\n");
     expect_becomes("known.yaml", R"(known:
   - {id: "a/b/c/reference reading reach_5lx_road_own_m", kind: fails, reason: reference, expires: 2026-12-31}
   - {id: a/*/reference-direct/reference frame 3 driver, kind: fails, reason: r, expires: 2026-12-31}

@@ -152,9 +152,9 @@ TEST(DescribedJson, ComparedRunsComeBack) {
     drive.settings = {{"lamps.left.file", "a.ies", ""}};
     drive.lamp_files = {{"left, right", "a.ies", "b.ies", undecided_difference()}};
     const ReadingKey reach = *key_of("reach_1lx_road_own_m");
-    drive.changes = {{{reach, Value::at_least(200.0), 50.0, 0.5, 0.25, 0.125, ChangeKind::real}, true},
-                     {{reach, 50.0, 40.0, {}, {}, {}, ChangeKind::unknown, "nothing tells"}, false}};
-    drive.times = {{{reach, 3.0, 2.0, 1.5, {}, {}, ChangeKind::none}, 20, 30}};
+    drive.changes = {{{reach, Value::at_least(200.0), 50.0, 0.5, 0.25, 0.2, 0.15, {}, 0.125, ChangeKind::real}, true},
+                     {{reach, 50.0, 40.0, {}, {}, {}, {}, {}, {}, ChangeKind::unknown, "nothing tells"}, false}};
+    drive.times = {{{reach, 3.0, 2.0, 1.5, {}, {}, {}, {}, {}, ChangeKind::none}, 20, 30}};
     drive.frames = {{{0, 0.0, "map", "", "a.exr"}, {0, 0.0, "map", "", "b.exr"}},
                     {{6, 0.2, "driver", "a.png"}, {6, 0.2, "driver", "b.png"}, true}};
     drive.frames[1].comparison = {67.0, "", {judged_layer()}};

@@ -34,7 +34,10 @@ PlayedCell played(const std::vector<LaneExtent>& extents) {
         row.rendered = {extent};
         row.twin = {extent};
         row.twin[0].reach_centre_m += 0.5;
-        row.sensitivity = {{5.0, Surface::road, 7.0 + row.tick, 1.0}};
+        row.nudged.as_is = {extent};
+        row.nudged.nudged[0] = {extent}; // aim up
+        row.nudged.nudged[0][0].reach_centre_m += 7.0 + row.tick;
+        row.nudged.nudged[2] = {reaching(1.1 * extent.reach_centre_m, extent.lane, extent.threshold_lx, extent.reach_is_cut_off)};
         row.grid_errors = {{5.0, Surface::road, "own", 0.02, 0.03, 0.04, 0.5}, {5.0, Surface::road, "all", {}, {}, {}, 3.0}};
         lamp_set.extents.push_back(row);
     }
@@ -78,8 +81,6 @@ TEST(Summary, MediansMinimaAndPercentilesOverTheMomentsInOneOrder) {
                                                        {"area_5lx_road_own_p05_m2", 510.0},
                                                        {"reach_5lx_road_own_twin_difference_m", 0.5},
                                                        {"reach_5lx_road_own_twin_difference_worst_m", 0.5},
-                                                       {"reach_5lx_road_own_per_tenth_degree_m", 8.0},
-                                                       {"reach_5lx_road_own_per_tenth_flux_m", 1.0},
                                                        {"reach_5lx_road_own_grid_error_m", 0.02},
                                                        {"reach_5lx_road_own_edge_grid_error_m", 0.03},
                                                        {"unlit_before_reach_5lx_road_own_grid_error_m", 0.04},
@@ -93,12 +94,22 @@ TEST(Summary, MediansMinimaAndPercentilesOverTheMomentsInOneOrder) {
     }
 }
 
+// Statistics of the nudged moments less those as the lamps are: 60, 50 and 80 m become 67, 58 and 89.
+TEST(Summary, EachStatisticMovesByItself) {
+    const Readings readings = summarise(played({reaching(60.0), reaching(50.0), reaching(80.0)}), looking_200_m());
+    EXPECT_DOUBLE_EQ(find(readings, "reach_5lx_road_own_m").sensitivity.aim_up.value(), 7.0);
+    EXPECT_DOUBLE_EQ(find(readings, "reach_5lx_road_own_min_m").sensitivity.aim_up.value(), 8.0);
+    EXPECT_NEAR(find(readings, "area_5lx_road_own_min_m2").sensitivity.brighter.value(), 50.0, 1e-9);
+    EXPECT_NEAR(find(readings, "width_5lx_road_own_at_20m_m").sensitivity.brighter.value(), 0.6, 1e-9);
+    EXPECT_FALSE(find(readings, "reach_5lx_road_own_m").sensitivity.aim_down.has_value()) << "not looked at";
+    EXPECT_EQ(find(readings, "reach_5lx_road_own_grid_error_m").sensitivity, Sensitivity{});
+}
+
 TEST(Summary, NamesSayLimitPlaneAndLane) {
     LaneExtent extent = reaching(60.0, "left 1", 0.5);
     extent.surface = Surface::target;
     const Readings readings = summarise(played({extent}), looking_200_m());
     EXPECT_DOUBLE_EQ(found(readings, "reach_0.5lx_target_left_1_m"), 60.0);
-    EXPECT_THROW(find(readings, "reach_0.5lx_target_left_1_per_tenth_degree_m"), std::out_of_range);
 }
 
 TEST(Summary, BothSidesHaveTheSameFiguresAndTheGridsAreaErrorOfAllComesFirst) {
@@ -135,13 +146,12 @@ TEST(Summary, WhatRestsOnALowerBoundIsOne) {
 TEST(Summary, WhatTellsOfAReachThatGoesOnSaysSo) {
     PlayedCell beyond = played({reaching(200.0, "own", 5.0, true), reaching(200.0, "own", 5.0, true)});
     for (ExtentRow& row : beyond.extents) {
-        row.sensitivity.clear();
         row.grid_errors[0].reach = row.grid_errors[0].edge = Value::not_measured(reach_beyond);
     }
     const std::string why = "the reach lies beyond the end of grid, road or lane in every moment";
     const Readings none = summarise(beyond, looking_200_m());
-    for (const char* name : {"reach_5lx_road_own_per_tenth_degree_m", "reach_5lx_road_own_per_tenth_flux_m",
-                             "reach_5lx_road_own_grid_error_m", "reach_5lx_road_own_edge_grid_error_m"}) {
+    EXPECT_EQ(find(none, "reach_5lx_road_own_m").sensitivity, Sensitivity{}) << "a bound moves by nobody knows how much";
+    for (const char* name : {"reach_5lx_road_own_grid_error_m", "reach_5lx_road_own_edge_grid_error_m"}) {
         EXPECT_FALSE(find(none, name).value.measured()) << name;
         EXPECT_EQ(find(none, name).value.reason(), why) << name;
     }

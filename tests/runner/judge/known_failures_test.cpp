@@ -1,6 +1,7 @@
 #include "runner/judge/known_failures.h"
 
 #include "scenarios/values/errors.h"
+#include "scenarios/values/glob.h"
 #include "tests/runner/program.h"
 
 #include <gmock/gmock.h>

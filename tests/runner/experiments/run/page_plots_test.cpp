@@ -24,8 +24,8 @@ PlayedCell at(const std::vector<double>& distances_m) {
                                   .distance_m = distance_m,
                                   .rendered = {extent},
                                   .twin = {},
-                                  .sensitivity = {},
-                                  .grid_errors = {}});
+                                  .grid_errors = {},
+                                  .nudged = {}});
     return played;
 }
 

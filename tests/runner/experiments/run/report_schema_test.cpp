@@ -51,7 +51,7 @@ TEST(ReportSchema, EveryNullOfASummaryHasItsReason) {
     EXPECT_EQ(entry["reach_m"]["not_measured"],
               json({{"mean", "1 of 2 moments give a bound only"}, {"standard_deviation", "1 of 2 moments give a bound only"}}));
     EXPECT_EQ(entry["not_measured"]["largest_twin_difference_m"], "both beyond 200 m in every moment");
-    EXPECT_EQ(entry["not_measured"]["metres_per_tenth_degree"], "not there in any moment");
+    EXPECT_EQ(entry["not_measured"]["by_tenth_degree_m"], "no reach on both sides of the change");
     EXPECT_FALSE(entry["not_measured"].contains("grid_error_m"));
 }
 

@@ -68,7 +68,7 @@ LaneExtent extent_of(const MadeUpBeam& beam, Surface surface, double threshold_l
 
 ExtentRow extents_at(MadeUpBeam beam, int tick) {
     ExtentRow row{
-        .tick = tick, .time_s = 0.1 * tick, .distance_m = 2.0 * tick, .rendered = {}, .twin = {}, .sensitivity = {}, .grid_errors = {}};
+        .tick = tick, .time_s = 0.1 * tick, .distance_m = 2.0 * tick, .rendered = {}, .twin = {}, .grid_errors = {}, .nudged = {}};
     beam.aim_deg += 0.12 * std::sin(0.25 * tick) * std::exp(-0.02 * tick); // the car nods
     for (const Surface surface : {Surface::road, Surface::target})
         for (const double threshold_lx : {1.0, 3.0, 5.0, 10.0}) {
@@ -77,7 +77,14 @@ ExtentRow extents_at(MadeUpBeam beam, int tick) {
                 row.twin.push_back(row.rendered.back());
                 row.twin.back().reach_centre_m += 0.2 * std::sin(1.7 * tick + threshold_lx);
             }
-            row.sensitivity.push_back({threshold_lx, surface, 8.0 / std::sqrt(threshold_lx), 1.1 / std::sqrt(threshold_lx)});
+            const auto moved = [&](double by_m) {
+                LaneExtent extent = row.nudged.as_is.back();
+                extent.reach_centre_m += by_m / std::sqrt(threshold_lx);
+                return extent;
+            };
+            row.nudged.as_is.push_back(extent_of(beam, surface, threshold_lx, "own", 0.0));
+            for (std::size_t kind = 0; const double by_m : {8.0, -8.0, 1.1, -1.1})
+                row.nudged.nudged[kind++].push_back(moved(by_m));
             row.grid_errors.push_back({threshold_lx, surface, "own", 0.25});
             row.grid_errors.push_back({threshold_lx, surface, "all", {}, {}, {}, 1.5});
         }

@@ -1,0 +1,121 @@
+// Better, worse or undecided, by hand-made changes.
+#include "runner/experiments/study/study_decision.h"
+#include "runner/experiments/study/study_document.h"
+#include "runner/write/document.h"
+
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr const char *reach = "reach_5lx_target_own_m", *glare = "mirror_left_at_15m_max_lx", *neutral = "foreground_own_lx";
+
+/// A new lamp against an old one on as many drives as there are changes of each reading.
+struct MadeStudy {
+    StudyResult result;
+
+    MadeStudy() {
+        result.study.name = result.study.title = "by hand";
+        result.study.lamps = {{.name = "old"}, {.name = "new"}};
+        result.study.comparisons = {{"new", "old"}};
+        result.study.decide = {reach, glare, neutral};
+        result.study.conditions.times_of_day = {{}};
+    }
+    /// Of one drive; nudged aim moves it by `by_aim`.
+    MadeStudy& on(std::size_t drive, const char* name, Value before, Value now, std::optional<double> by_aim = 0.0) {
+        while (result.cells.size() < 2 * (drive + 1)) {
+            CellResult cell;
+            cell.cell.drive = result.cells.size() / 2;
+            cell.cell.lamp = result.cells.size() % 2;
+            cell.drive = "drive-" + std::to_string(cell.cell.drive);
+            cell.cell.name = cell.drive + (cell.cell.lamp == 0 ? "_old" : "_new");
+            result.cells.push_back(cell);
+        }
+        const ReadingKey key = key_of(name).value();
+        for (const auto& [lamp, value] : {std::pair(0U, before), std::pair(1U, now)}) {
+            CellResult& cell = result.cells[2 * drive + lamp];
+            cell.readings[key] = {.key = key, .value = value, .sensitivity = {.aim_up = by_aim}};
+            if (key.quantity == Quantity::reach)
+                for (const char* const exact : {"reach_5lx_target_own_grid_error_m", "reach_5lx_target_own_twin_difference_m"})
+                    cell.readings[key_of(exact).value()] = {key_of(exact).value(), 0.05};
+        }
+        return *this;
+    }
+    std::vector<Decision> decided() {
+        compare_cells(result);
+        return decide(result);
+    }
+};
+
+DecisionOutcome outcome(MadeStudy study) { return study.decided().front().readings.front().outcome; }
+
+TEST(Decision, BetterHasADirection) {
+    EXPECT_EQ(outcome(MadeStudy().on(0, reach, 40.0, 50.0)), DecisionOutcome::better);
+    EXPECT_EQ(outcome(MadeStudy().on(0, reach, 50.0, 40.0)), DecisionOutcome::worse);
+    EXPECT_EQ(outcome(MadeStudy().on(0, glare, 1.0, 1.1)), DecisionOutcome::worse) << "more light in mirrors is no gain";
+    EXPECT_EQ(outcome(MadeStudy().on(0, glare, 1.1, 1.0)), DecisionOutcome::better);
+    EXPECT_EQ(outcome(MadeStudy().on(0, neutral, 1.0, 2.0)), DecisionOutcome::changed);
+    EXPECT_EQ(outcome(MadeStudy().on(0, reach, 50.0, Value::at_least(200.0))), DecisionOutcome::better);
+    EXPECT_EQ(outcome(MadeStudy().on(0, reach, 40.0, 40.0)), DecisionOutcome::same);
+}
+
+TEST(Decision, AimDecidesWhatIsReal) {
+    EXPECT_EQ(outcome(MadeStudy().on(0, glare, 1.0, 1.1, 0.12)), DecisionOutcome::within_aim);
+    EXPECT_EQ(outcome(MadeStudy().on(0, glare, 1.0, 1.1, 0.09)), DecisionOutcome::worse);
+    EXPECT_EQ(outcome(MadeStudy().on(0, glare, 1.0, 1.1, std::nullopt)), DecisionOutcome::undecided) << "nothing tells what aim would do";
+    EXPECT_EQ(outcome(MadeStudy().on(0, reach, Value::at_least(200.0), Value::at_least(200.0))), DecisionOutcome::undecided);
+}
+
+TEST(Decision, PlacesMayDisagree) {
+    EXPECT_EQ(outcome(MadeStudy().on(0, reach, 40.0, 50.0).on(1, reach, 50.0, 30.0)), DecisionOutcome::mixed);
+    EXPECT_EQ(outcome(MadeStudy().on(0, reach, 40.0, 50.0).on(1, reach, 50.0, 52.0, 4.0)), DecisionOutcome::better);
+    EXPECT_EQ(outcome(MadeStudy().on(0, reach, 40.0, 40.0).on(1, reach, 50.0, 52.0, 4.0)), DecisionOutcome::within_aim);
+}
+
+TEST(Decision, TwoPlacesWithOneResultCountOnce) {
+    MadeStudy study;
+    study.on(0, reach, 40.0, 50.0).on(1, reach, 40.02, 50.01).on(2, reach, 60.0, 62.0, 3.0);
+    const std::vector<Decision> decisions = study.decided();
+    const DecidedReading& decided = decisions.front().readings.front();
+    EXPECT_EQ(decided.changes.size(), 2U);
+    EXPECT_EQ(decided.decided_by.size(), 1U);
+    EXPECT_THAT(same_results(study.result, decisions),
+                ElementsAre("drive-0 and drive-1 give one result in 1 deciding reading; it counts once"));
+    EXPECT_THAT(decision_sentence(study.result, decisions.front()), HasSubstr("own lane +10.00 m (+25 %) in 1 of 2 results"));
+    EXPECT_THAT(same_results(study.result, MadeStudy().on(0, reach, 40.0, 50.0).on(1, reach, 41.0, 51.0).decided()), IsEmpty());
+}
+
+TEST(Decision, TheFirstWordsOfAllAreTheSentence) {
+    MadeStudy study;
+    study.on(0, reach, 40.0, 50.0).on(0, glare, 1.0, 1.1, 0.05).on(0, neutral, 2.0, 3.0, std::nullopt);
+    const std::vector<Decision> decisions = study.decided();
+    EXPECT_EQ(decision_heading(study.result, decisions), "new is better in 1, worse in 1 of 3 deciding readings");
+    const std::string sentence = decision_sentence(study.result, decisions.front());
+    EXPECT_EQ(sentence,
+              "new against old: better by reach at 5 lx on a target, own lane +10.00 m (+25 %). Worse by largest illuminance on "
+              "the mirror left of a car 15 m ahead +0.10 lx (+10 %). Undecided: foreground: mean light on the road from 5 to 15 m, "
+              "own lane because nothing tells what 0.1 degrees of aim would do to this reading.");
+    EXPECT_THAT(document_text(study_summary(study.result)), testing::StartsWith("by hand\n" + sentence));
+    const std::string page = document_html(document(study.result), study.result);
+    EXPECT_LT(page.find("better in 1, worse in 1"), page.find("The largest changes"));
+    EXPECT_THAT(sentence, Not(HasSubstr(" 1 ")));
+}
+
+TEST(Decision, ALampThatIsOnlyAimedOtherwiseIsCalledSo) {
+    MadeStudy study;
+    study.on(0, reach, 40.0, 50.0);
+    study.result.lamps = {{.tested = "new", .against = "old", .side = "left and right"}};
+    study.result.lamps.front().difference.aim_up_deg.emplace();
+    study.result.lamps.front().difference.aim_right_deg.emplace();
+    EXPECT_THAT(decision_sentence(study.result, study.decided().front()), HasSubstr("it is the aim, not the lamp"));
+    study.result.lamps.front().difference.level.emplace();
+    EXPECT_THAT(decision_sentence(study.result, decide(study.result).front()), Not(HasSubstr("it is the aim")));
+}
+
+} // namespace
+} // namespace fernlicht
