@@ -140,6 +140,7 @@ JsonMembers study_members(StudyResult& result) {
             {"verdict", overall(result), verdict_kind_part},
             {"complete", result.complete()},
             {"interrupted", or_null(result.interrupted)},
+            {"decide", result.study.decide},
             {"sentence", study_sentence(result)},
             {"played_in_part", or_null(result.played_in_part)},
             {"largest_changes", in_turn(2, json_part(result.largest, by_id))},
