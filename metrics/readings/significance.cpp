@@ -144,17 +144,18 @@ void judge(ReadingChange& change, const std::optional<double>& tested, const std
     }
     change.uncertainty = std::hypot(*tested, *against);
     const double size = change.least(), unsure = change.total_uncertainty();
-    if (size > unsure && !change.noise_effect) {
-        change.reason_unknown = "nothing tells how noise of the lamp tables moves this reading";
-        return;
-    }
-    if (size > unsure && !change.aim_effect) {
-        change.reason_unknown = "nothing tells what 0.1 degrees of aim would do to this reading";
-        return;
-    }
-    change.kind = size <= unsure                                   ? ChangeKind::none
-                  : size <= std::hypot(*change.aim_effect, unsure) ? ChangeKind::within_aim
-                                                                   : ChangeKind::real;
+    // Aim and what is not known of either are bounds: they add as such.
+    const auto unknown_because = [&](const char* reason) { change.reason_unknown = reason; };
+    if (size <= unsure)
+        change.kind = ChangeKind::none;
+    else if (!change.aim_effect)
+        return unknown_because("nothing tells what 0.1 degrees of aim would do to this reading");
+    else if (size <= *change.aim_effect + unsure)
+        change.kind = ChangeKind::within_aim;
+    else if (!change.noise_effect)
+        return unknown_because("nothing tells how noise of the lamp tables moves this reading");
+    else
+        change.kind = ChangeKind::real;
     if (found.censored() && change.kind != ChangeKind::real) { // it may be much more
         change.kind = ChangeKind::unknown;
         change.reason_unknown = "one of both lies beyond what was looked at";

@@ -73,8 +73,7 @@ std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector
 
 inline constexpr const char* reach_beyond = "the reach lies beyond the end of grid, road or lane";
 
-/// Extents by the twin as the moment's lamps are, and nudged, in the order of NudgeKind; none where a nudge is nullopt. For differences: a
-/// grid of twice the drive's cell_m does.
+/// Extents by the twin as the moment's lamps are, and nudged, in the order of NudgeKind; none where a nudge is nullopt.
 struct NudgedExtents {
     std::vector<LaneExtent> as_is;
     std::array<std::vector<LaneExtent>, nudge_kinds> nudged;

@@ -64,10 +64,15 @@ std::array<CensoredSamples, 1 + nudge_kinds> nudged_moments(const PlayedCell& pl
     return moments;
 }
 
-Sensitivity sensitivity_of(const std::array<CensoredSamples, 1 + nudge_kinds>& nudged, double share) {
+/// Beside the pavement the twin's ground is not the rendered one: its moves are taken as shares of its figure.
+Sensitivity sensitivity_of(const std::array<CensoredSamples, 1 + nudge_kinds>& nudged, const Value& rendered, double share) {
+    const Value as_is = nudged.front().quantile(share);
+    const double scale =
+        as_is.number().value_or(0.0) > 0.0 && rendered.number().value_or(0.0) > 0.0 ? *rendered.number() / *as_is.number() : 1.0;
     Sensitivity moves;
     for (std::size_t kind = 0; kind < nudge_kinds; ++kind)
-        moves.*sensitivity_rows[kind].member = move_of(nudged[1 + kind].quantile(share), nudged.front().quantile(share));
+        if (const auto move = move_of(nudged[1 + kind].quantile(share), as_is))
+            moves.*sensitivity_rows[kind].member = scale * *move;
     return moves;
 }
 
@@ -91,7 +96,7 @@ void add_extent(Readings& readings, const ExtentSummary& summary, const ExtentFi
                 key.statistic = statistic;
                 readings.push_back({key, moments.quantile(share), fmt::format("{}, {}; {}", where, words, moments.account())});
                 if (const auto nudged = summary.nudged.find(reading); nudged != summary.nudged.end())
-                    readings.back().sensitivity = sensitivity_of(nudged->second, share);
+                    readings.back().sensitivity = sensitivity_of(nudged->second, readings.back().value, share);
             }
     }
 }
@@ -146,7 +151,9 @@ std::vector<ExtentSummary> summarise_extents(const PlayedCell& played, const Ext
 
 Value reach_moved_m(const ExtentSummary& summary, std::optional<double> (*by)(const Sensitivity&)) {
     const auto nudged = summary.nudged.find(extent_reading(summary.key, Quantity::reach));
-    return Value::of(nudged == summary.nudged.end() ? std::nullopt : by(sensitivity_of(nudged->second, 0.5)),
+    return Value::of(nudged == summary.nudged.end()
+                         ? std::nullopt
+                         : by(sensitivity_of(nudged->second, moments_of(summary, Quantity::reach).quantile(0.5), 0.5)),
                      "no reach on both sides of the change");
 }
 

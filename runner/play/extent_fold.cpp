@@ -129,11 +129,8 @@ ExtentRow ExtentFold::measure(const ExtentDrawing& drawing) const {
         std::ranges::copy(measured, std::back_inserter(row.twin));
         std::ranges::copy(grid_errors(grid, truth, surface, p.thresholds_lx, measured), std::back_inserter(row.grid_errors));
     }
-    if (!nudged)
-        return row;
-    ExtentParameters coarse = p;
-    coarse.cell_m *= 2.0;
-    row.nudged = nudged_extents(make_extent_grid(route_, moment, drive_.bumper_m, coarse), moment, p.thresholds_lx, p.width_at_m, nudges_);
+    if (nudged)
+        row.nudged = nudged_extents(grid, moment, p.thresholds_lx, p.width_at_m, nudges_);
     return row;
 }
 

@@ -69,9 +69,10 @@ TEST(StudyCompare, AChangeIsRealBeyondCalculationAndAim) {
     EXPECT_EQ(kind_for(40.0, 40.0), ChangeKind::none);
     EXPECT_EQ(kind_for(40.0, 40.56), ChangeKind::none);
     EXPECT_EQ(kind_for(40.0, 40.58), ChangeKind::within_aim);
-    EXPECT_EQ(kind_for(40.0, 36.0), ChangeKind::within_aim); // 4 < hypot(4, 0.57)
-    EXPECT_EQ(kind_for(40.0, 44.1), ChangeKind::real);       // 4.1 > 4.04
-    EXPECT_EQ(kind_for(40.0, 35.9), ChangeKind::real);
+    EXPECT_EQ(kind_for(40.0, 36.0), ChangeKind::within_aim);
+    EXPECT_EQ(kind_for(40.0, 44.5), ChangeKind::within_aim); // 4.5 < 4 + 0.57
+    EXPECT_EQ(kind_for(40.0, 44.6), ChangeKind::real);
+    EXPECT_EQ(kind_for(40.0, 35.4), ChangeKind::real);
 }
 
 /// Glare of 0.0312 and 0.0298 lx is two values, also where reach has two decimals; what is uncertain has no more.
