@@ -58,7 +58,10 @@ std::vector<LampComparison> compare_lamp_files(const Study& study) {
                            alike  ? "left and right"
                            : left ? "left"
                                   : "right",
-                           file, other, difference_of(read_lamp(file), read_lamp(other), study.noise_relative)});
+                           file, other,
+                           difference_of(read_lamp(file, {.recipe = now.recipe}), read_lamp(other, {.recipe = before.recipe}),
+                                         study.noise_relative),
+                           now.recipe, before.recipe});
         }
     }
     return out;
