@@ -164,7 +164,7 @@ GridRecipe read_grid_recipe(const std::filesystem::path& file, FilesRead& opened
 std::vector<std::string> shipped_recipes() {
     std::vector<std::string> names;
     std::error_code none; // without the library there are none
-    for (const auto& entry : std::filesystem::directory_iterator(shipped("recipes"), none))
+    for (const auto& entry : std::filesystem::directory_iterator(shipped_path("recipes"), none))
         if (entry.path().extension() == ".yaml")
             names.push_back(entry.path().stem().string());
     std::ranges::sort(names);
@@ -178,7 +178,7 @@ std::filesystem::path recipe_file(const std::string& given, const std::filesyste
         return here;
     const std::vector<std::string> names = shipped_recipes();
     if (std::ranges::find(names, given) != names.end())
-        return std::filesystem::absolute(shipped("recipes/" + given + ".yaml")).lexically_normal();
+        return std::filesystem::absolute(shipped_path("recipes/" + given + ".yaml")).lexically_normal();
     throw InputError(where, fmt::format("there is no file {} and no recipe of that name", printable(here.string(), 400)),
                      fmt::format("a recipe file, or {}", one_of_names(given, names)));
 }

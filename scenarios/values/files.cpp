@@ -60,7 +60,7 @@ std::size_t utf8_length(const unsigned char* p, std::size_t left) {
     return 0;
 }
 
-std::filesystem::path shipped(const std::filesystem::path& name) {
+std::filesystem::path shipped_path(const std::filesystem::path& name) {
     std::error_code ignored;
     for (std::filesystem::path folder :
          {std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path(), std::filesystem::current_path(ignored)})

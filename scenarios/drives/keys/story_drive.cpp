@@ -29,7 +29,7 @@ std::string quoted_text(const std::string& text) {
 }
 
 fs::path shipped_lamp(const fs::path& storyboard) {
-    if (fs::path lamp = shipped("lamps/halogen-low.ies"); !lamp.empty())
+    if (fs::path lamp = shipped_path("lamps/halogen-low.ies"); !lamp.empty())
         return lamp;
     throw InputError({storyboard, 0, 0, {}}, "no drive says which lamps the cars have, and scenarios/library is not above the program",
                      "a drive file with `storyboard:` and lamps");
