@@ -13,7 +13,7 @@ namespace fernlicht {
 namespace {
 
 constexpr int most_header_lines = 1000;
-constexpr double most_of_number = 1.0e6;
+constexpr double most_of_number = 1.0e9;
 
 bool is_list(const void* recipe) { return static_cast<const GridRecipe*>(recipe)->layout == GridLayout::list; }
 bool is_no_list(const void* recipe) { return !is_list(recipe); }
@@ -88,9 +88,9 @@ void read_version(const YamlEntry& entry, GridRecipe& recipe) {
 
 void check_recipe(const YamlMap& keys, const GridRecipe& recipe) {
     const bool places = recipe.angle_unit == AngleUnit::m || recipe.angle_unit == AngleUnit::mm;
-    const auto unused = [&](const char* key, const char* why) {
+    const auto none = [&](const char* key, const char* found) {
         if (const auto given = keys.find(key))
-            given->refuse(fmt::format("{} with {}", key, why), "none");
+            given->refuse(found, "none");
     };
     if (recipe.delimiter == CellDelimiter::comma && recipe.decimal == DecimalSign::comma)
         keys.require("decimal").refuse("decimal commas where commas part the cells", "another delimiter");
@@ -99,9 +99,9 @@ void check_recipe(const YamlMap& keys, const GridRecipe& recipe) {
     if ((recipe.unit == GridUnit::lx || places) && !recipe.distance_m.given())
         keys.refuse_missing("distance_m", "the distance at which it was measured");
     if (recipe.unit != GridUnit::lx && !places)
-        unused("distance_m", "neither lux nor places on a wall");
+        none("distance_m", "a distance without lux or places on a wall");
     if (recipe.unit != GridUnit::lx)
-        unused("screen", "a unit other than lx");
+        none("screen", "a screen without lux");
     if (recipe.unit == GridUnit::cd_per_klm && !recipe.flux_lm.given())
         keys.refuse_missing("flux_lm", "the flux that the intensities are for, lm");
 }

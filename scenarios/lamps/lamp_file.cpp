@@ -12,6 +12,11 @@
 namespace fernlicht {
 namespace {
 
+/// Whether a text that a format claims may be one that a recipe describes: `# unit:` is no rare comment, and a few numbers begin EULUMDAT.
+bool may_be_grid(const LampFormat& format, const std::filesystem::path& path) {
+    return format.read == read_beam_matrix || (format.read == read_eulumdat && uppercase(path.extension().string()) != ".LDT");
+}
+
 LampFile read_as_it_is(const std::filesystem::path& path, const LampReadOptions& options) {
     FilesRead opened;
     std::string content = read_file(path, opened, max_lamp_text_bytes);
@@ -23,7 +28,7 @@ LampFile read_as_it_is(const std::filesystem::path& path, const LampReadOptions&
         content = lamp_text(content, path);
         format = std::ranges::find_if(all, [&](const LampFormat& f) { return !f.picture && f.looks_so(content); });
     }
-    if (recipe && (format == all.end() || format->read == read_beam_matrix))
+    if (recipe && (format == all.end() || may_be_grid(*format, path)))
         return read_text_grid(path, content, *recipe, options, std::move(opened));
     // A text whose content says nothing is what its name says, so that its reader can tell what is wrong with it.
     if (format == all.end())

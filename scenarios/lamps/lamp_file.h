@@ -51,8 +51,8 @@ struct LampFormat {
 std::span<const LampFormat> lamp_formats();
 std::string lamp_format_list(); ///< "IES LM-63 (.ies), ... or beam texture (.png, .exr)"
 
-/// Reads any supported lamp file, told by content first and extension second; one that is neither IES nor EULUMDAT nor a picture by the
-/// recipe where there is one. Throws InputError.
+/// Reads any supported lamp file, told by content first and extension second; where there is a recipe, texts that are neither IES nor an
+/// .ldt file by it. Throws InputError.
 LampFile read_lamp(const std::filesystem::path& path, const LampReadOptions& options = {});
 
 void mirror(LampFile& lamp); ///< H and -H exchanged, in both tables
