@@ -67,7 +67,9 @@ void add_recipe_flag(CLI::App& command, std::filesystem::path& recipe) {
     command
         .add_option_function<std::string>(
             "--recipe",
-            [&recipe](const std::string& given) { recipe = recipe_file(given, std::filesystem::current_path(), {{}, 0, 0, "--recipe"}); },
+            [&recipe](const std::string& given) {
+                recipe = recipe_file(given, std::filesystem::current_path(), {{}, 0, 0, "--recipe"});
+            },
             "how lamp files that are text grids are laid out: a YAML file or the name of a shipped recipe (docs/lamps.md)")
         ->option_text("NAME|FILE");
 }

@@ -10,13 +10,13 @@ namespace {
 
 constexpr std::size_t most_head_lines = 1000;
 
-std::string_view named(CellDelimiter delimiter) {
+std::string_view delimiter_text(CellDelimiter delimiter) {
     return std::array<std::string_view, 4>{"commas", "semicolons", "tabs", "blanks"}[static_cast<std::size_t>(delimiter)];
 }
 
-std::string shown(std::string_view text) { return printable(std::string(text.substr(0, 200))); }
+std::string shown_cell(std::string_view text) { return printable(std::string(text.substr(0, 200))); }
 
-bool begins(std::string_view line, const std::string& mark) { return !mark.empty() && trimmed(line).starts_with(trimmed(mark)); }
+bool begins_with_mark(std::string_view line, const std::string& mark) { return !mark.empty() && trimmed(line).starts_with(trimmed(mark)); }
 
 } // namespace
 
@@ -35,8 +35,8 @@ void GridLines::skip_header() {
         do
             if (!lines_.next(line))
                 throw InputError({path_, lines_.number(), 0, {}}, "no line ends the header",
-                                 fmt::format("one that begins with '{}', as the recipe says", shown(recipe_.header_ends_with)));
-        while (!begins(line, recipe_.header_ends_with));
+                                 fmt::format("one that begins with '{}', as the recipe says", shown_cell(recipe_.header_ends_with)));
+        while (!begins_with_mark(line, recipe_.header_ends_with));
     }
     for (int i = 0; i < recipe_.header_lines; ++i)
         if (!lines_.next(line))
@@ -48,9 +48,9 @@ void GridLines::check_required() const {
     for (const HeaderWord& required : recipe_.require)
         if (const std::string_view found = header_word(required.line, required.word, "require"); found != required.is)
             throw InputError({path_, static_cast<std::size_t>(required.line), 0, fmt::format("word {}", required.word)},
-                             fmt::format("found '{}'", shown(found)),
-                             fmt::format("'{}'{}, as the recipe says", shown(required.is),
-                                         required.means.empty() ? "" : fmt::format(" ({})", shown(required.means))));
+                             fmt::format("found '{}'", shown_cell(found)),
+                             fmt::format("'{}'{}, as the recipe says", shown_cell(required.is),
+                                         required.means.empty() ? "" : fmt::format(" ({})", shown_cell(required.means))));
 }
 
 std::string_view GridLines::header_word(int line, int word, const std::string& asked_by) const {
@@ -62,16 +62,17 @@ std::string_view GridLines::header_word(int line, int word, const std::string& a
     const std::vector<std::string_view> words =
         words_of(head_[at - 1], recipe_.decimal == DecimalSign::comma ? std::string_view(" \t;:=") : std::string_view(" \t,;:="));
     if (static_cast<std::size_t>(word) > words.size())
-        throw InputError(where, fmt::format("found {} words", words.size()), fmt::format("word {}, which `{}` of the recipe names", word, asked_by));
+        throw InputError(where, fmt::format("found {} words", words.size()),
+                         fmt::format("word {}, which `{}` of the recipe names", word, asked_by));
     return words[static_cast<std::size_t>(word) - 1];
 }
 
 bool GridLines::next(std::vector<std::string_view>& cells) {
     std::string_view line;
     do
-        if (!lines_.next(line) || begins(line, recipe_.ends_before))
+        if (!lines_.next(line) || begins_with_mark(line, recipe_.ends_before))
             return false;
-    while (trimmed(line).empty() || begins(line, recipe_.comment));
+    while (trimmed(line).empty() || begins_with_mark(line, recipe_.comment));
     cells = cells_of(line, std::array{',', ';', '\t', ' '}[static_cast<std::size_t>(recipe_.delimiter)]);
     saw_point_ = saw_point_ || line.find('.') != std::string_view::npos;
     return true;
@@ -92,7 +93,7 @@ double GridLines::number_of(std::string_view cell, const InputError::Where& wher
     if (const std::optional<double> value = number_in_cell(cell))
         return *value;
     const bool comma = recipe_.decimal == DecimalSign::comma, other = cell.find(comma ? '.' : ',') != std::string_view::npos;
-    throw InputError(where, fmt::format("found '{}'", shown(cell)),
+    throw InputError(where, fmt::format("found '{}'", shown_cell(cell)),
                      other ? fmt::format("a number with a decimal {}, as the recipe says", comma ? "comma" : "point")
                            : std::string("a finite number"));
 }
@@ -113,6 +114,6 @@ std::string GridLines::doubt() const {
     return recipe_.delimiter == CellDelimiter::comma && !saw_point_ ? "; numbers with decimal commas cannot be parted by commas" : "";
 }
 
-std::string_view GridLines::delimiter_name() const { return named(recipe_.delimiter); }
+std::string_view GridLines::delimiter_name() const { return delimiter_text(recipe_.delimiter); }
 
 } // namespace fernlicht

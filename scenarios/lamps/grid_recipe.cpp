@@ -15,8 +15,8 @@ namespace {
 constexpr int most_header_lines = 1000;
 constexpr double most_of_number = 1.0e9;
 
-bool is_list(const void* recipe) { return static_cast<const GridRecipe*>(recipe)->layout == GridLayout::list; }
-bool is_no_list(const void* recipe) { return !is_list(recipe); }
+bool is_list_layout(const void* recipe) { return static_cast<const GridRecipe*>(recipe)->layout == GridLayout::list; }
+bool is_matrix_layout(const void* recipe) { return !is_list_layout(recipe); }
 
 void check_header_number(const YamlMap& keys, const HeaderNumber& number) {
     if (number.is && (keys.find("line") || keys.find("word")))
@@ -36,7 +36,7 @@ const Fields<HeaderNumber>& header_number_fields() {
     return fields;
 }
 
-void check_axis(const YamlMap& keys, const GridAxis& axis) {
+void check_grid_axis(const YamlMap& keys, const GridAxis& axis) {
     if (axis.step && axis.count.given())
         keys.entry().refuse("a step beside a count", "one of them");
     if (!axis.step && !axis.count.given())
@@ -57,7 +57,7 @@ const Fields<GridAxis>& grid_axis_fields() {
             field("samples", 5, &GridAxis::samples, words({"ends", "centres"}),
                   "from and to are the outermost samples, or the outer edges of cells with samples in their centres"),
         }
-            .checked(check_axis);
+            .checked(check_grid_axis);
     return fields;
 }
 
@@ -128,9 +128,9 @@ const Fields<GridRecipe>& grid_recipe_fields() {
             field("ends_before", 10, &Recipe::ends_before, any(), "the grid ends before the line that begins so; else with the file"),
             list("require", 11, &Recipe::require, 0, 100, header_word_fields(), "words that the file must have"),
             field("h", 12, &Recipe::h, grid_axis_fields(), "horizontal angles that do not stand in the file beside the values")
-                .heard_if(is_no_list),
-            field("v", 13, &Recipe::v, grid_axis_fields(), "vertical ones").heard_if(is_no_list),
-            field("columns", 14, &Recipe::columns, grid_column_fields(), "which columns of a list are which").heard_if(is_list),
+                .heard_if(is_matrix_layout),
+            field("v", 13, &Recipe::v, grid_axis_fields(), "vertical ones").heard_if(is_matrix_layout),
+            field("columns", 14, &Recipe::columns, grid_column_fields(), "which columns of a list are which").heard_if(is_list_layout),
             field("unit", 15, &Recipe::unit, words({"cd", "kcd", "lx", "cd/klm"}), "of the values").required(),
             field("factor", 16, &Recipe::factor, above(0.0, 1.0e9), "on all values"),
             field("distance_m", 17, &Recipe::distance_m, header_number_fields(), "of sensor or wall, for lx and for places on a wall")

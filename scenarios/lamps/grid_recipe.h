@@ -15,11 +15,11 @@ enum class GridLayout { matrix, transposed, list }; ///< a line for each V; a li
 enum class CellDelimiter { comma, semicolon, tab, blanks };
 enum class DecimalSign { point, comma };
 enum class GridUnit { cd, kcd, lx, cd_per_klm };
-enum class GridScreen { spherical, planar };         ///< lux with the sensor facing the lamp; on a wall square to the axis
-enum class GridAngles { type_a, type_b, screen };    ///< the goniometer's own; IES type B; atan(x / z) and atan(y / z)
-enum class AngleUnit { deg, rad, percent, m, mm };   ///< percent: 100 tan(angle); m, mm: places on a wall at distance_m
-enum class GridSamples { ends, centres };            ///< `from` and `to` are the outermost samples, or the outer edges of cells
-enum class HorizontalSign { right, left };           ///< where the file's H is positive
+enum class GridScreen { spherical, planar };       ///< lux with the sensor facing the lamp; on a wall square to the axis
+enum class GridAngles { type_a, type_b, screen };  ///< the goniometer's own; IES type B; atan(x / z) and atan(y / z)
+enum class AngleUnit { deg, rad, percent, m, mm }; ///< percent: 100 tan(angle); m, mm: places on a wall at distance_m
+enum class GridSamples { ends, centres };          ///< `from` and `to` are the outermost samples, or the outer edges of cells
+enum class HorizontalSign { right, left };         ///< where the file's H is positive
 enum class VerticalSign { up, down };
 
 /// A number that the recipe gives, or the word of the file that holds it. Lines count from the file's first, words from 1.

@@ -208,7 +208,8 @@ std::shared_ptr<const LampFile> read_lamp_keys(const YamlMap& keys, LampCache& c
 }
 
 std::filesystem::path recipe_of(const YamlEntry& entry) {
-    return recipe_file(entry.text(), entry.file().parent_path(), {entry.file(), entry.value().line, entry.value().column, entry.key_path()});
+    return recipe_file(entry.text(), entry.file().parent_path(),
+                       {entry.file(), entry.value().line, entry.value().column, entry.key_path()});
 }
 
 std::optional<SourceKind> read_source(const YamlMap& keys) {

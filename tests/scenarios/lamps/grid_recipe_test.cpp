@@ -98,8 +98,9 @@ TEST_F(Recipe, OfSpeosReadsWhatItsManualDescribes) {
     EXPECT_THAT(refusal("map.txt", "3\n1\t1\n" + axes + layer + values, by_name("speos-type-a")),
                 HasSubstr("map.txt:1: word 1: found '3', expected '0' (basic map), as the recipe says"));
     EXPECT_THAT(refusal("map.txt", "0\n0\t1\n" + axes + values, by_name("speos-type-a")), HasSubstr("found '0', expected '1' (intensity)"));
-    EXPECT_THAT(refusal("map.txt", "3\n1\t1\n" + axes + "-1\t2\t1\t1\nlayer0\n" + values + "layer1\n" + values, by_name("speos-type-a-extended")),
-                HasSubstr("map.txt:11: found 1 cells, expected 3"))
+    EXPECT_THAT(
+        refusal("map.txt", "3\n1\t1\n" + axes + "-1\t2\t1\t1\nlayer0\n" + values + "layer1\n" + values, by_name("speos-type-a-extended")),
+        HasSubstr("map.txt:11: found 1 cells, expected 3"))
         << "of several layers none is chosen in silence";
 }
 
@@ -118,7 +119,9 @@ TEST_F(Recipe, AFileComesBeforeAShippedName) {
     const auto file = write("speos-type-a", recipe_text(csv));
     EXPECT_EQ(recipe_file("speos-type-a", folder_, {}), file);
     EXPECT_EQ(recipe_file(file.string(), "/", {}), file);
-    EXPECT_THAT(tests::refusal_of([&] { recipe_file("speos-tipe-a", folder_, {{}, 0, 0, "--recipe"}); }),
+    EXPECT_THAT(tests::refusal_of([&] {
+                    recipe_file("speos-tipe-a", folder_, {{}, 0, 0, "--recipe"});
+                }),
                 AllOf(HasSubstr("--recipe: there is no file"), HasSubstr("and no recipe of that name, expected a recipe file, or one of "),
                       HasSubstr("(nearest: 'speos-type-a')")));
 }
@@ -130,7 +133,8 @@ TEST_F(Recipe, IsForTextGridsAlone) {
     EXPECT_EQ(ies.table, read_lamp(shipped_library / "lamps/halogen-low.ies").table);
     EXPECT_EQ(read("m.csv", grid, options).table.cd, (std::vector<double>{1, 2, 3, 4}));
     EXPECT_EQ(read("m.csv", "# unit: lx\n,0,1\n0,1,2\n1,3,4\n", by(csv + "comment: '#'")).table.cd, (std::vector<double>{1, 2, 3, 4}));
-    EXPECT_THAT(refusal("m.txt", grid), HasSubstr("beam texture (.png, .exr); other text grids need a recipe that says how they are laid out"));
+    EXPECT_THAT(refusal("m.txt", grid),
+                HasSubstr("beam texture (.png, .exr); other text grids need a recipe that says how they are laid out"));
     EXPECT_THAT(refusal("m.csv", "V;0;1\n0;1;2\n1;3;4\n"), HasSubstr("other text grids need a recipe"));
     EXPECT_THAT(refusal("m.txt", grid, {.recipe = folder_ / "none.yaml"}), HasSubstr("none.yaml"));
     LampReadOptions mirrored = options;

@@ -76,14 +76,18 @@ TEST_F(TextGrid, TheHeaderMayHaveAxesDistanceAndFlux) {
     EXPECT_DOUBLE_EQ(lamp.table.at(0, 1), 2 * 156.25);
     EXPECT_NEAR(lamp.table.at(1, 2), 6 * 156.25 / std::pow(std::cos(radians(30.0)) * std::cos(radians(10.0)), 3.0), 1e-9);
     EXPECT_THAT(refusal_by(keys, header + "1;2;3\n"), HasSubstr("lamp.txt:6: the grid ends after 1 lines of values, expected 2 lines"));
-    EXPECT_THAT(refusal_by(keys, header + "1;2;3\n4;5;6\n7;8;9\n"), HasSubstr("lamp.txt:8: the grid goes on, expected its end after 2 lines"));
-    EXPECT_THAT(refusal_by(keys, header + "1;2\n4;5\n"), HasSubstr("lamp.txt:6: found 2 cells, expected 3: a value for each of the horizontal"));
+    EXPECT_THAT(refusal_by(keys, header + "1;2;3\n4;5;6\n7;8;9\n"),
+                HasSubstr("lamp.txt:8: the grid goes on, expected its end after 2 lines"));
+    EXPECT_THAT(refusal_by(keys, header + "1;2\n4;5\n"),
+                HasSubstr("lamp.txt:6: found 2 cells, expected 3: a value for each of the horizontal"));
     EXPECT_THAT(refusal_by(keys, "Distance: -12,5 m\n1\nH;-30;30\nV=0;10\n3;2\n1;2;3\n4;5;6\n"),
                 HasSubstr("lamp.txt:1: distance_m: found -12.5, expected a number above 0"));
     EXPECT_THAT(refusal_by(keys, "Distance:\n"), HasSubstr("lamp.txt:1: the file ends in its header"));
     EXPECT_THAT(refusal_by(keys, "Distance:\n1\n2\n3\n4\n"), HasSubstr("lamp.txt:1: found 1 words, expected word 2, which `distance_m`"));
-    EXPECT_THAT(refusal_by(keys, "Distance: 1\n1\nH;-30;30\nV=0;10\n3,5;2\n1;2;3\n"), HasSubstr("found 3.5 of them, expected a whole number"));
-    EXPECT_THAT(refusal_by(keys, "Distance: 1\n1\nH;-30;30\nV=0;10\n4e9;2\n1;2;3\n"), HasSubstr("expected a whole number from 2 to 16777216"));
+    EXPECT_THAT(refusal_by(keys, "Distance: 1\n1\nH;-30;30\nV=0;10\n3,5;2\n1;2;3\n"),
+                HasSubstr("found 3.5 of them, expected a whole number"));
+    EXPECT_THAT(refusal_by(keys, "Distance: 1\n1\nH;-30;30\nV=0;10\n4e9;2\n1;2;3\n"),
+                HasSubstr("expected a whole number from 2 to 16777216"));
 }
 
 TEST_F(TextGrid, AngleUnitsAndSystems) {
@@ -95,8 +99,8 @@ TEST_F(TextGrid, AngleUnitsAndSystems) {
     ASSERT_TRUE(wall.measured);
     EXPECT_NEAR(wall.measured->table.v_deg[1], degrees(std::atan(0.4)), 1e-12);
     EXPECT_THAT(all_notes(wall), HasSubstr("Resampled from flat screen"));
-    EXPECT_NEAR(read_by(keys + "angles: screen\nangle_unit: mm\ndistance_m: 0.025", lines).measured->table.v_deg[1], degrees(std::atan(0.4)),
-                1e-12);
+    EXPECT_NEAR(read_by(keys + "angles: screen\nangle_unit: mm\ndistance_m: 0.025", lines).measured->table.v_deg[1],
+                degrees(std::atan(0.4)), 1e-12);
     // The same file as IES, type B: one table in the end.
     const LampFile type_b = read_by(keys + "angles: type-b", lines);
     const LampFile ies = read("b.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 3 2 2 0 0 0\n1 1 0\n0 10\n-10 0 10\n1 4\n2 5\n3 6\n");
@@ -145,8 +149,9 @@ class ShippedAsText : public RecipeTrial {
         std::string text = "no" + form.separator + "I" + form.separator + "V" + form.separator + "H\n";
         for (std::size_t h = 0; h < ies_.table.h_deg.size(); ++h)
             for (std::size_t v = 0; v < ies_.table.v_deg.size(); ++v)
-                text += fmt::format("{1}{0}{2}{0}{3}{0}{4}\n", form.separator, v, number(cell(form, v, h), form),
-                                    number(form.v_sign * form.angle(ies_.table.v_deg[v]), form), number(form.angle(ies_.table.h_deg[h]), form));
+                text +=
+                    fmt::format("{1}{0}{2}{0}{3}{0}{4}\n", form.separator, v, number(cell(form, v, h), form),
+                                number(form.v_sign * form.angle(ies_.table.v_deg[v]), form), number(form.angle(ies_.table.h_deg[h]), form));
         return text;
     }
     /// Angles within `deg`, intensities within `relative`.
@@ -176,7 +181,8 @@ TEST_F(ShippedAsText, ComesBackAsTheIesFileHasIt) {
     expect_same(read_by(cd + "delimiter: tab\ndecimal: comma\nv_positive: down",
                         matrix({.separator = "\t", .decimal_comma = true, .top_first = true, .v_sign = -1.0})),
                 0.0, 0.0, "V down positive, top first");
-    expect_same(read_by(cd + "delimiter: blanks\nh_positive: left", matrix({.separator = "  ", .h_sign = -1.0})), 0.0, 0.0, "H to the left");
+    expect_same(read_by(cd + "delimiter: blanks\nh_positive: left", matrix({.separator = "  ", .h_sign = -1.0})), 0.0, 0.0,
+                "H to the left");
     expect_same(read_by("unit: cd\nlayout: transposed\ndelimiter: semicolon", matrix({.transposed = true})), 0.0, 0.0, "transposed");
     expect_same(read_by("unit: cd\nlayout: list\ndelimiter: comma\ncolumns: {h: H, v: V, value: I}", list({.separator = ","})), 0.0, 0.0,
                 "list by names");
@@ -190,14 +196,17 @@ TEST_F(ShippedAsText, ComesBackToRoundingInOtherUnits) {
     const std::string keys = "layout: matrix\ndelimiter: semicolon\n";
     const auto percent = [](double deg) { return 100.0 * std::tan(radians(deg)); };
     const auto rad = [](double deg) { return radians(deg); };
-    expect_same(read_by(keys + "unit: lx\ndistance_m: 25", matrix({.value = [](double i, double, double) { return i / 625.0; }})), 0.0, 1e-15,
-                "lux at 25 m, facing the lamp");
-    const auto on_wall = [](double i, double h, double v) { return i / 625.0 * std::pow(std::cos(radians(h)) * std::cos(radians(v)), 3.0); };
-    expect_same(read_by(keys + "unit: lx\ndistance_m: 25\nscreen: planar", matrix({.value = on_wall})), 0.0, 1e-12, "lux in a wall at 25 m");
+    expect_same(read_by(keys + "unit: lx\ndistance_m: 25", matrix({.value = [](double i, double, double) { return i / 625.0; }})), 0.0,
+                1e-15, "lux at 25 m, facing the lamp");
+    const auto on_wall = [](double i, double h, double v) {
+        return i / 625.0 * std::pow(std::cos(radians(h)) * std::cos(radians(v)), 3.0);
+    };
+    expect_same(read_by(keys + "unit: lx\ndistance_m: 25\nscreen: planar", matrix({.value = on_wall})), 0.0, 1e-12,
+                "lux in a wall at 25 m");
     expect_same(read_by(keys + "unit: cd\nangle_unit: percent", matrix({.angle = percent})), 1e-12, 0.0, "percent");
     expect_same(read_by(keys + "unit: cd\nangle_unit: rad", matrix({.angle = rad})), 1e-12, 0.0, "rad");
-    expect_same(read_by(keys + "unit: cd/klm\nflux_lm: 1500", matrix({.value = [](double i, double, double) { return i / 1.5; }})), 0.0, 1e-15,
-                "cd per 1000 lm");
+    expect_same(read_by(keys + "unit: cd/klm\nflux_lm: 1500", matrix({.value = [](double i, double, double) { return i / 1.5; }})), 0.0,
+                1e-15, "cd per 1000 lm");
 }
 
 /// Intensities of the wall are the IES file's, at each direction of the wall's own samples.
@@ -243,7 +252,8 @@ TEST_F(TextGrid, WhatIsNotAsTheRecipeSaysIsRefused) {
         std::string keys, text, said;
     } cases[] = {
         {csv, ",0,1\n0,1\n", "lamp.txt:1: horizontal angles: found 3 cells, and 2 in line 2, expected horizontal angles parted by commas"},
-        {csv, ",0,1\n0,1,2\n1,3\n", "lamp.txt:3: found 2 cells, expected 3: one of the vertical angles and a value for each of the horizontal"},
+        {csv, ",0,1\n0,1,2\n1,3\n",
+         "lamp.txt:3: found 2 cells, expected 3: one of the vertical angles and a value for each of the horizontal"},
         {csv, ",0,1\n0,1.5,2\n1,3,4,5\n", "lamp.txt:3: found 4 cells, expected 3"},
         {csv, ",0,1\n0,1,2\n1,3,many\n", "lamp.txt:3: value in column 3: found 'many', expected a finite number"},
         {csv, ",0,1\n0,1,2\n1,3,nan\n", "lamp.txt:3: value in column 3: found 'nan', expected a finite number"},
@@ -260,17 +270,23 @@ TEST_F(TextGrid, WhatIsNotAsTheRecipeSaysIsRefused) {
         {csv, ",0,1\n0,1,1e13\n1,3,4\n", "cd, expected at most"},
         {csv, "\n\n", "the grid ends after 0 lines of values, expected a line of horizontal angles"},
         {csv, ",0,1\n", "lamp.txt:1: the grid ends after 0 lines of values, expected lines of values"},
-        {csv, "V;0;1\n0;1;2\n1;3;4\n", "lamp.txt:1: horizontal angles: found 1 cells, and 1 in line 2, expected horizontal angles parted by commas"},
+        {csv, "V;0;1\n0;1;2\n1;3;4\n",
+         "lamp.txt:1: horizontal angles: found 1 cells, and 1 in line 2, expected horizontal angles parted by commas"},
         // decimal signs
         {csv, ",-1,5,0,0,1,5\n-1,0,7,5,8,0\n1,5,2,5,3,5\n", "numbers with decimal commas cannot be parted by commas"},
         {csv, ",-10,0,0,0,10,0\n-1,3,5,20,1,4,0\n1,3,5,21,1,4,0\n",
-         "lamp.txt:1: horizontal angles: the angles neither rise nor fall, expected angles in order; numbers with decimal commas cannot be"},
-        {csv, ",0,1\n0,1,2\n1,3,5,4\n", "lamp.txt:3: found 4 cells, expected 3: one of the vertical angles and a value for each of the "
-                                        "horizontal angles, parted by commas; numbers with decimal commas cannot be parted by commas"},
+         "lamp.txt:1: horizontal angles: the angles neither rise nor fall, expected angles in order; numbers with decimal commas cannot "
+         "be"},
+        {csv, ",0,1\n0,1,2\n1,3,5,4\n",
+         "lamp.txt:3: found 4 cells, expected 3: one of the vertical angles and a value for each of the "
+         "horizontal angles, parted by commas; numbers with decimal commas cannot be parted by commas"},
         {list, "0,5,1,5,100,0\n0,5,2,5,110,0\n", "is given twice with different values, expected each direction once; first in line"},
-        {list, "0,5,1,100\n0,2,100\n", "lamp.txt:2: found 3 cells, expected 4 parted by commas, as in the lines before; numbers with decimal"},
-        {semicolon, "V;0;1\n0;1;2\n1;3,5;4\n", "lamp.txt:3: value in column 2: found '3,5', expected a number with a decimal point, as the recipe"},
-        {german, "V;0;1\n0;1;2\n1;3.5;4\n", "lamp.txt:3: value in column 2: found '3.5', expected a number with a decimal comma, as the recipe"},
+        {list, "0,5,1,100\n0,2,100\n",
+         "lamp.txt:2: found 3 cells, expected 4 parted by commas, as in the lines before; numbers with decimal"},
+        {semicolon, "V;0;1\n0;1;2\n1;3,5;4\n",
+         "lamp.txt:3: value in column 2: found '3,5', expected a number with a decimal point, as the recipe"},
+        {german, "V;0;1\n0;1;2\n1;3.5;4\n",
+         "lamp.txt:3: value in column 2: found '3.5', expected a number with a decimal comma, as the recipe"},
         {german, "V;0;1\n0;1;2\n1;1.003,5;4\n", "found '1.003,5', expected a number with a decimal comma"},
         // lists
         {list, "0,0,1\n0,1,2\n1,0,3\n", "lamp.txt:3: 1 of 4 directions are missing, the first of them 1, 1, expected a grid"},
@@ -280,12 +296,16 @@ TEST_F(TextGrid, WhatIsNotAsTheRecipeSaysIsRefused) {
         {list, "", "lamp.txt"},
         {list, "# nothing\n", "column 2, which the recipe names"},
         // header
-        {csv + "header_lines: 9", ",0,1\n0,1,2\n1,3,4\n", "lamp.txt:3: the file ends in its header, expected 9 lines of it, as the recipe says"},
-        {csv + "header_ends_with: '[Data]'", ",0,1\n0,1,2\n", "no line ends the header, expected one that begins with '[Data]', as the recipe"},
+        {csv + "header_lines: 9", ",0,1\n0,1,2\n1,3,4\n",
+         "lamp.txt:3: the file ends in its header, expected 9 lines of it, as the recipe says"},
+        {csv + "header_ends_with: '[Data]'", ",0,1\n0,1,2\n",
+         "no line ends the header, expected one that begins with '[Data]', as the recipe"},
         {csv + "header_lines: 1\nrequire: [{line: 1, word: 2, is: cd, means: candela}]", "unit = lx\n,0,1\n0,1,2\n1,3,4\n",
          "lamp.txt:1: word 2: found 'lx', expected 'cd' (candela), as the recipe says"},
-        {csv + "require: [{line: 8, is: cd}]", ",0,1\n", "lamp.txt:1: the file ends here, expected line 8, which `require` of the recipe names"},
-        {csv + "h: {from: 0, to: 1, step: 0.3}", "0,1,2\n1,3,4\n", "horizontal angles: steps of 0.3 from 0 miss 1, expected steps that meet it"},
+        {csv + "require: [{line: 8, is: cd}]", ",0,1\n",
+         "lamp.txt:1: the file ends here, expected line 8, which `require` of the recipe names"},
+        {csv + "h: {from: 0, to: 1, step: 0.3}", "0,1,2\n1,3,4\n",
+         "horizontal angles: steps of 0.3 from 0 miss 1, expected steps that meet it"},
         {csv + "h: {from: 0, to: 1, count: 3}", "0,1,2\n1,3,4\n", "lamp.txt:1: found 3 cells, expected 4"},
         {semicolon + "angles: screen", "V;0;90\n0;1;2\n1;3;4\n", "horizontal angles: found 90, expected angles from -89 to 89"},
     };
@@ -309,7 +329,8 @@ TEST_F(TextGrid, OddsAndEndsAreNoted) {
 }
 
 TEST_F(TextGrid, NothingMakesItFallOver) {
-    const std::string keys = "layout: matrix\ndelimiter: semicolon\ndecimal: comma\nunit: cd\nheader_lines: 1\nflux_lm: {line: 1, word: 2}\n";
+    const std::string keys =
+        "layout: matrix\ndelimiter: semicolon\ndecimal: comma\nunit: cd\nheader_lines: 1\nflux_lm: {line: 1, word: 2}\n";
     const std::string good = "flux; 500,5\nV;-1,5;0;2\n-1;1;2;3\n0;4;5;6\n2;7;8;9,5\n";
     ASSERT_EQ(refusal_by(keys, good), "");
     const LampReadOptions options = by(keys);
@@ -335,9 +356,11 @@ TEST_F(TextGrid, NothingMakesItFallOver) {
         must_not(content);
     }
     must_not(std::string("\xff\xfeV\0;\0", 6)); // UTF-16
-    EXPECT_THAT(refusal_by("layout: matrix\ndelimiter: blanks\nunit: cd\nh: {from: 0, to: 1, count: 16777216}\nv: {from: 0, to: 1, count: 16777216}",
-                           "1 2\n"),
-                HasSubstr("found 2 cells, expected 16777216"));
+    EXPECT_THAT(
+        refusal_by(
+            "layout: matrix\ndelimiter: blanks\nunit: cd\nh: {from: 0, to: 1, count: 16777216}\nv: {from: 0, to: 1, count: 16777216}",
+            "1 2\n"),
+        HasSubstr("found 2 cells, expected 16777216"));
     EXPECT_THAT(refusal_by("layout: list\ndelimiter: blanks\nunit: cd",
                            [] {
                                std::string scattered; // each value at angles of its own

@@ -67,9 +67,11 @@ TEST_F(DriveFile, TextGridsAreReadByTheRecipeThatStandsBesideThem) {
     EXPECT_THAT(refusal(head + "    lamps: {left: a.txt}\n    changes: [{at_s: 1, recipe: ours.yaml}]\n"),
                 testing::HasSubstr("a way to read a file without a file"));
     EXPECT_THAT(refusal(minimal.substr(0, minimal.find("  one")) + "  one: {file: a.txt, recipe: speos-tipe-a}\n"),
-                testing::AllOf(testing::StartsWith("drive.yaml:6:30: lamp_sets.one.recipe: there is no file speos-tipe-a and no recipe of that name"),
-                               testing::HasSubstr("(nearest: 'speos-type-a')")));
-    EXPECT_THAT(refusal(minimal.substr(0, minimal.find("  one")) + "  one: {file: a.txt}\n"), testing::HasSubstr("other text grids need a recipe"));
+                testing::AllOf(
+                    testing::StartsWith("drive.yaml:6:30: lamp_sets.one.recipe: there is no file speos-tipe-a and no recipe of that name"),
+                    testing::HasSubstr("(nearest: 'speos-type-a')")));
+    EXPECT_THAT(refusal(minimal.substr(0, minimal.find("  one")) + "  one: {file: a.txt}\n"),
+                testing::HasSubstr("other text grids need a recipe"));
 }
 
 TEST_F(DriveFile, ALampsOwnKeysComeBeforeItsLampSets) {
