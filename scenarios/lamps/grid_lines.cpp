@@ -105,8 +105,8 @@ double GridLines::number_of(const std::vector<std::string_view>& cells, std::siz
 }
 
 double GridLines::number_of(const HeaderNumber& number, const char* name) const {
-    if (number.is)
-        return *number.is;
+    if (number.number)
+        return *number.number;
     return number_of(header_word(number.line, number.word, name), {path_, static_cast<std::size_t>(number.line), 0, name});
 }
 

@@ -19,20 +19,21 @@ bool is_list_layout(const void* recipe) { return static_cast<const GridRecipe*>(
 bool is_matrix_layout(const void* recipe) { return !is_list_layout(recipe); }
 
 void check_header_number(const YamlMap& keys, const HeaderNumber& number) {
-    if (number.is && (keys.find("line") || keys.find("word")))
+    if (number.number && (keys.find("line") || keys.find("word")))
         keys.entry().refuse("a number beside a place in the file", "one of them");
-    if (!number.is && (number.line == 0 || number.word == 0))
+    if (!number.number && (number.line == 0 || number.word == 0))
         keys.entry().refuse("half a place", "a number, or line and word");
 }
 
 const Fields<HeaderNumber>& header_number_fields() {
     static const Fields<HeaderNumber> fields =
         Fields<HeaderNumber>{
-            field("is", 1, &HeaderNumber::is, range(-most_of_number, most_of_number), "the number itself; short: without the key"),
+            field("number", 1, &HeaderNumber::number, range(-most_of_number, most_of_number), "itself; in short it stands without the key"),
             field("line", 2, &HeaderNumber::line, range(1, most_header_lines), "of the file that has it, from 1"),
             field("word", 3, &HeaderNumber::word, range(1, most_header_lines), "in that line, from 1; blanks and , ; : = part words"),
         }
-            .checked(check_header_number);
+            .checked(check_header_number)
+            .defined_as("recipe_number");
     return fields;
 }
 
@@ -43,21 +44,23 @@ void check_grid_axis(const YamlMap& keys, const GridAxis& axis) {
         keys.refuse_missing("step", "step or count");
     if (!axis.from.given() || !axis.to.given())
         keys.refuse_missing(axis.from.given() ? "to" : "from", "from and to");
-    if (axis.from.is && axis.to.is && *axis.from.is == *axis.to.is)
+    if (axis.from.number && axis.to.number && *axis.from.number == *axis.to.number)
         keys.entry().refuse("an axis from and to the same place", "two places");
 }
 
 const Fields<GridAxis>& grid_axis_fields() {
     static const Fields<GridAxis> fields =
         Fields<GridAxis>{
-            field("from", 1, &GridAxis::from, header_number_fields(), "the first angle, a number or a place in the file").short_for("is"),
-            field("to", 2, &GridAxis::to, header_number_fields(), "the last").short_for("is"),
+            field("from", 1, &GridAxis::from, header_number_fields(), "the first angle, a number or a place in the file")
+                .short_for("number"),
+            field("to", 2, &GridAxis::to, header_number_fields(), "the last").short_for("number"),
             field("step", 3, &GridAxis::step, above(0.0, most_of_number), "from one to the next; or count"),
-            field("count", 4, &GridAxis::count, header_number_fields(), "how many there are").short_for("is"),
+            field("count", 4, &GridAxis::count, header_number_fields(), "how many there are").short_for("number"),
             field("samples", 5, &GridAxis::samples, words({"ends", "centres"}),
                   "from and to are the outermost samples, or the outer edges of cells with samples in their centres"),
         }
-            .checked(check_grid_axis);
+            .checked(check_grid_axis)
+            .defined_as("recipe_axis");
     return fields;
 }
 
@@ -134,11 +137,11 @@ const Fields<GridRecipe>& grid_recipe_fields() {
             field("unit", 15, &Recipe::unit, words({"cd", "kcd", "lx", "cd/klm"}), "of the values").required(),
             field("factor", 16, &Recipe::factor, above(0.0, 1.0e9), "on all values"),
             field("distance_m", 17, &Recipe::distance_m, header_number_fields(), "of sensor or wall, for lx and for places on a wall")
-                .short_for("is"),
+                .short_for("number"),
             field("screen", 18, &Recipe::screen, words({"spherical", "planar"}),
                   "lux with the sensor facing the lamp, or in a wall square to its axis"),
             field("flux_lm", 19, &Recipe::flux_lm, header_number_fields(), "declared flux; for cd/klm what the values are for")
-                .short_for("is"),
+                .short_for("number"),
             field("angles", 20, &Recipe::angles, words({"type-a", "type-b", "screen"}),
                   "H about the vertical axis and V = asin(y), as on the UN goniometer; IES type B; as read off a flat wall"),
             field("angle_unit", 21, &Recipe::angle_unit, words({"deg", "rad", "percent", "m", "mm"}),

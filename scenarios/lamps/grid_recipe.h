@@ -24,9 +24,9 @@ enum class VerticalSign { up, down };
 
 /// A number that the recipe gives, or the word of the file that holds it. Lines count from the file's first, words from 1.
 struct HeaderNumber {
-    std::optional<double> is;
+    std::optional<double> number;
     int line = 0, word = 0;
-    bool given() const { return is || line > 0; }
+    bool given() const { return number || line > 0; }
 };
 
 /// Angles that do not stand beside the values.

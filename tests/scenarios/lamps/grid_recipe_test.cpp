@@ -53,8 +53,8 @@ TEST_F(Recipe, KeysAreChecked) {
         {csv + "h: {from: 0, step: 1}", "h.to: missing, expected from and to"},
         {csv + "h: {from: 1, to: 1, step: 1}", "h: an axis from and to the same place"},
         {csv + "h: {from: {line: 3}, to: 1, step: 1}", "h.from: half a place, expected a number, or line and word"},
-        {csv + "h: {from: {line: 3, word: 1, is: 2}, to: 1, step: 1}", "h.from: a number beside a place in the file"},
-        {csv + "h: {from: 0, to: 1, step: -1}", "h.step: found -1"},
+        {csv + "h: {from: {line: 3, word: 1, number: 2}, to: 1, step: 1}", "h.from: a number beside a place in the file"},
+        {csv + "h: {from: 0, to: 1, step: -1}", "h.step: found '-1', expected a number above 0"},
         {csv + "require: [{line: 1}]", "require[0].is: missing"},
     };
     for (const auto& c : cases)

@@ -50,7 +50,7 @@ TEST_F(TextGrid, TheSameTableInOtherLayouts) {
         {"layout: matrix\ndelimiter: comma\nunit: cd\nheader_lines: 2\ncomment: '!'\nends_before: '[E'",
          "Lamp, no 7\n\n,-10,0,10\n! noise\n-1,1.5,2,3\n2,4,5,6.25\n[End]\n3,1,2,3\n"},
         {"layout: matrix\ndelimiter: comma\nunit: cd\nheader_ends_with: '[Data]'\nheader_lines: 1\n"
-         "require: [{line: 1, word: 3, is: cd, means: candela}]",
+         "require: [{line: 1, word: 4, is: cd, means: candela}]",
          "Unit: I in cd\nanything\n [Data] 2 x 3\nH:\n,-10,0,10\n-1,1.5,2,3\n2,4,5,6.25"},
     };
     for (const auto& c : cases) {
@@ -319,7 +319,7 @@ TEST_F(TextGrid, OddsAndEndsAreNoted) {
     EXPECT_THAT(all_notes(lamp), HasSubstr("1 directions are repeated with the same values: taken once."));
     EXPECT_THAT(all_notes(lamp), HasSubstr("1 intensity is slightly negative, down to -1 cd in line 6"));
     EXPECT_THAT(all_notes(lamp), HasSubstr("Lamp was cold."));
-    EXPECT_THAT(all_notes(read_by("layout: matrix\ndelimiter: comma\nunit: cd", ",0,2,1\n0,1,2,3\n1,4,5,6\n")),
+    EXPECT_THAT(all_notes(read_by("layout: matrix\ndelimiter: semicolon\nunit: cd", ";0;2;1\n0;1;2;3\n1;4;5;6\n")),
                 HasSubstr("The horizontal angles do not ascend: sorted."));
     // Windows-1252, as instruments write it.
     EXPECT_EQ(table_by("layout: list\ndelimiter: tab\nunit: cd\ncolumns: {h: \"H [\u00b0]\", v: V, value: I}",

@@ -45,9 +45,9 @@ void find_definitions(const Group& group, std::map<std::string_view, const Group
         }
 }
 
-std::map<std::string_view, const Group*> definitions() {
+std::map<std::string_view, const Group*> definitions(const Group& group) {
     std::map<std::string_view, const Group*> found;
-    find_definitions(drive_fields(), found);
+    find_definitions(group, found);
     return found;
 }
 
@@ -68,9 +68,9 @@ void expect_schema(const std::filesystem::path& file, const Group& group, const 
 }
 
 TEST(DescribedKeys, AreTheSchemas) {
-    expect_schema(source / "scenarios/drive.schema.json", drive_fields(), definitions());
+    expect_schema(source / "scenarios/drive.schema.json", drive_fields(), definitions(drive_fields()));
     expect_schema(source / "scenarios/study.schema.json", study_fields(), {});
-    expect_schema(source / "scenarios/recipe.schema.json", grid_recipe_fields(), {});
+    expect_schema(source / "scenarios/recipe.schema.json", grid_recipe_fields(), definitions(grid_recipe_fields()));
 }
 
 TEST(DescribedKeys, AreTheReference) {
@@ -80,10 +80,12 @@ TEST(DescribedKeys, AreTheReference) {
                        "[drives.md](drives.md) explains drives, `scenarios/drive.example.yaml` shows one; "
                        "[studies.md](studies.md) explains studies, [lamps.md](lamps.md) the recipes of lamp files.\n\n";
     text += key_tables("", drive_fields(), &usual);
-    for (const auto& [name, group] : definitions())
+    for (const auto& [name, group] : definitions(drive_fields()))
         text += key_tables(std::string(name), *group, group->usual.get());
     text += key_tables("study", keys_of_study(), study_fields().usual.get());
     text += key_tables("recipe", grid_recipe_fields(), grid_recipe_fields().usual.get());
+    for (const auto& [name, group] : definitions(grid_recipe_fields()))
+        text += key_tables(std::string(name), *group, group->usual.get());
     text.pop_back();
     expect_file(source / "docs/keys.md", text);
 }
