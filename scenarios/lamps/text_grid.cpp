@@ -93,8 +93,9 @@ void shift_axis(std::vector<double>& axis, double by_deg) {
 
 LampFile read_text_grid(const std::filesystem::path& path, std::string_view text, const GridRecipe& recipe, const LampReadOptions& options,
                         FilesRead opened) {
-    LampFile lamp{
-        .name = path.stem().string(), .format = fmt::format("text grid, {}", printable(recipe.title, 100)), .opened = std::move(opened)};
+    LampFile lamp{.name = path.stem().string(),
+                  .format = fmt::format("text grid, recipe '{}'", printable(recipe.title, 100)),
+                  .opened = std::move(opened)};
     GridLines in(path, text, recipe);
     const double distance_m = recipe.distance_m.given() ? positive_of_header(recipe.distance_m, "distance_m", in, path) : 0.0;
     if (recipe.flux_lm.given())

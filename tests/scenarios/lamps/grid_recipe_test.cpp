@@ -1,4 +1,5 @@
 // Recipes themselves: their keys, those that ship, and how a lamp names one.
+#include "tests/scenarios/drives/yaml_schema_check.h"
 #include "tests/scenarios/lamps/recipe_trial.h"
 #include "tests/shipped.h"
 
@@ -22,6 +23,11 @@ class Recipe : public RecipeTrial {
         std::ostringstream text;
         text << std::ifstream(file).rdbuf();
         return text.str();
+    }
+    /// What an editor would say of it.
+    static std::string violation(const std::string& yaml) {
+        static SchemaCheck check{json::parse(std::ifstream(shipped_library / "../recipe.schema.json"))};
+        return check.violation(to_json(parse_yaml(yaml, "test.yaml")));
     }
     const std::string csv = "layout: matrix\ndelimiter: comma\nunit: cd\n";
 };
@@ -65,12 +71,13 @@ TEST_F(Recipe, KeysAreChecked) {
     EXPECT_THAT(tests::refusal_of([&] { read_grid_recipe(write("r.yaml", csv), opened); }), HasSubstr("fernlicht_recipe: missing"));
 }
 
-TEST_F(Recipe, EveryKeyOfTheExampleMisspeltIsRefused) {
+TEST_F(Recipe, EveryKeyOfTheExampleMisspeltIsRefusedByReaderAndSchema) {
     const std::string example = content(shipped_library / "../recipe.example.yaml");
     FilesRead opened;
     ASSERT_EQ(read_grid_recipe(write("example.yaml", example), opened).v_zero_deg, -0.57);
     const std::regex key(R"(([a-z_]{2,}): )");
     int keys = 0;
+    EXPECT_EQ(violation(example), "");
     for (std::sregex_iterator match(example.begin(), example.end(), key), end; match != end; ++match) {
         const auto at = static_cast<std::size_t>(match->position(1));
         const std::size_t line = example.rfind('\n', at) + 1;
@@ -80,6 +87,7 @@ TEST_F(Recipe, EveryKeyOfTheExampleMisspeltIsRefused) {
         misspelt.insert(at + 1, "q");
         EXPECT_THAT(tests::refusal_of([&] { read_grid_recipe(write("example.yaml", misspelt), opened); }), HasSubstr("unknown key"))
             << match->str(1);
+        EXPECT_NE(violation(misspelt), "") << match->str(1);
         ++keys;
     }
     EXPECT_GE(keys, 35);
@@ -91,7 +99,7 @@ TEST_F(Recipe, OfSpeosReadsWhatItsManualDescribes) {
     const auto by_name = [&](const std::string& name) { return LampReadOptions{.recipe = recipe_file(name, folder_, {})}; };
     const LampFile basic = read("map.txt", "0\n1\t1\n" + axes + values, by_name("speos-type-a"));
     EXPECT_EQ(basic.table, (CandelaTable{{-2, 0, 2}, {-1, 1}, {10, 20, 30, 40, 50, 60}, {}, BetweenSamples::linear_cd}));
-    EXPECT_EQ(basic.format, "text grid, Speos XMP as TXT, SAE type A");
+    EXPECT_EQ(basic.format, "text grid, recipe 'Speos XMP as TXT, SAE type A'");
     EXPECT_THAT(all_notes(basic), HasSubstr("look at the picture"));
     const std::string layer = "-1\t1\t500\nlayer0\n";
     EXPECT_EQ(read("map.txt", "3\n1\t1\n" + axes + layer + values, by_name("speos-type-a-extended")).table, basic.table);
@@ -111,6 +119,7 @@ TEST_F(Recipe, AllThatShipAreGoodAndSayWhereTheirLayoutIsPublic) {
         const std::filesystem::path file = recipe_file(name, folder_, {});
         EXPECT_EQ(file, (shipped_library / "recipes" / (name + ".yaml")).lexically_normal());
         EXPECT_NO_THROW(read_grid_recipe(file, opened)) << name;
+        EXPECT_EQ(violation(content(file)), "") << name;
         EXPECT_THAT(content(file), HasSubstr("https://")) << name;
     }
 }

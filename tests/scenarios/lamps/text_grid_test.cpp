@@ -19,7 +19,7 @@ TEST_F(TextGrid, AMatrixHasALineForEachV) {
                                   "V\\H;-10;0;10\n-1;1,5;2;3\n2;4;5;6,25\n");
     EXPECT_EQ(lamp.table, by_hand);
     EXPECT_EQ(lamp.name, "lamp");
-    EXPECT_EQ(lamp.format, "text grid, Our goniometer");
+    EXPECT_EQ(lamp.format, "text grid, recipe 'Our goniometer'");
     EXPECT_THAT(lamp.notes, testing::IsEmpty());
     ASSERT_EQ(lamp.opened.size(), 2U);
     EXPECT_EQ(lamp.opened[0].path, folder_ / "lamp.txt");
