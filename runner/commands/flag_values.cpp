@@ -5,6 +5,7 @@
 #include "runner/judge/baseline_store.h"
 #include "runner/play/progress.h"
 #include "scenarios/drives/keys/drive_keys.h"
+#include "scenarios/lamps/grid_recipe.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -60,6 +61,17 @@ std::vector<std::pair<std::string, std::filesystem::path>> lamps_of(const std::v
         lamps.emplace_back(at == std::string::npos ? "" : text.substr(0, at), at == std::string::npos ? text : text.substr(at + 1));
     }
     return lamps;
+}
+
+void add_recipe_flag(CLI::App& command, std::filesystem::path& recipe) {
+    command
+        .add_option_function<std::string>(
+            "--recipe",
+            [&recipe](const std::string& given) {
+                recipe = recipe_file(given, std::filesystem::current_path(), {{}, 0, 0, "--recipe"});
+            },
+            "how lamp files that are text grids are laid out: a YAML file or the name of a shipped recipe (docs/lamps.md)")
+        ->option_text("NAME|FILE");
 }
 
 void add_seed_flag(CLI::App& command, std::uint64_t& seed, const char* text) {

@@ -7,6 +7,7 @@
 #include "scenarios/lamps/beam_texels.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,6 +47,8 @@ void refuse_existing(const char* flag, const std::filesystem::path& path, bool f
 
 /// What --lamp says, "[SIDE=]FILE" each: lamps by a part of their names ("": all), and files.
 std::vector<std::pair<std::string, std::filesystem::path>> lamps_of(const std::vector<std::string>& texts);
+/// `--recipe NAME|FILE`, the recipe of lamp files that are text grids.
+void add_recipe_flag(CLI::App& command, std::filesystem::path& recipe);
 
 void add_seed_flag(CLI::App& command, std::uint64_t& seed, const char* text);
 /// --tables, the same for all commands that write a document: any format that has tables. What is none is refused while flags are parsed.

@@ -234,7 +234,7 @@ int lamp_command(const LampRequest& request) {
 void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto request = std::make_shared<LampRequest>();
     CLI::App* command = app.add_subcommand("lamp", "describe a lamp file; scale, mirror, add, convert or plot it");
-    command->add_option("FILE", request->file, lamp_format_list());
+    command->add_option("FILE", request->file, lamp_format_list() + "; text grids with --recipe");
     command->add_option("--model", request->model, "built-in model instead of a file: halogen-low, halogen-high, xenon-low, xenon-high");
     command->add_flag("--json", request->json, "print JSON");
     command->add_option("--picture", request->picture,
@@ -258,6 +258,7 @@ void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::funct
     add_choice(*command, "--axis", request->reading.type_c_axis,
                {{"automatic", TypeCAxis::automatic}, {"horizontal", TypeCAxis::horizontal}, {"nadir", TypeCAxis::nadir}},
                "where Type C and EULUMDAT beams point: automatic, horizontal or nadir");
+    add_recipe_flag(*command, request->reading.recipe);
     add_texture_options(*command, request->reading);
     add_regulation_options(*command, *request);
     command->footer("Changes are applied in this order: scale, mirror, add, subtract.");

@@ -21,6 +21,7 @@ namespace {
 struct ReferenceFlags {
     std::filesystem::path drive;
     std::vector<std::string> lamps;
+    std::filesystem::path recipe;
     std::string lamp_set, view, road, resolution, out, target_error = "0.5%", integrator = "direct";
     double moment_s = 0.0;
     std::optional<double> lamp_radius_m; ///< not given: as the drive draws them
@@ -70,6 +71,7 @@ void check_given(const ReferenceFlags& flags) {
 DriveEdits edits_of(const ReferenceFlags& flags) {
     DriveEdits edits;
     edits.lamps = lamps_of(flags.lamps);
+    edits.lamp_recipe = flags.recipe;
     if (!flags.road.empty())
         edits.road = flags.road;
     if (!flags.resolution.empty())
@@ -180,6 +182,7 @@ void add_reference_command(CLI::App& app, const std::vector<std::string>& comman
     sub->add_option("--lamp", flags->lamps,
                     "[SIDE=]FILE: use this lamp file for all lamps, or for those whose name contains SIDE (left, right)")
         ->allow_extra_args(false);
+    add_recipe_flag(*sub, flags->recipe);
     sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's");
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of a perspective view");
     add_seed_flag(*sub, flags->seed, "seed of the samples");

@@ -21,6 +21,7 @@ namespace {
 struct RunFlags {
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> lamps;
+    std::filesystem::path recipe;
     RunOptions options;
     std::string road, technique, resolution, frames, capture, out;
     const OutputFormat* tables = nullptr;
@@ -34,6 +35,7 @@ struct RunFlags {
 DriveEdits edits_of(const RunFlags& flags) {
     DriveEdits edits;
     edits.lamps = lamps_of(flags.lamps);
+    edits.lamp_recipe = flags.recipe;
     if (!flags.road.empty())
         edits.road = flags.road;
     if (!flags.technique.empty())
@@ -122,6 +124,7 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     sub->add_option("--lamp", flags->lamps,
                     "[SIDE=]FILE: use this lamp file for all lamps, or for those whose name contains SIDE (left, right)")
         ->allow_extra_args(false);
+    add_recipe_flag(*sub, flags->recipe);
     sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's");
     sub->add_option("--road-folder", flags->road_folders, "also look here for the road of a drive's storyboard")->allow_extra_args(false);
     sub->add_flag("--lenient", flags->lenient, "skip what is unsupported in a storyboard, with a note for each");

@@ -34,6 +34,7 @@ std::vector<std::pair<std::string, std::string>> input_hashes(const Drive& drive
     for (LampSource& source : one.lamp_sources)
         if (uses(lamp_set, source.file.get())) {
             source.path = fmt::format("lamp file {}", lamps.size() + 1);
+            source.options.recipe.clear(); // its content is among what was opened
             lamps.emplace_back(source.path.string(), hash_of(source.file->opened));
         }
     const std::string bits = drive_bits(one) + fmt::format("moments: [{}, {}]\n", first_tick, last_tick);

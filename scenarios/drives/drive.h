@@ -151,6 +151,7 @@ struct DriveEdits {
     /// Side and file: every lamp whose name contains the side ("" = all). High-beam lamps (name contains "high") are meant only
     /// when the side says so: "high", "high-left".
     std::vector<std::pair<std::string, std::filesystem::path>> lamps;
+    std::filesystem::path lamp_recipe; ///< of those that are text grids; "": none
     std::optional<std::filesystem::path> road;
     std::optional<std::string> technique;
     std::optional<std::string> shadows; ///< method by name

@@ -2,11 +2,9 @@
 
 #include "scenarios/lamps/goniometer.h"
 #include "scenarios/lamps/lamp_text.h"
-#include "scenarios/values/pose.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace fernlicht {
@@ -79,22 +77,7 @@ class Cells {
             separator_ = first_line.find(c) != std::string_view::npos ? c : separator_;
     }
 
-    std::vector<std::string_view> of(std::string_view line) const {
-        std::vector<std::string_view> cells;
-        line = separator_ == '\t' ? line : trimmed(line);
-        for (;;) {
-            const std::size_t end = line.find(separator_);
-            cells.push_back(unquoted(line.substr(0, end)));
-            if (end == std::string_view::npos)
-                break;
-            line.remove_prefix(end + 1);
-            while (separator_ == ' ' && line.starts_with(' '))
-                line.remove_prefix(1);
-        }
-        if (cells.size() > 1 && cells.back().empty())
-            cells.pop_back(); // a separator that ends the line
-        return cells;
-    }
+    std::vector<std::string_view> of(std::string_view line) const { return cells_of(line, separator_); }
     double number(std::string_view cell, const InputError::Where& where) const {
         if (separator_ == ',' || cell.find(',') == std::string_view::npos)
             return finite_number(cell, where);
@@ -104,10 +87,6 @@ class Cells {
     }
 
   private:
-    static std::string_view unquoted(std::string_view cell) {
-        cell = trimmed(cell);
-        return cell.size() >= 2 && cell.front() == '"' && cell.back() == '"' ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
-    }
     char separator_ = ' ';
 };
 
@@ -138,27 +117,8 @@ void take_row(std::string_view line, const Cells& cells, const InputError::Where
 }
 
 void check_angles(const MeasuredGrid& grid, const MatrixHeader& header, const std::filesystem::path& path) {
-    // Beyond 89 degrees a wall is more than 57 times as far away as straight ahead.
     const bool wall = header.flat_angles || (header.lux && header.planar);
-    const auto check = [&](const std::vector<double>& angles, double limit, const char* name, std::size_t line) {
-        for (const double angle : angles)
-            if (std::abs(angle) > limit)
-                throw InputError({path, line, 0, name}, fmt::format("found {}", angle), fmt::format("angles from -{} to {}", limit, limit));
-        if (angles.size() < 2)
-            throw InputError({path, line, 0, name}, fmt::format("found {} of them", angles.size()), "at least 2");
-    };
-    check(grid.h_deg, wall ? 89.0 : 180.0, "horizontal angles", grid.h_line);
-    check(grid.v_deg, wall ? 89.0 : 90.0, "vertical angles", grid.v_line);
-}
-
-/// What a lux is worth in candela at these angles.
-double cd_per_lux(const MatrixHeader& header, double h_deg, double v_deg) {
-    const double facing = header.distance_m * header.distance_m;
-    if (!header.planar)
-        return facing;
-    const double h = radians(h_deg), v = radians(v_deg);
-    const double cosine = header.flat_angles ? 1.0 / std::hypot(1.0, std::tan(h), std::tan(v)) : std::cos(h) * std::cos(v);
-    return facing / (cosine * cosine * cosine);
+    check_angle_ranges(grid, wall ? most_wall_deg : 180.0, wall ? most_wall_deg : 90.0, path);
 }
 
 /// `row_lines` gets the line of each row.
@@ -176,6 +136,9 @@ MeasuredGrid read_matrix(const std::filesystem::path& path, std::string_view tex
             take_header_line(trimmed(line), at, header, lamp);
             continue;
         }
+        if (!header.unit_given)
+            throw InputError({path, lines.number(), 0, "unit"}, "is not given before the numbers",
+                             "a line '# unit: lx' or '# unit: cd'; other text grids need a recipe");
         try {
             if (cells) {
                 take_row(line, *cells, at, grid);
@@ -189,8 +152,6 @@ MeasuredGrid read_matrix(const std::filesystem::path& path, std::string_view tex
             throw;
         }
     }
-    if (!header.unit_given)
-        throw InputError({path, lines.number(), 0, "unit"}, "is not given", "a line '# unit: lx' or '# unit: cd'");
     if (!cells || grid.v_deg.empty())
         throw InputError({path, lines.number(), 0, {}}, "the file ends before the matrix", "horizontal angles, then rows");
     grid.v_line = row_lines.front();
@@ -221,7 +182,8 @@ LampFile read_beam_matrix(const std::filesystem::path& path, std::string_view te
     if (header.lux)
         for (std::size_t v = 0; v < grid.v_deg.size(); ++v)
             for (std::size_t h = 0; h < grid.h_deg.size(); ++h)
-                grid.cd[v * grid.h_deg.size() + h] *= cd_per_lux(header, grid.h_deg[h], grid.v_deg[v]);
+                grid.cd[v * grid.h_deg.size() + h] *=
+                    cd_per_lux(header.distance_m, header.planar, header.flat_angles, grid.h_deg[h], grid.v_deg[v]);
     check_and_order(grid, path, lamp.notes, [&](std::size_t at) { return row_lines[at / grid.h_deg.size()]; });
     check_angles(grid, header, path); // repeated angles may have left a single one
     finish(grid, options, header.gaps ? &*header.gaps : nullptr, {path, header.gaps_line, 0, "gaps_deg"},

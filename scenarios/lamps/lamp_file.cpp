@@ -4,6 +4,7 @@
 #include "scenarios/lamps/eulumdat.h"
 #include "scenarios/lamps/ies.h"
 #include "scenarios/lamps/lamp_text.h"
+#include "scenarios/lamps/text_grid.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -11,21 +12,31 @@
 namespace fernlicht {
 namespace {
 
+/// Whether a text that a format claims may be one that a recipe describes: `# unit:` is no rare comment, and a few numbers begin EULUMDAT.
+bool may_be_grid(const LampFormat& format, const std::filesystem::path& path) {
+    return format.read == read_beam_matrix || (format.read == read_eulumdat && uppercase(path.extension().string()) != ".LDT");
+}
+
 LampFile read_as_it_is(const std::filesystem::path& path, const LampReadOptions& options) {
     FilesRead opened;
     std::string content = read_file(path, opened, max_lamp_text_bytes);
+    const std::optional<GridRecipe> recipe =
+        options.recipe.empty() ? std::nullopt : std::optional(read_grid_recipe(options.recipe, opened));
     const auto all = lamp_formats();
     auto format = std::ranges::find_if(all, [&](const LampFormat& f) { return f.picture && f.looks_so(content); });
     if (format == all.end()) {
         content = lamp_text(content, path);
         format = std::ranges::find_if(all, [&](const LampFormat& f) { return !f.picture && f.looks_so(content); });
     }
+    if (recipe && (format == all.end() || may_be_grid(*format, path)))
+        return read_text_grid(path, content, *recipe, options, std::move(opened));
     // A text whose content says nothing is what its name says, so that its reader can tell what is wrong with it.
     if (format == all.end())
         format = std::ranges::find_if(
             all, [&](const LampFormat& f) { return !f.picture && uppercase(f.extensions) == uppercase(path.extension().string()); });
     if (format == all.end())
-        throw InputError({path, 0, 0, {}}, "is no lamp file that we know", lamp_format_list());
+        throw InputError({path, 0, 0, {}}, "is no lamp file that we know",
+                         lamp_format_list() + "; other text grids need a recipe that says how they are laid out (docs/lamps.md)");
     return format->read(path, content, options, std::move(opened));
 }
 

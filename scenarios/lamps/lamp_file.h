@@ -24,6 +24,8 @@ struct LampReadOptions {
     double texture_h_extent_deg[2] = {0.0, 0.0}; ///< left and right edge; equal: from the image's metadata
     double texture_v_extent_deg[2] = {0.0, 0.0}; ///< bottom and top edge
     bool mirrored = false;                       ///< H and -H exchanged after reading: a lamp for the other side of the road
+    /// Of text grids that no format tells: the file that says how they are laid out (grid_recipe.h). "": none.
+    std::filesystem::path recipe = {};
 
     bool operator==(const LampReadOptions&) const = default;
 };
@@ -49,7 +51,8 @@ struct LampFormat {
 std::span<const LampFormat> lamp_formats();
 std::string lamp_format_list(); ///< "IES LM-63 (.ies), ... or beam texture (.png, .exr)"
 
-/// Reads any supported lamp file, told by content first and extension second. Throws InputError.
+/// Reads any supported lamp file, told by content first and extension second; where there is a recipe, texts that are neither IES nor an
+/// .ldt file by it. Throws InputError.
 LampFile read_lamp(const std::filesystem::path& path, const LampReadOptions& options = {});
 
 void mirror(LampFile& lamp); ///< H and -H exchanged, in both tables

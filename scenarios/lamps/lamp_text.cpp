@@ -28,6 +28,11 @@ std::optional<std::string> with_point(std::string_view text) {
     return number_in(out) ? std::optional(out) : std::nullopt;
 }
 
+std::string_view unquoted(std::string_view cell) {
+    cell = trimmed(cell);
+    return cell.size() >= 2 && cell.front() == '"' && cell.back() == '"' ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+}
+
 } // namespace
 
 std::string lamp_text(const std::string& bytes, const std::filesystem::path& path) {
@@ -63,6 +68,26 @@ std::vector<std::string_view> words_of(std::string_view line, std::string_view s
         words.push_back(line.substr(begin, end - begin));
     }
     return words;
+}
+
+std::vector<std::string_view> cells_of(std::string_view line, char separator) {
+    std::vector<std::string_view> cells;
+    if (separator == ' ') {
+        cells = words_of(line);
+        std::ranges::transform(cells, cells.begin(), unquoted);
+        return cells;
+    }
+    line = separator == '\t' ? line : trimmed(line);
+    for (;;) {
+        const std::size_t end = line.find(separator);
+        cells.push_back(unquoted(line.substr(0, end)));
+        if (end == std::string_view::npos)
+            break;
+        line.remove_prefix(end + 1);
+    }
+    if (cells.size() > 1 && cells.back().empty())
+        cells.pop_back();
+    return cells;
 }
 
 std::string uppercase(std::string_view text) {

@@ -37,6 +37,9 @@ std::string lamp_text(const std::string& bytes, const std::filesystem::path& pat
 std::string_view trimmed(std::string_view text);
 /// What blanks, or other `separators`, part; none is empty.
 std::vector<std::string_view> words_of(std::string_view line, std::string_view separators = {" \t\v\f\0", 5});
+/// What `separator` parts, a blank any run of blanks and tabs, without blanks and quotation marks round it. A separator that ends the line
+/// begins no cell.
+std::vector<std::string_view> cells_of(std::string_view line, char separator);
 std::string uppercase(std::string_view text);
 /// Control characters, which would end the line, as blanks.
 std::string on_one_line(std::string text);

@@ -2,8 +2,10 @@
 
 #include "scenarios/lamps/goniometer.h"
 #include "scenarios/lamps/lamp_text.h"
+#include "scenarios/values/pose.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <numeric>
@@ -149,6 +151,27 @@ void check_and_order(MeasuredGrid& grid, const std::filesystem::path& file, Note
     grid = transposed(grid);
     put_rows_in_order(grid, "horizontal", file, notes);
     grid = transposed(grid);
+}
+
+void check_angle_ranges(const MeasuredGrid& grid, double h_limit_deg, double v_limit_deg, const std::filesystem::path& file) {
+    const auto check = [&](const std::vector<double>& angles, double limit, const char* name, std::size_t line) {
+        for (const double angle : angles)
+            if (std::abs(angle) > limit)
+                throw InputError({file, line, 0, name}, fmt::format("found {}", angle), fmt::format("angles from -{} to {}", limit, limit));
+        if (angles.size() < 2)
+            throw InputError({file, line, 0, name}, fmt::format("found {} of them", angles.size()), "at least 2");
+    };
+    check(grid.h_deg, h_limit_deg, "horizontal angles", grid.h_line);
+    check(grid.v_deg, v_limit_deg, "vertical angles", grid.v_line);
+}
+
+double cd_per_lux(double distance_m, bool planar, bool screen_angles, double h_deg, double v_deg) {
+    const double facing = distance_m * distance_m;
+    if (!planar)
+        return facing;
+    const double h = radians(h_deg), v = radians(v_deg);
+    const double cosine = screen_angles ? 1.0 / std::hypot(1.0, std::tan(h), std::tan(v)) : std::cos(h) * std::cos(v);
+    return facing / (cosine * cosine * cosine);
 }
 
 void finish(const MeasuredGrid& grid, const LampReadOptions& options, const std::string* written, const InputError::Where& where,

@@ -25,6 +25,16 @@ struct MeasuredGrid {
 void check_and_order(MeasuredGrid& grid, const std::filesystem::path& file, Notes& notes,
                      const std::function<std::size_t(std::size_t)>& line_of);
 
+/// Beyond, a wall is more than 57 times as far away as straight ahead.
+inline constexpr double most_wall_deg = 89.0;
+
+/// Throws InputError unless each axis has at least 2 angles, within these bounds to both sides, degrees.
+void check_angle_ranges(const MeasuredGrid& grid, double h_limit_deg, double v_limit_deg, const std::filesystem::path& file);
+
+/// What a lux is worth in candela: I = E d^2 where the sensor faces the lamp; in a wall square to the axis, theta off it,
+/// I = E (d / cos theta)^2 / cos theta. Angles as read off that wall, or of type A or B.
+double cd_per_lux(double distance_m, bool planar, bool screen_angles, double h_deg, double v_deg);
+
 /// Ends every reader but those of C planes: the lamp's table, with the gaps that `written` names (as gaps_text does; `where` it stands) or
 /// else those of mark_padding, brought onto H and V from another `system`.
 void finish(const MeasuredGrid& grid, const LampReadOptions& options, const std::string* written, const InputError::Where& where,

@@ -39,6 +39,7 @@ DriveEdits edits_for(const Study& study, const StudyLamp& lamp, const StudyCell&
     edits.lamps.emplace_back("", lamp.left); // every low beam, whatever its name
     if (lamp.right != lamp.left)
         edits.lamps.emplace_back("right", lamp.right);
+    edits.lamp_recipe = lamp.recipe;
     edits.technique = study.techniques[cell.technique];
     edits.resolution = study.resolution_px;
     return edits;
@@ -161,6 +162,8 @@ const Fields<StudyLamp>& study_lamp_fields() {
             field("colour", 2, &Lamp::colour, colour_fields(), "what a spectrum comes to"),
             field("file_aim_percent", 3, &Lamp::file_aim_percent, range(-10.0, 10.0), "the dip that the lamp's file already holds"),
             field("mirrors", 4, &Lamp::mirrors, any(), "false: its tables stay as they are where the condition mirrors"),
+            field("recipe", 5, &Lamp::recipe, any(), "how those of its files that are text grids are laid out, as in a drive")
+                .read_by([](const YamlEntry& given, Lamp& lamp) { lamp.recipe = recipe_of(given); }),
         }
             .in_schema(R"({"oneOf": [{"required": ["left", "right"], "not": {"required": ["low"]}},
                 {"required": ["low"], "not": {"anyOf": [{"required": ["left"]}, {"required": ["right"]}]}}]})");
@@ -178,6 +181,7 @@ void read_study_lamps(const YamlEntry& entry, Study& study) {
         lamp.colour = read_colour(keys, lamp.source, cache, given);
         read_field(study_lamp_fields(), "file_aim_percent", keys, &lamp);
         read_field(study_lamp_fields(), "mirrors", keys, &lamp);
+        read_field(study_lamp_fields(), "recipe", keys, &lamp);
     }
     study.opened.insert(study.opened.end(), cache.opened().begin(), cache.opened().end());
 }

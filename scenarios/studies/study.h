@@ -10,6 +10,7 @@ struct StudyLamp {
     std::string name;
     std::filesystem::path left, right; ///< low beams; the same file twice where the study names one
     std::filesystem::path high;        ///< high beams; "" for none
+    std::filesystem::path recipe;      ///< of those of them that are text grids; "" for none
     SourceKind source = SourceKind::filament;
     LampColour colour;
     /// The dip that the lamp's file already holds: files measured in regulation aim have their cut-off 1 % down.

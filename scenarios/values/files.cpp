@@ -60,6 +60,20 @@ std::size_t utf8_length(const unsigned char* p, std::size_t left) {
     return 0;
 }
 
+std::filesystem::path shipped_path(const std::filesystem::path& name) {
+    std::error_code ignored;
+    for (std::filesystem::path folder :
+         {std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path(), std::filesystem::current_path(ignored)})
+        for (; !folder.empty(); folder = folder.parent_path()) {
+            std::filesystem::path found = folder / "scenarios/library" / name;
+            if (std::filesystem::exists(found, ignored))
+                return found;
+            if (folder == folder.parent_path())
+                break;
+        }
+    return {};
+}
+
 std::string content_hash(const void* data, std::size_t bytes) {
     const XXH128_hash_t hash = XXH3_128bits(data, bytes);
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);

@@ -23,6 +23,10 @@ using FilesRead = std::vector<FileRead>;
 std::string read_file(const std::filesystem::path& path, FilesRead& opened, std::size_t max_bytes = std::size_t{256} << 20,
                       bool may_be_empty = false);
 
+/// A file or folder of scenarios/library ("lamps/halogen-low.ies"), looked for upwards from the program and from the working folder;
+/// empty where neither has it.
+std::filesystem::path shipped_path(const std::filesystem::path& name);
+
 /// 32 hexadecimal digits of xxHash's 128-bit hash.
 std::string content_hash(const void* data, std::size_t bytes);
 

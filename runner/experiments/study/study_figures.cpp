@@ -204,7 +204,8 @@ void add_work_precision(const StudyResult& result, std::vector<StudyFigure>& fig
 
 void add_lamp_differences(const StudyResult& result, std::vector<StudyFigure>& figures) {
     for (const LampComparison& lamps : result.lamps) {
-        plots::Figure figure = difference_figure(read_lamp(lamps.file), read_lamp(lamps.other_file), lamps.difference);
+        plots::Figure figure = difference_figure(read_lamp(lamps.file, {.recipe = lamps.recipe}),
+                                                 read_lamp(lamps.other_file, {.recipe = lamps.other_recipe}), lamps.difference);
         figure.title = fmt::format("{} over {} ({})", lamps.tested, lamps.against, lamps.side);
         const std::string title = figure.title;
         figures.push_back(with_files(fmt::format("lamps_{}-{}{}", lamps.tested, lamps.against, lamps.side == "right" ? "_right" : ""),

@@ -33,6 +33,7 @@ struct LampComparison {
     std::string side;            ///< "left", "right", or "left and right" where both are the same files
     std::filesystem::path file, other_file;
     LampDifference difference;
+    std::filesystem::path recipe = {}, other_recipe = {}; ///< of files that are text grids; "" for none
 };
 
 struct StudyFigure {

@@ -55,11 +55,14 @@ std::vector<LampComparison> compare_lamp_files(const Study& study) {
             if (alike && !left)
                 continue;
             const fs::path &file = left ? now.left : now.right, &other = left ? before.left : before.right;
-            out.push_back({pair.tested, pair.against,
-                           alike  ? "left and right"
-                           : left ? "left"
-                                  : "right",
-                           file, other, difference_of(read_lamp(file), read_lamp(other), study.noise_relative)});
+            out.push_back(
+                {pair.tested, pair.against,
+                 alike  ? "left and right"
+                 : left ? "left"
+                        : "right",
+                 file, other,
+                 difference_of(read_lamp(file, {.recipe = now.recipe}), read_lamp(other, {.recipe = before.recipe}), study.noise_relative),
+                 now.recipe, before.recipe});
         }
     }
     return out;

@@ -85,7 +85,7 @@ void replace_resolution(Drive& drive, const std::pair<int, int>& resolution) {
 void apply_edits(Drive& drive, const DriveEdits& edits, LampCache& cache) {
     std::set<std::string> replaced;
     for (const auto& [side, path] : edits.lamps)
-        replace_lamps(drive, side, cache.lamp(made_absolute(path), {}), replaced);
+        replace_lamps(drive, side, cache.lamp(made_absolute(path), {.recipe = edits.lamp_recipe}), replaced);
     if (!replaced.empty())
         keep_one_lamp_set(drive, edits, replaced);
     if (edits.road)

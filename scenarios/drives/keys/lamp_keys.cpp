@@ -1,6 +1,7 @@
 #include "scenarios/drives/keys/lamp_keys.h"
 
 #include "scenarios/fields/read_fields.h"
+#include "scenarios/lamps/grid_recipe.h"
 #include "scenarios/yaml/yaml_tree.h"
 
 #include <algorithm>
@@ -65,6 +66,10 @@ const Fields<LampReadOptions>& option_fields() {
             },
             "only for beam textures without metadata"),
         field("mirrored", 4, &Options::mirrored, any(), "left and right exchanged: a lamp for the other side of the road")
+            .written_off_default(),
+        field("recipe", 5, &Options::recipe, any(),
+              "how a text grid is laid out, as a goniometer exports it: a file, or the name of a shipped recipe; docs/lamps.md")
+            .read_by([](const YamlEntry& entry, Options& options) { options.recipe = recipe_of(entry); })
             .written_off_default(),
     };
     return fields;
@@ -200,6 +205,11 @@ std::shared_ptr<const LampFile> read_lamp_keys(const YamlMap& keys, LampCache& c
     options.type_c_axis = axis;
     read_group(option_fields(), keys, &options);
     return cache.lamp(file->path(), options, &*file);
+}
+
+std::filesystem::path recipe_of(const YamlEntry& entry) {
+    return recipe_file(entry.text(), entry.file().parent_path(),
+                       {entry.file(), entry.value().line, entry.value().column, entry.key_path()});
 }
 
 std::optional<SourceKind> read_source(const YamlMap& keys) {

@@ -51,6 +51,9 @@ class LampsAreOf {
 /// `file` with the keys that say how it is read; nullptr where none is named. `axis`: of a Type C file that does not give it.
 std::shared_ptr<const LampFile> read_lamp_keys(const YamlMap& keys, LampCache& cache, TypeCAxis axis = TypeCAxis::automatic);
 
+/// The recipe that a text grid is read by: a file beside the YAML, or the name of a shipped one.
+std::filesystem::path recipe_of(const YamlEntry& entry);
+
 /// Lamps of the high beam are told by their names.
 inline bool is_high_beam(const std::string& lamp) { return lamp.find("high") != std::string::npos; }
 

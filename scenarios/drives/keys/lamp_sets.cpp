@@ -86,7 +86,7 @@ void read_change(const YamlEntry& entry, LampSet& lamp_set, LampCache& cache) {
     for (const char* const key : {"at_s", "level", "aim"})
         read_field(change_fields(), key, keys, &change);
     change.file = read_lamp_keys(keys, cache);
-    for (const std::string_view key : {"between_samples", "type_c_axis", "texture", "mirrored"})
+    for (const std::string_view key : {"between_samples", "type_c_axis", "texture", "mirrored", "recipe"})
         if (const auto option = keys.find(key); option && !change.file)
             option->refuse("a way to read a file without a file", "file beside it");
     change.source = read_source(keys);
@@ -157,7 +157,9 @@ std::shared_ptr<const LampFile> LampCache::lamp(const std::filesystem::path& pat
     if (asked_by)
         check_file(path, *asked_by);
     auto file = std::make_shared<const LampFile>(read_lamp(path, options));
-    opened_.insert(opened_.end(), file->opened.begin(), file->opened.end());
+    for (const FileRead& one : file->opened) // one recipe may be for many lamps
+        if (one.path != options.recipe || std::ranges::find(opened_, one.path, &FileRead::path) == opened_.end())
+            opened_.push_back(one);
     sources_.push_back({path, options, file});
     return file;
 }

@@ -2,10 +2,10 @@
 
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <system_error>
 
 namespace fernlicht {
 namespace {
@@ -28,17 +28,9 @@ std::string quoted_text(const std::string& text) {
     return out + '"';
 }
 
-/// A file of scenarios/library, looked for upwards from the program and from the working folder.
-fs::path shipped_file(const fs::path& storyboard, const fs::path& name) {
-    std::error_code ignored;
-    for (fs::path folder : {fs::read_symlink("/proc/self/exe", ignored).parent_path(), fs::current_path(ignored)})
-        for (; !folder.empty(); folder = folder.parent_path()) {
-            const fs::path file = folder / "scenarios/library" / name;
-            if (fs::is_regular_file(file, ignored))
-                return file;
-            if (folder == folder.parent_path())
-                break;
-        }
+fs::path shipped_lamp(const fs::path& storyboard) {
+    if (fs::path lamp = shipped_path("lamps/halogen-low.ies"); !lamp.empty())
+        return lamp;
     throw InputError({storyboard, 0, 0, {}}, "no drive says which lamps the cars have, and scenarios/library is not above the program",
                      "a drive file with `storyboard:` and lamps");
 }
@@ -68,7 +60,7 @@ std::string storyboard_drive_text(const fs::path& path, const DriveEdits& edits)
     for (const fs::path& folder : edits.road_folders)
         options.road_folders.push_back(fs::absolute(folder).lexically_normal());
     const osc::Storyboard story = osc::read_storyboard(path, options);
-    const std::string lamp = quoted_text(shipped_file(path, "lamps/halogen-low.ies").string());
+    const std::string lamp = quoted_text(shipped_lamp(path).string());
     return fmt::format("fernlicht: 1\n"
                        "name: {}\n"
                        "title: {}\n"

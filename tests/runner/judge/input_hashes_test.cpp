@@ -3,6 +3,7 @@
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/studies/study.h"
 #include "tests/runner/program.h"
+#include "tests/trial.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -55,6 +56,22 @@ TEST(CellInputs, WhatChangesResultsCountsAndNothingElse) {
         }
     EXPECT_NE(inputs_of(other_other)[2], before[2]);
     EXPECT_EQ(inputs_of(other_other)[0], before[0]) << "a lamp's bytes are told from the drive's";
+}
+
+TEST(CellInputs, ARecipeCountsByItsContentNotByItsPlace) {
+    const std::string grid = "V;-1;1\n-1;500;500\n1;500;500\n";
+    const std::string recipe = "fernlicht_recipe: 1\nlayout: matrix\ndelimiter: semicolon\nunit: cd\n";
+    const auto inputs = [&](const std::string& recipe_text) {
+        const auto folder = tests::new_folder();
+        DriveEdits edits;
+        edits.lamps = {{"", tests::written("grid.txt", grid, folder)}};
+        edits.lamp_recipe = tests::written("recipe.yaml", recipe_text, folder);
+        return inputs_of(read_drive(library_file("drives/straight.yaml"), edits));
+    };
+    const Inputs before = inputs(recipe);
+    EXPECT_EQ(inputs(recipe), before) << "in another folder";
+    EXPECT_EQ(inputs(recipe + "title: another\n")[0], before[0]);
+    EXPECT_NE(inputs(recipe + "title: another\n")[2], before[2]);
 }
 
 // By this `fernlicht migrate` finds the drives of its baselines: a few of those that version 0.1 shipped, of whole drives and of five

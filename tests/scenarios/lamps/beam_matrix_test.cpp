@@ -118,7 +118,8 @@ TEST_F(BeamMatrix, ManyRectanglesOfGapsTakeNoMoreThanTheirText) {
 TEST_F(BeamMatrix, MessagesNameLineAndCell) {
     const std::pair<std::string, const char*> cases[]{
         {"", "x.csv: is empty"},
-        {body, "x.csv:4: unit: is not given, expected a line '# unit: lx' or '# unit: cd'"},
+        {body,
+         "x.csv:1: unit: is not given before the numbers, expected a line '# unit: lx' or '# unit: cd'; other text grids need a recipe"},
         {std::string("# unit: fc\n") + body, "x.csv:1: unit: found 'fc', expected cd or lx"},
         {std::string("# unit: lx\n# distance: 25\n") + body, "x.csv:2: distance: is no key of a beam matrix, expected distance_m"},
         {std::string("# unit: lx\n# distance_m: -25\n") + body, "x.csv:2: distance_m: found -25"},

@@ -40,6 +40,20 @@ TEST_F(StudyFile, TheExampleAndTheStandardStudyAreRead) {
     EXPECT_EQ(cells_of(standard).back().name, "village_xenon");
 }
 
+TEST_F(StudyFile, ALampThatIsATextGridHasARecipe) {
+    const auto folder = tests::new_folder();
+    tests::written("grid.txt", "V;-1;1\n-1;500;500\n1;500;500\n", folder);
+    tests::written("ours.yaml", "fernlicht_recipe: 1\nlayout: matrix\ndelimiter: semicolon\nunit: cd\n", folder);
+    const Study study = read(fmt::format("fernlicht_study: 1\nlamps:\n  a: {{low: {0}/lamps/halogen-low.ies}}\n"
+                                         "  b: {{low: {1}/grid.txt, recipe: {1}/ours.yaml}}\ndrives: [{0}/drives/straight.yaml]\n",
+                                         shipped_library.string(), folder.string()));
+    EXPECT_EQ(study.lamps[0].recipe, "");
+    EXPECT_EQ(study.lamps[1].recipe, folder / "ours.yaml");
+    const Drive drive = cell_drive(study, cells_of(study)[1]);
+    EXPECT_EQ(drive.lamp_sets[0].lamps[0].file->table.cd, (std::vector<double>{500, 500, 500, 500}));
+    EXPECT_THAT(refusal(with("").replace(with("").find("a: {"), 4, "a: {recipe: none, ")), HasSubstr("no recipe of that name"));
+}
+
 TEST_F(StudyFile, WhatIsNotGivenIsNightAtRegulationAim) {
     const Study study = read(with(""));
     const std::vector<StudyCell> cells = cells_of(study);

@@ -140,9 +140,10 @@ std::string hash_of(const RunDrive& drive, const std::string& path) {
 /// The file as the run read it. Throws InputError where it is gone, is another one by now, or needs more than the file to be read.
 LampFile read_as_played(const RunDrive& drive, const YamlValue& lamp) {
     const std::filesystem::path path = text_in(lamp, "file");
-    LampFile file = read_lamp(path, {});
-    if (file.opened.empty() || file.opened.front().xxh128 != hash_of(drive, path.string()))
-        throw InputError({path, 0, 0, {}}, "is not the file any more that the run read");
+    LampFile file = read_lamp(path, {.recipe = text_in(lamp, "recipe")});
+    for (const FileRead& opened : file.opened)
+        if (opened.xxh128 != hash_of(drive, opened.path.string()))
+            throw InputError({opened.path, 0, 0, {}}, "is not the file any more that the run read");
     if (const std::string axis = text_in(lamp, "type_c_axis"); !axis.empty() && axis != "automatic")
         throw InputError({path, 0, 0, {}}, "was read with an axis of its own");
     return file;

@@ -4,6 +4,7 @@
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/key_table.h"
 #include "scenarios/fields/schema.h"
+#include "scenarios/lamps/grid_recipe.h"
 #include "scenarios/studies/study.h"
 
 #include <cstdlib>
@@ -44,9 +45,9 @@ void find_definitions(const Group& group, std::map<std::string_view, const Group
         }
 }
 
-std::map<std::string_view, const Group*> definitions() {
+std::map<std::string_view, const Group*> definitions(const Group& group) {
     std::map<std::string_view, const Group*> found;
-    find_definitions(drive_fields(), found);
+    find_definitions(group, found);
     return found;
 }
 
@@ -67,20 +68,24 @@ void expect_schema(const std::filesystem::path& file, const Group& group, const 
 }
 
 TEST(DescribedKeys, AreTheSchemas) {
-    expect_schema(source / "scenarios/drive.schema.json", drive_fields(), definitions());
+    expect_schema(source / "scenarios/drive.schema.json", drive_fields(), definitions(drive_fields()));
     expect_schema(source / "scenarios/study.schema.json", study_fields(), {});
+    expect_schema(source / "scenarios/recipe.schema.json", grid_recipe_fields(), definitions(grid_recipe_fields()));
 }
 
 TEST(DescribedKeys, AreTheReference) {
     Drive usual;
     usual.extent.emplace();
-    std::string text = "# Keys of drive and study files\n\nWritten by `ci/write-keys` from the descriptions of the keys. "
+    std::string text = "# Keys of drive and study files and of recipes\n\nWritten by `ci/write-keys` from the descriptions of the keys. "
                        "[drives.md](drives.md) explains drives, `scenarios/drive.example.yaml` shows one; "
-                       "[studies.md](studies.md) explains studies.\n\n";
+                       "[studies.md](studies.md) explains studies, [lamps.md](lamps.md) the recipes of lamp files.\n\n";
     text += key_tables("", drive_fields(), &usual);
-    for (const auto& [name, group] : definitions())
+    for (const auto& [name, group] : definitions(drive_fields()))
         text += key_tables(std::string(name), *group, group->usual.get());
     text += key_tables("study", keys_of_study(), study_fields().usual.get());
+    text += key_tables("recipe", grid_recipe_fields(), grid_recipe_fields().usual.get());
+    for (const auto& [name, group] : definitions(grid_recipe_fields()))
+        text += key_tables(std::string(name), *group, group->usual.get());
     text.pop_back();
     expect_file(source / "docs/keys.md", text);
 }
@@ -99,6 +104,7 @@ void expect_in(const std::string& example, const Group& group) {
 TEST(DescribedKeys, AreInTheExamples) {
     expect_in(content(source / "scenarios/drive.example.yaml"), drive_fields());
     expect_in(content(source / "scenarios/study.example.yaml"), keys_of_study());
+    expect_in(content(source / "scenarios/recipe.example.yaml"), grid_recipe_fields());
 }
 
 void expect_ids_once(const std::string& path, const Group& group) {
@@ -115,6 +121,7 @@ void expect_ids_once(const std::string& path, const Group& group) {
 TEST(DescribedKeys, HaveIdsOfTheirOwn) {
     expect_ids_once("drive", drive_fields());
     expect_ids_once("study", study_fields());
+    expect_ids_once("recipe", grid_recipe_fields());
 }
 
 } // namespace

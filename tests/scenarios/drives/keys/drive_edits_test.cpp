@@ -50,6 +50,19 @@ TEST_F(DriveEditsTest, AllLampsLeaveOneLampSet) {
     EXPECT_THAT(drive.notes, ElementsAre(HasSubstr("only the first ('a') is played")));
 }
 
+TEST_F(DriveEditsTest, ALampThatIsATextGridComesWithItsRecipe) {
+    write_file(folder / "grid.txt", "V;-1;1\n-1;500;500\n1;500;500\n");
+    write_file(folder / "ours.yaml", "fernlicht_recipe: 1\nlayout: matrix\ndelimiter: semicolon\nunit: cd\n");
+    DriveEdits edits;
+    edits.lamps = {{"", folder / "grid.txt"}, {"high", folder / "other.ies"}};
+    edits.lamp_recipe = folder / "ours.yaml";
+    const Drive drive = read(pair, edits);
+    EXPECT_DOUBLE_EQ(peak(drive, 0, 0), 500.0);
+    EXPECT_DOUBLE_EQ(peak(drive, 0, 2), 2000.0);
+    edits.lamp_recipe.clear();
+    EXPECT_THAT(refusal(pair, edits), HasSubstr("grid.txt: is no lamp file that we know"));
+}
+
 TEST_F(DriveEditsTest, HighBeamsAreMeantByName) {
     const Drive drive = read(pair, with_lamp("high-left"));
     EXPECT_EQ(drive.lamp_sets.size(), 2U);

@@ -46,6 +46,34 @@ TEST_F(DriveFile, EachLampFileIsReadOnceAndRecorded) {
     EXPECT_EQ(drive.opened[1].bytes, ies_text(1000.0).size());
 }
 
+TEST_F(DriveFile, TextGridsAreReadByTheRecipeThatStandsBesideThem) {
+    write_file(folder / "a.txt", "V;-1,5;2\n0;100;200\n1;300;400\n");
+    write_file(folder / "b.txt", "V;-1,5;2\n0;1;2\n1;3;4\n");
+    write_file(folder / "ours.yaml", "fernlicht_recipe: 1\nlayout: matrix\ndelimiter: semicolon\ndecimal: comma\nunit: cd\n");
+    const std::string head = "fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 3\nlamp_sets:\n  a:\n    recipe: ours.yaml\n";
+    const Drive drive = read(head + "    lamps: {left: a.txt, right: b.txt, third: {file: low.ies, position_m: [1, 2, 3]}}\n");
+    const std::vector<MountedLamp>& lamps = drive.lamp_sets[0].lamps;
+    EXPECT_EQ(lamps[0].file->table.cd, (std::vector<double>{100, 200, 300, 400}));
+    EXPECT_EQ(lamps[1].file->table.cd, (std::vector<double>{1, 2, 3, 4}));
+    EXPECT_DOUBLE_EQ(intensity_cd(lamps[2].file->table, 0.0, 0.0), 1000.0) << "an IES file says itself how it is laid out";
+    EXPECT_EQ(std::ranges::count(drive.opened, folder / "ours.yaml", &FileRead::path), 1);
+    write_file(folder / "resolved.yaml", write_drive(drive));
+    const Drive again = read_drive(folder / "resolved.yaml");
+    ASSERT_EQ(again.lamp_sources.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(again.lamp_sources[i].options.recipe, folder / "ours.yaml");
+        EXPECT_EQ(again.lamp_sources[i].file->table, drive.lamp_sources[i].file->table);
+    }
+    EXPECT_THAT(refusal(head + "    lamps: {left: a.txt}\n    changes: [{at_s: 1, recipe: ours.yaml}]\n"),
+                testing::HasSubstr("a way to read a file without a file"));
+    EXPECT_THAT(refusal(minimal.substr(0, minimal.find("  one")) + "  one: {file: a.txt, recipe: speos-tipe-a}\n"),
+                testing::AllOf(
+                    testing::StartsWith("drive.yaml:6:30: lamp_sets.one.recipe: there is no file speos-tipe-a and no recipe of that name"),
+                    testing::HasSubstr("(nearest: 'speos-type-a')")));
+    EXPECT_THAT(refusal(minimal.substr(0, minimal.find("  one")) + "  one: {file: a.txt}\n"),
+                testing::HasSubstr("other text grids need a recipe"));
+}
+
 TEST_F(DriveFile, ALampsOwnKeysComeBeforeItsLampSets) {
     const Drive drive =
         read("fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 3\nlamp_sets:\n  a:\n    file: low.ies\n    source: arc\n"
