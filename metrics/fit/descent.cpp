@@ -10,7 +10,7 @@ namespace {
 
 constexpr double lux_tukey_c = 4.685;
 constexpr int most_iterations = 200;
-constexpr double near_enough = 1e-10;                     // of the decrement: 1e-5 standard errors
+constexpr double near_enough = 1e-10;                      // of the decrement: 1e-5 standard errors
 constexpr double least_damping = 1e-12, no_way_down = 1e8; // of damping
 
 double tukey_weight(double z) {

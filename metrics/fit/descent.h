@@ -30,9 +30,9 @@ struct Descent {
     double misfit = 0.0; ///< sum of min(z^2, 4.685^2), z in multiples of sigma: what starts are compared by
 };
 
-/// Points in `used` alone count. `robust`: each with Tukey's biweight at c = 4.685 times the residuals' robust scale (Beaton and Tukey 1974;
-/// 95 % efficient for normal errors), the scale 1.4826 times the median absolute residual, at least 1. Weights and sigma are those of the
-/// point of departure of each step. Ends when the minimum lies within 1e-5 of its standard error, or nothing further down is found.
+/// Points in `used` alone count. `robust`: each with Tukey's biweight at c = 4.685 times the residuals' robust scale (Beaton and Tukey
+/// 1974; 95 % efficient for normal errors), the scale 1.4826 times the median absolute residual, at least 1. Weights and sigma are those of
+/// the point of departure of each step. Ends when the minimum lies within 1e-5 of its standard error, or nothing further down is found.
 Descent descend(const FitModel& model, const FreeGroups& free, Shifts start, const std::vector<bool>& used, bool robust,
                 const FitBounds& bounds = {});
 

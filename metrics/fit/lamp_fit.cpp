@@ -12,8 +12,8 @@
 namespace fernlicht {
 namespace {
 
-constexpr int most_rounds = 20;          // of leaving out and taking back
-constexpr double decides_alone = 1e-9;   // of 1 - leverage
+constexpr int most_rounds = 20;        // of leaving out and taking back
+constexpr double decides_alone = 1e-9; // of 1 - leverage
 constexpr std::array<double, fit_quantities> told_unit{degrees(1.0), degrees(1.0), 1.0, 1.0};
 
 class LampFitting {
@@ -34,7 +34,7 @@ class LampFitting {
 
     LampFit fit() {
         starts_ = starts_of(model_, free_);
-        do {
+        for (bool held = true; held;) {
             used_.assign(used_.size(), true);
             best_of_starts();
             if (std::ranges::all_of(at_.lux, [](double lux) { return lux == 0.0; })) {
@@ -43,10 +43,12 @@ class LampFitting {
                 hold_all(fit_.failed);
                 break;
             }
-            if (hold_worst())
-                continue;
-            leave_out();
-        } while (hold_worst());
+            held = hold_worst();
+            if (!held) {
+                leave_out();
+                held = hold_worst();
+            }
+        }
         return result();
     }
 
@@ -128,13 +130,13 @@ class LampFitting {
 
     /// Least squares of what is left when readings beyond the threshold are out.
     void leave_out() {
-        fit_.outlier_from = normal_bound(options_.false_outlier, points().size());
+        const double bound = normal_bound(options_.false_outlier, points().size());
         for (int round = 0; round < most_rounds; ++round) {
             const std::vector<std::optional<double>> z = studentised();
-            const double scale = residual_scale(normalised_residuals(points(), at_), used_);
+            fit_.outlier_from = bound * residual_scale(normalised_residuals(points(), at_), used_);
             std::vector<bool> used;
             for (const auto& one : z)
-                used.push_back(!one || std::abs(*one) <= fit_.outlier_from * scale);
+                used.push_back(!one || std::abs(*one) <= fit_.outlier_from);
             const bool settled = used == used_ && round > 0;
             used_ = std::move(used);
             if (settled)
@@ -190,7 +192,11 @@ class LampFitting {
             if (model_.points_of(lamp).empty())
                 continue;
             told.push_back(unknown);
-            FittedValue value{cars_[0].lamps[lamp].name, static_cast<FitQuantity>(k), at_.shifts[lamp][k] * told_unit[k], {}, held_[unknown],
+            FittedValue value{cars_[0].lamps[lamp].name,
+                              static_cast<FitQuantity>(k),
+                              at_.shifts[lamp][k] * told_unit[k],
+                              {},
+                              held_[unknown],
                               with_[unknown]};
             const double error = std::sqrt(covariance.at(unknown, unknown));
             if (value.quantity == FitQuantity::flux)
@@ -257,8 +263,6 @@ LampFit fit_lamps(const std::vector<CarAtReading>& cars, const std::vector<LuxPo
     return LampFitting(cars, points, options).fit();
 }
 
-const char* name_of(FitQuantity quantity) {
-    return std::array{"pitch", "yaw", "flux", "height"}[static_cast<std::size_t>(quantity)];
-}
+const char* name_of(FitQuantity quantity) { return std::array{"pitch", "yaw", "flux", "height"}[static_cast<std::size_t>(quantity)]; }
 
 } // namespace fernlicht

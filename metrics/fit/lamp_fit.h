@@ -25,7 +25,7 @@ struct FittedValue {
     double change = 0.0;                  ///< against the drive; of flux the factor, 1: none
     std::optional<double> standard_error; ///< of `change`; nullopt: held
     std::string held;                     ///< why; "" where it is fitted
-    std::string with;                     ///< "right": changes alike with that lamp's, since the readings cannot tell the two apart; "" alone
+    std::string with; ///< "right": changes alike with that lamp's, since the readings cannot tell the two apart; "" alone
 };
 
 struct FittedPoint {
@@ -35,22 +35,22 @@ struct FittedPoint {
     double residual = 0.0;
     std::optional<double> studentised;
     bool outlier = false;
-    std::size_t lamp = 0;              ///< that lights it most, as fitted
-    double h_deg = 0.0, v_deg = 0.0;   ///< as that lamp sees the point
+    std::size_t lamp = 0;            ///< that lights it most, as fitted
+    double h_deg = 0.0, v_deg = 0.0; ///< as that lamp sees the point
 };
 
 struct LampFit {
     std::vector<FittedValue> values; ///< four for each lamp that shone on a point, in the order of FitQuantity
     Matrix covariance;               ///< of `values`, in degrees, relative flux and metres; 0 for what is held
     std::vector<FittedPoint> points;
-    Shifts shifts;            ///< of all lamps, for shifted()
-    std::size_t unknowns = 0; ///< fitted
-    std::size_t used = 0;     ///< points, without outliers
+    Shifts shifts;                                     ///< of all lamps, for shifted()
+    std::size_t unknowns = 0;                          ///< fitted
+    std::size_t used = 0;                              ///< points, without outliers
     double chi_squared = 0.0, chi_squared_limit = 0.0; ///< of those; what chance reaches with `false_alarm`. 0 without degrees of freedom
-    double outlier_from = 0.0;                         ///< the threshold of |studentised|
-    double error_scale = 1.0; ///< by which standard errors and covariance are multiplied: above 1 where the residuals are inconsistent
-                              ///< (Birge 1932: square root of chi squared over degrees of freedom)
-    double condition = 0.0;   ///< condition index of what is fitted (scaled_svd.h)
+    double outlier_from = 0.0; ///< the threshold of |studentised|: the quantile times the residuals' robust scale, which is at least 1
+    double error_scale = 1.0;  ///< by which standard errors and covariance are multiplied: above 1 where the residuals are inconsistent
+                               ///< (Birge 1932: square root of chi squared over degrees of freedom)
+    double condition = 0.0;    ///< condition index of what is fitted (scaled_svd.h)
     int iterations = 0;
     std::string failed; ///< why nothing was fitted, or the fit is not to be used; "" where it is
 

@@ -14,7 +14,7 @@ constexpr std::array<double, fit_quantities> useless_from{radians(1.0), radians(
 constexpr std::array<const char*, fit_quantities> told_in{"°", "°", " %", " m"};
 constexpr std::array<double, fit_quantities> unit_scale{degrees(1.0), degrees(1.0), 100.0, 1.0};
 /// What is held first: a tape measures heights; without a cut-off in sight, aim stands behind flux.
-constexpr std::array<int, fit_quantities> held_as{2, 1, 3, 0};
+constexpr std::array<int, fit_quantities> held_as{1, 2, 0, 3};
 /// Of the least known combination: what has this share of its largest part takes part.
 constexpr double takes_part = 0.3;
 
@@ -31,9 +31,9 @@ std::optional<Undetermined> useless(const std::vector<double>& standard_errors, 
     const std::size_t quantity = quantity_of(free[worst]);
     return Undetermined{{worst},
                         false,
-                        standard_errors[worst] == infinite
-                            ? "no point's light changes with it"
-                            : fmt::format("the points tell it to ±{:.2g}{} only", standard_errors[worst] * unit_scale[quantity], told_in[quantity])};
+                        standard_errors[worst] == infinite ? "no point's light changes with it"
+                                                           : fmt::format("the points tell it to ±{:.2g}{} only",
+                                                                         standard_errors[worst] * unit_scale[quantity], told_in[quantity])};
 }
 
 } // namespace
@@ -59,8 +59,8 @@ std::optional<Undetermined> worst_known(const Matrix& jacobian, const FreeGroups
             if (std::abs(weakest[g]) >= takes_part * most)
                 parts.push_back(g);
         const auto same = [&](std::size_t g) { return quantity_of(free[g]) == quantity_of(free[parts[0]]); };
-        const std::string condition =
-            svd.condition() < 1e6 ? fmt::format("condition index {:.0f}", svd.condition()) : std::string("they cannot be told apart at all");
+        const std::string condition = svd.condition() < 1e6 ? fmt::format("condition index {:.0f}", svd.condition())
+                                                            : std::string("they cannot be told apart at all");
         if (parts.size() > 1 && std::ranges::all_of(parts, same))
             return Undetermined{parts, true, condition};
         const auto order = [&](std::size_t g) { return std::pair(held_as[quantity_of(free[g])], std::abs(weakest[g])); };

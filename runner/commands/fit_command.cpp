@@ -52,7 +52,8 @@ std::string column_help() {
     std::string text = "The points are a CSV file with the names of its columns in the first line:\n";
     for (const auto& [name, meaning] : lux_point_columns())
         text += fmt::format("  {:<20} {}\n", name, meaning);
-    return text + "Exit code 1 where the residuals are larger than the uncertainties say, or nothing could be fitted. docs/fit.md tells more.";
+    return text +
+           "Exit code 1 where the residuals are larger than the uncertainties say, or nothing could be fitted. docs/fit.md tells more.";
 }
 
 } // namespace

@@ -17,7 +17,9 @@ struct Telling {
     double times;
 };
 Telling telling_of(FitQuantity quantity) {
-    return quantity == FitQuantity::flux ? Telling{"%", 100.0} : quantity == FitQuantity::height ? Telling{"mm", 1000.0} : Telling{"°", 1.0};
+    return quantity == FitQuantity::flux     ? Telling{"%", 100.0}
+           : quantity == FitQuantity::height ? Telling{"mm", 1000.0}
+                                             : Telling{"°", 1.0};
 }
 
 /// Change from the drive; of flux in per cent.
@@ -43,11 +45,12 @@ std::string value_text(double value, FitQuantity quantity, int decimals) {
 }
 
 Table change_table(const FitResult& result) {
-    Table table{"lamps",
-                "What the points make of each lamp, as a change from the drive: pitch upwards, yaw to the left, flux, height. ± one standard "
-                "error",
-                columns_of("lamp<|pitch [°]|yaw [°]|flux [%]|height [mm]"),
-                {}};
+    Table table{
+        "lamps",
+        "What the points make of each lamp, as a change from the drive: pitch upwards, yaw to the left, flux, height. ± one standard "
+        "error",
+        columns_of("lamp<|pitch [°]|yaw [°]|flux [%]|height [mm]"),
+        {}};
     for (std::size_t i = 0; i < result.values.size(); i += fit_quantities) {
         std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{result.values[i].lamp});
         for (std::size_t k = 0; k < fit_quantities; ++k)
@@ -57,7 +60,9 @@ Table change_table(const FitResult& result) {
 }
 
 Table value_table(const FitResult& result) {
-    Table table{"values", "The same as values: in the drive, and fitted", columns_of("value<|drive|fitted|standard error|held, or changes alike<"),
+    Table table{"values",
+                "The same as values: in the drive, and fitted",
+                columns_of("value<|drive|fitted|standard error|held, or changes alike<"),
                 {}};
     for (const FitValue& value : result.values) {
         const int decimals = value.standard_error ? decimals_for(*value.standard_error) : 4;
@@ -101,8 +106,10 @@ std::string place_text(const FitPoint& point) {
 }
 
 Table point_table(const FitResult& result) {
-    Table table{"points", "All points. Residual: read less calculated, in standard uncertainties; outliers are in grey",
-                columns_of("point<|ahead [m]|left [m]|above [m]|lamps<|read [lx]|calculated [lx]|residual"), {}};
+    Table table{"points",
+                "All points. Residual: read less calculated, in standard uncertainties; outliers are in grey",
+                columns_of("point<|ahead [m]|left [m]|above [m]|lamps<|read [lx]|calculated [lx]|residual"),
+                {}};
     for (const FitPoint& point : result.points) {
         if (point.found.outlier)
             table.quiet.push_back(table.rows.size());
@@ -159,9 +166,11 @@ std::vector<std::string> fit_verdicts(const FitResult& result) {
     verdicts.push_back(misfit_text(result));
     for (const FitValue& value : result.values) {
         if (!value.held.empty() && value.held != result.failed)
-            verdicts.push_back(fmt::format("{} is held at {}: {}", name_of(value), value_text(value.of_drive, value.quantity, 3), value.held));
+            verdicts.push_back(
+                fmt::format("{} is held at {}: {}", name_of(value), value_text(value.of_drive, value.quantity, 3), value.held));
         if (!value.with.empty() && value.lamp < value.with)
-            verdicts.push_back(fmt::format("{} changes alike with that of {}: the points cannot tell the two apart", name_of(value), value.with));
+            verdicts.push_back(
+                fmt::format("{} changes alike with that of {}: the points cannot tell the two apart", name_of(value), value.with));
     }
     for (const std::string& lamp : result.not_lit)
         verdicts.push_back(lamp + " shone on no point: nothing of it is fitted");
@@ -178,9 +187,10 @@ Document document(const FitResult& result) {
     top.blocks.emplace_back(change_table(result));
     top.blocks.emplace_back(Listing(fit_verdicts(result)));
     if (std::vector<Cell> outliers = outliers_of(result); !outliers.empty())
-        top.blocks.emplace_back(Listing(std::move(outliers), fmt::format("Outliers, left out: beyond {:.2f} standard uncertainties, which one "
-                                                                         "of {} good points exceeds once in 100 fits",
-                                                                         result.outlier_from, result.points.size())));
+        top.blocks.emplace_back(
+            Listing(std::move(outliers), fmt::format("Outliers, left out: beyond {:.2f} standard uncertainties, which one "
+                                                     "of {} good points exceeds once in 100 fits",
+                                                     result.outlier_from, result.points.size())));
     Section& more = document.sections.emplace_back();
     more.blocks.emplace_back(Plot{"residuals", residual_plot(result)});
     more.blocks.emplace_back(Plot{"agreement", agreement_plot(result)});

@@ -14,9 +14,7 @@ std::vector<std::string> quantity_names() {
     return names;
 }
 
-std::string unit_of(FitQuantity quantity) {
-    return quantity == FitQuantity::flux ? "1" : quantity == FitQuantity::height ? "m" : "deg";
-}
+std::string unit_of(FitQuantity quantity) { return quantity == FitQuantity::flux ? "1" : quantity == FitQuantity::height ? "m" : "deg"; }
 
 JsonMembers value_members(FitValue& value) {
     return {{"lamp", value.lamp},
@@ -65,9 +63,9 @@ JsonMembers fit_members(FitResult& result) {
             {"points_file", result.points_file},
             {"failed", or_null(result.failed)},
             {"consistent", result.consistent},
-            {"chi_squared", result.chi_squared},
-            {"chi_squared_limit", result.chi_squared_limit},
-            {"degrees_of_freedom", through([&result] { return result.freedom; }, [&result](int freedom) { result.freedom = freedom; })},
+            {"chi_squared", or_null(result.chi_squared)},
+            {"chi_squared_limit", or_null(result.chi_squared_limit)},
+            {"degrees_of_freedom", result.freedom},
             {"unknowns", result.unknowns},
             {"points_used", result.used},
             {"outlier_from", result.outlier_from},
@@ -82,19 +80,19 @@ JsonMembers fit_members(FitResult& result) {
 }
 
 std::string fit_csv(const FitResult& result) {
-    std::string out = csv_line(std::string("line"), std::string("name"), std::string("time_s"), std::string("ahead_m"), std::string("left_m"),
-                               std::string("above_m"), std::string("facing"), std::string("lamps"), std::string("lux"),
-                               std::string("calculated_lx"), std::string("sigma_lx"), std::string("residual_sigmas"),
-                               std::string("studentised"), std::string("outlier"), std::string("brightest_lamp"), std::string("h_deg"),
-                               std::string("v_deg"));
+    std::string out =
+        csv_line(std::string("line"), std::string("name"), std::string("time_s"), std::string("ahead_m"), std::string("left_m"),
+                 std::string("above_m"), std::string("facing"), std::string("lamps"), std::string("lux"), std::string("calculated_lx"),
+                 std::string("sigma_lx"), std::string("residual_sigmas"), std::string("studentised"), std::string("outlier"),
+                 std::string("brightest_lamp"), std::string("h_deg"), std::string("v_deg"));
     for (const FitPoint& point : result.points) {
         const LuxReading& read = point.read;
         const FittedPoint& found = point.found;
-        out += csv_line(fmt::format("{}", read.line), csv_text(read.name), csv_number(read.time_s), csv_number(read.ahead_m),
-                        csv_number(read.left_m), csv_number(read.above_m), csv_text(read.facing), csv_text(read.lamps), csv_number(read.lux),
-                        csv_number(found.calculated_lx), csv_number(found.sigma_lx), csv_number(found.residual),
-                        csv_number(found.studentised), std::string(found.outlier ? "1" : "0"), csv_text(point.lamp),
-                        csv_number(found.h_deg), csv_number(found.v_deg));
+        out +=
+            csv_line(fmt::format("{}", read.line), csv_text(read.name), csv_number(read.time_s), csv_number(read.ahead_m),
+                     csv_number(read.left_m), csv_number(read.above_m), csv_text(read.facing), csv_text(read.lamps), csv_number(read.lux),
+                     csv_number(found.calculated_lx), csv_number(found.sigma_lx), csv_number(found.residual), csv_number(found.studentised),
+                     std::string(found.outlier ? "1" : "0"), csv_text(point.lamp), csv_number(found.h_deg), csv_number(found.v_deg));
     }
     return out;
 }

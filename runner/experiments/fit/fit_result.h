@@ -32,10 +32,10 @@ struct FitResult : Findings {
     std::size_t unknowns = 0, used = 0;
     int freedom = 0, iterations = 0;
     double chi_squared = 0.0, chi_squared_limit = 0.0, outlier_from = 0.0, error_scale = 1.0, condition = 0.0;
-    std::optional<bool> consistent; ///< nullopt: no more points than unknowns
-    std::string failed;             ///< as LampFit
-    std::vector<std::string> notes; ///< one sentence each
-    Drive fitted_drive;             ///< whose lamp set has the lamps as fitted; not in JSON
+    std::optional<bool> consistent;      ///< nullopt: no more points than unknowns
+    std::string failed;                  ///< as LampFit
+    std::vector<std::string> notes;      ///< one sentence each
+    Drive fitted_drive;                  ///< whose lamp set has the lamps as fitted; not in JSON
     std::optional<double> cut_off_v_deg; ///< level part of the cut-off of the first lamp's table, for plots; not in JSON
 };
 

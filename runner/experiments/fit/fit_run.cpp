@@ -46,7 +46,8 @@ struct PlacedReadings {
 
 class Placing {
   public:
-    Placing(const FitRequest& request, const Stage& stage, const LampSet& lamp_set) : request_(request), stage_(stage), lamp_set_(lamp_set) {}
+    Placing(const FitRequest& request, const Stage& stage, const LampSet& lamp_set)
+        : request_(request), stage_(stage), lamp_set_(lamp_set) {}
 
     PlacedReadings place(const std::vector<LuxReading>& readings) {
         std::map<int, std::vector<std::size_t>> by_tick;
@@ -128,10 +129,14 @@ class Placing {
 
 double of_drive(const MountedLamp& lamp, FitQuantity quantity) {
     switch (quantity) {
-    case FitQuantity::pitch: return degrees(lamp.pitch_rad);
-    case FitQuantity::yaw: return degrees(lamp.yaw_rad);
-    case FitQuantity::flux: return lamp.flux_factor;
-    case FitQuantity::height: return lamp.position_m.z;
+    case FitQuantity::pitch:
+        return degrees(lamp.pitch_rad);
+    case FitQuantity::yaw:
+        return degrees(lamp.yaw_rad);
+    case FitQuantity::flux:
+        return lamp.flux_factor;
+    case FitQuantity::height:
+        return lamp.position_m.z;
     }
     return 0.0;
 }
@@ -201,8 +206,8 @@ FitResult run_fit(const FitRequest& request) {
     const LampFit fit = fit_lamps(placed.cars, placed.points, options);
     take(result, fit, readings, lamp_set);
     if (const auto near = static_cast<std::size_t>(std::ranges::count(placed.near_field, true)); near > 0)
-        result.notes.push_back(fmt::format("{} of {} points lie nearer than a lamp's photometric distance, where it is no point source", near,
-                                           readings.size()));
+        result.notes.push_back(fmt::format("{} of {} points lie nearer than a lamp's photometric distance, where it is no point source",
+                                           near, readings.size()));
     if (!fit.values.empty()) {
         const auto first = std::ranges::find(lamp_set.lamps, fit.values[0].lamp, &MountedLamp::name);
         result.cut_off_v_deg = measure_cut_off({&first->file->table, 0.0, 0.0}).level.inflection_deg;

@@ -12,7 +12,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_readings = 100'000;
+constexpr std::size_t most_readings = 20'000;
 constexpr double readings_within_m = 1000.0, brightest_lx = 1.0e6;
 
 /// Spreadsheets leave lines of nothing but commas at the end.
@@ -46,7 +46,8 @@ class PointFile {
             has("normal_ahead") + has("normal_left") + has("normal_up") == 2)
             refuse_head("has a part of a direction", "normal_ahead, normal_left and normal_up together");
         if (csv_.rows.size() > most_readings)
-            throw InputError({csv_.file, 0, 0, {}}, fmt::format("has {} readings", csv_.rows.size()), fmt::format("at most {}", most_readings));
+            throw InputError({csv_.file, 0, 0, {}}, fmt::format("has {} readings", csv_.rows.size()),
+                             fmt::format("at most {}", most_readings));
     }
 
     std::vector<LuxReading> readings() const {
@@ -104,7 +105,8 @@ class PointFile {
         }
         if (!word.empty())
             refuse(row, "facing", "nothing beside a direction in normal_ahead, normal_left and normal_up");
-        const glm::dvec3 normal{number(row, "normal_ahead", -readings_within_m, readings_within_m), number(row, "normal_left", -readings_within_m, readings_within_m),
+        const glm::dvec3 normal{number(row, "normal_ahead", -readings_within_m, readings_within_m),
+                                number(row, "normal_left", -readings_within_m, readings_within_m),
                                 number(row, "normal_up", -readings_within_m, readings_within_m)};
         if (!(glm::length(normal) > 1e-6))
             refuse(row, "normal_ahead", "a direction: one of its three parts is not 0");

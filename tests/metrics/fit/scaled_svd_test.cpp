@@ -48,7 +48,7 @@ TEST(ScaledSvd, WhatStandsInForAnotherIsSeen) {
     EXPECT_NEAR(std::abs(same.weakest()[0]), std::sqrt(0.5), 1e-12);
     const ScaledSvd fewer(matrix(1, 2, {1, 1}));
     EXPECT_TRUE(std::isinf(fewer.condition()));
-    EXPECT_NEAR(fewer.step({-2}, 0.0)[0], 1.0, 1e-12); // of all that explain it, the shortest
+    EXPECT_NEAR(fewer.step({-2}, 0.0)[0], 1.0, 1e-12);                          // of all that explain it, the shortest
     EXPECT_TRUE(std::isinf(ScaledSvd(matrix(2, 2, {1, 0, 2, 0})).condition())); // changes nothing
 }
 

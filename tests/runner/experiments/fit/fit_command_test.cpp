@@ -47,7 +47,8 @@ struct Tunnel {
                             const glm::dvec3 to = place - pose.position_m, in_lamp = to * pose.axes;
                             const double d = glm::length(to);
                             lux += lamp.intensity_factor() *
-                                   intensity_cd(lamp.file->table, degrees(std::atan2(-in_lamp.y, in_lamp.x)), degrees(std::asin(in_lamp.z / d))) /
+                                   intensity_cd(lamp.file->table, degrees(std::atan2(-in_lamp.y, in_lamp.x)),
+                                                degrees(std::asin(in_lamp.z / d))) /
                                    (d * d) * to.x / d; // a plane across the car's axis
                         }
                     const double noise = static_cast<double>(random() >> 11) / 9007199254740992.0 - 0.5; // even, of deviation 1 / sqrt(12)
@@ -149,15 +150,18 @@ TEST(FitCommand, RefusesWrongFilesByLineAndColumn) {
     EXPECT_THAT(refused("name,ahead,left_m,above_m,facing,lux,uncertainty_lx\n"),
                 HasSubstr("points.csv:1:2: found column 'ahead', expected ahead_m"));
     EXPECT_THAT(refused("ahead_m,left_m,facing,lux,uncertainty_lx\n1,1,car,1,1\n"), HasSubstr("points.csv:1: has no column 'above_m'"));
-    EXPECT_THAT(refused("ahead_m,left_m,above_m,facing,lux\n1,1,1,car,1\n"), HasSubstr("neither 'uncertainty_percent' nor 'uncertainty_lx'"));
+    EXPECT_THAT(refused("ahead_m,left_m,above_m,facing,lux\n1,1,1,car,1\n"),
+                HasSubstr("neither 'uncertainty_percent' nor 'uncertainty_lx'"));
     EXPECT_THAT(refused("ahead_m,left_m,above_m,lux,uncertainty_lx\n1,1,1,1,1\n"), HasSubstr("where the luxmeter looked"));
     EXPECT_THAT(refused("ahead_m;left_m;above_m;lux\n1;1;1;1\n"), HasSubstr("commas between columns, and points in numbers"));
     EXPECT_THAT(refused(heads + good + "P,25,0,0.3,car,,bright,3,0.01\n"),
                 HasSubstr("points.csv:3: lux: found 'bright', expected a number from 0 to 1e+06"));
-    EXPECT_THAT(refused(heads + "P,25,0,0.3,down,,2.5,3,0.01\n"), HasSubstr("points.csv:2: facing: found 'down', expected lamp, car or up"));
+    EXPECT_THAT(refused(heads + "P,25,0,0.3,down,,2.5,3,0.01\n"),
+                HasSubstr("points.csv:2: facing: found 'down', expected lamp, car or up"));
     EXPECT_THAT(refused(heads + good + "P,25,0,0.3,car,,2.5,0,0\n"),
                 HasSubstr("points.csv:3: uncertainty_percent: found '0', expected an uncertainty above 0"));
-    EXPECT_THAT(refused(heads + "P,25,0,0.3,car,,0,3,\n"), HasSubstr("uncertainty_lx: found '', expected an uncertainty_lx above 0 beside it"));
+    EXPECT_THAT(refused(heads + "P,25,0,0.3,car,,0,3,\n"),
+                HasSubstr("uncertainty_lx: found '', expected an uncertainty_lx above 0 beside it"));
     EXPECT_THAT(refused(heads + "P,25,0,0.3,car,middle,2.5,3,0.01\n"),
                 HasSubstr("points.csv:2: lamps: found 'middle', expected lamps of the lamp set: left, right"));
     EXPECT_THAT(refused(heads + "P,25,0,0.3,car,left+left,2.5,3,0.01\n"), HasSubstr("each lamp once"));
@@ -165,13 +169,15 @@ TEST(FitCommand, RefusesWrongFilesByLineAndColumn) {
     EXPECT_THAT(refused(heads + "P,25,0,0.3,car,,2.5,3\n"), HasSubstr("points.csv:2: found 8 fields, expected 9"));
     EXPECT_THAT(refused("time_s,ahead_m,left_m,above_m,facing,lux,uncertainty_lx\n10,25,0,0.3,car,2,1\n"),
                 HasSubstr("points.csv:2: time_s: found 10 s, expected 0 to 9.900 s, the drive's moments"));
-    EXPECT_THAT(refused(heads + good, " --hold hight"), HasSubstr("--hold: found 'hight', expected some of pitch, yaw, flux, height, left.pitch"));
+    EXPECT_THAT(refused(heads + good, " --hold hight"),
+                HasSubstr("--hold: found 'hight', expected some of pitch, yaw, flux, height, left.pitch"));
     EXPECT_THAT(printed("fit " + straight, 2), HasSubstr("--points is required"));
 }
 
 TEST(LuxPoints, ReadWhatSpreadsheetsWrite) {
     FilesRead opened;
-    const auto path = tests::written("points.csv", "\xEF\xBB\xBF" "ahead_m,left_m, above_m,lux,normal_ahead,normal_left,normal_up,uncertainty_percent\r\n"
+    const auto path = tests::written("points.csv", "\xEF\xBB\xBF"
+                                                   "ahead_m,left_m, above_m,lux,normal_ahead,normal_left,normal_up,uncertainty_percent\r\n"
                                                    "25,-1.5,0.25, 3.5,-3,0,4,5\r\n,,,,,,,\r\n\r\n");
     const std::vector<LuxReading> read = read_lux_points(path, opened);
     ASSERT_EQ(read.size(), 1U);
