@@ -76,8 +76,6 @@ TEST(LampFit, RecoversAimAndFluxFromNoisyPoints) {
     EXPECT_LE(worst_deg, 0.02);
     EXPECT_LE(worst_flux, 0.01);
     const std::optional<Spread> spread = spread_of(pulls);
-    std::printf("aim within %.4f deg, flux within %.3f %%, pulls %.3f +- %.3f, outliers %zu\n", worst_deg, 100 * worst_flux, spread->mean,
-                spread->standard_deviation, outliers);
     // 160 pulls: the deviation is known to 6 %, their mean to 0.08.
     EXPECT_NEAR(spread->standard_deviation, 1.0, 0.18);
     EXPECT_NEAR(spread->mean, 0.0, 0.25);
