@@ -155,8 +155,6 @@ std::vector<Cell> outliers_of(const FitResult& result) {
 
 } // namespace
 
-bool is_outlier(const FitPoint& point) { return point.found.outlier; }
-
 std::string name_of(const FitValue& value) { return fmt::format("{} of {}", name_of(value.quantity), value.lamp); }
 
 std::vector<std::string> fit_verdicts(const FitResult& result) {

@@ -23,7 +23,7 @@ template <class X, class Y> std::vector<plots::Series> dots_of(const FitResult& 
     constexpr double gap = std::numeric_limits<double>::quiet_NaN();
     for (const bool outliers : {false, true})
         for (const FitPoint& point : result.points)
-            if (is_outlier(point) == outliers) {
+            if (point.found.outlier == outliers) {
                 plots::Series& series = series_named(outliers ? "outliers" : point.lamp);
                 series.points.push_back({x(point), y(point)});
                 series.points.push_back({gap, gap});
@@ -44,7 +44,7 @@ plots::Figure residual_plot(const FitResult& result) {
     const auto v = [](const FitPoint& point) { return point.found.v_deg; };
     // A gross error must not press all others onto the line.
     const double most = std::max(6.0, std::ceil(1.5 * result.outlier_from));
-    const auto residual = [most](const FitPoint& point) { return std::clamp(point.found.residual, -most, most); };
+    const auto residual = [most](const FitPoint& point) { return std::clamp(point.found.residual, -0.97 * most, 0.97 * most); };
     plots::Figure figure;
     figure.title = "Residuals over the height in the beam";
     figure.subtitle = "read less calculated, in standard uncertainties, by the lamp that gives most; beyond the edge, at the edge";

@@ -39,7 +39,6 @@ struct FitResult : Findings {
     std::optional<double> cut_off_v_deg; ///< level part of the cut-off of the first lamp's table, for plots; not in JSON
 };
 
-bool is_outlier(const FitPoint& point);
 /// Fitted, and its residuals as large as the uncertainties say.
 inline bool good(const FitResult& result) { return result.failed.empty() && result.consistent.value_or(false); }
 /// "pitch of left"
