@@ -33,6 +33,7 @@ class LampFitting {
     }
 
     LampFit fit() {
+        hold_beyond_count();
         starts_ = starts_of(model_, free_);
         for (bool held = true; held;) {
             used_.assign(used_.size(), true);
@@ -54,6 +55,22 @@ class LampFitting {
 
   private:
     const std::vector<LuxPoint>& points() const { return model_.points(); }
+
+    /// Fewer points than values go through any point: what is left over keeps the drive's value before anything is looked for.
+    void hold_beyond_count() {
+        while (free_.size() > points().size()) {
+            const auto first = std::ranges::max_element(free_, {}, [](const auto& group) { return held_rank(group.front()); });
+            if (held_rank(first->front()) == 0) { // flux alone is left: that of all lamps alike
+                std::vector<Unknown> all;
+                for (const auto& group : free_)
+                    all.insert(all.end(), group.begin(), group.end());
+                free_ = {all};
+                return;
+            }
+            held_[first->front()] = "there are fewer points than values";
+            free_.erase(first);
+        }
+    }
 
     void hold_all(const std::string& why) {
         for (const auto& group : free_)

@@ -13,8 +13,6 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::array<double, fit_quantities> useless_from{radians(1.0), radians(2.0), 0.5, 0.25};
 constexpr std::array<const char*, fit_quantities> told_in{"°", "°", " %", " m"};
 constexpr std::array<double, fit_quantities> unit_scale{degrees(1.0), degrees(1.0), 100.0, 1.0};
-/// What is held first: a tape measures heights; without a cut-off in sight, aim stands behind flux.
-constexpr std::array<int, fit_quantities> held_as{1, 2, 0, 3};
 /// Of the least known combination: what has this share of its largest part takes part.
 constexpr double takes_part = 0.3;
 
@@ -37,6 +35,8 @@ std::optional<Undetermined> useless(const std::vector<double>& standard_errors, 
 }
 
 } // namespace
+
+int held_rank(Unknown unknown) { return std::array<int, fit_quantities>{1, 2, 0, 3}[unknown % fit_quantities]; }
 
 std::optional<Undetermined> worst_known(const Matrix& jacobian, const FreeGroups& free, const std::vector<std::string>& names) {
     if (free.empty())
@@ -63,13 +63,14 @@ std::optional<Undetermined> worst_known(const Matrix& jacobian, const FreeGroups
                                                             : std::string("they cannot be told apart at all");
         if (parts.size() > 1 && std::ranges::all_of(parts, same))
             return Undetermined{parts, true, condition};
-        const auto order = [&](std::size_t g) { return std::pair(held_as[quantity_of(free[g])], std::abs(weakest[g])); };
+        const auto order = [&](std::size_t g) { return std::pair(held_rank(free[g].front()), std::abs(weakest[g])); };
         const std::size_t held = *std::ranges::max_element(parts, {}, order);
         std::string others;
         for (const std::size_t g : parts)
             if (g != held)
                 others += (others.empty() ? "" : ", ") + names[free[g].front()];
-        return Undetermined{{held}, false, fmt::format("the points cannot tell it from {} ({})", others, condition)};
+        return Undetermined{
+            {held}, false, fmt::format("the points cannot tell it from {} ({})", others.empty() ? "the others" : others, condition)};
     }
     const Matrix covariance = svd.covariance();
     std::vector<double> together;

@@ -7,6 +7,10 @@
 
 namespace fernlicht {
 
+/// Of what cannot be told, that of the highest rank is held: height, which a tape measures, before yaw, pitch and flux; without a cut-off
+/// in sight aim stands behind flux.
+int held_rank(Unknown unknown);
+
 struct Undetermined {
     std::vector<std::size_t> groups; ///< into the free groups: one to be held, or several that are to change alike
     bool alike = false;

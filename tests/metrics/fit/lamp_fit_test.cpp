@@ -178,6 +178,20 @@ TEST(LampFit, OnePointTellsOneThing) {
     EXPECT_FALSE(fit.points[0].studentised.has_value());
 }
 
+TEST(LampFit, FewerPointsThanValuesHoldTheRestBeforeAnythingElse) {
+    const LampFit both = fitted({point_at(25.0, 0.0, -1.5)}, 0, {{0.0, 0.0, std::log(0.9), 0.0}, {0.0, 0.0, std::log(0.9), 0.0}});
+    EXPECT_EQ(both.failed, "");
+    EXPECT_EQ(both.unknowns, 1U);
+    EXPECT_NEAR(value_of(both, "left", FitQuantity::flux).change, 0.9, 1e-6);
+    EXPECT_NEAR(value_of(both, "right", FitQuantity::flux).change, 0.9, 1e-6);
+    EXPECT_EQ(value_of(both, "right", FitQuantity::flux).with, "left");
+    EXPECT_EQ(value_of(both, "right", FitQuantity::pitch).held, "there are fewer points than values");
+    const LampFit three = fitted({point_at(25.0, -1.0, -1.5, {0}), point_at(25.0, -1.0, -0.6, {0}), point_at(25.0, 1.5, -0.2, {0})}, 0,
+                                 {{radians(0.1), radians(-0.2), std::log(0.9), 0.0}, {}});
+    EXPECT_EQ(held_of(three), (std::vector<std::string>{"left height"}));
+    EXPECT_NEAR(value_of(three, "left", FitQuantity::pitch).change, 0.1, 1e-3);
+}
+
 TEST(LampFit, WithoutLightThereIsNothingToFit) {
     std::vector<LuxPoint> points{point_at(25.0, 0.0, -1.0), point_at(25.0, 1.0, -1.0)};
     for (LuxPoint& point : points) {
