@@ -1,5 +1,6 @@
 #include "metrics/statistics/statistics.h"
 
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
@@ -145,6 +146,12 @@ double student_bound(int freedom, double false_alarm, std::size_t comparisons) {
 
 double normal_bound(double false_alarm, std::size_t comparisons) {
     return boost::math::quantile(boost::math::complement(boost::math::normal(), tail(false_alarm, comparisons)));
+}
+
+double chi_squared_bound(int freedom, double false_alarm) {
+    if (freedom < 1 || !(false_alarm > 0.0 && false_alarm < 1.0))
+        throw std::invalid_argument("chi_squared_bound: no degrees of freedom, or a probability outside 0..1");
+    return boost::math::quantile(boost::math::complement(boost::math::chi_squared(freedom), false_alarm));
 }
 
 } // namespace fernlicht

@@ -42,7 +42,10 @@ std::string next_field(std::string_view text, std::size_t& at, bool& ends_line, 
 
 CsvFile read_csv(const std::filesystem::path& file) {
     FilesRead opened;
-    const std::string text = read_file(file, opened, std::size_t{1} << 30);
+    return csv_in(read_file(file, opened, std::size_t{1} << 30), file);
+}
+
+CsvFile csv_in(std::string_view text, const std::filesystem::path& file) {
     CsvFile csv{file, {}, {}};
     for (std::size_t at = 0, line = 1; at < text.size(); ++line) {
         std::vector<std::string> fields;

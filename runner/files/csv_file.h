@@ -22,5 +22,7 @@ struct CsvFile {
 };
 /// Reads a file of at most 1 GiB. Throws InputError where a line has more or fewer fields than the first, or a quote does not end.
 CsvFile read_csv(const std::filesystem::path& file);
+/// The same of text that was read.
+CsvFile csv_in(std::string_view text, const std::filesystem::path& file);
 
 } // namespace fernlicht

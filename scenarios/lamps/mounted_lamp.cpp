@@ -22,8 +22,8 @@ double MountedLamp::intensity_factor() const {
     // about 10 % of the rated voltage); the ballast of an arc and the driver of a LED keep their current.
     constexpr double flux_exponent = 3.4;
     if (source != SourceKind::filament)
-        return level;
-    return level * std::pow(voltage_v / reference_voltage_v, flux_exponent);
+        return level * flux_factor;
+    return level * flux_factor * std::pow(voltage_v / reference_voltage_v, flux_exponent);
 }
 
 void apply(const LampChange& change, MountedLamp& lamp) {

@@ -55,10 +55,11 @@ struct MountedLamp {
     LampColour colour;
     double photometric_distance_m = 0.0; ///< nearer than this the point-source equation is marked near-field
     Turn mount;                          ///< how its place on the car is turned; the aim turns it further
+    double flux_factor = 1.0;            ///< light of this very lamp against its file's, undimmed; >= 0
 
     Pose pose() const { return {position_m, mount.axes_with(axes_from_angles(yaw_rad, pitch_rad, roll_rad))}; }
-    /// level times the supply's factor: (U / U_ref)^3.4 for filament lamps between 12.0 and 13.8 V (law of filament lamps' flux), 1 for arc
-    /// and LED.
+    /// level times flux factor times the supply's: (U / U_ref)^3.4 for filament lamps between 12.0 and 13.8 V (law of filament lamps'
+    /// flux), 1 for arc and LED.
     double intensity_factor() const;
     bool operator==(const MountedLamp&) const = default; ///< with the very same file
 };

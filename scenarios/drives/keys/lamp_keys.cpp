@@ -157,6 +157,8 @@ const Fields<MountedLamp>& lamp_fields() {
             field("colour", 9, &Lamp::colour, colour_fields(), "what a spectrum comes to"),
             field("photometric_distance_m", 10, &Lamp::photometric_distance_m, range(0.0, 1000.0),
                   "results nearer than this are marked near-field"),
+            field("flux_factor", 11, &Lamp::flux_factor, range(0.001, 1000.0), "light of this very lamp against its file's, as measured")
+                .written_off_default(),
         }
             .block()
             .defined_as("lamp");

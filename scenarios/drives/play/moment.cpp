@@ -80,7 +80,7 @@ Pose ego_pose(const Route& route, double distance_m, double wheelbase_m, double 
     return {rear.position_m, {forward, left, glm::cross(forward, left)}};
 }
 
-Moment moment_at(const State& state, const Drive& drive, const Route& route, const LampSet& lamp_set) {
+std::vector<MountedLamp> lamps_at(const State& state, const Drive& drive, const LampSet& lamp_set) {
     std::vector<MountedLamp> lamps = lamp_set.lamps;
     for (const std::vector<LampChange>* changes : {&lamp_set.changes, &lamp_set.storyboard_changes})
         for (const LampChange& change : *changes) {
@@ -90,6 +90,15 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
                 if (lamp.name == change.lamp)
                     apply(change, lamp);
         }
+    if (lamp_set.motion)
+        for (MountedLamp& lamp : lamps)
+            turn(lamp, *lamp_set.motion, state.time_s);
+    else if (lamp_set.control)
+        throw std::logic_error("lamps_at: a drive with lamp control that was not simulated");
+    return lamps;
+}
+
+Moment moment_at(const State& state, const Drive& drive, const Route& route, const LampSet& lamp_set) {
     Moment moment;
     moment.tick = state.tick;
     moment.time_s = state.time_s;
@@ -98,7 +107,8 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
     moment.daylight = daylight_of(drive, state.time_s);
     moment.weather = weather_of(drive, state.time_s);
     if (drive.ego_track || !drive.vehicle) {
-        moment.ego = drive.ego_track ? drive.ego_track->at(state.time_s).pose : ego_pose(route, state.distance_m, drive.wheelbase_m);
+        moment.wheels = drive.ego_track ? drive.ego_track->at(state.time_s).pose : ego_pose(route, state.distance_m, drive.wheelbase_m);
+        moment.ego = moment.wheels;
         if (drive.ego_track)
             moment.speed_mps = drive.ego_track->at(state.time_s).speed_mps;
         if (CarPlace place; lamp_set.motion && rest_on_load(place, *lamp_set.motion))
@@ -110,19 +120,19 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
         rest_on_load(place, *lamp_set.motion);
         moment.distance_m = std::max(place.distance_m, 0.0);
         moment.speed_mps = place.speed_mps;
-        moment.ego = moved(ego_pose(route, moment.distance_m, drive.wheelbase_m, place.offset_left_m), place);
+        const Pose in_lane = ego_pose(route, moment.distance_m, drive.wheelbase_m, place.offset_left_m);
+        moment.ego = moved(in_lane, place);
+        place.rear_lift_m = place.pitch_rad = 0.0;
+        moment.wheels = moved(in_lane, place);
     }
-    if (lamp_set.motion)
-        for (MountedLamp& lamp : lamps)
-            turn(lamp, *lamp_set.motion, state.time_s);
-    else if (lamp_set.control)
-        throw std::logic_error("moment_at: a drive with lamp control that was not simulated");
-    for (const MountedLamp& lamp : lamps)
+    for (const MountedLamp& lamp : lamps_at(state, drive, lamp_set))
         moment.lamps.push_back(lit(lamp, moment.ego));
     add_traffic(drive, moment);
     add_street_lamps(drive, route, street_lamps_within_m, moment);
-    if (drive.replay)
+    if (drive.replay) {
         replay(*drive.replay, lamp_set.name, moment);
+        moment.wheels = moment.ego;
+    }
     if (drive.own_car)
         moment.bodies.push_back({"own car", moment.ego, true, moment.speed_mps, true});
     return moment;

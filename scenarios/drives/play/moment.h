@@ -37,6 +37,7 @@ struct Moment {
     double min_traffic_lx = 0.05;     ///< light of other_lamps fainter than this is left out (Drive)
     Daylight daylight;
     Weather weather;
+    Pose wheels; ///< `ego` as it stands on its wheels, before load and springs lift and pitch the body; of a replay, not known: `ego`
 };
 
 } // namespace fernlicht

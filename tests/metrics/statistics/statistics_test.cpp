@@ -275,5 +275,14 @@ TEST(WorkPrecision, SlopeOfAPowerIsItsExponent) {
     EXPECT_FALSE(logarithmic_slope({}));
 }
 
+// Abramowitz and Stegun 1964, table 26.8.
+TEST(ChiSquaredBound, IsTheTables) {
+    EXPECT_NEAR(chi_squared_bound(1, 0.001), 10.828, 5e-4);
+    EXPECT_NEAR(chi_squared_bound(10, 0.001), 29.588, 5e-4);
+    EXPECT_NEAR(chi_squared_bound(30, 0.05), 43.773, 5e-4);
+    EXPECT_THROW(chi_squared_bound(0, 0.001), std::invalid_argument);
+    EXPECT_THROW(chi_squared_bound(3, 0.0), std::invalid_argument);
+}
+
 } // namespace
 } // namespace fernlicht

@@ -113,6 +113,7 @@ TEST(ControlLoad, LevellingTakesOutTheSpringsPartOfALoad) {
     const auto pitch_deg = [](const Pose& pose) { return degrees(std::asin(pose.forward().z)); };
     EXPECT_NEAR(pitch_deg(played.at(3.0).ego), 1.072, 0.001);
     EXPECT_NEAR(pitch_deg(played.at(3.0).lamps[0].pose), 1.072, 0.001);
+    EXPECT_NEAR(pitch_deg(played.at(3.0).wheels), 0.0, 1e-9) << "a luxmeter stands on the road, not on the body";
     EXPECT_NEAR(pitch_deg(played.at(3.0, 1).lamps[0].pose), 1.072 - 0.968, 0.001);
 }
 

@@ -140,6 +140,7 @@ TEST_F(Schema, AgreesWithTheReader) {
     }
     for (const std::string& lamp : tests::each_of({{"level", "0.5|2"},
                                                    {"", "voltage_v: 11"},
+                                                   {"flux_factor", "1.07|0|2000"},
                                                    {"source", "arc|xenon"},
                                                    {"temperature_k", "3000|30"},
                                                    {"aim", "{percent_down: 1}|{down: 1}|{yaw_rad: 3.2}"},

@@ -162,7 +162,10 @@ TEST(MountedLamp, VoltageScalesFilamentsOnly) {
     EXPECT_EQ(lamp.intensity_factor(), 0.5);
     lamp.source = SourceKind::led;
     EXPECT_EQ(lamp.intensity_factor(), 0.5);
+    lamp.flux_factor = 1.2; // a bright one of its kind, dimmed
+    EXPECT_DOUBLE_EQ(lamp.intensity_factor(), 0.6);
     lamp.source = SourceKind::filament;
+    EXPECT_NEAR(lamp.intensity_factor(), 1.2 * 0.5816, 6e-5);
     lamp.level = 0.0;
     EXPECT_EQ(lamp.intensity_factor(), 0.0);
 }

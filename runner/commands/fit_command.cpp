@@ -1,0 +1,79 @@
+#include "runner/commands/commands.h"
+
+#include "runner/commands/flag_values.h"
+#include "runner/experiments/fit/fit_run.h"
+#include "runner/write/document.h"
+#include "scenarios/values/files.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+/// The flags as typed.
+struct FitFlags {
+    std::filesystem::path drive, points;
+    std::string lamp_set, road, out;
+    std::vector<std::string> lamps, hold;
+    const OutputFormat* tables = nullptr;
+};
+
+FitRequest request_of(const FitFlags& flags) {
+    FitRequest request;
+    DriveEdits edits;
+    edits.lamps = lamps_of(flags.lamps);
+    if (!flags.road.empty())
+        edits.road = flags.road;
+    request.hold = items_of("--hold", flags.hold);
+    request.drive = read_drive(flags.drive, edits);
+    request.lamp_set = flags.lamp_set;
+    request.points = flags.points;
+    request.folder = result_folder(flags.out, request.drive.name + "-fit");
+    return request;
+}
+
+int fit_points(const FitFlags& flags, const std::vector<std::string>& command) {
+    FitRequest request = request_of(flags);
+    request.command = command;
+    request.write = [&request, &flags](const FitResult& result) {
+        write_file(request.folder / "fit.json", json_text(as_json(result, fit_members)));
+        write_file(request.folder / "fit.csv", fit_csv(result));
+        write_file(request.folder / "fitted.yaml", write_drive(result.fitted_drive));
+        write_document(document(result), result, request.folder, "report", flags.tables);
+    };
+    const FitResult result = run_fit(request);
+    fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "report.html").string());
+    return good(result) ? 0 : 1;
+}
+
+std::string column_help() {
+    std::string text = "The points are a CSV file with the names of its columns in the first line:\n";
+    for (const auto& [name, meaning] : lux_point_columns())
+        text += fmt::format("  {:<20} {}\n", name, meaning);
+    return text +
+           "Exit code 1 where the residuals are larger than the uncertainties say, or nothing could be fitted. docs/fit.md tells more.";
+}
+
+} // namespace
+
+void add_fit_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<FitFlags>();
+    CLI::App* sub = app.add_subcommand("fit", "fit aim, flux and height of each lamp to measured lux points");
+    sub->add_option("DRIVE", flags->drive, "drive file (YAML): the car as it should be")->required();
+    sub->add_option("--points", flags->points, "CSV file: place, direction, lux and uncertainty of each reading")->required();
+    sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drive (default: its first)");
+    sub->add_option("--hold", flags->hold, "what keeps the drive's value: pitch, yaw, flux, height, or of one lamp, e.g. left.height")
+        ->allow_extra_args(false);
+    sub->add_option("--lamp", flags->lamps,
+                    "[SIDE=]FILE: use this lamp file for all lamps, or for those whose name contains SIDE (left, right)")
+        ->allow_extra_args(false);
+    sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's");
+    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    add_tables_flag(*sub, flags->tables);
+    sub->footer(column_help());
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return fit_points(*flags, command); }; });
+}
+
+} // namespace fernlicht
