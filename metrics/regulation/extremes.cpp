@@ -1,5 +1,7 @@
 #include "metrics/regulation/row_check.h"
 
+#include "metrics/beam/beam_places.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,18 +23,6 @@ void look(Extremes& all, const ReceivedBeam& beam, Direction where, WantedExtrem
     const std::optional<double> cd = beam.at(where);
     const auto here = cd ? std::optional(Extreme{*cd, where}) : std::nullopt;
     merge(all, {wanted.lowest ? here : std::nullopt, wanted.highest ? here : std::nullopt, cd.has_value()});
-}
-
-/// Even-odd rule.
-bool inside(const std::vector<Direction>& polygon, Direction d) {
-    bool in = false;
-    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-        const Direction a = polygon[i], b = polygon[j];
-        if ((a.v_deg > d.v_deg) != (b.v_deg > d.v_deg) &&
-            d.h_deg < a.h_deg + (b.h_deg - a.h_deg) * (d.v_deg - a.v_deg) / (b.v_deg - a.v_deg))
-            in = !in;
-    }
-    return in;
 }
 
 /// From the best sample on to neighbours that are better, in halving steps.

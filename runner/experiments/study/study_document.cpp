@@ -1,5 +1,6 @@
 #include "runner/experiments/study/study_document.h"
 #include "metrics/readings/reading_labels.h"
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/findings/figures.h"
@@ -209,6 +210,10 @@ Section lamps_section(const StudyResult& result) {
         if (all.size() > most)
             told.items.emplace_back(fmt::format("and {} more zones, all in study.json", all.size() - most));
         section.blocks.emplace_back(std::move(told));
+        Table places = places_table(pair.difference);
+        places.name = fmt::format("places-{}-{}-{}", pair.tested, pair.against, pair.side);
+        places.folded = places.off_terminal = true;
+        section.blocks.emplace_back(std::move(places));
     }
     return section;
 }
