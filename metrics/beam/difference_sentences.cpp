@@ -42,7 +42,8 @@ std::string zone_where(const BeamZone& zone) {
                                                           : "all light above the cut-off";
     if (zone.holds.empty())
         return zone.part_of.empty() ? "" : "part of " + zone.part_of;
-    std::vector<std::string> names(zone.holds.begin(), zone.holds.begin() + static_cast<std::ptrdiff_t>(std::min(max_named, zone.holds.size())));
+    std::vector<std::string> names(zone.holds.begin(),
+                                   zone.holds.begin() + static_cast<std::ptrdiff_t>(std::min(max_named, zone.holds.size())));
     if (zone.holds.size() > max_named)
         names.push_back(fmt::format("{} more", zone.holds.size() - max_named));
     const std::string last = names.back();
@@ -85,8 +86,8 @@ std::vector<std::string> sentences_of(const LampDifference& difference) {
         out.push_back(fmt::format("{:.2f} % {} all over ({})", 100.0 * std::abs(difference.level->value),
                                   difference.level->value < 0.0 ? "dimmer" : "brighter", uncertainty_text(difference.level->uncertainty)));
     for (const BeamZone& zone : difference.zones)
-        out.push_back(fmt::format("{} ({}; {}, {} directions)", named_text(zone), coordinates_text(zone), uncertainty_text(zone.uncertainty),
-                                  zone.samples));
+        out.push_back(fmt::format("{} ({}; {}, {} directions)", named_text(zone), coordinates_text(zone),
+                                  uncertainty_text(zone.uncertainty), zone.samples));
     if (!difference.is_explained())
         for (const PlaceChange& change : difference.places)
             if (change.is_beyond_noise)

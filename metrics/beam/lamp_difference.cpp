@@ -385,9 +385,9 @@ class Comparison {
     std::vector<std::size_t> source_, source_against_; ///< by sample of the table
     Steps steps_;                                      ///< the finest of the coarser file
     std::vector<BeamSample> samples_;
-    std::vector<double> rounding_; ///< by sample
-    std::vector<double> noise_;    ///< by sample: of one file's
-    std::vector<double> spread_;   ///< by sample: see share_noise
+    std::vector<double> rounding_;         ///< by sample
+    std::vector<double> noise_;            ///< by sample: of one file's
+    std::vector<double> spread_;           ///< by sample: see share_noise
     std::array<double, 3> decade_noise_{}; ///< by decades below the peak: of one sample of either file
     double noise_at_peak_ = 0.0, z_limit_ = 0.0, rounding_cd_ = 0.0;
     bool is_same_system_;
@@ -405,8 +405,6 @@ LampDifference compare_lamps(const SampledBeam& tested, const SampledBeam& again
     return Comparison(tested, against, options).find();
 }
 
-bool LampDifference::any() const {
-    return is_explained() || std::ranges::any_of(places, &PlaceChange::is_beyond_noise);
-}
+bool LampDifference::any() const { return is_explained() || std::ranges::any_of(places, &PlaceChange::is_beyond_noise); }
 
 } // namespace fernlicht

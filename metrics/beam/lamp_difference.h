@@ -21,7 +21,7 @@ struct LampDifferenceOptions {
     /// Standard deviation of a sample of either table, relative. The estimate from the tables comes on top where it is larger. A tolerance
     /// of +-a is a / sqrt(3) when all within it is as likely.
     double noise_relative = 0.0;
-    double false_claim_chance = 0.005; ///< of any claim at all between two tables of one lamp, were the noise known
+    double false_claim_chance = 0.005;  ///< of any claim at all between two tables of one lamp, were the noise known
     std::vector<BeamPlace> places = {}; ///< by whose names differences are told; metrics/regulation/named_places.h has the trade's
 };
 

@@ -8,7 +8,9 @@
 namespace fernlicht {
 namespace {
 
-const RegulationRow& row_of(const Regulation& table, const std::string& id) { return *std::ranges::find(table.rows, id, &RegulationRow::id); }
+const RegulationRow& row_of(const Regulation& table, const std::string& id) {
+    return *std::ranges::find(table.rows, id, &RegulationRow::id);
+}
 
 BeamPlace of_table(const char* id, const char* row, const char* what) {
     const Regulation& table = regulation(id);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <functional>
 
 namespace fernlicht {
 namespace {
@@ -44,10 +44,12 @@ std::vector<std::string> findings(const LampDifference& d) {
     if (d.aim_up_deg)
         found.push_back(aim_text(d) + (d.cut_off_up_deg ? "" : most_changed(d)));
     if (d.cut_off_up_deg)
-        found.push_back(fmt::format("the cut-off is {:.2f} degrees {}, the light below it is not moved{}", std::abs(d.cut_off_up_deg->value),
-                                    d.cut_off_up_deg->value < 0.0 ? "lower" : "higher", most_changed(d)));
+        found.push_back(fmt::format("the cut-off is {:.2f} degrees {}, the light below it is not moved{}",
+                                    std::abs(d.cut_off_up_deg->value), d.cut_off_up_deg->value < 0.0 ? "lower" : "higher",
+                                    most_changed(d)));
     if (d.level)
-        found.push_back(fmt::format("{:.1f} % {} all over", 100.0 * std::abs(d.level->value), d.level->value < 0.0 ? "dimmer" : "brighter"));
+        found.push_back(
+            fmt::format("{:.1f} % {} all over", 100.0 * std::abs(d.level->value), d.level->value < 0.0 ? "dimmer" : "brighter"));
     for (std::size_t i = 0; i < std::min(max_zones, d.zones.size()); ++i)
         found.push_back(zone_text(d.zones[i]));
     if (d.zones.size() > max_zones)

@@ -162,7 +162,9 @@ Table places_table(const LampDifference& difference) {
                               !change        ? Cell("")
                               : is_in_digits ? Cell("digits", 100.0 * error)
                                              : Cell(two_digits(100.0 * error), 100.0 * error),
-                              found.is_beyond_noise ? "yes" : found.not_measured.empty() ? "no" : found.not_measured});
+                              found.is_beyond_noise        ? "yes"
+                              : found.not_measured.empty() ? "no"
+                                                           : found.not_measured});
     }
     return table;
 }
