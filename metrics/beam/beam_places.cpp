@@ -10,14 +10,16 @@
 namespace fernlicht {
 namespace {
 
-constexpr int cells = 32; // across a region, either way
+constexpr int region_cells = 32; // across a region, either way
+/// A zone larger than this is more than the points that it holds; zone IV has 9 square degrees.
+constexpr double wide_deg2 = 20.0;
 
 /// Mean intensity over directions of one lamp, and the standard deviation of its logarithm.
 struct PlaceMean {
     double cd = 0.0, cubic_cd = 0.0, open = 0.0, sigma = 0.0;
 };
 
-PlaceMean mean_of(const PlaceSide& side, const std::vector<Direction>& directions, const PlaceLimits& limits) {
+PlaceMean place_mean(const PlaceSide& side, const std::vector<Direction>& directions, const PlaceLimits& limits) {
     const std::vector<double>& samples = side.field.table().cd;
     std::vector<double> taken(samples.size()); // of each stored sample
     PlaceMean mean;
@@ -101,7 +103,7 @@ double extent_deg2(const std::vector<Direction>& polygon) {
 
 } // namespace
 
-bool inside(const std::vector<Direction>& polygon, Direction d) {
+bool is_within(const std::vector<Direction>& polygon, Direction d) {
     bool in = false;
     for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
         const Direction a = polygon[i], b = polygon[j];
@@ -118,11 +120,11 @@ std::vector<Direction> directions_of(const BeamPlace& place) {
     const auto [left, right] = std::ranges::minmax(place.corners, {}, &Direction::h_deg);
     const auto [bottom, top] = std::ranges::minmax(place.corners, {}, &Direction::v_deg);
     std::vector<Direction> directions;
-    for (int y = 0; y < cells; ++y)
-        for (int x = 0; x < cells; ++x) {
-            const Direction d{left.h_deg + (right.h_deg - left.h_deg) * (x + 0.5) / cells,
-                              bottom.v_deg + (top.v_deg - bottom.v_deg) * (y + 0.5) / cells};
-            if (inside(place.corners, d))
+    for (int y = 0; y < region_cells; ++y)
+        for (int x = 0; x < region_cells; ++x) {
+            const Direction d{left.h_deg + (right.h_deg - left.h_deg) * (x + 0.5) / region_cells,
+                              bottom.v_deg + (top.v_deg - bottom.v_deg) * (y + 0.5) / region_cells};
+            if (is_within(place.corners, d))
                 directions.push_back(d);
         }
     return directions;
@@ -138,7 +140,7 @@ PlaceChange change_at(const BeamPlace& place, const PlaceSide& before, const Pla
         found.not_measured = "outside a table";
         return found;
     }
-    const PlaceMean old_mean = mean_of(before, directions, limits), new_mean = mean_of(now, directions, limits);
+    const PlaceMean old_mean = place_mean(before, directions, limits), new_mean = place_mean(now, directions, limits);
     found.old_cd = old_mean.cd;
     found.new_cd = new_mean.cd;
     if (std::max(old_mean.cd, new_mean.cd) < limits.floor_cd) {
@@ -174,18 +176,21 @@ void name_zones(std::vector<BeamZone>& zones, const ResidualGrid& grid, const Be
         zone.extent = extent_of(areas, grid, is_in);
         if (zone.extent != ZoneExtent::part)
             continue;
+        bool holds_region = false;
         double smallest = std::numeric_limits<double>::infinity(), area = 0.0;
         for (const std::size_t at : zone.members)
             area += areas.area(at);
         for (std::size_t i = 0; i < places.size(); ++i) {
             const auto held = std::ranges::count_if(samples[i], [&](std::size_t at) { return is_in[at]; });
-            if (2 * static_cast<std::size_t>(held) >= samples[i].size())
+            if (2 * static_cast<std::size_t>(held) >= samples[i].size()) {
                 zone.holds.push_back(places[i].name);
+                holds_region = holds_region || !places[i].is_point();
+            }
             if (places[i].is_point() || extent_deg2(places[i].corners) >= smallest)
                 continue;
             double common = 0.0;
             for (const std::size_t at : zone.members)
-                common += inside(places[i].corners, areas.direction(at)) ? areas.area(at) : 0.0;
+                common += is_within(places[i].corners, areas.direction(at)) ? areas.area(at) : 0.0;
             if (2.0 * common >= area) {
                 smallest = extent_deg2(places[i].corners);
                 zone.part_of = places[i].name;
@@ -193,6 +198,8 @@ void name_zones(std::vector<BeamZone>& zones, const ResidualGrid& grid, const Be
         }
         if (!zone.holds.empty())
             zone.part_of.clear();
+        if (!zone.holds.empty() && !holds_region && area > wide_deg2)
+            zone.extent = ZoneExtent::wide;
     }
 }
 

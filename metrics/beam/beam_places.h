@@ -23,7 +23,7 @@ struct BeamPlace {
 };
 
 /// Even-odd rule.
-bool inside(const std::vector<Direction>& polygon, Direction d);
+bool is_within(const std::vector<Direction>& polygon, Direction d);
 /// The point; of a region the middles of cells of equal size, 32 over its width and 32 over its height, that lie in it.
 std::vector<Direction> directions_of(const BeamPlace& place);
 
@@ -58,8 +58,8 @@ struct PlaceLimits {
 PlaceChange change_at(const BeamPlace& place, const PlaceSide& before, const PlaceSide& now, const PlaceLimits& limits);
 
 /// Says of each zone of `grid`, whose axes `tested` has, what it holds: all light, all on one side of the cut-off (four fifths of that area
-/// and less than a fifth of the other's), else the places of which it holds at least half, or, where it holds none, the smallest region
-/// that holds at least half of it.
+/// and less than a fifth of the other's), else the places of which it holds at least half (of wide ones points alone), or, where it holds
+/// none, the smallest region that holds at least half of it.
 void name_zones(std::vector<BeamZone>& zones, const ResidualGrid& grid, const BeamField& tested, const CutOffLine& line,
                 const std::vector<BeamPlace>& places);
 

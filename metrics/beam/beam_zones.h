@@ -24,8 +24,8 @@ struct ResidualGrid {
     std::vector<TwoAngles> un; ///< H and V of each; empty: the axes
 };
 
-/// How much of the compared light a zone holds.
-enum class ZoneExtent { part, all, below_cut_off, above_cut_off };
+/// How much of the compared light a zone holds; wide: points, and much that has no name round them.
+enum class ZoneExtent { part, wide, all, below_cut_off, above_cut_off };
 
 struct BeamZone {
     double share = 0.0;       ///< tested over against, less 1: -0.05 is 5 % dimmer; weighted mean over the zone

@@ -24,6 +24,18 @@ std::string named_text(const BeamZone& zone) {
     return where.empty() ? share_text(zone.share) : where + " " + share_text(zone.share);
 }
 
+/// "75R, 50R and 50V".
+std::string list_text(const std::vector<std::string>& all) {
+    std::vector<std::string> names(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(max_named, all.size())));
+    if (all.size() > max_named)
+        names.push_back(fmt::format("{} more", all.size() - max_named));
+    const std::string last = names.back();
+    names.pop_back();
+    return names.empty() ? last : fmt::format("{} and {}", fmt::join(names, ", "), last);
+}
+
+std::string error_text(double deg) { return deg < 0.0005 ? "within 0.001" : fmt::format("±{:.3f}", deg); }
+
 std::string coordinates_text(const BeamZone& zone) {
     return span_text(zone.h_from_deg, zone.h_to_deg, "left", "right") + ", " + span_text(zone.v_from_deg, zone.v_to_deg, "down", "up");
 }
@@ -36,19 +48,13 @@ std::string uncertainty_text(double share) {
 }
 
 std::string zone_where(const BeamZone& zone) {
-    if (zone.extent != ZoneExtent::part)
-        return zone.extent == ZoneExtent::all             ? "all light"
-               : zone.extent == ZoneExtent::below_cut_off ? "all light below the cut-off"
-                                                          : "all light above the cut-off";
-    if (zone.holds.empty())
-        return zone.part_of.empty() ? "" : "part of " + zone.part_of;
-    std::vector<std::string> names(zone.holds.begin(),
-                                   zone.holds.begin() + static_cast<std::ptrdiff_t>(std::min(max_named, zone.holds.size())));
-    if (zone.holds.size() > max_named)
-        names.push_back(fmt::format("{} more", zone.holds.size() - max_named));
-    const std::string last = names.back();
-    names.pop_back();
-    return names.empty() ? last : fmt::format("{} and {}", fmt::join(names, ", "), last);
+    if (zone.extent == ZoneExtent::all)
+        return "all light";
+    if (zone.extent == ZoneExtent::below_cut_off || zone.extent == ZoneExtent::above_cut_off)
+        return zone.extent == ZoneExtent::below_cut_off ? "all light below the cut-off" : "all light above the cut-off";
+    if (!zone.holds.empty())
+        return (zone.extent == ZoneExtent::wide ? "a wide zone with " : "") + list_text(zone.holds);
+    return zone.part_of.empty() ? "" : "part of " + zone.part_of;
 }
 
 bool is_for_other_side(const LampDifference& difference) {
@@ -75,13 +81,12 @@ std::vector<std::string> sentences_of(const LampDifference& difference) {
         return fmt::format("{:.3f} degrees {}", std::abs(deg), deg < 0.0 ? less : more);
     };
     if (difference.aim_up_deg)
-        out.push_back(fmt::format("aimed {} and {}: the whole beam (±{:.3f} and ±{:.3f})",
-                                  turned(difference.aim_up_deg->value, "higher", "lower"),
+        out.push_back(fmt::format("aimed {} and {}: the whole beam ({} and {})", turned(difference.aim_up_deg->value, "higher", "lower"),
                                   turned(difference.aim_right_deg->value, "to the right", "to the left"),
-                                  difference.aim_up_deg->uncertainty, difference.aim_right_deg->uncertainty));
+                                  error_text(difference.aim_up_deg->uncertainty), error_text(difference.aim_right_deg->uncertainty)));
     if (difference.cut_off_up_deg)
-        out.push_back(fmt::format("cut-off {} (±{:.3f}), over the light below it",
-                                  turned(difference.cut_off_up_deg->value, "higher", "lower"), difference.cut_off_up_deg->uncertainty));
+        out.push_back(fmt::format("cut-off {} ({}), over the light below it", turned(difference.cut_off_up_deg->value, "higher", "lower"),
+                                  error_text(difference.cut_off_up_deg->uncertainty)));
     if (difference.level)
         out.push_back(fmt::format("{:.2f} % {} all over ({})", 100.0 * std::abs(difference.level->value),
                                   difference.level->value < 0.0 ? "dimmer" : "brighter", uncertainty_text(difference.level->uncertainty)));

@@ -94,7 +94,7 @@ void look_through(Extremes& all, const ReceivedBeam& beam, const Block& block, c
         for (std::size_t i = 0; i <= columns; ++i) {
             const Direction d{block.low.h_deg + width * static_cast<double>(i) / static_cast<double>(columns),
                               block.low.v_deg + height * static_cast<double>(j) / static_cast<double>(rows)};
-            if (inside(corners, d))
+            if (is_within(corners, d))
                 look(all, beam, d, wanted);
         }
 }
@@ -193,7 +193,7 @@ Extremes extremes_in(const ReceivedBeam& beam, const std::vector<Direction>& cor
             beam, low, high, [](const Block& a, const Block& b) { return a.bounds.low_cd > b.bounds.low_cd; },
             [&](const Block& block) { return all.lowest && block.bounds.low_cd >= all.lowest->cd * (1.0 - rounding); }, corners,
             {true, false}, all);
-    const auto allowed = [&](Direction d) { return inside(corners, d); };
+    const auto allowed = [&](Direction d) { return is_within(corners, d); };
     if (wanted.lowest)
         follow(all.lowest, beam, -1.0, beam.step_deg(), allowed);
     if (wanted.highest)

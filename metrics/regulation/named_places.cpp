@@ -8,19 +8,19 @@
 namespace fernlicht {
 namespace {
 
-const RegulationRow& row_of(const Regulation& table, const std::string& id) {
+const RegulationRow& table_row(const Regulation& table, const std::string& id) {
     return *std::ranges::find(table.rows, id, &RegulationRow::id);
 }
 
 BeamPlace of_table(const char* id, const char* row, const char* what) {
     const Regulation& table = regulation(id);
-    return {row, what, row_of(table, row).places, table.title};
+    return {row, what, table_row(table, row).places, table.title};
 }
 
 /// The trapezium between the outer ones of the six directions at which light for signs is measured.
 BeamPlace signs() {
     const Regulation& table = regulation("r112-b");
-    const std::vector<Direction>&upper = row_of(table, "B1 + B2 + B3").places, &lower = row_of(table, "B4 + B5 + B6").places;
+    const std::vector<Direction>&upper = table_row(table, "B1 + B2 + B3").places, &lower = table_row(table, "B4 + B5 + B6").places;
     return {"signs", "signs overhead", {upper.front(), upper.back(), lower.back(), lower.front()}, table.title + ": between B1 to B6"};
 }
 

@@ -165,7 +165,7 @@ int tell_apart(const LampFile& lamp, const LampRequest& request) {
     else {
         for (const auto& [what, text] : difference_lines(lamp, other, difference))
             fmt::print("{:<14} {}\n", what, text);
-        fmt::print("\n{}", table_text(places_table(difference)));
+        fmt::print("\n{}", table_text(named_places_table(difference)));
     }
     return 0;
 }

@@ -11,18 +11,24 @@ namespace {
 
 constexpr std::size_t max_zones = 3; ///< that are told; lamps of two makes differ in dozens
 
-/// The named places that a shift of the light changed most: " (HV 210.3 % brighter, B50L 31.0 % brighter)"; "" where none did.
+/// The named places that a shift of the light changed most, of all and of those that it is to keep dark:
+/// " (75R +56.2 %, 50V +53.1 %; glare: BR +5.5 %, zone III +4.5 %)"; "" where it changed none.
 std::string most_changed(const LampDifference& d) {
-    constexpr std::size_t most = 3;
     std::vector<const PlaceChange*> places;
     for (const PlaceChange& found : d.places)
         if (found.is_beyond_noise && found.change())
             places.push_back(&found);
     std::ranges::stable_sort(places, std::greater{}, [](const PlaceChange* found) { return std::abs(std::log1p(*found->change())); });
-    std::vector<std::string> texts;
-    for (std::size_t i = 0; i < std::min(most, places.size()); ++i)
-        texts.push_back(place_text(*places[i]));
-    return texts.empty() ? "" : fmt::format(" ({})", fmt::join(texts, ", "));
+    std::vector<std::string> texts, glare;
+    for (const PlaceChange* found : places) {
+        std::vector<std::string>& list = found->place.what.starts_with("glare") ? glare : texts;
+        if (list.size() < (&list == &glare ? 2U : 3U))
+            list.push_back(fmt::format("{} {:+.1f} %", found->place.name, 100.0 * *found->change()));
+    }
+    if (texts.empty() && glare.empty())
+        return "";
+    return fmt::format(" ({}{}{}{})", fmt::join(texts, ", "), texts.empty() || glare.empty() ? "" : "; ",
+                       glare.empty() ? "" : "glare: ", fmt::join(glare, ", "));
 }
 
 /// Aimed to a side only where that side lies beyond its own uncertainty.

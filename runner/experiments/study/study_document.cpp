@@ -210,7 +210,7 @@ Section lamps_section(const StudyResult& result) {
         if (all.size() > most)
             told.items.emplace_back(fmt::format("and {} more zones, all in study.json", all.size() - most));
         section.blocks.emplace_back(std::move(told));
-        Table places = places_table(pair.difference);
+        Table places = named_places_table(pair.difference);
         places.name = fmt::format("places-{}-{}-{}", pair.tested, pair.against, pair.side);
         places.folded = places.off_terminal = true;
         section.blocks.emplace_back(std::move(places));

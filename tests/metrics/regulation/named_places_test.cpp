@@ -107,14 +107,14 @@ TEST_P(NamesOf, AWiderBeamIsWidth) {
 }
 
 TEST_P(NamesOf, ARaisedCutOffLightsWhatItWasToKeepDark) {
-    const LampDifference found = found_with(raised_cut_off(lamp_, 0.2));
+    const LampDifference found = compare_by_name(with_noise(raised_cut_off(lamp_, 0.2), 0.002, 3), lamp_); // B50L gains 2 %
     ASSERT_TRUE(found.cut_off_up_deg) << all_said(found);
     const std::set<std::string> changed = changed_places(found);
     for (const char* name : {"B50L", "zone III", "HV"}) {
         EXPECT_TRUE(changed.contains(name)) << name;
         EXPECT_GT(*place(found, name).change(), 0.0) << name;
     }
-    for (const char* name : {"25V", "25L", "25R", "zone I", "foreground"})
+    for (const char* name : {"25L", "25R", "zone I", "foreground"})
         EXPECT_FALSE(changed.contains(name)) << name;
 }
 

@@ -16,7 +16,7 @@ constexpr std::size_t max_framed = 4; ///< zones; more would hide the picture
 
 JsonMembers fitted_figure_members(FittedFigure& fitted) { return {{"value", fitted.value}, {"standard_error", fitted.uncertainty}}; }
 
-std::vector<std::string> extent_names() { return {"part", "all", "below_cut_off", "above_cut_off"}; }
+std::vector<std::string> extent_names() { return {"part", "wide", "all", "below_cut_off", "above_cut_off"}; }
 
 JsonMembers beam_zone_members(BeamZone& zone) {
     return {{"share", zone.share},
@@ -146,10 +146,10 @@ std::vector<std::pair<std::string, std::string>> difference_lines(const LampFile
     return lines;
 }
 
-Table places_table(const LampDifference& difference) {
+Table named_places_table(const LampDifference& difference) {
     Table table{"places",
-                "Named places as the files have them, not aimed: at a point the intensity, over a region its mean. ± is a standard error "
-                "with what interpolation leaves open; \"digits\": within the digits of the tables",
+                "Named places, as filed: at a point the intensity, over a region its mean; ± is one standard error and what interpolation "
+                "leaves open (digits: within the digits of the tables)",
                 columns_of("place<|what it is for<|old [cd]|new [cd]|change [%]|± [%]|beyond noise<"),
                 {}};
     const auto cd_cell = [](const std::optional<double>& cd) { return cd ? Cell(four_digits(*cd), *cd) : Cell(""); };

@@ -20,7 +20,7 @@ LampDifference difference_of(const LampFile& tested, const LampFile& against, do
 std::vector<std::pair<std::string, std::string>> difference_lines(const LampFile& tested, const LampFile& against,
                                                                   const LampDifference& difference);
 /// The trade's named places: what both lamps give there, and whether the change is more than noise.
-Table places_table(const LampDifference& difference);
+Table named_places_table(const LampDifference& difference);
 /// Figures with units in their names; null where nothing is claimed.
 JsonPart difference_part(LampDifference& difference);
 nlohmann::ordered_json difference_json(const LampDifference& difference);

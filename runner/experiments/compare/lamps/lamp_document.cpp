@@ -96,7 +96,7 @@ Document document(const LampPairComparison& lamps) {
         told.rows.push_back({what.empty() ? " " : what, text});
     document.sections.push_back(
         {lamps.difference.any() ? "The lamps differ" : "No difference beyond noise", {told}, 2, false, lamps.passed() ? "none" : "fail"});
-    document.sections.push_back({"Named places", {places_table(lamps.difference)}});
+    document.sections.push_back({"Named places", {named_places_table(lamps.difference)}});
     if (lamps.regulation) {
         const auto verdict = [](const ComparedLamp& lamp) {
             return lamp.check->verdict == RowVerdict::pass ? "pass" : lamp.check->verdict == RowVerdict::fail ? "fail" : "not measured";
