@@ -78,6 +78,22 @@ bool BeamField::has(double h_deg, double v_deg) const {
     return has_data(*table_, d.h_deg, d.v_deg);
 }
 
+double BeamField::cd(double h_deg, double v_deg) const {
+    const TwoAngles d = on_axes(h_deg, v_deg);
+    return intensity_cd(*table_, d.h_deg, d.v_deg);
+}
+
+std::size_t BeamField::nearest(double h_deg, double v_deg) const {
+    const auto on_axis = [](const std::vector<double>& axis, double angle) {
+        const auto above = std::ranges::lower_bound(axis, angle);
+        if (above == axis.begin() || (above != axis.end() && *above - angle <= angle - *(above - 1)))
+            return static_cast<std::size_t>(above - axis.begin());
+        return static_cast<std::size_t>(above - axis.begin()) - 1;
+    };
+    const TwoAngles d = on_axes(h_deg, v_deg);
+    return on_axis(table_->v_deg, d.v_deg) * table_->h_deg.size() + on_axis(table_->h_deg, d.h_deg);
+}
+
 std::vector<std::pair<std::size_t, double>> BeamField::weights(double h_deg, double v_deg) const {
     const TwoAngles d = on_axes(h_deg, v_deg);
     const Weights h = weights_at(table_->h_deg, d.h_deg), v = weights_at(table_->v_deg, d.v_deg);

@@ -31,7 +31,10 @@ class BeamField {
     const CandelaTable& table() const { return *table_; }
     /// At the samples exactly what the table has. Directions outside the axes take the edge's value: ask `has` first.
     FieldValue at(double h_deg, double v_deg) const;
+    /// By the table's own rule between its samples.
+    double cd(double h_deg, double v_deg) const;
     bool has(double h_deg, double v_deg) const;
+    std::size_t nearest(double h_deg, double v_deg) const; ///< sample, on either axis
     /// By how much each sample of the table counts in `at`; those without weight are left out.
     std::vector<std::pair<std::size_t, double>> weights(double h_deg, double v_deg) const;
     double node(std::size_t v, std::size_t h) const { return log_cd_[v * table_->h_deg.size() + h]; }

@@ -159,6 +159,7 @@ BeamZone zone_of(const ResidualGrid& grid, const Smoothed& smoothed, const std::
         zone.v_deg += d.v_deg / static_cast<double>(members.size());
     }
     zone.samples = members.size();
+    zone.members = members;
     zone.share = std::expm1(all.sum / all.weights);
     zone.uncertainty = (1.0 + zone.share) * (std::sqrt(noise.variance()) + all.open) / all.weights;
     if (grid.un.empty()) {

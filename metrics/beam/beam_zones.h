@@ -4,6 +4,7 @@
 #include "scenarios/lamps/candela_table.h"
 
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,13 +24,21 @@ struct ResidualGrid {
     std::vector<TwoAngles> un; ///< H and V of each; empty: the axes
 };
 
+/// How much of the compared light a zone holds; wide: points, and much that has no name round them.
+enum class ZoneExtent { part, wide, all, below_cut_off, above_cut_off };
+
 struct BeamZone {
     double share = 0.0;       ///< tested over against, less 1: -0.05 is 5 % dimmer; weighted mean over the zone
     double uncertainty = 0.0; ///< standard error of `share` and what interpolation leaves open
     double h_from_deg = 0.0, h_to_deg = 0.0, v_from_deg = 0.0, v_to_deg = 0.0; ///< borders halfway between samples in and out
     double z = 0.0;                                                            ///< of its clearest block of samples
     std::size_t samples = 0;
-    double h_deg = 0.0, v_deg = 0.0; ///< its middle: mean over its samples
+    double h_deg = 0.0, v_deg = 0.0;  ///< its middle: mean over its samples
+    std::vector<std::size_t> members; ///< its samples, by their place in the grid
+    // What it holds, as name_zones (beam_places.h) finds it.
+    ZoneExtent extent = ZoneExtent::part;
+    std::vector<std::string> holds; ///< named places, at least half of each
+    std::string part_of;            ///< the region that it lies in, where it holds none; "" where there is none either
 };
 
 /// The z beyond which one of `tests` normal figures falls by chance with probability `chance` in all, either side (Bonferroni).

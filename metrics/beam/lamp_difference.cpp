@@ -5,9 +5,10 @@
 #include "metrics/statistics/statistics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -93,7 +94,12 @@ class Comparison {
         set_noise(best); // without what the shift made of it
         explain_by_level(best, result);
         result.noise_relative = noise_at_peak_;
-        result.zones = find_zones(residuals(best), z_limit_);
+        const ResidualGrid left = residuals(best);
+        result.zones = find_zones(left, z_limit_);
+        const BeamField tested(tested_, floor_share * peak_cd_, system_);
+        name_zones(result.zones, left, tested, line_, options_.places);
+        for (const BeamPlace& place : options_.places)
+            result.places.push_back(change_at(place, {against_, source_against_}, {tested, source_}, place_limits()));
         if (!result.aim_up_deg && !result.cut_off_up_deg)
             result.undecided.clear();
         return result;
@@ -110,7 +116,7 @@ class Comparison {
 
     void collect() {
         const double floor_cd = floor_share * peak_cd_, least = std::log(compared_share * peak_cd_);
-        const double rounding_cd = std::hypot(rounding_of(tested_), rounding_of(against_.table())) / std::sqrt(12.0); // of a uniform error
+        rounding_cd_ = std::hypot(rounding_of(tested_), rounding_of(against_.table())) / std::sqrt(12.0); // of a uniform error
         for (std::size_t v = 0; v < tested_.v_deg.size(); ++v)
             for (std::size_t h = 0; h < tested_.h_deg.size(); ++h) {
                 if (!has_data(tested_, tested_.h_deg[h], tested_.v_deg[v]))
@@ -123,8 +129,23 @@ class Comparison {
                     continue;
                 samples_.push_back({v, h, h_deg, v_deg, log_cd, 0.0});
                 // The last term is what a double's last digits are worth in a logarithm: two equal tables still need a scale.
-                rounding_.push_back(std::max(rounding_cd * std::exp(-std::min(log_cd, log_other)), 1e-9));
+                rounding_.push_back(std::max(rounding_cd_ * std::exp(-std::min(log_cd, log_other)), 1e-9));
             }
+    }
+
+    PlaceLimits place_limits() const {
+        const CandelaTable& other = against_.table();
+        PlaceLimits limits{compared_share * peak_cd_, floor_share * peak_cd_, z_limit_};
+        limits.is_same_grid = is_same_system_ && tested_.h_deg == other.h_deg && tested_.v_deg == other.v_deg;
+        limits.noise_of = [this](double cd) {
+            const double light = std::max(cd, floor_share * peak_cd_);
+            return std::max({decade_noise_[decade_of(std::log(light))], rounding_cd_ / (std::numbers::sqrt2 * light), 1e-9});
+        };
+        return limits;
+    }
+
+    std::size_t decade_of(double log_cd) const {
+        return static_cast<std::size_t>(std::clamp((std::log(peak_cd_) - log_cd) / std::log(10.0), 0.0, 2.0));
     }
 
     /// Noise may go with the level of light, so it is estimated by decades below the peak.
@@ -132,15 +153,12 @@ class Comparison {
         Explanation plain = explained; // a range of shifts takes noise away with the rest
         plain.shift.up_deg += std::exchange(plain.cut_off_up_deg, 0.0);
         const ResidualGrid grid = residuals(plain);
-        const double log_peak = std::log(peak_cd_);
-        for (int decade = 0; decade < 3; ++decade) {
-            const auto is_in = [&](const BeamSample& sample) {
-                return std::clamp(static_cast<int>((log_peak - sample.log_cd) / std::log(10.0)), 0, 2) == decade;
-            };
+        for (std::size_t decade = 0; decade < decade_noise_.size(); ++decade) {
+            const auto is_in = [&](const BeamSample& sample) { return decade_of(sample.log_cd) == decade; };
             std::vector<bool> chosen(grid.r.size());
             for (const BeamSample& sample : samples_)
                 chosen[sample.v * tested_.h_deg.size() + sample.h] = is_in(sample);
-            const double noise = std::max(neighbour_noise(grid, chosen), options_.noise_relative);
+            const double noise = decade_noise_[decade] = std::max(neighbour_noise(grid, chosen), options_.noise_relative);
             if (decade == 0)
                 noise_at_peak_ = noise * std::sqrt(2.0); // of a difference of two
             for (std::size_t i = 0; i < samples_.size(); ++i)
@@ -367,10 +385,12 @@ class Comparison {
     std::vector<std::size_t> source_, source_against_; ///< by sample of the table
     Steps steps_;                                      ///< the finest of the coarser file
     std::vector<BeamSample> samples_;
-    std::vector<double> rounding_; ///< by sample
-    std::vector<double> noise_;    ///< by sample: of one file's
-    std::vector<double> spread_;   ///< by sample: see share_noise
-    double noise_at_peak_ = 0.0, z_limit_ = 0.0;
+    std::vector<double> rounding_;         ///< by sample
+    std::vector<double> noise_;            ///< by sample: of one file's
+    std::vector<double> spread_;           ///< by sample: see share_noise
+    std::array<double, 3> decade_noise_{}; ///< by decades below the peak: of one sample of either file
+    double noise_at_peak_ = 0.0, z_limit_ = 0.0, rounding_cd_ = 0.0;
+    bool is_same_system_;
 };
 
 } // namespace
@@ -385,32 +405,6 @@ LampDifference compare_lamps(const SampledBeam& tested, const SampledBeam& again
     return Comparison(tested, against, options).find();
 }
 
-std::vector<std::string> sentences_of(const LampDifference& difference) {
-    std::vector<std::string> out;
-    const auto turned = [](double deg, const char* more, const char* less) {
-        return fmt::format("{:.3f} degrees {}", std::abs(deg), deg < 0.0 ? less : more);
-    };
-    if (difference.aim_up_deg)
-        out.push_back(fmt::format("aimed {} and {}: the whole beam (±{:.3f} and ±{:.3f})",
-                                  turned(difference.aim_up_deg->value, "higher", "lower"),
-                                  turned(difference.aim_right_deg->value, "to the right", "to the left"),
-                                  difference.aim_up_deg->uncertainty, difference.aim_right_deg->uncertainty));
-    if (difference.cut_off_up_deg)
-        out.push_back(fmt::format("cut-off {} (±{:.3f}), over the light below it",
-                                  turned(difference.cut_off_up_deg->value, "higher", "lower"), difference.cut_off_up_deg->uncertainty));
-    const auto changed = [](double share) {
-        return fmt::format("{:.2f} % {}", 100.0 * std::abs(share), share < 0.0 ? "dimmer" : "brighter");
-    };
-    if (difference.level)
-        out.push_back(fmt::format("{} all over (±{:.3f} %)", changed(difference.level->value), 100.0 * difference.level->uncertainty));
-    for (const BeamZone& zone : difference.zones)
-        out.push_back(fmt::format("{} within H {:.2f}..{:.2f}, V {:.2f}..{:.2f} degrees (±{:.2f} %, {} directions)", changed(zone.share),
-                                  zone.h_from_deg, zone.h_to_deg, zone.v_from_deg, zone.v_to_deg, 100.0 * zone.uncertainty, zone.samples));
-    if (out.empty())
-        out.push_back("no difference beyond noise");
-    if (!difference.undecided.empty())
-        out.push_back(difference.undecided);
-    return out;
-}
+bool LampDifference::any() const { return is_explained() || std::ranges::any_of(places, &PlaceChange::is_beyond_noise); }
 
 } // namespace fernlicht

@@ -5,9 +5,10 @@
 // explains the rest: nothing; the whole beam aimed otherwise (a shift of all its light); the cut-off moved while the light below stays (the
 // band of 0.5 degrees round it fitted apart from the light more than 1 degree below); the whole beam brighter or dimmer; and last the zones
 // that are left. A shift or a level is claimed when it lies beyond `z_limit` standard errors and the directions claimed as zones shrink by
-// it.
+// it. Zones are told by the named places that they hold, and beside all this stands what both lamps give at each of those.
 #pragma once
 
+#include "metrics/beam/beam_places.h"
 #include "metrics/beam/beam_zones.h"
 #include "scenarios/lamps/lamp_file.h"
 
@@ -20,7 +21,8 @@ struct LampDifferenceOptions {
     /// Standard deviation of a sample of either table, relative. The estimate from the tables comes on top where it is larger. A tolerance
     /// of +-a is a / sqrt(3) when all within it is as likely.
     double noise_relative = 0.0;
-    double false_claim_chance = 0.005; ///< of any claim at all between two tables of one lamp, were the noise known
+    double false_claim_chance = 0.005;  ///< of any claim at all between two tables of one lamp, were the noise known
+    std::vector<BeamPlace> places = {}; ///< by whose names differences are told; metrics/regulation/named_places.h has the trade's
 };
 
 struct FittedFigure {
@@ -37,8 +39,12 @@ struct LampDifference {
     std::optional<FittedFigure> level;                     ///< share: +0.03 is 3 % brighter all over; where claimed
     std::vector<BeamZone> zones;                           ///< clearest first
     std::string undecided;                                 ///< what could not be told apart, if anything: one sentence
+    TrafficSide side = TrafficSide::unknown, side_against = TrafficSide::unknown; ///< of the road that each is for
+    std::vector<PlaceChange> places;                                              ///< as the options name them
 
-    bool any() const { return aim_up_deg || cut_off_up_deg || level || !zones.empty(); }
+    /// Claimed by shift, level or zones.
+    bool is_explained() const { return aim_up_deg || cut_off_up_deg || level || !zones.empty(); }
+    bool any() const;
 };
 
 /// A lamp's beam by its file's own samples where these lie on other angles than H and V: their noise is independent, that of a resampled
@@ -56,7 +62,19 @@ struct SampledBeam {
 /// 0..1, chance above 0 and below 1). The same tables give the same bytes.
 LampDifference compare_lamps(const SampledBeam& tested, const SampledBeam& against, const LampDifferenceOptions& options = {});
 
-/// One sentence each, the aim first; "no difference beyond noise" when nothing is claimed.
+/// One sentence each: lamps for different sides of the road, aim, cut-off, level, zones; regions whose mean alone differs. "no difference
+/// beyond noise" when nothing is claimed.
 std::vector<std::string> sentences_of(const LampDifference& difference);
+
+bool is_for_other_side(const LampDifference& difference);
+std::string other_side_text(const LampDifference& difference); ///< where it is
+/// "75R, 50R and 50V"; "" where nothing named lies there.
+std::string zone_where(const BeamZone& zone);
+/// "part of zone I 5.0 % dimmer (8.2 to 2.9 degrees left, 4.2 to 1.5 degrees down)".
+std::string zone_text(const BeamZone& zone);
+/// "50L 5.0 % dimmer": names first.
+std::string place_text(const PlaceChange& change);
+/// Of a share: "±0.04 %"; "within the digits of the tables" where it is less than 0.005 %.
+std::string uncertainty_text(double share);
 
 } // namespace fernlicht

@@ -1,5 +1,7 @@
 #include "metrics/regulation/row_check.h"
 
+#include "metrics/beam/beam_places.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,18 +23,6 @@ void look(Extremes& all, const ReceivedBeam& beam, Direction where, WantedExtrem
     const std::optional<double> cd = beam.at(where);
     const auto here = cd ? std::optional(Extreme{*cd, where}) : std::nullopt;
     merge(all, {wanted.lowest ? here : std::nullopt, wanted.highest ? here : std::nullopt, cd.has_value()});
-}
-
-/// Even-odd rule.
-bool inside(const std::vector<Direction>& polygon, Direction d) {
-    bool in = false;
-    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-        const Direction a = polygon[i], b = polygon[j];
-        if ((a.v_deg > d.v_deg) != (b.v_deg > d.v_deg) &&
-            d.h_deg < a.h_deg + (b.h_deg - a.h_deg) * (d.v_deg - a.v_deg) / (b.v_deg - a.v_deg))
-            in = !in;
-    }
-    return in;
 }
 
 /// From the best sample on to neighbours that are better, in halving steps.
@@ -104,7 +94,7 @@ void look_through(Extremes& all, const ReceivedBeam& beam, const Block& block, c
         for (std::size_t i = 0; i <= columns; ++i) {
             const Direction d{block.low.h_deg + width * static_cast<double>(i) / static_cast<double>(columns),
                               block.low.v_deg + height * static_cast<double>(j) / static_cast<double>(rows)};
-            if (inside(corners, d))
+            if (is_within(corners, d))
                 look(all, beam, d, wanted);
         }
 }
@@ -203,7 +193,7 @@ Extremes extremes_in(const ReceivedBeam& beam, const std::vector<Direction>& cor
             beam, low, high, [](const Block& a, const Block& b) { return a.bounds.low_cd > b.bounds.low_cd; },
             [&](const Block& block) { return all.lowest && block.bounds.low_cd >= all.lowest->cd * (1.0 - rounding); }, corners,
             {true, false}, all);
-    const auto allowed = [&](Direction d) { return inside(corners, d); };
+    const auto allowed = [&](Direction d) { return is_within(corners, d); };
     if (wanted.lowest)
         follow(all.lowest, beam, -1.0, beam.step_deg(), allowed);
     if (wanted.highest)

@@ -6,6 +6,7 @@
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/json_text.h"
 #include "runner/findings/plots/isocandela.h"
+#include "runner/write/document.h"
 #include "runner/write/plots/png.h"
 #include "scenarios/lamps/lamp_model.h"
 #include "scenarios/values/errors.h"
@@ -161,9 +162,11 @@ int tell_apart(const LampFile& lamp, const LampRequest& request) {
     }
     if (request.json)
         fmt::print("{}", json_text(difference_json(difference)));
-    else
+    else {
         for (const auto& [what, text] : difference_lines(lamp, other, difference))
             fmt::print("{:<14} {}\n", what, text);
+        fmt::print("\n{}", table_text(named_places_table(difference)));
+    }
     return 0;
 }
 
@@ -248,7 +251,8 @@ void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::funct
     command->add_flag("--mirror", request->mirror, "swap left and right: right-hand to left-hand traffic and back");
     command->add_option("--add", request->add, "add another lamp's light");
     command->add_option("--against", request->against,
-                        "report what differs from this lamp (aim, cut-off, level, zones) and what is only noise");
+                        "report what differs from this lamp (aim, cut-off, level, zones, and at 75R, 50V, B50L, kerb shoulder, "
+                        "foreground and other named places) and what is only noise");
     command->add_option_function<std::string>(
         "--noise", [request](const std::string& text) { request->noise_relative = share_of("--noise", text); },
         "with --against: standard deviation of an intensity, e.g. 1%; the noise found in the tables is used if larger");

@@ -2,6 +2,7 @@
 #include "metrics/readings/reading_labels.h"
 #include "runner/experiments/study/change_text.h"
 #include "runner/experiments/study/study_decision.h"
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/findings/figures.h"
@@ -218,6 +219,10 @@ Section lamps_section(const StudyResult& result) {
         if (all.size() > most)
             told.items.emplace_back(fmt::format("and {} more zones, all in study.json", all.size() - most));
         section.blocks.emplace_back(std::move(told));
+        Table places = named_places_table(pair.difference);
+        places.name = fmt::format("places-{}-{}-{}", pair.tested, pair.against, pair.side);
+        places.folded = places.off_terminal = true;
+        section.blocks.emplace_back(std::move(places));
     }
     return section;
 }

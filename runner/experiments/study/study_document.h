@@ -27,8 +27,9 @@ std::vector<StudyFigure> study_figures(const StudyResult& result, const std::fil
 /// Lanes and car on the shown maps of cells that are played over the same road from the same drive; `drive` is one of theirs.
 void add_map_edges(const Drive& drive, std::vector<CellResult*> cells);
 
-/// "dimmer against production: 5.0 % dimmer at 8.2 to 2.9 degrees left and 4.2 to 1.5 degrees down. Nothing else differs
-/// beyond the noise of the tables, 0.82 %." Zones beyond the clearest three are counted. Angles are the goniometer's.
+/// "dimmer against production: part of zone I 5.0 % dimmer (8.2 to 2.9 degrees left, 4.2 to 1.5 degrees down). Nothing else differs
+/// beyond the noise of the tables, 0.82 %." Of a shift, the three named places that it changed most. Zones beyond the clearest three are
+/// counted. Angles are the goniometer's.
 std::string lamp_verdict(const LampComparison& lamps);
 /// How many deciding readings changed, or why that is not known.
 std::string study_sentence(const StudyResult& result);

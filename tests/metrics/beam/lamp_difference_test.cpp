@@ -1,6 +1,7 @@
 // Lamps made from the shipped tables, with what was done to them known: each change found and named, nothing else claimed.
 #include "metrics/beam/lamp_difference.h"
 
+#include "metrics/regulation/named_places.h"
 #include "scenarios/lamps/lamp_model.h"
 #include "tests/metrics/changed_lamps.h"
 #include "tests/metrics/measured_lamps.h"
@@ -137,16 +138,30 @@ constexpr unsigned draws = 10; // enough to meet a memory error
 #else
 constexpr unsigned draws = 200;
 #endif
-TEST(LampDifference, NoiseAloneIsNoDifference) {
+TEST(LampDifference, NoiseAloneIsNoDifferenceAndMovesNoNamedPlace) {
     const CandelaTable lamp = thinned(shipped("halogen-low")); // a quarter of the time
-    int claims = 0;
+    int claims = 0, places = 0, beyond_two = 0, beyond_noise = 0;
     std::string what;
-    for (unsigned seed = 0; seed < draws; ++seed)
-        if (const LampDifference found = compare_lamps(with_noise(lamp, 0.01, seed), lamp); found.any()) {
+    for (unsigned seed = 0; seed < draws; ++seed) {
+        const LampDifference found = compare_by_name(with_noise(lamp, 0.01, seed), lamp);
+        if (found.any()) {
             ++claims;
             what += said(found);
         }
+        for (const PlaceChange& change : found.places) {
+            ++places;
+            beyond_noise += change.is_beyond_noise;
+            beyond_two += std::abs(*change.change()) > 2.0 * *change.uncertainty;
+        }
+    }
     EXPECT_LE(claims, draws < 200 ? 2 : 7) << what; // with 10 the chance is 0.01 %
+    EXPECT_EQ(beyond_noise, 0) << what;
+    // A normal error lies beyond two standard errors in 4.6 % of cases. The ± is not too small; that it errs to the large side, for it
+    // adds what interpolation of noise leaves open, keeps 0.2 % beyond it: at most 1.6 times too large.
+    if (draws == 200) {
+        EXPECT_LE(beyond_two, places * 6 / 100);
+        EXPECT_GE(beyond_two, places * 2 / 1000);
+    }
 }
 
 /// Two measurements of one lamp, 1 % of noise on each sample, through files.

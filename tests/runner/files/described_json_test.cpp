@@ -108,6 +108,14 @@ LayerComparison judged_layer() {
 LampDifference undecided_difference() {
     LampDifference difference{1000, 0.01, 4.0, 12.5, FittedFigure{0.1, 0.02}, FittedFigure{-0.2, 0.03}, {}, FittedFigure{0.05, 0.001}};
     difference.zones = {{-0.05, 0.01, -10.0, -5.0, 0.0, 1.0, 9.5, 40}};
+    difference.zones.push_back(difference.zones.front());
+    difference.zones.front().holds = {"75R", "50V"};
+    difference.zones.back().part_of = "zone I";
+    difference.zones.back().extent = ZoneExtent::below_cut_off;
+    difference.places = {
+        {{"75R", "the kerb side", {{1.15, -0.57}}, "a table"}, 100.0, 105.0, 0.01, true},
+        {{"foreground", "the near road", {{-1.0, -5.0}, {1.0, -5.0}, {0.0, -4.0}}, "ours"}, {}, {}, {}, false, "outside a table"}};
+    difference.side = TrafficSide::left;
     difference.undecided = "aim or level: both explain it";
     return difference;
 }

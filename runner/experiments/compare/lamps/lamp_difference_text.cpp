@@ -1,5 +1,7 @@
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 
+#include "metrics/regulation/named_places.h"
+#include "runner/findings/figures.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -14,6 +16,8 @@ constexpr std::size_t max_framed = 4; ///< zones; more would hide the picture
 
 JsonMembers fitted_figure_members(FittedFigure& fitted) { return {{"value", fitted.value}, {"standard_error", fitted.uncertainty}}; }
 
+std::vector<std::string> extent_names() { return {"part", "wide", "all", "below_cut_off", "above_cut_off"}; }
+
 JsonMembers beam_zone_members(BeamZone& zone) {
     return {{"share", zone.share},
             {"standard_error", zone.uncertainty},
@@ -22,8 +26,28 @@ JsonMembers beam_zone_members(BeamZone& zone) {
             {"v_from_deg", zone.v_from_deg},
             {"v_to_deg", zone.v_to_deg},
             {"z", zone.z},
-            {"directions", zone.samples}};
+            {"directions", zone.samples},
+            {"extent", one_of(zone.extent, extent_names)},
+            {"places", zone.holds},
+            {"part_of", or_null(zone.part_of)}};
 }
+
+JsonMembers corner_members(Direction& corner) { return {{"h_deg", corner.h_deg}, {"v_deg", corner.v_deg}}; }
+
+JsonMembers place_change_members(PlaceChange& change) {
+    return {{"name", change.place.name},
+            {"what", change.place.what},
+            {"corners", change.place.corners, corner_members},
+            {"source", change.place.source},
+            {"old_cd", change.old_cd},
+            {"new_cd", change.new_cd},
+            {"change_share", change.change()},
+            {"standard_error", change.uncertainty},
+            {"beyond_noise", change.is_beyond_noise},
+            {"not_measured", or_null(change.not_measured)}};
+}
+
+JsonPart traffic_side_part(TrafficSide& side) { return one_of(side, names_of<TrafficSide>(traffic_side_name, 3)); }
 
 void refuse_darkness(const LampFile& lamp) {
     if (!(peak_of(lamp.table).cd > 0.0))
@@ -102,7 +126,7 @@ plots::Axis ratio_axis(const Image<float>& values) {
 LampDifference difference_of(const LampFile& tested, const LampFile& against, double noise_relative) {
     refuse_darkness(tested);
     refuse_darkness(against);
-    return compare_lamps(tested, against, {.noise_relative = noise_relative});
+    return compare_by_name(tested, against, {.noise_relative = noise_relative});
 }
 
 std::vector<std::pair<std::string, std::string>> difference_lines(const LampFile& tested, const LampFile& against,
@@ -122,6 +146,29 @@ std::vector<std::pair<std::string, std::string>> difference_lines(const LampFile
     return lines;
 }
 
+Table named_places_table(const LampDifference& difference) {
+    Table table{"places",
+                "Named places, as filed: at a point the intensity, over a region its mean; ± is one standard error and what interpolation "
+                "leaves open (digits: within the digits of the tables)",
+                columns_of("place<|what it is for<|old [cd]|new [cd]|change [%]|± [%]|beyond noise<"),
+                {}};
+    const auto cd_cell = [](const std::optional<double>& cd) { return cd ? Cell(four_digits(*cd), *cd) : Cell(""); };
+    for (const PlaceChange& found : difference.places) {
+        const std::optional<double> change = found.change();
+        const double error = found.uncertainty.value_or(0.0);
+        const bool is_in_digits = uncertainty_text(error).starts_with("within");
+        table.rows.push_back({Cell(found.place.name).hinted(found.place.source), found.place.what, cd_cell(found.old_cd),
+                              cd_cell(found.new_cd), change ? Cell(signed_figure(100.0 * *change, 1), 100.0 * *change) : Cell(""),
+                              !change        ? Cell("")
+                              : is_in_digits ? Cell("digits", 100.0 * error)
+                                             : Cell(two_digits(100.0 * error), 100.0 * error),
+                              found.is_beyond_noise        ? "yes"
+                              : found.not_measured.empty() ? "no"
+                                                           : found.not_measured});
+    }
+    return table;
+}
+
 JsonPart difference_part(LampDifference& difference) {
     JsonPart part(JsonMembers{{"differs", difference.any()},
                               {"says", sentences_of(difference)},
@@ -130,6 +177,9 @@ JsonPart difference_part(LampDifference& difference) {
                               {"cut_off_up_deg", difference.cut_off_up_deg, fitted_figure_members},
                               {"level_share", difference.level, fitted_figure_members},
                               {"zones", difference.zones, beam_zone_members},
+                              {"places", difference.places, place_change_members},
+                              {"traffic_side", difference.side, traffic_side_part},
+                              {"traffic_side_against", difference.side_against, traffic_side_part},
                               {"directions", difference.directions},
                               {"noise_relative", difference.noise_relative},
                               {"z_limit", difference.z_limit},

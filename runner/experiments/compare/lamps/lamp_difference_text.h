@@ -3,6 +3,7 @@
 
 #include "metrics/beam/lamp_difference.h"
 #include "runner/files/described_json.h"
+#include "runner/findings/document.h"
 #include "runner/findings/plots/figure.h"
 #include "scenarios/lamps/lamp_file.h"
 
@@ -12,12 +13,14 @@ namespace fernlicht {
 /// (halogen low beam (model))". Files of one name with their folders. A lamp that was read from no file has its own name alone.
 std::string distinct_label(const LampFile& lamp, const LampFile& other);
 
-/// Throws InputError naming the lamp that has no light.
+/// By the trade's named places. Throws InputError naming the lamp that has no light.
 LampDifference difference_of(const LampFile& tested, const LampFile& against, double noise_relative);
 
 /// What is told of it: "lamp", "against", "difference", "noise", "compared", and what each is.
 std::vector<std::pair<std::string, std::string>> difference_lines(const LampFile& tested, const LampFile& against,
                                                                   const LampDifference& difference);
+/// The trade's named places: what both lamps give there, and whether the change is more than noise.
+Table named_places_table(const LampDifference& difference);
 /// Figures with units in their names; null where nothing is claimed.
 JsonPart difference_part(LampDifference& difference);
 nlohmann::ordered_json difference_json(const LampDifference& difference);

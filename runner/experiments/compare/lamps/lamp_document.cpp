@@ -32,15 +32,16 @@ Table facts_table(const LampPairComparison& lamps) {
 Table zones_table(const LampDifference& difference) {
     Table table{"zones",
                 "Clearest first",
-                columns_of("B over A, less 1 [%]|± [%]|H from [°]|H to [°]|V from [°]|V to [°]|directions"),
+                columns_of("where<|B over A, less 1 [%]|± [%]|H from [°]|H to [°]|V from [°]|V to [°]|directions"),
                 {},
                 false,
                 false,
                 true};
-    const auto degrees_cell = [](double deg) { return Cell(figure(deg, 2), deg); };
+    const auto degrees_cell = [](double deg) { return Cell(figure(deg, 1), deg); };
     for (const BeamZone& zone : difference.zones)
-        table.rows.push_back({{signed_figure(100.0 * zone.share, 2), 100.0 * zone.share},
-                              {figure(100.0 * zone.uncertainty, 2), 100.0 * zone.uncertainty},
+        table.rows.push_back({zone_where(zone),
+                              {signed_figure(100.0 * zone.share, 1), 100.0 * zone.share},
+                              {two_digits(100.0 * zone.uncertainty), 100.0 * zone.uncertainty},
                               degrees_cell(zone.h_from_deg),
                               degrees_cell(zone.h_to_deg),
                               degrees_cell(zone.v_from_deg),
@@ -95,6 +96,7 @@ Document document(const LampPairComparison& lamps) {
         told.rows.push_back({what.empty() ? " " : what, text});
     document.sections.push_back(
         {lamps.difference.any() ? "The lamps differ" : "No difference beyond noise", {told}, 2, false, lamps.passed() ? "none" : "fail"});
+    document.sections.push_back({"Named places", {named_places_table(lamps.difference)}});
     if (lamps.regulation) {
         const auto verdict = [](const ComparedLamp& lamp) {
             return lamp.check->verdict == RowVerdict::pass ? "pass" : lamp.check->verdict == RowVerdict::fail ? "fail" : "not measured";

@@ -100,6 +100,12 @@ std::string lamps_csv(const LampPairComparison& lamps) {
     for (const LampFact& fact : lamps.facts)
         csv += csv_line("lamp", fact.name, fact.unit, csv_number(fact.before), csv_number(fact.now), csv_number(fact.change()),
                         csv_number(fact.uncertainty), "", "", "", "");
+    for (const PlaceChange& found : lamps.difference.places) {
+        const auto change = found.change() ? std::optional(*found.new_cd - *found.old_cd) : std::nullopt;
+        const auto error = found.uncertainty ? std::optional(*found.uncertainty * *found.old_cd) : std::nullopt;
+        csv += csv_line("place", csv_text(found.place.name), "cd", csv_number(found.old_cd), csv_number(found.new_cd), csv_number(change),
+                        csv_number(error), "", "", "", "");
+    }
     for (const ComparedRow& row : lamps.rows) {
         const auto before = figure_in(row.before, &RowResult::found), now = figure_in(row.now, &RowResult::found);
         const auto verdict = [](const std::optional<RowResult>& of) { return of ? name_of(of->verdict) : ""; };
