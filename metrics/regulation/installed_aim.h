@@ -35,7 +35,8 @@ Turn turn_to(const AimMark& mark, double cut_off_percent);
 /// The same within a place on the car that is turned: V counts from the car's level, H from where the place faces.
 Turn turn_within(const Turn& mount, const Turn& turn);
 
-/// Height over run in per cent, up positive, of a direction of a lamp's table as it is mounted, and its angle to the right of the car's axis.
+/// Height over run in per cent, up positive, of a direction of a lamp's table as it is mounted, and its angle to the right of the car's
+/// axis.
 struct MarkOnCar {
     double percent = 0.0, right_deg = 0.0;
 };

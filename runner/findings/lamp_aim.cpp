@@ -22,17 +22,17 @@ Cell signed_cell(const std::optional<double>& value, int decimals = 2) {
 
 /// "auto to -1 %", "as-is".
 std::string rule_text(const LampAim& aim) {
-    return aim.automatic ? fmt::format("auto to {:g} %", aim.cut_off_percent) : std::string("as-is");
+    return aim.cut_off_percent ? fmt::format("auto to {:g} %", *aim.cut_off_percent) : std::string("as-is");
 }
 
 std::string found_text(const LampAim& aim) {
     if (!aim.file_up_deg)
         return "nothing: " + aim.why_not;
-    const std::string bound =
-        aim.up_bound_deg > 0.0
-            ? fmt::format(", \u00b1{:.2f} up{}", aim.up_bound_deg,
-                          aim.file_right_deg && aim.right_bound_deg > 0.0 ? fmt::format(", \u00b1{:.2f} sideways", aim.right_bound_deg) : "")
-            : "";
+    const std::string bound = aim.up_bound_deg > 0.0 ? fmt::format(", \u00b1{:.2f} up{}", aim.up_bound_deg,
+                                                                   aim.file_right_deg && aim.right_bound_deg > 0.0
+                                                                       ? fmt::format(", \u00b1{:.2f} sideways", aim.right_bound_deg)
+                                                                       : "")
+                                                     : "";
     return aim.by + bound + (aim.why_not.empty() ? "" : "; nothing sideways: " + aim.why_not);
 }
 
@@ -85,7 +85,10 @@ JsonMembers lamp_aim_members(LampAim& aim) {
     return {{"lamp", aim.lamp},
             {"file", aim.file},
             {"from_s", aim.from_s},
-            {"automatic", aim.automatic},
+            {"rule", one_of(aim.automatic,
+                            [] {
+                                return std::vector<std::string>{"as-is", "auto"};
+                            })},
             {"high_beam", aim.high_beam},
             {"cut_off_percent", aim.cut_off_percent},
             {"height_m", aim.height_m},
@@ -115,10 +118,10 @@ void add_aim_rows(Table& table, const std::vector<Cell>& before, const std::vect
         const LampAim& aim = aims[group.front()];
         std::vector<Cell>& row = table.rows.emplace_back(before);
         const std::string since = aim.from_s > 0.0 ? fmt::format(", from {:g} s", aim.from_s) : "";
-        row.insert(row.end(), {short_text(names_in(aims, group), 60) + since, rule_text(aim), found_text(aim), signed_cell(aim.file_up_deg),
-                               signed_cell(aim.file_right_deg), signed_cell(aim.turned_up_deg), signed_cell(aim.turned_right_deg),
-                               signed_cell(aim.percent), signed_cell(aim.right_deg), Cell(figure(aim.height_m, 2), aim.height_m),
-                               band_text(aim)});
+        row.insert(row.end(),
+                   {short_text(names_in(aims, group), 60) + since, rule_text(aim), found_text(aim), signed_cell(aim.file_up_deg),
+                    signed_cell(aim.file_right_deg), signed_cell(aim.turned_up_deg), signed_cell(aim.turned_right_deg),
+                    signed_cell(aim.percent), signed_cell(aim.right_deg), Cell(figure(aim.height_m, 2), aim.height_m), band_text(aim)});
     }
 }
 
@@ -130,8 +133,7 @@ std::string aim_legend() {
 
 std::vector<std::string> aim_warnings(const std::string& lamp_set, const std::vector<LampAim>& aims) {
     std::vector<std::string> warnings;
-    for (const std::vector<std::size_t>& group :
-         together(aims, [](const LampAim& a, const LampAim& b) { return a.warning == b.warning; }))
+    for (const std::vector<std::size_t>&group : together(aims, [](const LampAim&a, const LampAim&b) { return a.warning == b.warning; }))
         if (const std::string& warning = aims[group.front()].warning; !warning.empty())
             warnings.push_back(fmt::format("{}, {}: {}", lamp_set, names_in(aims, group), warning));
     return warnings;

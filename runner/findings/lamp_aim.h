@@ -15,12 +15,12 @@ struct LampAim {
     std::string file;    ///< name of its file
     double from_s = 0.0; ///< since when it has this file
     bool automatic = false, high_beam = false;
-    double cut_off_percent = 0.0;                      ///< that was asked for; of an automatic aim alone
-    double height_m = 0.0;                             ///< over the road
-    std::string by;                                    ///< what its table was looked through for: "kink", "middle of the maximum"
-    std::optional<double> file_up_deg, file_right_deg; ///< where that lies in the file
-    double up_bound_deg = 0.0, right_bound_deg = 0.0;  ///< of both, in 99 of 100 beams
-    std::string why_not;                               ///< of what was not found there; "" where all was
+    std::optional<double> cut_off_percent;              ///< that was asked for; of an automatic aim alone
+    double height_m = 0.0;                              ///< over the road
+    std::string by;                                     ///< what its table was looked through for: "kink", "middle of the maximum"
+    std::optional<double> file_up_deg, file_right_deg;  ///< where that lies in the file
+    double up_bound_deg = 0.0, right_bound_deg = 0.0;   ///< of both, in 99 of 100 beams
+    std::string why_not;                                ///< of what was not found there; "" where all was
     double turned_up_deg = 0.0, turned_right_deg = 0.0; ///< the lamp against car and place, by rule and angles together
     std::optional<double> percent;                      ///< where that puts the mark: height over run, up positive
     std::optional<double> right_deg;                    ///< and to the right of the car's axis

@@ -36,9 +36,7 @@ class Marks {
     std::map<std::pair<const LampFile*, bool>, AimMark> marks_;
 };
 
-std::string told(const LampFile& file) {
-    return printable(file.opened.empty() ? file.name : file.opened.front().path.string(), 400);
-}
+std::string told(const LampFile& file) { return printable(file.opened.empty() ? file.name : file.opened.front().path.string(), 400); }
 
 void align(std::vector<MountedLamp>& lamps, std::vector<LampChange>& changes, Marks& marks, const std::filesystem::path& file,
            const std::string& key) {
@@ -66,7 +64,8 @@ LampAim aim_as_it_is(const MountedLamp& lamp, double from_s, Marks& marks) {
     aim.from_s = from_s;
     const AimMark& mark = marks.of(*lamp.file, is_high(lamp));
     aim.automatic = lamp.aim_rule == BeamAim::automatic;
-    aim.cut_off_percent = aim.automatic ? lamp.cut_off_percent : 0.0;
+    if (aim.automatic)
+        aim.cut_off_percent = lamp.cut_off_percent;
     aim.high_beam = mark.high_beam;
     aim.height_m = lamp.position_m.z;
     aim.by = mark.by;
@@ -91,8 +90,9 @@ LampAim aim_as_it_is(const MountedLamp& lamp, double from_s, Marks& marks) {
         aim.right_deg = on_car.right_deg;
     const InclinationBand band{aim.band_lowest_percent.value_or(0.0), aim.band_highest_percent.value_or(0.0)};
     if (aim.band_lowest_percent && !band.holds(*aim.percent))
-        aim.warning = fmt::format("the cut-off lies at {:+.2f} %, and {} has it between {:.2f} and {:.2f} % for lamps {:.2f} m over the road",
-                                  *aim.percent, r48_band_source, band.highest_percent, band.lowest_percent, aim.height_m);
+        aim.warning =
+            fmt::format("the cut-off lies at {:+.2f} %, and {} has it between {:.2f} and {:.2f} % for lamps {:.2f} m over the road",
+                        *aim.percent, r48_band_source, band.highest_percent, band.lowest_percent, aim.height_m);
     return aim;
 }
 

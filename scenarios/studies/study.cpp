@@ -94,7 +94,7 @@ void aim_lamp(const Study& study, const StudyLamp& lamp, double aim_percent, Mou
 void aim_changes(const StudyLamp& lamp, double aim_percent, LampSet& lamp_set) {
     for (LampChange& change : lamp_set.changes) {
         const auto changed = std::ranges::find(lamp_set.lamps, change.lamp, &MountedLamp::name);
-        if (change.pitch_rad && changed->aim_rule == BeamAim::as_is)
+        if (change.pitch_rad && changed != lamp_set.lamps.end() && changed->aim_rule == BeamAim::as_is)
             *change.pitch_rad += pitch_from_file_rad(lamp, aim_percent);
     }
 }
@@ -199,7 +199,9 @@ const Fields<StudyLamp>& study_lamp_fields() {
             field("mirrors", 4, &Lamp::mirrors, any(), "false: its tables stay as they are where the condition mirrors"),
         }
             .in_schema(R"({"oneOf": [{"required": ["left", "right"], "not": {"required": ["low"]}},
-                {"required": ["low"], "not": {"anyOf": [{"required": ["left"]}, {"required": ["right"]}]}}]})");
+                {"required": ["low"], "not": {"anyOf": [{"required": ["left"]}, {"required": ["right"]}]}}],
+                "not": {"required": ["aim", "file_aim_percent"], "properties": {"aim": {"anyOf": [{"enum": ["auto"]},
+                {"type": "object", "required": ["rule"], "properties": {"rule": {"enum": ["auto"]}}}]}}}})");
     return fields;
 }
 

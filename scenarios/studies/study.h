@@ -12,7 +12,7 @@ struct StudyLamp {
     std::filesystem::path high;        ///< high beams; "" for none
     SourceKind source = SourceKind::filament;
     LampColour colour;
-    std::optional<BeamAim> aim;                          ///< nullopt: as the drive has its lamps
+    std::optional<BeamAim> aim;                         ///< nullopt: as the drive has its lamps
     std::optional<double> pitch_rad, yaw_rad, roll_rad; ///< in place of the drive's
     /// The dip that the lamp's file already holds: files measured in regulation aim have their cut-off 1 % down. Not of an automatic aim.
     double file_aim_percent = -1.0;

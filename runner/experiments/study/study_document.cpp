@@ -277,7 +277,7 @@ Document document(const StudyResult& result, const std::vector<std::string>& pap
          "study.json and study.csv, which have all other readings too.",
          files, readings_table(result)}};
     Document document{short_text(result.study.title, 160), {verdict_section(result), largest_section(result)}};
-    for (const Section& section : {lamps, reach, glare, readings, views_section(result), maps, cells})
+    for (const Section& section : {lamps, aims_section(result), reach, glare, readings, views_section(result), maps, cells})
         if (!section.blocks.empty())
             document.sections.push_back(section);
     return document;

@@ -90,20 +90,21 @@ JsonMembers study_cell_members(CellResult& cell, Study& study) {
                 cell.readings.emplace(reading.key, reading);
         },
         cell_reading_members);
-    return {{"name", at.name},
-            {"folder", "cells/" + at.name},
-            {"drive", cell.drive},
-            {"lamp", place_in_study(study.lamps, at.lamp, &StudyLamp::name)},
-            {"technique", place_in_study(study.techniques, at.technique)},
-            {"time_of_day", place_in_study(conditions.times_of_day, at.time_of_day, &Daylight::name)},
-            {"aim_percent", place_in_study(conditions.aim_percent, at.aim)},
-            {"voltage_v", place_in_study(conditions.voltage_v, at.voltage)},
-            {"mirrored", place_in_study(conditions.mirror, at.mirror)},
-            {"failed", or_null(cell.failed)},
-            {"verdicts", cell.verdicts, verdict_members},
-            {"error_share_p95", cell.error_share},
-            {"error_floor_share_p95", cell.error_floor_share},
-            {"readings", readings}};
+    JsonMembers members{{"name", at.name},
+                        {"folder", "cells/" + at.name},
+                        {"drive", cell.drive},
+                        {"lamp", place_in_study(study.lamps, at.lamp, &StudyLamp::name)},
+                        {"technique", place_in_study(study.techniques, at.technique)},
+                        {"time_of_day", place_in_study(conditions.times_of_day, at.time_of_day, &Daylight::name)},
+                        {"aim_percent", place_in_study(conditions.aim_percent, at.aim)},
+                        {"voltage_v", place_in_study(conditions.voltage_v, at.voltage)},
+                        {"mirrored", place_in_study(conditions.mirror, at.mirror)},
+                        {"failed", or_null(cell.failed)},
+                        {"verdicts", cell.verdicts, verdict_members},
+                        {"error_share_p95", cell.error_share},
+                        {"error_floor_share_p95", cell.error_floor_share},
+                        {"readings", readings}};
+    return joined(std::move(members), when(!cell.aims.empty(), {{"aims", cell.aims, lamp_aim_members}}));
 }
 
 JsonMembers cell_time_members(CellResult& cell) {

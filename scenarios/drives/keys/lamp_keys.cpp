@@ -90,7 +90,10 @@ const Fields<MountedLamp>& lamp_aim_fields() {
                                   "where rule auto puts it: -1 is 1 cm down in 1 m, at which a high beam points straight ahead")
                                 .text_by(cut_off_text));
         std::rotate(of.fields.begin(), of.fields.end() - 2, of.fields.end());
-        return std::move(of).checked(check_lamp_aim);
+        return std::move(of)
+            .checked(check_lamp_aim)
+            .in_schema(
+                R"({"anyOf": [{"not": {"required": ["cut_off_percent"]}}, {"required": ["rule"], "properties": {"rule": {"enum": ["auto"]}}}]})");
     }();
     return fields;
 }
