@@ -92,7 +92,8 @@ Turn turn_within(const Turn& mount, const Turn& turn) {
 
 MarkOnCar mark_on_car(const MountedLamp& lamp, Direction of_table) {
     const glm::dvec3 d = lamp.pose().axes * direction_of(of_table);
-    return {100.0 * d.z / std::hypot(d.x, d.y), 0.0 - degrees(std::atan2(d.y, d.x))};
+    const double right_deg = 0.0 - degrees(std::atan2(d.y, d.x));
+    return {100.0 * d.z / std::hypot(d.x, d.y), std::abs(right_deg) < 1e-9 ? 0.0 : right_deg};
 }
 
 bool InclinationBand::holds(double percent) const { return percent > lowest_percent - 5e-4 && percent < highest_percent + 5e-4; }

@@ -41,7 +41,7 @@ std::string band_text(const LampAim& aim) {
         return none;
     if (!aim.band_lowest_percent)
         return "no band known";
-    return fmt::format("{:.2f} \u2026 {:.2f}{}", *aim.band_highest_percent, *aim.band_lowest_percent,
+    return fmt::format("{} \u2026 {}{}", figure(*aim.band_highest_percent, 2), figure(*aim.band_lowest_percent, 2),
                        aim.warning.empty() ? "" : ": outside");
 }
 

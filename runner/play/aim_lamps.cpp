@@ -47,7 +47,7 @@ void align(std::vector<MountedLamp>& lamps, std::vector<LampChange>& changes, Ma
         const AimMark& mark = marks.of(*lamp.file, is_high(lamp));
         if (!mark.v_deg)
             throw InputError({file, 0, 0, fmt::format("{}.{}.aim", key, lamp.name)},
-                             fmt::format("auto, and nothing to aim by in {}: {}", told(*lamp.file), mark.why_not),
+                             fmt::format("found auto, and nothing to aim by in {}: {}", told(*lamp.file), mark.why_not),
                              "as-is, or the file of a beam with a cut-off");
         lamp.aligned = alignment(mark);
         for (LampChange& change : changes)

@@ -85,7 +85,7 @@ void aim_lamp(const Study& study, const StudyLamp& lamp, double aim_percent, Mou
     }
     if (lamp.file_aim_percent != StudyLamp{}.file_aim_percent)
         throw InputError({study.file, 0, 0, fmt::format("lamps.{}.file_aim_percent", lamp.name)},
-                         fmt::format("{:g} %, and a drive aims its lamps by their cut-off", lamp.file_aim_percent),
+                         fmt::format("found {:g} %, and a drive aims its lamps by their cut-off", lamp.file_aim_percent),
                          "aim: as-is beside it, or no file_aim_percent");
     mounted.cut_off_percent = aim_percent;
 }

@@ -87,7 +87,7 @@ const Fields<MountedLamp>& lamp_aim_fields() {
         Fields<Lamp> of = aim_angle_fields<Lamp>();
         of.fields.push_back(aim_rule_field(4, &Lamp::aim_rule).written_off_default());
         of.fields.push_back(field("cut_off_percent", 5, &Lamp::cut_off_percent, range(-10.0, 10.0),
-                                  "where rule auto puts it: -1 is 1 cm down in 1 m, at which a high beam points straight ahead")
+                                  "where rule auto puts it: -1, the default, is 1 cm down in 1 m; a high beam then points straight ahead")
                                 .text_by(cut_off_text));
         std::rotate(of.fields.begin(), of.fields.end() - 2, of.fields.end());
         return std::move(of)

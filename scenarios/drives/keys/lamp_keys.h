@@ -46,7 +46,7 @@ template <class Lamp> const Fields<Lamp>& aim_angle_fields() {
 }
 template <class Lamp, class M> FieldOf<Lamp> aim_rule_field(int id, M Lamp::*rule) {
     return field("rule", id, rule, words({"as-is", "auto"}),
-                 "from where the angles count: the file's axis, or its beam put right by its cut-off, a high beam's by its middle");
+                 "from where the angles count: as the file has its beam, or with its cut-off, a high beam's middle, put where it belongs");
 }
 
 /// Named lamps, and changes of them, as they stand in lamp sets and in rows of traffic.

@@ -152,7 +152,7 @@ TEST_F(StudyFile, MirroredCellsHaveTheRoadInAMirror) {
 TEST_F(StudyFile, RefusesInOneSentenceWithItsPlace) {
     std::string dips = with("");
     dips.insert(dips.find("}\n  b:"), ", aim: auto, file_aim_percent: 0");
-    EXPECT_THAT(refusal(dips), HasSubstr("lamps.a.file_aim_percent: found file_aim_percent beside aim: auto, expected one of them: auto "
+    EXPECT_THAT(refusal(dips), HasSubstr("lamps.a.file_aim_percent: file_aim_percent beside aim: auto, expected one of them: auto "
                                          "finds the cut-off in the file"));
     EXPECT_THAT(refusal(with("measure: {visibility: {k: 0}}\n")), HasSubstr("measure.visibility.k"));
     EXPECT_THAT(refusal(with("measure: {extent: true}\n")), HasSubstr("extent"));

@@ -62,8 +62,8 @@ TEST_F(AimKeys, AreWrittenAndReadAgain) {
 
 TEST_F(AimKeys, RefuseInOneSentence) {
     EXPECT_EQ(refused("atuo"),
-              "drive.yaml:6:43: lamp_sets.one.lamps.left.aim: found 'atuo', expected as-is or auto (did you mean 'auto'?)");
-    EXPECT_THAT(refused("{cut_off_percent: -1.2}"), HasSubstr("aim.cut_off_percent: found cut_off_percent without rule: auto"));
+              "drive.yaml:6:44: lamp_sets.one.lamps.left.aim: found 'atuo', expected one of as-is, auto (nearest: 'auto')");
+    EXPECT_THAT(refused("{cut_off_percent: -1.2}"), HasSubstr("aim.cut_off_percent: cut_off_percent without rule: auto"));
     EXPECT_THAT(refused("{rule: auto, cut_off_percent: -12}"), HasSubstr("-10"));
     EXPECT_THAT(refused("{percent_down: 1, pitch_deg: 1}"), HasSubstr("percent_down beside a pitch"));
     EXPECT_THAT(refusal(start + "  one: {file: low.ies, changes: [{at_s: 1, aim: {rule: auto}}]}\n"), HasSubstr("rule"))
