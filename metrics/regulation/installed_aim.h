@@ -50,6 +50,6 @@ struct InclinationBand {
 /// UN R48, 09 series, 6.2.6.1.2, with automatic levelling: from -(h + 1.2) % to -0.5 % for a height h of 0.5 to 0.9 m, by `height_m` of
 /// the lamp over the road. The text takes the lower edge of the lens, which a drive does not know. nullopt: no band is known here.
 std::optional<InclinationBand> r48_band(double height_m);
-inline constexpr const char* r48_band_source = "UN R48, 09 series, 6.2.6.1.2";
+inline constexpr const char* r48_band_source = "UN R48 (09 series, 6.2.6.1.2)";
 
 } // namespace fernlicht

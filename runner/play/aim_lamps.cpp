@@ -90,9 +90,9 @@ LampAim aim_as_it_is(const MountedLamp& lamp, double from_s, Marks& marks) {
         aim.right_deg = on_car.right_deg;
     const InclinationBand band{aim.band_lowest_percent.value_or(0.0), aim.band_highest_percent.value_or(0.0)};
     if (aim.band_lowest_percent && !band.holds(*aim.percent))
-        aim.warning =
-            fmt::format("the cut-off lies at {:+.2f} %, and {} has it between {:.2f} and {:.2f} % for lamps {:.2f} m over the road",
-                        *aim.percent, r48_band_source, band.highest_percent, band.lowest_percent, aim.height_m);
+        aim.warning = fmt::format(
+            "the cut-off lies at {:+.2f} %, and {} has it between {:.2f} and {:.2f} % for lamps {:.2f} m over the road{}", *aim.percent,
+            r48_band_source, band.highest_percent, band.lowest_percent, aim.height_m, aim.automatic ? "" : "; `aim: auto` would aim it");
     return aim;
 }
 
