@@ -34,13 +34,14 @@ JsonPart cell_by_name(const StudyResult& result, std::size_t& cell) {
 }
 
 JsonMembers lamp_comparison_members(LampComparison& lamps) {
-    return {{"new", lamps.tested},
-            {"against", lamps.against},
-            {"side", lamps.side},
-            {"says", lamp_verdict(lamps)},
-            {"file", lamps.file},
-            {"other_file", lamps.other_file},
-            {"difference", lamps.difference, difference_part}};
+    return joined({{"new", lamps.tested},
+                   {"against", lamps.against},
+                   {"side", lamps.side},
+                   {"says", lamp_verdict(lamps)},
+                   {"file", lamps.file},
+                   {"other_file", lamps.other_file},
+                   {"difference", lamps.difference, difference_part}},
+                  when(lamps.is_turned_later, {{"turned_later", lamps.is_turned_later}}));
 }
 
 JsonMembers study_change_members(Change& change, const StudyResult& result) {
