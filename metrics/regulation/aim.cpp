@@ -77,11 +77,12 @@ Aim by_cut_off(const CandelaTable& lamp, AimRule rule, const CutOffElbow& elbow)
     Aim aim;
     aim.rule = rule;
     const CutOffFigures filed = measure_cut_off({&lamp, {}});
-    const auto left_as_filed = [&](const std::string& why) {
+    const auto left_as_filed = [&](const std::string& what, const std::string& why) {
         aim.turned = aim.bound = {};
         aim.found = false;
         aim.cut_off = filed;
-        aim.how = why;
+        aim.why_not = why;
+        aim.how = what + ", left as filed: " + why;
         return aim;
     };
     if (elbow.at)
@@ -93,7 +94,7 @@ Aim by_cut_off(const CandelaTable& lamp, AimRule rule, const CutOffElbow& elbow)
         ++aim.rounds;
         aim.cut_off = c;
         if (!usable(c.level))
-            return left_as_filed("no cut-off to aim by 2.5 degrees left, left as filed: " + why_not(c.level));
+            return left_as_filed("no cut-off to aim by 2.5 degrees left", why_not(c.level));
         aside = sideways(c, elbow, aim.turned, rule);
         if (!aside.off_deg && pre_turned) { // without a rule that goes on from there the elbow turns nothing sideways
             aim.turned.h_deg = 0.0;
@@ -107,9 +108,8 @@ Aim by_cut_off(const CandelaTable& lamp, AimRule rule, const CutOffElbow& elbow)
             break;
         if (off >= before || aim.rounds == max_rounds) {
             if (std::abs(aim.residual.h_deg) > aim.bound.h_deg || std::abs(aim.residual.v_deg) > aim.bound.v_deg)
-                return left_as_filed(
-                    fmt::format("not converged after {} rounds, left as filed: {:.2f} degrees off, and {:.2f} the round before", aim.rounds,
-                                off, before));
+                return left_as_filed(fmt::format("not converged after {} rounds", aim.rounds),
+                                     fmt::format("{:.2f} degrees off, and {:.2f} the round before", off, before));
             break;
         }
         before = off;
@@ -124,8 +124,10 @@ Aim by_cut_off(const CandelaTable& lamp, AimRule rule, const CutOffElbow& elbow)
                                    : rule == AimRule::cut_off_by_line ? 1
                                                                       : 2],
                                angle(aim.turned.h_deg, "R", "L"));
-    else
+    else {
+        aim.why_not = aside.why_not;
         aim.how += "; left as filed sideways: " + aside.why_not;
+    }
     return aim;
 }
 

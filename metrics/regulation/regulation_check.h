@@ -21,6 +21,7 @@ struct Aim {
     std::string how;                      ///< what was found and what was done, one sentence without a full stop
     bool found = true;                    ///< false: the procedure found nothing to aim by in one direction or both; `how` says why
     std::optional<CutOffFigures> cut_off; ///< of the aimed lamp, where it was aimed by it
+    std::string why_not;                  ///< the reason within `how`; "" where all was found
 };
 
 /// Where the procedure finds nothing to aim by, the beam stays as filed in that direction. The UN's rules first turn the elbow, where one

@@ -8,6 +8,7 @@
 #include "metrics/statistics/statistics.h"
 #include "renderer/renderer.h"
 #include "runner/findings/findings.h"
+#include "runner/findings/lamp_aim.h"
 #include "runner/findings/reach_error.h"
 #include "scenarios/drives/play/bus_report.h"
 #include "scenarios/drives/play/frame.h"
@@ -159,6 +160,7 @@ struct PlayedCell {
         input_hashes;                                       ///< what decides the results: "drive", "road", "lamp file 1" ... -> XXH3-128
     std::string title;                                      ///< of the drive, for people
     std::vector<std::pair<std::string, std::string>> lamps; ///< lamp name -> file name
+    std::vector<LampAim> aims;                              ///< of each of them
     int first_tick = 0, ticks_planned = 0, ticks_done = 0;
     std::uint64_t moments_told = 0; ///< of a report that was read: how many its CSV of moments has
     std::vector<StoredFrame> frames;

@@ -3,6 +3,7 @@
 #include "metrics/folds/reading_names.h"
 #include "metrics/folds/seeing_fold.h"
 #include "renderer/technique.h"
+#include "runner/play/aim_lamps.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/staged_scene.h"
 #include "scenarios/drives/story/apply_storyboard.h"
@@ -15,6 +16,12 @@
 namespace fernlicht {
 
 namespace {
+
+/// Before the storyboard copies lamps to its entities.
+Drive with_aimed_lamps(Drive drive) {
+    aim_lamps(drive);
+    return drive;
+}
 
 /// The road, and what the drive's storyboard makes of drive and route on it.
 RoadNetwork network_of(Drive& drive) {
@@ -36,7 +43,7 @@ Route::Start start_of(const Drive& drive) {
 } // namespace
 
 Stage::Stage(Drive d)
-    : drive(std::move(d)), network(network_of(drive)), route(network, start_of(drive), drive.via),
+    : drive(with_aimed_lamps(std::move(d))), network(network_of(drive)), route(network, start_of(drive), drive.via),
       scene(staged_scene(drive, network, route)) {
     check_names(drive, SeeingFold(drive, route).readings());
     technique_named(drive.technique, drive.file);

@@ -12,7 +12,7 @@ struct Stage {
     Route route; ///< points into `network`: a stage stays where it was made
     Scene scene;
 
-    /// Throws InputError for what the drive's road, route or technique lacks.
+    /// Aims the drive's lamps. Throws InputError for what its road, route, technique or lamps lack.
     explicit Stage(Drive drive);
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;

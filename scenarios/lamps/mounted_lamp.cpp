@@ -34,6 +34,7 @@ void apply(const LampChange& change, MountedLamp& lamp) {
     lamp.file = change.file ? change.file : lamp.file;
     lamp.colour = change.colour.value_or(lamp.colour);
     lamp.source = change.source.value_or(lamp.source);
+    lamp.aligned = change.aligned.value_or(lamp.aligned);
 }
 
 } // namespace fernlicht

@@ -43,6 +43,12 @@ struct Turn {
 /// The angles that give these axes; what is off by less than 1e-9 is not turned. Looking straight up or down, yaw 0.
 Turn turn_of(const glm::dmat3& axes);
 
+/// What its aim starts from.
+enum class BeamAim {
+    as_is,     ///< the axis of its file
+    automatic, ///< its beam's own mark, a cut-off or the middle of a high beam, put where it belongs
+};
+
 struct MountedLamp {
     std::string name; ///< "left", "right", "high-left" ...
     std::shared_ptr<const LampFile> file;
@@ -57,7 +63,16 @@ struct MountedLamp {
     Turn mount;                          ///< how its place on the car is turned; the aim turns it further
     double flux_factor = 1.0;            ///< light of this very lamp against its file's, undimmed; >= 0
 
-    Pose pose() const { return {position_m, mount.axes_with(axes_from_angles(yaw_rad, pitch_rad, roll_rad))}; }
+    BeamAim aim_rule = BeamAim::as_is;
+    double cut_off_percent = -1.0; ///< where an automatic aim puts the cut-off: -1 is 1 cm down in 1 m
+    Turn aligned;                  ///< what an automatic aim found (aim_lamps), within the angles of the aim; not part of a file
+
+    Pose pose() const { return {position_m, mount.axes_with(aim_axes())}; }
+    /// Angles of the aim, and what was found within them.
+    glm::dmat3 aim_axes() const {
+        const glm::dmat3 axes = axes_from_angles(yaw_rad, pitch_rad, roll_rad);
+        return aligned == Turn{} ? axes : axes * aligned.axes();
+    }
     /// level times flux factor times the supply's: (U / U_ref)^3.4 for filament lamps between 12.0 and 13.8 V (law of filament lamps'
     /// flux), 1 for arc and LED.
     double intensity_factor() const;
@@ -73,6 +88,7 @@ struct LampChange {
     std::shared_ptr<const LampFile> file;
     std::optional<LampColour> colour;
     std::optional<SourceKind> source;
+    std::optional<Turn> aligned = {}; ///< what an automatic aim found for `file`; not part of a file
 
     bool operator==(const LampChange&) const = default;
 };

@@ -69,9 +69,35 @@ void add_measures(const SeeingParameters& everywhere, SeeingParameters& own) {
     add(everywhere.places, own.places);
 }
 
-/// The aim of the study is that of the cut-off; the file has its own dip already. Equal ones turn nothing, to the last bit.
-double pitch_rad(const StudyLamp& lamp, double aim_percent) {
+/// Where no cut-off is looked for: the aim of the study is that of the cut-off, and the file has its own dip already. Equal ones turn
+/// nothing, to the last bit.
+double pitch_from_file_rad(const StudyLamp& lamp, double aim_percent) {
     return std::atan(aim_percent / 100.0) - std::atan(lamp.file_aim_percent / 100.0);
+}
+
+void aim_lamp(const Study& study, const StudyLamp& lamp, double aim_percent, MountedLamp& mounted) {
+    mounted.aim_rule = lamp.aim.value_or(mounted.aim_rule);
+    mounted.pitch_rad = lamp.pitch_rad.value_or(mounted.pitch_rad);
+    mounted.yaw_rad = lamp.yaw_rad.value_or(mounted.yaw_rad);
+    mounted.roll_rad = lamp.roll_rad.value_or(mounted.roll_rad);
+    if (mounted.aim_rule == BeamAim::as_is) {
+        mounted.pitch_rad += pitch_from_file_rad(lamp, aim_percent);
+        return;
+    }
+    if (lamp.file_aim_percent != StudyLamp{}.file_aim_percent)
+        throw InputError({study.file, 0, 0, fmt::format("lamps.{}.file_aim_percent", lamp.name)},
+                         fmt::format("found {:g} %, and a drive aims its lamps by their cut-off", lamp.file_aim_percent),
+                         "aim: as-is beside it, or no file_aim_percent");
+    mounted.cut_off_percent = aim_percent;
+}
+
+/// Of an automatic aim they count from where that put the beam.
+void aim_changes(const StudyLamp& lamp, double aim_percent, LampSet& lamp_set) {
+    for (LampChange& change : lamp_set.changes) {
+        const auto changed = std::ranges::find(lamp_set.lamps, change.lamp, &MountedLamp::name);
+        if (change.pitch_rad && changed != lamp_set.lamps.end() && changed->aim_rule == BeamAim::as_is)
+            *change.pitch_rad += pitch_from_file_rad(lamp, aim_percent);
+    }
 }
 
 } // namespace
@@ -107,16 +133,14 @@ Drive cell_drive(const Study& study, const StudyCell& cell) {
     drive.lamp_sets.resize(1);
     LampSet& lamp_set = drive.lamp_sets.front();
     lamp_set.name = lamp.name + condition_part(study, cell);
-    const double pitch = pitch_rad(lamp, study.conditions.aim_percent[cell.aim]);
+    const double aim_percent = study.conditions.aim_percent[cell.aim];
     for (MountedLamp& mounted : lamp_set.lamps) {
         mounted.source = lamp.source;
         mounted.colour = lamp.colour;
         mounted.voltage_v = study.conditions.voltage_v[cell.voltage];
-        mounted.pitch_rad += pitch;
+        aim_lamp(study, lamp, aim_percent, mounted);
     }
-    for (LampChange& change : lamp_set.changes)
-        if (change.pitch_rad)
-            *change.pitch_rad += pitch;
+    aim_changes(lamp, aim_percent, lamp_set);
     if (study.conditions.mirror[cell.mirror])
         mirror_traffic(drive, lamp.mirrors);
     drive.capture.all = false;
@@ -148,6 +172,16 @@ void read_beams(const YamlMap& keys, StudyLamp& lamp) {
         lamp.high = existing(*high);
 }
 
+/// Where the cut-off is to lie is the condition's affair.
+const Fields<StudyLamp>& study_lamp_aim_fields() {
+    static const Fields<StudyLamp> fields = [] {
+        Fields<StudyLamp> of = aim_angle_fields<StudyLamp>();
+        of.fields.insert(of.fields.begin(), aim_rule_field(4, &StudyLamp::aim));
+        return of;
+    }();
+    return fields;
+}
+
 const Fields<StudyLamp>& study_lamp_fields() {
     using Lamp = StudyLamp;
     static const Fields<Lamp> fields =
@@ -160,13 +194,17 @@ const Fields<StudyLamp>& study_lamp_fields() {
             temperature_form<Lamp>(),
             spectrum_form<Lamp>(),
             field("colour", 2, &Lamp::colour, colour_fields(), "what a spectrum comes to"),
-            field("file_aim_percent", 3, &Lamp::file_aim_percent, range(-10.0, 10.0), "the dip that the lamp's file already holds"),
+            section("aim", 5, study_lamp_aim_fields(), "how its beams are turned; the drives' lamps' own by default").short_for("rule"),
+            field("file_aim_percent", 3, &Lamp::file_aim_percent, range(-10.0, 10.0),
+                  "the dip that the lamp's file already holds; not beside rule auto, which finds it"),
             field("mirrors", 4, &Lamp::mirrors, any(), "false: its tables stay as they are where the condition mirrors"),
             field("recipe", 5, &Lamp::recipe, any(), "how those of its files that are text grids are laid out, as in a drive")
                 .read_by([](const YamlEntry& given, Lamp& lamp) { lamp.recipe = recipe_of(given); }),
         }
             .in_schema(R"({"oneOf": [{"required": ["left", "right"], "not": {"required": ["low"]}},
-                {"required": ["low"], "not": {"anyOf": [{"required": ["left"]}, {"required": ["right"]}]}}]})");
+                {"required": ["low"], "not": {"anyOf": [{"required": ["left"]}, {"required": ["right"]}]}}],
+                "not": {"required": ["aim", "file_aim_percent"], "properties": {"aim": {"anyOf": [{"enum": ["auto"]},
+                {"type": "object", "required": ["rule"], "properties": {"rule": {"enum": ["auto"]}}}]}}}})");
     return fields;
 }
 
@@ -179,7 +217,10 @@ void read_study_lamps(const YamlEntry& entry, Study& study) {
         read_beams(keys, lamp);
         lamp.source = read_source(keys).value_or(SourceKind::filament);
         lamp.colour = read_colour(keys, lamp.source, cache, given);
+        read_field(study_lamp_fields(), "aim", keys, &lamp);
         read_field(study_lamp_fields(), "file_aim_percent", keys, &lamp);
+        if (const auto dip = keys.find("file_aim_percent"); dip && lamp.aim == BeamAim::automatic)
+            dip->refuse("file_aim_percent beside aim: auto", "one of them: auto finds the cut-off in the file");
         read_field(study_lamp_fields(), "mirrors", keys, &lamp);
         read_field(study_lamp_fields(), "recipe", keys, &lamp);
     }
@@ -218,7 +259,7 @@ const Fields<StudyConditions>& condition_fields() {
         values_form("time_of_day", &Conditions::times_of_day, known_daylight, true, R"({"enum": ["night", "twilight", "day"]})",
                     "as a drive's daylight; night by default"),
         values_form("aim_percent", &Conditions::aim_percent, aim_percent, true, R"({"type": "number", "minimum": -10, "maximum": 10})",
-                    "of the cut-off: -1, the default, is 1 cm down in 1 m"),
+                    "of the cut-off: -1, the default, is 1 cm down in 1 m; by aim: auto from the horizon, else on top of file_aim_percent"),
         values_form("voltage_v", &Conditions::voltage_v, voltage_v, true, R"({"type": "number", "minimum": 12, "maximum": 13.8})",
                     "supply; 13.2 by default"),
         values_form("mirror", &Conditions::mirror, is_mirrored, true, R"({"type": "boolean"})",

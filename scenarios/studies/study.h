@@ -13,7 +13,9 @@ struct StudyLamp {
     std::filesystem::path recipe;      ///< of those of them that are text grids; "" for none
     SourceKind source = SourceKind::filament;
     LampColour colour;
-    /// The dip that the lamp's file already holds: files measured in regulation aim have their cut-off 1 % down.
+    std::optional<BeamAim> aim;                         ///< nullopt: as the drive has its lamps
+    std::optional<double> pitch_rad, yaw_rad, roll_rad; ///< in place of the drive's
+    /// The dip that the lamp's file already holds: files measured in regulation aim have their cut-off 1 % down. Not of an automatic aim.
     double file_aim_percent = -1.0;
     bool mirrors = true; ///< false: its tables stay as the files have them where the condition mirrors
 };
@@ -21,7 +23,7 @@ struct StudyLamp {
 /// Values of each condition; every combination is played.
 struct StudyConditions {
     std::vector<Daylight> times_of_day;
-    std::vector<double> aim_percent{-1.0}; ///< of the cut-off: -1 is 1 cm down in 1 m
+    std::vector<double> aim_percent{-1.0}; ///< of the cut-off: -1 is 1 cm down in 1 m; an automatic aim finds it, else the file has its dip
     std::vector<double> voltage_v{13.2};
     std::vector<bool> mirror{false}; ///< true: drives, roads and lamps in a mirror, for the other side's traffic
 };

@@ -6,6 +6,7 @@
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
 #include "runner/judge/input_hashes.h"
+#include "runner/play/aim_lamps.h"
 #include "runner/play/display_pipeline.h"
 #include "runner/play/live/live_drawing.h"
 #include "runner/play/live/live_loop.h"
@@ -196,6 +197,7 @@ PlayedCell LiveSession::result(const LiveFigures& figures) {
     played.technique = drive.technique;
     for (const MountedLamp& lamp : lamp_set().lamps)
         played.lamps.emplace_back(lamp.name, lamp.file->name);
+    played.aims = lamp_aims(lamp_set());
     played.ticks_planned = tick_count(drive);
     played.ticks_done = figures.moments;
     played.notes = drive.notes;

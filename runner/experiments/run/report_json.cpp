@@ -293,6 +293,7 @@ JsonMembers played_members(PlayedCell& played) {
                                                               {"shown_by", value_of(played.rendering_settings), shown_by_members}}),
                   when(played.shadows != nullptr, {{"shadow_choice", value_of(played.shadows), choice_members}}),
                   when(played.display != nullptr, {{"display", value_of(played.display), seen_display_members}}),
+                  when(!played.aims.empty(), {{"aims", played.aims, lamp_aim_members}}),
                   when(!played.more_sheets.empty(), {{"more_sheets", played.more_sheets, titled_sheet_members}}),
                   when(!played.seeing.empty(), {{"seeing", played.seeing, seeing_members}}),
                   when(!played.bus.empty(), {{"signals", bus_members(played.bus)}}));

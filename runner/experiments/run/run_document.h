@@ -16,6 +16,8 @@ Section live_section(const LiveFigures& live);
 using Sections = std::vector<Section>;
 /// Each adds what it has to say of a drive, if anything. Reach, width and area per limit and lamp set, one table per plane and lane:
 void add_extents(const ComparedDrive& drive, Sections& sections);
+/// How the lamps are aimed and where that puts their beams.
+void add_aims(const ComparedDrive& drive, Sections& sections);
 /// Plots over the drive, signals, and what it cost.
 void add_course(const ComparedDrive& drive, Sections& sections);
 /// How far each lamp set's lux images lie from the reference, and what that cost.

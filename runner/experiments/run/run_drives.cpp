@@ -14,6 +14,7 @@
 #include "runner/judge/input_hashes.h"
 #include "runner/judge/limits.h"
 #include "runner/judge/repeats.h"
+#include "runner/play/aim_lamps.h"
 #include "runner/play/display_pipeline.h"
 #include "runner/play/preparation.h"
 #include "runner/play/progress.h"
@@ -94,6 +95,7 @@ PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& 
         return frame;
     };
     PlayedCell played = play(stage.drive, stage.route, lamp_set, play_options, draw, writers);
+    played.aims = lamp_aims(lamp_set);
     const int last_tick = std::min(options.ticks.last, tick_count(stage.drive) - 1);
     played.bus = bus_report(stage.drive, lamp_set, std::max(0, options.ticks.first), last_tick);
     played.input_hashes = input_hashes(stage.drive, lamp_set, stage.network.opened, std::max(0, options.ticks.first), last_tick);
@@ -328,6 +330,9 @@ void add_warnings(const std::deque<Stage>& stages, const std::vector<Drive>& dri
             report.warnings.push_back(fmt::format("{}: shadows by '{}' were asked for, and technique {} does not use it: {}", drive.name,
                                                   name(drive.shadows.method), drive.technique, instead));
     }
+    for (const PlayedCell& played : report.played)
+        for (const std::string& warning : aim_warnings(played.lamp_set, played.aims))
+            report.warnings.push_back(fmt::format("{}: {}", played.drive, warning));
     for (const Drive& drive : drives)
         if (drive.display.profile)
             for (const std::string& warning : display_warnings(*drive.display.profile))

@@ -81,6 +81,8 @@ std::string lamp_verdict(const LampComparison& lamps) {
         text += fmt::format("the same light; no difference beyond {}.", noise);
     if (!d.undecided.empty())
         text += " " + d.undecided + ".";
+    if (lamps.is_turned_later)
+        text += " So the files; the drives have beams turned by `aim: auto`.";
     return text;
 }
 

@@ -1,8 +1,8 @@
 #include "runner/experiments/study/study_document.h"
 #include "metrics/readings/reading_labels.h"
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/study/change_text.h"
 #include "runner/experiments/study/study_decision.h"
-#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/findings/figures.h"
@@ -297,7 +297,7 @@ Document document(const StudyResult& result, const std::vector<std::string>& pap
     if (was_judged(result))
         document.sections.push_back(verdict_section(result));
     document.sections.push_back(largest_section(result));
-    for (const Section& section : {lamps, reach, glare, readings, views_section(result), maps, cells})
+    for (const Section& section : {lamps, aims_section(result), reach, glare, readings, views_section(result), maps, cells})
         if (!section.blocks.empty())
             document.sections.push_back(section);
     return document;

@@ -31,6 +31,8 @@ void add_map_edges(const Drive& drive, std::vector<CellResult*> cells);
 /// beyond the noise of the tables, 0.82 %." Of a shift, the three named places that it changed most. Zones beyond the clearest three are
 /// counted. Angles are the goniometer's.
 std::string lamp_verdict(const LampComparison& lamps);
+/// How each lamp's beams stand under each aim that was played.
+Section aims_section(const StudyResult& result);
 /// How many deciding readings changed, or why that is not known.
 std::string study_sentence(const StudyResult& result);
 

@@ -34,13 +34,14 @@ JsonPart cell_by_name(const StudyResult& result, std::size_t& cell) {
 }
 
 JsonMembers lamp_comparison_members(LampComparison& lamps) {
-    return {{"new", lamps.tested},
-            {"against", lamps.against},
-            {"side", lamps.side},
-            {"says", lamp_verdict(lamps)},
-            {"file", lamps.file},
-            {"other_file", lamps.other_file},
-            {"difference", lamps.difference, difference_part}};
+    return joined({{"new", lamps.tested},
+                   {"against", lamps.against},
+                   {"side", lamps.side},
+                   {"says", lamp_verdict(lamps)},
+                   {"file", lamps.file},
+                   {"other_file", lamps.other_file},
+                   {"difference", lamps.difference, difference_part}},
+                  when(lamps.is_turned_later, {{"turned_later", lamps.is_turned_later}}));
 }
 
 JsonMembers study_change_members(Change& change, const StudyResult& result) {
@@ -93,20 +94,21 @@ JsonMembers study_cell_members(CellResult& cell, Study& study) {
                 cell.readings.emplace(reading.key, reading);
         },
         cell_reading_members);
-    return {{"name", at.name},
-            {"folder", "cells/" + at.name},
-            {"drive", cell.drive},
-            {"lamp", place_in_study(study.lamps, at.lamp, &StudyLamp::name)},
-            {"technique", place_in_study(study.techniques, at.technique)},
-            {"time_of_day", place_in_study(conditions.times_of_day, at.time_of_day, &Daylight::name)},
-            {"aim_percent", place_in_study(conditions.aim_percent, at.aim)},
-            {"voltage_v", place_in_study(conditions.voltage_v, at.voltage)},
-            {"mirrored", place_in_study(conditions.mirror, at.mirror)},
-            {"failed", or_null(cell.failed)},
-            {"verdicts", cell.verdicts, verdict_members},
-            {"error_share_p95", cell.error_share},
-            {"error_floor_share_p95", cell.error_floor_share},
-            {"readings", readings}};
+    JsonMembers members{{"name", at.name},
+                        {"folder", "cells/" + at.name},
+                        {"drive", cell.drive},
+                        {"lamp", place_in_study(study.lamps, at.lamp, &StudyLamp::name)},
+                        {"technique", place_in_study(study.techniques, at.technique)},
+                        {"time_of_day", place_in_study(conditions.times_of_day, at.time_of_day, &Daylight::name)},
+                        {"aim_percent", place_in_study(conditions.aim_percent, at.aim)},
+                        {"voltage_v", place_in_study(conditions.voltage_v, at.voltage)},
+                        {"mirrored", place_in_study(conditions.mirror, at.mirror)},
+                        {"failed", or_null(cell.failed)},
+                        {"verdicts", cell.verdicts, verdict_members},
+                        {"error_share_p95", cell.error_share},
+                        {"error_floor_share_p95", cell.error_floor_share},
+                        {"readings", readings}};
+    return joined(std::move(members), when(!cell.aims.empty(), {{"aims", cell.aims, lamp_aim_members}}));
 }
 
 JsonMembers cell_time_members(CellResult& cell) {

@@ -34,6 +34,7 @@ struct LampComparison {
     std::filesystem::path file, other_file;
     LampDifference difference;
     std::filesystem::path recipe = {}, other_recipe = {}; ///< of files that are text grids; "" for none
+    bool is_turned_later = false; ///< the study aims one of both lamps by its cut-off, and the difference is that of the files
 };
 
 struct StudyFigure {
@@ -72,6 +73,9 @@ VerdictKind overall(const StudyResult& result);
 
 /// As of a run, over all cells (known_failures.h); a cell's own report does not know of it.
 void apply_known_failures(StudyResult& result, const KnownFailures& known, const std::string& today);
+
+/// Lamps whose beams stand outside the band of UN R48, each once.
+void add_aim_warnings(StudyResult& result);
 
 /// What was played in part; the comparisons, ranking and limits of what was played.
 void compare_cells(StudyResult& result);

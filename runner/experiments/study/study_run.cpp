@@ -6,6 +6,7 @@
 #include "runner/files/output_folder.h"
 #include "runner/findings/moment_columns.h"
 #include "runner/findings/run_context.h"
+#include "runner/play/aim_lamps.h"
 #include "runner/play/capture.h"
 #include "runner/play/progress.h"
 #include "runner/play/shadows/choose_shadows.h"
@@ -18,6 +19,8 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace fernlicht {
 namespace {
@@ -28,6 +31,16 @@ struct Planned {
     StudyCell cell;
     Drive drive;
 };
+
+/// Lamps that an automatic aim finds nothing in, by the first cell of each.
+void refuse_unaimable(const std::vector<Planned>& planned) {
+    std::set<std::pair<std::size_t, std::size_t>> seen;
+    for (const Planned& one : planned)
+        if (seen.emplace(one.cell.lamp, one.cell.drive).second) {
+            Drive drive = one.drive;
+            aim_lamps(drive);
+        }
+}
 
 std::vector<Planned> plan(const Study& study, const std::vector<std::string>& only) {
     std::vector<Planned> planned;
@@ -41,6 +54,7 @@ std::vector<Planned> plan(const Study& study, const std::vector<std::string>& on
             const Stage stage(one.drive);
         last = &one.cell;
     }
+    refuse_unaimable(planned);
     return planned;
 }
 
@@ -62,7 +76,7 @@ std::vector<LampComparison> compare_lamp_files(const Study& study) {
                         : "right",
                  file, other,
                  difference_of(read_lamp(file, {.recipe = now.recipe}), read_lamp(other, {.recipe = before.recipe}), study.noise_relative),
-                 now.recipe, before.recipe});
+                 now.recipe, before.recipe, now.aim == BeamAim::automatic || before.aim == BeamAim::automatic});
         }
     }
     return out;
@@ -258,6 +272,7 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
     compare_cells(result);
     if (options.known)
         apply_known_failures(result, *options.known, options.run.today);
+    add_aim_warnings(result);
     result.figures = study_figures(result, options.folder);
     options.write(result);
     if (result.complete())

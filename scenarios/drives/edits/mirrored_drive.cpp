@@ -73,12 +73,18 @@ void mirror(std::vector<MountedLamp>& lamps, std::vector<LampChange>& changes, D
         change_sign(lamp.roll_rad);
         change_sign(lamp.mount.yaw_rad);
         change_sign(lamp.mount.roll_rad);
+        change_sign(lamp.aligned.yaw_rad);
+        change_sign(lamp.aligned.roll_rad);
         lamp.file = other_lamp(drive, lamp.file);
     }
     for (LampChange& change : changes) {
         change.lamp = other_side(change.lamp);
         change_sign(change.yaw_rad);
         change_sign(change.roll_rad);
+        if (change.aligned) {
+            change_sign(change.aligned->yaw_rad);
+            change_sign(change.aligned->roll_rad);
+        }
         if (change.file)
             change.file = other_lamp(drive, change.file);
     }

@@ -75,21 +75,31 @@ const Fields<LampReadOptions>& option_fields() {
     return fields;
 }
 
-template <class Lamp> void check_aim(const YamlMap& keys, const Lamp&) {
-    if (const auto percent = keys.find("percent_down"); percent && (keys.find("pitch_deg") || keys.find("pitch_rad")))
-        percent->refuse("percent_down beside a pitch", "one of them");
+void check_lamp_aim(const YamlMap& keys, const MountedLamp& lamp) {
+    check_aim_angles(keys);
+    if (const auto percent = keys.find("cut_off_percent"); percent && lamp.aim_rule != BeamAim::automatic)
+        percent->refuse("cut_off_percent without rule: auto", "rule: auto beside it, which finds the cut-off");
 }
 
-template <class Lamp> const Fields<Lamp>& aim_fields() {
-    static const Fields<Lamp> fields =
-        Fields<Lamp>{
-            field("pitch", 1, &Lamp::pitch_rad, degrees_within("pitch", 90.0), "upwards"),
-            field("yaw", 2, &Lamp::yaw_rad, degrees_within("yaw", 180.0), "to the left"),
-            field("roll", 3, &Lamp::roll_rad, degrees_within("roll", 180.0), "lifts the left side"),
-            form<Lamp>("percent_down", FieldKind::number, range(-100.0, 100.0), "lowers the beam: 1 = 1 cm in 1 m",
-                       [](const YamlEntry& entry, Lamp& lamp) { lamp.pitch_rad = -std::atan(entry.number(-100.0, 100.0) / 100.0); }),
-        }
-            .checked(check_aim<Lamp>);
+/// Of an aim that starts from the file's axis nothing is written but its angles.
+std::string cut_off_text(const MountedLamp& lamp) {
+    return lamp.aim_rule == BeamAim::automatic ? fmt::format("{}", lamp.cut_off_percent) : "";
+}
+
+const Fields<MountedLamp>& lamp_aim_fields() {
+    using Lamp = MountedLamp;
+    static const Fields<Lamp> fields = [] {
+        Fields<Lamp> of = aim_angle_fields<Lamp>();
+        of.fields.push_back(aim_rule_field(4, &Lamp::aim_rule).written_off_default());
+        of.fields.push_back(field("cut_off_percent", 5, &Lamp::cut_off_percent, range(-10.0, 10.0),
+                                  "where rule auto puts it: -1, the default, is 1 cm down in 1 m; a high beam then points straight ahead")
+                                .text_by(cut_off_text));
+        std::rotate(of.fields.begin(), of.fields.end() - 2, of.fields.end());
+        return std::move(of)
+            .checked(check_lamp_aim)
+            .in_schema(
+                R"({"anyOf": [{"not": {"required": ["cut_off_percent"]}}, {"required": ["rule"], "properties": {"rule": {"enum": ["auto"]}}}]})");
+    }();
     return fields;
 }
 
@@ -147,7 +157,7 @@ const Fields<MountedLamp>& lamp_fields() {
             field("position_m", 2, &Lamp::position_m, range(-100.0, 100.0),
                   "x forward, y left, z up from the road under the rear axle, instead of a mount"),
             field("mount_turn", 3, &Lamp::mount, turn_fields(), "how the place is turned, beside position_m").heard_if(is_turned),
-            section("aim", 4, aim_fields<Lamp>(), "how the lamp's own axis is turned"),
+            section("aim", 4, lamp_aim_fields(), "how the beam is turned").short_for("rule"),
             field("level", 5, &Lamp::level, range(0.0, 1.0), "dimming, 1 = full"),
             source_field(6, &Lamp::source),
             field("voltage_v", 7, &Lamp::voltage_v, range(12.0, 13.8), "supply"),
@@ -183,7 +193,7 @@ const Fields<LampChange>& change_fields() {
             field("lamp", 2, &Change::lamp, a_name(), "whose; without it and `lamps` all of them"),
             form<Change>("lamps", FieldKind::names, names(1, max_lamps), "several of them"),
             field("level", 3, &Change::level, range(0.0, 1.0), "dimming, 1 = full"),
-            section("aim", 4, aim_fields<Change>(), "how the lamp's own axis is turned").written_off_default(),
+            section("aim", 4, aim_angle_fields<Change>(), "how the beam is turned, as the lamp's aim").written_off_default(),
             inlined(5, &Change::file, lamp_file_fields()),
             source_field(6, &Change::source),
             temperature_form<Change>(),
@@ -194,6 +204,11 @@ const Fields<LampChange>& change_fields() {
             .defined_as("change")
             .in_schema(R"({"not": {"required": ["lamp", "lamps"]}})");
     return fields;
+}
+
+void check_aim_angles(const YamlMap& keys) {
+    if (const auto percent = keys.find("percent_down"); percent && (keys.find("pitch_deg") || keys.find("pitch_rad")))
+        percent->refuse("percent_down beside a pitch", "one of them");
 }
 
 LampsAreOf::LampsAreOf(const Drive& drive) : before_(std::exchange(written, &drive)) {}

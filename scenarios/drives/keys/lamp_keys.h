@@ -4,6 +4,8 @@
 #include "scenarios/drives/keys/lamp_sets.h"
 #include "scenarios/fields/field.h"
 
+#include <cmath>
+
 namespace fernlicht {
 
 /// `file`, and how it is read.
@@ -26,6 +28,25 @@ template <class Lamp> FieldOf<Lamp> spectrum_form() {
 template <class Lamp, class M> FieldOf<Lamp> source_field(int id, M Lamp::*source) {
     return field("source", id, source, words({"filament", "arc", "led"}),
                  "filament by default; decides the default colour (3200 K, 4300 K) and whether the voltage counts");
+}
+
+void check_aim_angles(const YamlMap& keys);
+/// Keys of an `aim`: the angles, from where its rule starts.
+template <class Lamp> const Fields<Lamp>& aim_angle_fields() {
+    static const Fields<Lamp> fields =
+        Fields<Lamp>{
+            field("pitch", 1, &Lamp::pitch_rad, degrees_within("pitch", 90.0), "upwards"),
+            field("yaw", 2, &Lamp::yaw_rad, degrees_within("yaw", 180.0), "to the left"),
+            field("roll", 3, &Lamp::roll_rad, degrees_within("roll", 180.0), "lifts the left side"),
+            form<Lamp>("percent_down", FieldKind::number, range(-100.0, 100.0), "lowers the beam: 1 = 1 cm in 1 m",
+                       [](const YamlEntry& entry, Lamp& lamp) { lamp.pitch_rad = -std::atan(entry.number(-100.0, 100.0) / 100.0); }),
+        }
+            .checked([](const YamlMap& keys, const Lamp&) { check_aim_angles(keys); });
+    return fields;
+}
+template <class Lamp, class M> FieldOf<Lamp> aim_rule_field(int id, M Lamp::*rule) {
+    return field("rule", id, rule, words({"as-is", "auto"}),
+                 "from where the angles count: as the file has its beam, or with its cut-off, a high beam's middle, put where it belongs");
 }
 
 /// Named lamps, and changes of them, as they stand in lamp sets and in rows of traffic.

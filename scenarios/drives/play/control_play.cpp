@@ -40,7 +40,7 @@ SolverOptions actuator_options(const Drive& drive) {
 std::vector<ControlledLamp> controlled_lamps(const LampSet& lamp_set) {
     std::vector<ControlledLamp> lamps;
     for (const MountedLamp& lamp : lamp_set.lamps) {
-        lamps.push_back({lamp.name, lamp.position_m, lamp.mount.yaw_rad + lamp.yaw_rad, {}});
+        lamps.push_back({lamp.name, lamp.position_m, lamp.mount.yaw_rad + lamp.yaw_rad + lamp.aligned.yaw_rad, {}});
         if (lamp_set.control->glare_free)
             for (const SegmentedLamp& segmented : lamp_set.control->glare_free->lamps)
                 if (segmented.name == lamp.name)

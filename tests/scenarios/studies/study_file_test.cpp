@@ -1,5 +1,6 @@
 #include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/pose.h"
 #include "tests/scenarios/drives/yaml_schema_check.h"
 #include "tests/shipped.h"
 #include "tests/trial.h"
@@ -27,6 +28,16 @@ class StudyFile : public testing::Test {
         return fmt::format("fernlicht_study: 1\nlamps:\n  a: {{low: {0}/lamps/halogen-low.ies}}\n  b: {{left: {0}/lamps/xenon-low.ies, "
                            "right: {0}/lamps/halogen-low.ies, source: arc}}\ndrives: [{0}/drives/straight.yaml]\n{1}",
                            shipped_library.string(), more);
+    }
+    /// A drive of the library with paths from anywhere and `aim: auto` in each lamp set.
+    static std::string content_of_drive(const std::string& name) {
+        std::ifstream stream(shipped_drives / name);
+        std::string text(std::istreambuf_iterator<char>(stream), {});
+        for (const auto& [from, to] :
+             {std::pair<std::string, std::string>("../", shipped_library.string() + "/"), {", file:", ", aim: auto, file:"}})
+            for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+                text.replace(at, from.size(), to);
+        return text;
     }
 };
 
@@ -86,6 +97,42 @@ TEST_F(StudyFile, ConditionsReachTheDrive) {
     }
 }
 
+TEST_F(StudyFile, AnAimByTheCutOffCountsFromTheHorizon) {
+    std::string text = with("conditions: {aim_percent: [-1, -1.5]}\n");
+    text.insert(text.find("}\n  b:"), ", aim: {rule: auto, yaw_deg: 0.1}");
+    const Study study = read(text);
+    const std::vector<StudyCell> cells = cells_of(study);
+    ASSERT_EQ(cells.size(), 4U);
+    for (const std::size_t i : {0U, 2U}) {
+        const Drive a = cell_drive(study, cells[i]), b = cell_drive(study, cells[i + 1]);
+        for (const MountedLamp& lamp : a.lamp_sets[0].lamps) {
+            EXPECT_EQ(lamp.aim_rule, BeamAim::automatic);
+            EXPECT_EQ(lamp.cut_off_percent, i == 0 ? -1.0 : -1.5);
+            EXPECT_EQ(std::tuple(lamp.pitch_rad, lamp.yaw_rad), std::tuple(0.0, radians(0.1)));
+        }
+        for (const MountedLamp& lamp : b.lamp_sets[0].lamps) {
+            EXPECT_EQ(lamp.aim_rule, BeamAim::as_is);
+            EXPECT_DOUBLE_EQ(lamp.pitch_rad, i == 0 ? 0.0 : std::atan(-0.015) + std::atan(0.01));
+        }
+    }
+}
+
+TEST_F(StudyFile, ALampTakesTheDrivesAimOrItsOwn) {
+    const std::string drive = content_of_drive("straight.yaml");
+    const auto drive_file = tests::written("aimed.yaml", drive + "\n");
+    const auto rule = [&](const std::string& lamp_keys) {
+        const Study study = read(fmt::format("fernlicht_study: 1\nlamps:\n  a: {{low: {}/lamps/halogen-low.ies{}}}\ndrives: [{}]\n",
+                                             shipped_library.string(), lamp_keys, drive_file.string()));
+        return cell_drive(study, cells_of(study).front()).lamp_sets[0].lamps.front();
+    };
+    EXPECT_EQ(rule("").aim_rule, BeamAim::automatic) << "as the drive has its lamps";
+    EXPECT_EQ(rule(", aim: as-is").aim_rule, BeamAim::as_is);
+    EXPECT_DOUBLE_EQ(rule(", aim: as-is, file_aim_percent: 0").pitch_rad, std::atan(-0.01));
+    EXPECT_THAT(
+        tests::refusal_of([&] { rule(", file_aim_percent: 0"); }),
+        HasSubstr("lamps.a.file_aim_percent: found 0 %, and a drive aims its lamps by their cut-off, expected aim: as-is beside it"));
+}
+
 TEST_F(StudyFile, MeasuresReachEveryDriveThatDoesNotAskItself) {
     std::string text = with("measure: {visibility: {age_years: 60}, glare: {oncoming: {stranger: {at_m: 90}}}}\n");
     text.insert(text.find("]\n") /* of drives */, ", " + (shipped_drives / "iihs-straight.yaml").string());
@@ -117,6 +164,10 @@ TEST_F(StudyFile, MirroredCellsHaveTheRoadInAMirror) {
 }
 
 TEST_F(StudyFile, RefusesInOneSentenceWithItsPlace) {
+    std::string dips = with("");
+    dips.insert(dips.find("}\n  b:"), ", aim: auto, file_aim_percent: 0");
+    EXPECT_THAT(refusal(dips), HasSubstr("lamps.a.file_aim_percent: file_aim_percent beside aim: auto, expected one of them: auto "
+                                         "finds the cut-off in the file"));
     EXPECT_THAT(refusal(with("measure: {visibility: {k: 0}}\n")), HasSubstr("measure.visibility.k"));
     EXPECT_THAT(refusal(with("measure: {extent: true}\n")), HasSubstr("extent"));
     EXPECT_THAT(refusal(with("conditons: {}\n")), HasSubstr("conditions"));
@@ -222,8 +273,11 @@ TEST_F(StudySchema, AgreesWithTheReader) {
         const std::string yaml = lamps + ending + "\n", by_reader = refusal(yaml), by_schema = violation(yaml);
         EXPECT_EQ(by_reader == "not refused", by_schema.empty()) << ending << "\n reader: " << by_reader << "\n schema: " << by_schema;
     }
-    for (const char* lamp : {"source: xenon", "source: arc", "temperature_k: 30", "temperature_k: 3000", "file_aim_percent: 11",
-                             "file_aim_percent: -1.5", "mirrors: false", "mirrors: maybe", "left: low.ies", "beam: low.ies"}) {
+    for (const char* lamp :
+         {"source: xenon", "source: arc", "temperature_k: 30", "temperature_k: 3000", "file_aim_percent: 11", "file_aim_percent: -1.5",
+          "aim: auto", "aim: as-is", "aim: atuo", "aim: {rule: auto, yaw_deg: 0.1}", "aim: {pitch_deg: 0.2}", "aim: {cut_off_percent: -1}",
+          "file_aim_percent: 0, aim: auto", "aim: {rule: auto}, file_aim_percent: -1", "aim: {rule: as-is}, file_aim_percent: 0",
+          "mirrors: false", "mirrors: maybe", "left: low.ies", "beam: low.ies"}) {
         const std::string yaml = study + fmt::format("lamps: {{a: {{low: {}, {}}}}}\n", low, lamp), by_reader = refusal(yaml),
                           by_schema = violation(yaml);
         EXPECT_EQ(by_reader == "not refused", by_schema.empty()) << lamp << "\n reader: " << by_reader << "\n schema: " << by_schema;

@@ -26,7 +26,8 @@ struct PlayedResult : ReadingsOfCell {
     std::string drive, lamp_set;         ///< names as the report has them; "" when it was not played
     std::vector<ReachOverDrive> reaches; ///< rendered
     std::vector<GlareOverDrive> glares;
-    std::vector<StoredFrame> frames;                      ///< paths below what the folder is named by
+    std::vector<StoredFrame> frames; ///< paths below what the folder is named by
+    std::vector<LampAim> aims;
     std::vector<Verdict> verdicts;                        ///< limits of the drive, baselines
     std::optional<double> error_share, error_floor_share; ///< 95 % of the road's illuminance against the reference lies within
     std::optional<double> frame_s;                        ///< a driver's view
