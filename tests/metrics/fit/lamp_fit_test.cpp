@@ -193,7 +193,9 @@ TEST(LampFit, FewerPointsThanValuesHoldTheRestBeforeAnythingElse) {
 }
 
 TEST(LampFit, WithoutLightThereIsNothingToFit) {
-    std::vector<LuxPoint> points{point_at(25.0, 0.0, -1.0), point_at(25.0, 1.0, -1.0)};
+    std::vector<LuxPoint> points;
+    for (int i = 0; i < 10; ++i)
+        points.push_back(point_at(25.0, 0.3 * i, -1.0));
     for (LuxPoint& point : points) {
         point.place_m.x = -20.0; // behind the car
         point.lux = 0.3;
