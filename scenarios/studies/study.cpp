@@ -111,6 +111,8 @@ Drive cell_drive(const Study& study, const StudyCell& cell) {
         mounted.source = lamp.source;
         mounted.colour = lamp.colour;
         mounted.voltage_v = study.conditions.voltage_v[cell.voltage];
+        mounted.reference_voltage_v = lamp.reference_voltage_v;
+        mounted.function = is_high_beam(mounted) ? std::nullopt : lamp.function;
         mounted.pitch_rad += pitch;
     }
     for (LampChange& change : lamp_set.changes)
@@ -161,6 +163,10 @@ const Fields<StudyLamp>& study_lamp_fields() {
             field("colour", 2, &Lamp::colour, colour_fields(), "what a spectrum comes to"),
             field("file_aim_percent", 3, &Lamp::file_aim_percent, range(-10.0, 10.0), "the dip that the lamp's file already holds"),
             field("mirrors", 4, &Lamp::mirrors, any(), "false: its tables stay as they are where the condition mirrors"),
+            field("reference_voltage_v", 8, &Lamp::reference_voltage_v, range(12.0, 13.8),
+                  "at which its files were measured (UN 13.2, FMVSS 108 12.8); taken as 13.2 where it is not stated"),
+            field("function", 9, &Lamp::function, words({"low", "high", "other"}),
+                  "what `low`, or `left` and `right` are for, for the check of the files; recognised where it is not stated"),
         }
             .in_schema(R"({"oneOf": [{"required": ["left", "right"], "not": {"required": ["low"]}},
                 {"required": ["low"], "not": {"anyOf": [{"required": ["left"]}, {"required": ["right"]}]}}]})");
@@ -176,8 +182,8 @@ void read_study_lamps(const YamlEntry& entry, Study& study) {
         read_beams(keys, lamp);
         lamp.source = read_source(keys).value_or(SourceKind::filament);
         lamp.colour = read_colour(keys, lamp.source, cache, given);
-        read_field(study_lamp_fields(), "file_aim_percent", keys, &lamp);
-        read_field(study_lamp_fields(), "mirrors", keys, &lamp);
+        for (const char* const key : {"file_aim_percent", "mirrors", "reference_voltage_v", "function"})
+            read_field(study_lamp_fields(), key, keys, &lamp);
     }
     study.opened.insert(study.opened.end(), cache.opened().begin(), cache.opened().end());
 }

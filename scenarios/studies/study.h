@@ -14,6 +14,8 @@ struct StudyLamp {
     LampColour colour;
     /// The dip that the lamp's file already holds: files measured in regulation aim have their cut-off 1 % down.
     double file_aim_percent = -1.0;
+    std::optional<double> reference_voltage_v; ///< at which its files were measured; nullopt: not stated
+    std::optional<BeamFunction> function;      ///< of `left` and `right`; nullopt: not stated
     bool mirrors = true; ///< false: its tables stay as the files have them where the condition mirrors
 };
 

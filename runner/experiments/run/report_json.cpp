@@ -6,6 +6,7 @@
 #include "runner/files/json_text.h"
 #include "runner/findings/context_json.h"
 #include "runner/findings/extent_keys.h"
+#include "runner/findings/lamp_checks_json.h"
 #include "runner/findings/moment_columns.h"
 #include "runner/judge/verdict_json.h"
 #include "runner/play/display_pipeline.h"
@@ -348,6 +349,7 @@ JsonMembers report_members(Report& report) {
                    {"verdict_counts", count_verdicts(report), count_members},
                    {"known_failures", report.listed, verdict_members},
                    {"warnings", report.warnings},
+                   {"lamp_files", report.lamp_files, lamp_file_members},
                    {"complete", report.complete},
                    {"interrupted", or_null(report.interrupted)},
                    {"drives", report.played, played_members},

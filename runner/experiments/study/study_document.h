@@ -30,6 +30,8 @@ void add_map_edges(const Drive& drive, std::vector<CellResult*> cells);
 /// "dimmer against production: 5.0 % dimmer at 8.2 to 2.9 degrees left and 4.2 to 1.5 degrees down. Nothing else differs
 /// beyond the noise of the tables, 0.82 %." Zones beyond the clearest three are counted. Angles are the goniometer's.
 std::string lamp_verdict(const LampComparison& lamps);
+/// The check of the lamp files as a section: behind the verdict where a file makes readings meaningless, else before the cells.
+void add_lamp_files(const StudyResult& result, Document& document);
 /// How many deciding readings changed, or why that is not known.
 std::string study_sentence(const StudyResult& result);
 

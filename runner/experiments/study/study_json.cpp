@@ -1,6 +1,7 @@
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/findings/context_json.h"
+#include "runner/findings/lamp_checks_json.h"
 #include "runner/judge/verdict_json.h"
 
 #include <algorithm>
@@ -141,6 +142,7 @@ JsonMembers study_members(StudyResult& result) {
             {"played_in_part", or_null(result.played_in_part)},
             {"largest_changes", in_turn(2, json_part(result.largest, by_id))},
             {"lamps", lamps},
+            {"lamp_files", result.lamp_files, lamp_file_members},
             {"verdicts", result.verdicts, verdict_members},
             {"changes", in_turn(1, json_part(result.changes, change))},
             {"figures", in_turn(1, json_part(result.figures, figure))},
