@@ -12,8 +12,8 @@ namespace {
 constexpr double outline_column_deg = 0.5, outline_half_width_deg = 6.0, outline_reach_deg = 6.0, outline_row_deg = 0.05;
 constexpr double least_window_deg = 0.5, least_gap_deg = 0.2;
 constexpr double edge_factor = 5.0, edge_over_other_side = 2.0;
-constexpr double column_share = 0.05;  // of the peak: a column that is looked at
-constexpr double edge_light = 0.1;     // of the column's maximum, on the bright side of an edge
+constexpr double column_share = 0.05;          // of the peak: a column that is looked at
+constexpr double edge_light = 0.1;             // of the column's maximum, on the bright side of an edge
 constexpr double darkest_outline_share = 1e-3; // of the peak: what is darker counts as this
 constexpr double cone_deg = 15.0, spread_deg = 25.0;
 constexpr double beside_middle_deg = 1.5;
@@ -119,8 +119,7 @@ double concentration_of(const CandelaTable& t, const Peak& peak) {
             if (!t.gaps.empty() && t.gaps[y * (t.h_deg.size() - 1) + x] != 0)
                 continue;
             const double cd = (t.at(y, x) + t.at(y, x + 1) + t.at(y + 1, x) + t.at(y + 1, x + 1)) / 4.0;
-            const double light =
-                cd * std::cos(radians(middle.v_deg)) * (t.h_deg[x + 1] - t.h_deg[x]) * (t.v_deg[y + 1] - t.v_deg[y]);
+            const double light = cd * std::cos(radians(middle.v_deg)) * (t.h_deg[x + 1] - t.h_deg[x]) * (t.v_deg[y + 1] - t.v_deg[y]);
             all += light;
             if (cos_between(middle, {peak.h_deg, peak.v_deg}) >= cos_cone)
                 near += light;

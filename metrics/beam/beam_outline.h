@@ -24,8 +24,8 @@ struct BeamOutline {
 };
 
 /// An edge is a fall from the light on its one side to that on the other, each the mean over half a degree and two tenths apart (over the
-/// file's step where that is larger), by a factor of 5 at least and twice that on the column's other side; in 60 % of the columns that hold 5 %
-/// of the peak, and at least eight.
+/// file's step where that is larger), by a factor of 5 at least and twice that on the column's other side; in 60 % of the columns that hold
+/// 5 % of the peak, and at least eight.
 BeamOutline outline_of(const LampFile& lamp);
 
 /// How far the file's own samples lie apart in V round a direction, degrees; nullopt outside its samples.

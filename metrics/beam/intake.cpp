@@ -16,27 +16,27 @@ constexpr double highest_cut_off_deg = -0.115;
 constexpr double clear_rise_deg = 0.3;
 /// Luminous flux of the bare D1S and D2S, the strongest light sources of UN R99; of an LED headlamp's beam no more is known.
 constexpr double most_flux_lm = 3200.0;
-/// The maximum of a low beam lies below the cut-off and above 4 D, where UN R149 allows 0.8 of what 50R has at most; sideways not beyond the
-/// lines at 9 degrees. That of a high beam is HV: 0.8 of it at least stand there.
+/// The maximum of a low beam lies below the cut-off and above 4 D, where UN R149 allows 0.8 of what 50R has at most; sideways not beyond
+/// the lines at 9 degrees. That of a high beam is HV: 0.8 of it at least stand there.
 constexpr double low_peak_aside_deg = 10.0, low_peak_down_deg = -4.5, low_peak_up_deg = 0.3;
 constexpr double high_peak_aside_deg = 5.0, high_peak_up_deg = 3.0;
 /// Beyond these angles a beam does not stand askew on its mount: the file counts its angles from elsewhere.
 constexpr double other_axis_v_deg = 45.0, other_axis_h_deg = 60.0;
-constexpr double concentrated = 0.5;  ///< of the flux within 15 degrees of the peak: a beam; a lamp of 36 degrees between halves has 0.4
-constexpr double on_its_side = 1.5;   ///< height over width; low beams have 0.2 to 0.5, high beams up to about 1
-constexpr double dark_ahead = 0.15;   ///< of the peak: UN R149 allows 625 cd on HV, and asks for 5100 below
-constexpr double bright_ahead = 0.5;  ///< of the peak: UN R149 asks for 0.8 of it on HV
+constexpr double concentrated = 0.5; ///< of the flux within 15 degrees of the peak: a beam; a lamp of 36 degrees between halves has 0.4
+constexpr double on_its_side = 1.5;  ///< height over width; low beams have 0.2 to 0.5, high beams up to about 1
+constexpr double dark_ahead = 0.15;  ///< of the peak: UN R149 allows 625 cd on HV, and asks for 5100 below
+constexpr double bright_ahead = 0.5; ///< of the peak: UN R149 asks for 0.8 of it on HV
 /// UN R149 asks for 5100 cd on 50R of its weakest car class; those of mopeds (UN R113) keep about a fifth of that.
 constexpr double least_peak_cd = 1000.0;
-/// Of the flux of their light source, beams have 0.25 to 0.6. What is below this and comes into that range when multiplied by the thousands of
-/// lumens of the source was listed per 1000 lm. Sources below 1200 lm are left alone: such factors do not show.
+/// Of the flux of their light source, beams have 0.25 to 0.6. What is below this and comes into that range when multiplied by the thousands
+/// of lumens of the source was listed per 1000 lm. Sources below 1200 lm are left alone: such factors do not show.
 constexpr double least_share_of_source = 0.15, least_source_lm = 1200.0;
 constexpr double plausible_share_from = 0.2, plausible_share_to = 0.9;
 /// The directions that the tables of UN R149 ask for: lines to 20 degrees aside and 4 D, zones to 4 U; of high beams 12 degrees aside.
 constexpr double low_asked_h_deg = 20.0, high_asked_h_deg = 12.0, asked_v_deg = 4.0;
 constexpr double cut_share = 0.1, doubtful_cut_share = 0.03; ///< of the peak, where the table ends
-/// Half a step is what a file leaves open of its cut-off's place: 0.1 degrees, by which studies tell what is real, and 0.25, all that UN R149
-/// lets a lamp be aimed anew.
+/// Half a step is what a file leaves open of its cut-off's place: 0.1 degrees, by which studies tell what is real, and 0.25, all that UN
+/// R149 lets a lamp be aimed anew.
 constexpr double doubtful_step_deg = 0.2, coarse_step_deg = 0.5;
 
 std::string place(double deg, const char* more, const char* less) {
@@ -92,10 +92,11 @@ struct IntakeCheck {
                   fmt::format("its brightest direction is {}, and a headlamp points ahead: the file's angles count from elsewhere{}",
                               direction_text(h, v), type_c));
         else if (outline.height_to_width && *outline.height_to_width > on_its_side)
-            claim(IntakeFault::axis, true,
-                  fmt::format("it is {:.1f} times as high as it is wide, and headlamps are wider than high: H and V are exchanged, or it is "
-                              "turned about its axis by 90 degrees{}",
-                              *outline.height_to_width, type_c));
+            claim(
+                IntakeFault::axis, true,
+                fmt::format("it is {:.1f} times as high as it is wide, and headlamps are wider than high: H and V are exchanged, or it is "
+                            "turned about its axis by 90 degrees{}",
+                            *outline.height_to_width, type_c));
         else if (is_upside_down(outline))
             claim(IntakeFault::axis, true,
                   fmt::format("it ends downwards at {} and has no upper edge: it stands upside down, V counts downwards in the file",
@@ -109,10 +110,11 @@ struct IntakeCheck {
         const std::string mounted = *context.turned_up_deg == 0.0 ? "" : ", as mounted";
         if (found.cut_off_v_deg) {
             if (const double v = *found.cut_off_v_deg + *context.turned_up_deg; v > highest_cut_off_deg)
-                claim(IntakeFault::cut_off_high, true,
-                      fmt::format("the cut-off lies at {}{}, on the horizon or above, and 0.57 D is expected: lower it by `percent_down`, or "
-                                  "say in a study what the file holds by `file_aim_percent`",
-                                  up_or_down(v), mounted));
+                claim(
+                    IntakeFault::cut_off_high, true,
+                    fmt::format("the cut-off lies at {}{}, on the horizon or above, and 0.57 D is expected: lower it by `percent_down`, or "
+                                "say in a study what the file holds by `file_aim_percent`",
+                                up_or_down(v), mounted));
         } else if (const double ahead = share_ahead(lamp.table, peak()); found.function_stated && ahead >= bright_ahead)
             claim(IntakeFault::cut_off_high, true,
                   fmt::format("no cut-off is found below the horizon, and straight ahead lies {:.0f} % of the maximum: is it a high beam?",
@@ -139,15 +141,17 @@ struct IntakeCheck {
 
     void peak_place() {
         const double h = peak().h_deg, v = peak().v_deg + context.turned_up_deg.value_or(0.0);
-        const bool claimed_high = std::ranges::find(found.findings, IntakeFault::cut_off_high, &IntakeFinding::fault) != found.findings.end();
+        const bool claimed_high =
+            std::ranges::find(found.findings, IntakeFault::cut_off_high, &IntakeFinding::fault) != found.findings.end();
         const bool aside = std::abs(h) > (low() ? low_peak_aside_deg : high_peak_aside_deg);
         const bool too_high = v > (low() ? low_peak_up_deg : high_peak_up_deg) && !(claimed_high && v < high_peak_up_deg);
         const bool too_low = v < (low() ? low_peak_down_deg : -high_peak_up_deg);
         if (aside || too_high || too_low)
             claim(IntakeFault::peak, true,
                   fmt::format("its maximum lies at {}, where no {} beam has it: expected {}", direction_text(h, v), low() ? "low" : "high",
-                              low() ? fmt::format("below the cut-off, not below 4 D, within {:.0f} degrees of V-V", low_peak_aside_deg)
-                                    : fmt::format("within {:.0f} degrees of V-V and {:.0f} of H-H", high_peak_aside_deg, high_peak_up_deg)));
+                              low()
+                                  ? fmt::format("below the cut-off, not below 4 D, within {:.0f} degrees of V-V", low_peak_aside_deg)
+                                  : fmt::format("within {:.0f} degrees of V-V and {:.0f} of H-H", high_peak_aside_deg, high_peak_up_deg)));
     }
 
     void units() {
@@ -165,13 +169,15 @@ struct IntakeCheck {
         const bool plausible_per_klm = per_klm_share >= plausible_share_from && per_klm_share <= plausible_share_to;
         if (*source >= least_source_lm && share < least_share_of_source && plausible_per_klm)
             claim(IntakeFault::units, true,
-                  fmt::format("it has {:.0f} lm, {:.0f} % of the {:.0f} lm that the file declares of its light source, and beams have 25 to 60: "
-                              "the intensities are per 1000 lm of it, to be multiplied by {:.3g}",
-                              found.flux_lm, 100.0 * share, *source, *source / 1000.0));
+                  fmt::format(
+                      "it has {:.0f} lm, {:.0f} % of the {:.0f} lm that the file declares of its light source, and beams have 25 to 60: "
+                      "the intensities are per 1000 lm of it, to be multiplied by {:.3g}",
+                      found.flux_lm, 100.0 * share, *source, *source / 1000.0));
         else if (*source == 1000.0 && plausible_per_klm)
-            claim(IntakeFault::units, false,
-                  "the file declares 1000 lm: its intensities are per 1000 lm of the light source, and are candela only of a source that has "
-                  "these, as the low beam of H4");
+            claim(
+                IntakeFault::units, false,
+                "the file declares 1000 lm: its intensities are per 1000 lm of the light source, and are candela only of a source that has "
+                "these, as the low beam of H4");
     }
 
     void coverage() {
@@ -188,10 +194,11 @@ struct IntakeCheck {
                     cut = {t.at(y, x), h, v};
             }
         if (const double share = cut.cd / peak().cd; share >= doubtful_cut_share)
-            claim(IntakeFault::coverage, share >= cut_share,
-                  fmt::format("the table ends at {}, where it still has {:.0f} % of its maximum: the light beyond is missing, and tests look "
-                              "{:.0f} degrees aside and {:.0f} up and down",
-                              direction_text(cut.h_deg, cut.v_deg), 100.0 * share, asked_h, asked_v_deg));
+            claim(
+                IntakeFault::coverage, share >= cut_share,
+                fmt::format("the table ends at {}, where it still has {:.0f} % of its maximum: the light beyond is missing, and tests look "
+                            "{:.0f} degrees aside and {:.0f} up and down",
+                            direction_text(cut.h_deg, cut.v_deg), 100.0 * share, asked_h, asked_v_deg));
     }
 
     void steps() {
@@ -199,10 +206,11 @@ struct IntakeCheck {
             return;
         constexpr double rounding = 1e-6;
         if (*found.step_deg > doubtful_step_deg + rounding)
-            claim(IntakeFault::steps, *found.step_deg >= coarse_step_deg - rounding,
-                  fmt::format("across the cut-off its samples lie {:.2g} degrees apart, which leaves the cut-off's place open by {:.2g}: at "
-                              "most {:.1f} is expected",
-                              *found.step_deg, *found.step_deg / 2.0, doubtful_step_deg));
+            claim(
+                IntakeFault::steps, *found.step_deg >= coarse_step_deg - rounding,
+                fmt::format("across the cut-off its samples lie {:.2g} degrees apart, which leaves the cut-off's place open by {:.2g}: at "
+                            "most {:.1f} is expected",
+                            *found.step_deg, *found.step_deg / 2.0, doubtful_step_deg));
     }
 };
 

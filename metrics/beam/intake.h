@@ -1,7 +1,7 @@
 // Whether a lamp's file can be what it is used for: looked at once, before anything is measured with it.
 //
-// A check of files, not of lamps: it names what exports, readers and hands do to a sound beam (units, axes, sides, aim, steps), and is silent
-// where a beam might be so. Figures of UN R149 are those of its tables in metrics/regulation.
+// A check of files, not of lamps: it names what exports, readers and hands do to a sound beam (units, axes, sides, aim, steps), and is
+// silent where a beam might be so. Figures of UN R149 are those of its tables in metrics/regulation.
 #pragma once
 
 #include "metrics/beam/received_beam.h"

@@ -77,7 +77,8 @@ Document document(const LampFile& lamp, const Intake& intake, const LampRequest&
     }
     Table findings{.name = "findings", .caption = "", .columns = columns_of("finding<|so<|found<"), .rows = {}, .prose = true};
     for (const IntakeFinding& finding : intake.findings)
-        findings.rows.push_back({name_of(finding.fault), finding.meaningless ? "readings with it are meaningless" : "doubtful", finding.text});
+        findings.rows.push_back(
+            {name_of(finding.fault), finding.meaningless ? "readings with it are meaningless" : "doubtful", finding.text});
     section.blocks.emplace_back(std::move(findings));
     return {"Intake check", {std::move(section)}};
 }
@@ -95,8 +96,8 @@ std::string check_json(const LampFile& lamp, Intake intake, const LampRequest& r
     json.erase("filament");
     json["maximum"] = {{"cd", intake.peak.cd}, {"h_deg", intake.peak.h_deg}, {"v_deg", intake.peak.v_deg}};
     json["flux_lm"] = intake.flux_lm;
-    for (const auto& [key, value] : {std::pair{"cut_off_v_deg", intake.cut_off_v_deg}, std::pair{"rise_deg", intake.rise_deg},
-                                     std::pair{"step_deg", intake.step_deg}})
+    for (const auto& [key, value] :
+         {std::pair{"cut_off_v_deg", intake.cut_off_v_deg}, std::pair{"rise_deg", intake.rise_deg}, std::pair{"step_deg", intake.step_deg}})
         json[key] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
     return json_text(json);
 }
@@ -120,10 +121,7 @@ int lamp_check(const LampRequest& request) {
 }
 
 void refuse_check_options(const LampRequest& request) {
-    const char* option = request.strict                ? "--strict"
-                         : !request.function.empty()   ? "--function"
-                         : request.voltage_v           ? "--voltage"
-                                                       : nullptr;
+    const char* option = request.strict ? "--strict" : !request.function.empty() ? "--function" : request.voltage_v ? "--voltage" : nullptr;
     if (option)
         throw InputError({{}, 0, 0, option}, "found without --check", "both");
 }
@@ -131,8 +129,9 @@ void refuse_check_options(const LampRequest& request) {
 void add_check_options(CLI::App& command, LampRequest& request) {
     const char* group = "Intake check";
     command
-        .add_flag("--check", request.check,
-                  "look for what exports do to a lamp: units, axes, sides, aim, coverage, steps; with --add for the right lamp beside the left")
+        .add_flag(
+            "--check", request.check,
+            "look for what exports do to a lamp: units, axes, sides, aim, coverage, steps; with --add for the right lamp beside the left")
         ->group(group);
     command.add_option("--function", request.function, "with --check: low, high or other; recognised by default")->group(group);
     command.add_option("--voltage", request.voltage_v, "with --check: V at which the lamp was measured")->group(group);

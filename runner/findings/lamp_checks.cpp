@@ -13,8 +13,7 @@ namespace fernlicht {
 namespace {
 
 const LampSource* source_of(const Drive& drive, const LampFile* file) {
-    const auto found =
-        std::ranges::find_if(drive.lamp_sources, [&](const LampSource& source) { return source.file.get() == file; });
+    const auto found = std::ranges::find_if(drive.lamp_sources, [&](const LampSource& source) { return source.file.get() == file; });
     return found == drive.lamp_sources.end() ? nullptr : &*found;
 }
 
@@ -48,10 +47,10 @@ CheckedLampFile& LampFileChecks::checked(const Use& use) {
     const LampSource* const source = source_of(use.drive, &use.file);
     const LampReadOptions options = source ? source->options : LampReadOptions{};
     const std::filesystem::path path = path_of(use.drive, use.file);
-    const std::string key = fmt::format(
-        "{}|{}|{}|{}|{}|{}|{}|{}|{}", path.string(), static_cast<int>(options.type_c_axis), static_cast<int>(options.rule), options.mirrored,
-        use.context.function ? name_of(*use.context.function) : "", use.context.left_hand_traffic,
-        use.context.turned_up_deg.value_or(0.0), static_cast<int>(use.lamp.source), use.lamp.reference_voltage_v.value_or(0.0));
+    const std::string key =
+        fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", path.string(), static_cast<int>(options.type_c_axis), static_cast<int>(options.rule),
+                    options.mirrored, use.context.function ? name_of(*use.context.function) : "", use.context.left_hand_traffic,
+                    use.context.turned_up_deg.value_or(0.0), static_cast<int>(use.lamp.source), use.lamp.reference_voltage_v.value_or(0.0));
     const auto [place, is_new] = places_.emplace(key, files_.size());
     if (is_new) {
         Intake intake = check_intake(use.file, use.context);
@@ -135,8 +134,8 @@ Table lamp_files_table(const std::vector<CheckedLampFile>& files) {
                 .rows = {},
                 .folded = std::ranges::all_of(files, [](const CheckedLampFile& file) { return file.findings.empty(); })};
     for (const CheckedLampFile& file : files) {
-        std::vector<Cell> row{file.file, fmt::format("{}", fmt::join(file.used_as, "; ")), function_text(file.function, file.function_stated),
-                              voltage_text(file.filament, file.measured_at_v)};
+        std::vector<Cell> row{file.file, fmt::format("{}", fmt::join(file.used_as, "; ")),
+                              function_text(file.function, file.function_stated), voltage_text(file.filament, file.measured_at_v)};
         if (file.findings.empty()) {
             row.insert(row.end(), {"none", "", ""});
             table.rows.push_back(row);

@@ -13,7 +13,7 @@
 namespace fernlicht {
 
 struct CheckedLampFile {
-    std::string file; ///< its name
+    std::string file;                 ///< its name
     std::vector<std::string> used_as; ///< "halogen: left", "traffic: oncoming"
     BeamFunction function = BeamFunction::other;
     bool function_stated = false;

@@ -60,7 +60,7 @@ struct MountedLamp {
     LampColour colour;
     std::optional<BeamFunction> function; ///< nullopt: not stated, recognised from the table where it matters
     double photometric_distance_m = 0.0;  ///< nearer than this the point-source equation is marked near-field
-    Turn mount;                          ///< how its place on the car is turned; the aim turns it further
+    Turn mount;                           ///< how its place on the car is turned; the aim turns it further
 
     Pose pose() const { return {position_m, mount.axes_with(axes_from_angles(yaw_rad, pitch_rad, roll_rad))}; }
     /// level times the supply's factor: (U / U_ref)^3.4 for filament lamps between 12.0 and 13.8 V (law of filament lamps' flux), 1 for arc

@@ -16,7 +16,7 @@ struct StudyLamp {
     double file_aim_percent = -1.0;
     std::optional<double> reference_voltage_v; ///< at which its files were measured; nullopt: not stated
     std::optional<BeamFunction> function;      ///< of `left` and `right`; nullopt: not stated
-    bool mirrors = true; ///< false: its tables stay as the files have them where the condition mirrors
+    bool mirrors = true;                       ///< false: its tables stay as the files have them where the condition mirrors
 };
 
 /// Values of each condition; every combination is played.

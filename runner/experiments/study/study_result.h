@@ -54,7 +54,7 @@ struct StudyResult : Findings {
     std::vector<std::size_t> largest; ///< at most three of `changes`: the largest real ones, each reading once
     std::vector<Verdict> verdicts;    ///< the study's own limits
     std::vector<StudyFigure> figures;
-    std::vector<std::string> warnings; ///< of the list of known failures
+    std::vector<std::string> warnings;       ///< of the list of known failures
     std::vector<CheckedLampFile> lamp_files; ///< as their check found them before the first frame
 
     bool complete() const; ///< all cells were tried and played

@@ -48,15 +48,14 @@ std::vector<Planned> plan(const Study& study, const std::vector<std::string>& on
     return planned;
 }
 
-/// As the study has them at its usual aim, which is 1 % down: other aims are asked for. Lamps that stay as they are where the condition mirrors
-/// were made for the other side.
+/// As the study has them at its usual aim, which is 1 % down: other aims are asked for. Lamps that stay as they are where the condition
+/// mirrors were made for the other side.
 std::vector<CheckedLampFile> check_lamp_files(const Study& study, const std::vector<Planned>& planned, bool strict) {
     LampFileChecks checks;
     for (const Planned& one : planned) {
         const StudyLamp& lamp = study.lamps[one.cell.lamp];
         const bool stays = study.conditions.mirror[one.cell.mirror] && !lamp.mirrors;
-        checks.add(one.drive, one.left_hand_traffic != stays, strict,
-                   degrees(std::atan(-0.01) - std::atan(lamp.file_aim_percent / 100.0)));
+        checks.add(one.drive, one.left_hand_traffic != stays, strict, degrees(std::atan(-0.01) - std::atan(lamp.file_aim_percent / 100.0)));
     }
     return checks.files();
 }

@@ -19,7 +19,6 @@ namespace fernlicht {
 namespace {
 
 using testing::ElementsAre, testing::HasSubstr, testing::IsEmpty;
-using enum IntakeFault;
 
 constexpr bool left_hand = true, right_hand = false;
 
@@ -133,10 +132,9 @@ LampFile drawn_low_beam(unsigned seed) {
     made.cut_off->softness_deg = between(0.05, 0.2);
     const double noise = between(0.0, 0.02), level = between(0.6, 1.5), step = std::vector{0.05, 0.1, 0.2}[seed % 3];
     std::normal_distribution<double> normal;
-    return lamp_with(
-        tests::table_of(tests::steps(-40.0, 40.0, between(0.2, 0.5)), tests::steps(-12.0, 8.0, step), [&](double h, double v) {
-            return std::max(0.0, level * model_intensity_cd(made, h, v) * (1.0 + noise * normal(random)));
-        }));
+    return lamp_with(tests::table_of(tests::steps(-40.0, 40.0, between(0.2, 0.5)), tests::steps(-12.0, 8.0, step), [&](double h, double v) {
+        return std::max(0.0, level * model_intensity_cd(made, h, v) * (1.0 + noise * normal(random)));
+    }));
 }
 
 TEST(Intake, NothingIsClaimedOnLowBeamsWithOtherCutOffsStepsAndNoise) {
@@ -155,9 +153,10 @@ TEST(Intake, NothingIsClaimedOnLowBeamsWithOtherCutOffsStepsAndNoise) {
 }
 
 TEST(Intake, ShippedLampsAreSoundAndTheirCutOffsFound) {
-    for (const auto& [file, function] : {std::pair{"halogen-low.ies", BeamFunction::low}, std::pair{"xenon-low.ies", BeamFunction::low},
-                                         std::pair{"halogen-high.ies", BeamFunction::high}, std::pair{"xenon-high.ies", BeamFunction::high},
-                                         std::pair{"street-6000lm.ies", BeamFunction::other}, std::pair{"even-0.33lx.csv", BeamFunction::other}}) {
+    for (const auto& [file, function] :
+         {std::pair{"halogen-low.ies", BeamFunction::low}, std::pair{"xenon-low.ies", BeamFunction::low},
+          std::pair{"halogen-high.ies", BeamFunction::high}, std::pair{"xenon-high.ies", BeamFunction::high},
+          std::pair{"street-6000lm.ies", BeamFunction::other}, std::pair{"even-0.33lx.csv", BeamFunction::other}}) {
         const Intake intake = check_intake(read_lamp(shipped_library / "lamps" / file));
         EXPECT_THAT(intake.findings, IsEmpty()) << file << ": " << told(intake);
         EXPECT_EQ(intake.function, function) << file << ": " << told(intake);
@@ -178,29 +177,31 @@ TEST(Intake, ACutOffOnTheHorizonOrAboveIsNamed) {
                 if (left)
                     mirror(lamp);
                 const IntakeFinding finding = only_finding(lamp, {.left_hand_traffic = left});
-                EXPECT_EQ(finding.fault, cut_off_high) << name << " " << up;
+                EXPECT_EQ(finding.fault, IntakeFault::cut_off_high) << name << " " << up;
                 EXPECT_TRUE(finding.meaningless);
                 EXPECT_EQ(faults_of(lamp, {.left_hand_traffic = left, .turned_up_deg = -0.57}).empty(), up < 1.0) << "as mounted";
-                EXPECT_THAT(faults_of(lamp, {.left_hand_traffic = left, .turned_up_deg = std::nullopt}), IsEmpty()) << "aimed by its cut-off";
+                EXPECT_THAT(faults_of(lamp, {.left_hand_traffic = left, .turned_up_deg = std::nullopt}), IsEmpty())
+                    << "aimed by its cut-off";
             }
     EXPECT_THAT(only_finding(shifted(model("xenon-low"), 0.0, 0.57)).text, HasSubstr("on the horizon or above"));
-    EXPECT_THAT(faults_of(model("halogen-high"), {.function = BeamFunction::low}), testing::Contains(cut_off_high)) << "no cut-off at all";
+    EXPECT_THAT(faults_of(model("halogen-high"), {.function = BeamFunction::low}), testing::Contains(IntakeFault::cut_off_high))
+        << "no cut-off at all";
 }
 
 TEST(Intake, ARiseOnTheWrongSideIsNamed) {
     for (const std::string& name : low_models) {
         LampFile lamp = model(name);
         const IntakeFinding on_the_right = only_finding(lamp, {.left_hand_traffic = left_hand});
-        EXPECT_EQ(on_the_right.fault, rise_side);
+        EXPECT_EQ(on_the_right.fault, IntakeFault::rise_side);
         EXPECT_THAT(on_the_right.text, HasSubstr("rises to the right"));
         mirror(lamp);
         const IntakeFinding on_the_left = only_finding(lamp);
-        EXPECT_EQ(on_the_left.fault, rise_side);
+        EXPECT_EQ(on_the_left.fault, IntakeFault::rise_side);
         EXPECT_TRUE(on_the_left.meaningless);
         EXPECT_THAT(on_the_left.text, HasSubstr("for left-hand traffic, or the table is mirrored"));
     }
     for (unsigned seed = 0; seed < 12; ++seed)
-        EXPECT_THAT(faults_of(drawn_low_beam(seed), {.left_hand_traffic = left_hand}), ElementsAre(rise_side)) << seed;
+        EXPECT_THAT(faults_of(drawn_low_beam(seed), {.left_hand_traffic = left_hand}), ElementsAre(IntakeFault::rise_side)) << seed;
 }
 
 TEST(Intake, FluxBeyondAnyHeadlampIsNamed) {
@@ -220,18 +221,19 @@ TEST(Intake, APeakWhereNoBeamHasOneIsNamed) {
             EXPECT_EQ(only_finding(lamp).fault, IntakeFault::peak) << name << " " << right << " " << up << ": " << told(check_intake(lamp));
         }
     EXPECT_THAT(faults_of(shifted(model("xenon-high"), 0.0, 8.0)), ElementsAre(IntakeFault::peak));
-    EXPECT_THAT(faults_of(shifted(model("xenon-low"), 0.0, 12.0)), ElementsAre(cut_off_high, IntakeFault::peak)) << "its cut-off is there, too";
+    EXPECT_THAT(faults_of(shifted(model("xenon-low"), 0.0, 12.0)), ElementsAre(IntakeFault::cut_off_high, IntakeFault::peak))
+        << "its cut-off is there, too";
 }
 
 TEST(Intake, AWrongTypeOrAxisIsNamed) {
     for (const std::string& name : all_models) {
         const LampFile lamp = model(name);
         const LampFile lying = resampled(lamp, 20.0, 50.0, 0.1, 0.1, [](double h, double v) { return TwoAngles{v, h}; });
-        EXPECT_EQ(only_finding(lying).fault, axis) << name << ": " << told(check_intake(lying));
+        EXPECT_EQ(only_finding(lying).fault, IntakeFault::axis) << name << ": " << told(check_intake(lying));
         // As where gamma 0 of type C is the beam's axis and was taken for the nadir.
         const AngleSystem along = beam_along_nadir();
         const LampFile down = resampled(lamp, 180.0, 90.0, 2.0, 0.5, [&](double h, double v) { return along.to_un(h, v); });
-        EXPECT_EQ(only_finding(down).fault, axis) << name << ": " << told(check_intake(down));
+        EXPECT_EQ(only_finding(down).fault, IntakeFault::axis) << name << ": " << told(check_intake(down));
         EXPECT_THAT(only_finding(down).text, HasSubstr("--axis"));
     }
     for (const std::string& name : low_models) {
@@ -245,7 +247,7 @@ TEST(Intake, CandelaPerThousandLumensAndOtherUnitsAreNamed) {
         LampFile lamp = scaled_by(model(name), 1.0 / 3.2); // listed per 1000 lm of a D2S, and not multiplied by its flux
         lamp.format = "IES LM-63-2002, type A";
         lamp.declared_flux_lm = 3200.0;
-        EXPECT_EQ(only_finding(lamp).fault, units) << name;
+        EXPECT_EQ(only_finding(lamp).fault, IntakeFault::units) << name;
         EXPECT_THAT(only_finding(lamp).text, HasSubstr("multiplied by 3.2"));
         lamp.declared_flux_lm.reset();
         EXPECT_THAT(faults_of(lamp), IsEmpty()) << "nothing tells it from a weak lamp";
@@ -256,12 +258,12 @@ TEST(Intake, CandelaPerThousandLumensAndOtherUnitsAreNamed) {
     for (const std::string name : {"halogen-low", "halogen-high"}) {
         LampFile lamp = scaled_by(model(name), 1.0 / 1.5);
         lamp.declared_flux_lm = 1000.0;
-        EXPECT_EQ(only_finding(lamp).fault, units) << name;
+        EXPECT_EQ(only_finding(lamp).fault, IntakeFault::units) << name;
         EXPECT_FALSE(only_finding(lamp).meaningless) << "H4 has such a source";
     }
     for (const std::string& name : all_models) {
         const LampFile in_lux = scaled_by(model(name), 1.0 / 625.0);
-        EXPECT_EQ(only_finding(in_lux).fault, units) << name;
+        EXPECT_EQ(only_finding(in_lux).fault, IntakeFault::units) << name;
         EXPECT_TRUE(only_finding(in_lux).meaningless);
         EXPECT_THAT(only_finding(in_lux).text, HasSubstr("lux at 25 m?"));
     }
@@ -271,7 +273,7 @@ TEST(Intake, CoverageThatCutsTheBeamIsNamed) {
     for (const std::string& name : all_models) {
         const LampFile lamp = model(name);
         for (const LampFile& part : {cut(lamp, -52, 4, -21, 16), cut(lamp, -52, 52, -2, 16)})
-            EXPECT_EQ(only_finding(part).fault, coverage) << name << ": " << told(check_intake(part));
+            EXPECT_EQ(only_finding(part).fault, IntakeFault::coverage) << name << ": " << told(check_intake(part));
         LampFile with_gap = lamp; // a hole right of the maximum
         CandelaTable& t = with_gap.table;
         t.gaps.assign((t.h_deg.size() - 1) * (t.v_deg.size() - 1), 0);
@@ -279,7 +281,7 @@ TEST(Intake, CoverageThatCutsTheBeamIsNamed) {
             for (std::size_t x = 0; x + 1 < t.h_deg.size(); ++x)
                 if (t.h_deg[x] >= 3.0 && t.h_deg[x] < 9.0 && t.v_deg[y] > -3.0 && t.v_deg[y] < 0.0)
                     t.gaps[y * (t.h_deg.size() - 1) + x] = 1;
-        EXPECT_EQ(only_finding(with_gap).fault, coverage) << name;
+        EXPECT_EQ(only_finding(with_gap).fault, IntakeFault::coverage) << name;
     }
     EXPECT_TRUE(only_finding(cut(model("halogen-low"), -6, 6, -21, 16)).meaningless);
 }
@@ -292,7 +294,8 @@ TEST(Intake, StepsTooCoarseForTheCutOffAreNamed) {
                 if (left)
                     mirror(lamp);
                 const IntakeFinding finding = only_finding(lamp, {.left_hand_traffic = left});
-                EXPECT_EQ(finding.fault, steps) << name << " " << step << ": " << told(check_intake(lamp, {.left_hand_traffic = left}));
+                EXPECT_EQ(finding.fault, IntakeFault::steps)
+                    << name << " " << step << ": " << told(check_intake(lamp, {.left_hand_traffic = left}));
                 EXPECT_EQ(finding.meaningless, step >= 0.5);
             }
 }
@@ -315,7 +318,7 @@ TEST(Intake, SwappedSidesAreNamed) {
             EXPECT_FALSE(swapped_sides(left, left)) << name;
             const auto by_light = swapped_sides(right, left);
             ASSERT_TRUE(by_light) << name;
-            EXPECT_EQ(by_light->fault, sides);
+            EXPECT_EQ(by_light->fault, IntakeFault::sides);
             EXPECT_FALSE(by_light->meaningless);
             left.name = "beam LH";
             right.name = "beam RH";
@@ -332,9 +335,10 @@ TEST(Intake, SwappedSidesAreNamed) {
 
 TEST(Intake, ABeamOfAnotherFunctionIsLeftAlone) {
     for (const double peak_h : {0.0, 60.0}) {
-        const LampFile wide = lamp_with(tests::table_of(tests::steps(-90.0, 90.0, 5.0), tests::steps(-90.0, 90.0, 5.0), [&](double h, double v) {
-            return 800.0 * std::exp(-((h - peak_h) * (h - peak_h) + v * v) / 2000.0);
-        }));
+        const LampFile wide =
+            lamp_with(tests::table_of(tests::steps(-90.0, 90.0, 5.0), tests::steps(-90.0, 90.0, 5.0), [&](double h, double v) {
+                return 800.0 * std::exp(-((h - peak_h) * (h - peak_h) + v * v) / 2000.0);
+            }));
         EXPECT_EQ(check_intake(wide).function, BeamFunction::other);
         EXPECT_THAT(faults_of(wide), IsEmpty());
     }
