@@ -155,12 +155,20 @@ std::vector<double> side_of(const std::vector<Direction>& edge, double middle_h_
 
 } // namespace
 
-std::optional<double> BeamOutline::level_deg(const std::vector<Direction>& edge, double middle_h_deg) {
+std::optional<double> BeamOutline::upper_level_deg() const {
     std::optional<double> lowest;
     for (const double side : {-1.0, 1.0})
-        if (const std::vector<double> v_deg = side_of(edge, middle_h_deg, side); v_deg.size() >= fewest_side_columns)
+        if (const std::vector<double> v_deg = side_of(upper_edge, middle_h_deg, side); v_deg.size() >= fewest_side_columns)
             lowest = std::min(lowest.value_or(90.0), middle_of(v_deg));
     return lowest;
+}
+
+std::optional<double> BeamOutline::lower_level_deg() const {
+    std::optional<double> highest;
+    for (const double side : {-1.0, 1.0})
+        if (const std::vector<double> v_deg = side_of(lower_edge, middle_h_deg, side); v_deg.size() >= fewest_side_columns)
+            highest = std::max(highest.value_or(-90.0), middle_of(v_deg));
+    return highest;
 }
 
 std::optional<double> BeamOutline::rise_deg() const {

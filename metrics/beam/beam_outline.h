@@ -17,8 +17,10 @@ struct BeamOutline {
     std::vector<Direction> upper_edge, lower_edge; ///< by columns half a degree apart within 6 degrees of the middle; empty: no edge
     double middle_h_deg = 0.0;                     ///< 0, or the peak's H where that is farther than 10 degrees aside
 
-    /// V of the edge's level part: the median of the lower one of its sides, between 1.5 and 6 degrees from the middle.
-    static std::optional<double> level_deg(const std::vector<Direction>& edge, double middle_h_deg);
+    /// V of an edge's level part: the median of its lower side, of the lower edge of its higher one, between 1.5 and 6 degrees from the
+    /// middle.
+    std::optional<double> upper_level_deg() const;
+    std::optional<double> lower_level_deg() const;
     /// By how much the upper edge lies higher on the right of the middle than on its left; nullopt where a side has fewer than 3 columns.
     std::optional<double> rise_deg() const;
 };

@@ -56,8 +56,15 @@ double share_ahead(const CandelaTable& t, const Peak& peak) {
 
 /// A lower edge above the horizon: what is below it would be a dark road.
 bool is_upside_down(const BeamOutline& o) {
-    const auto level = BeamOutline::level_deg(o.lower_edge, o.middle_h_deg);
+    const auto level = o.lower_level_deg();
     return level && *level > 0.0;
+}
+
+/// Less than a third of the maximum 15 degrees aside and 10 up and down: UN R149 asks a high beam for a twentieth 12 degrees aside.
+bool is_narrow_ahead(const CandelaTable& t, const Peak& peak) {
+    constexpr double third = 1.0 / 3.0;
+    return std::max({intensity_cd(t, -15.0, 0.0), intensity_cd(t, 15.0, 0.0), intensity_cd(t, 0.0, -10.0), intensity_cd(t, 0.0, 10.0)}) <
+           third * peak.cd;
 }
 
 BeamFunction recognised(const LampFile& lamp, const BeamOutline& o) {
@@ -68,8 +75,7 @@ BeamFunction recognised(const LampFile& lamp, const BeamOutline& o) {
     const bool below = std::abs(o.peak.h_deg) <= low_peak_aside_deg && o.peak.v_deg >= low_peak_down_deg && o.peak.v_deg < -0.2;
     if (below && share_ahead(lamp.table, o.peak) <= dark_ahead)
         return BeamFunction::low;
-    const bool ahead = std::abs(o.peak.h_deg) <= high_peak_aside_deg && std::abs(o.peak.v_deg) <= high_peak_up_deg;
-    if (o.concentration >= concentrated || (ahead && share_ahead(lamp.table, o.peak) >= bright_ahead && o.concentration >= 0.3))
+    if (o.concentration >= concentrated || (share_ahead(lamp.table, o.peak) >= bright_ahead && is_narrow_ahead(lamp.table, o.peak)))
         return BeamFunction::high;
     return BeamFunction::other;
 }
@@ -100,7 +106,7 @@ struct IntakeCheck {
         else if (is_upside_down(outline))
             claim(IntakeFault::axis, true,
                   fmt::format("it ends downwards at {} and has no upper edge: it stands upside down, V counts downwards in the file",
-                              up_or_down(*BeamOutline::level_deg(outline.lower_edge, outline.middle_h_deg))));
+                              up_or_down(*outline.lower_level_deg())));
         return !found.findings.empty();
     }
 
@@ -109,7 +115,8 @@ struct IntakeCheck {
             return;
         const std::string mounted = *context.turned_up_deg == 0.0 ? "" : ", as mounted";
         if (found.cut_off_v_deg) {
-            if (const double v = *found.cut_off_v_deg + *context.turned_up_deg; v > highest_cut_off_deg)
+            const double step = found.step_deg.value_or(0.0), open = step >= coarse_step_deg ? step / 2.0 : 0.0;
+            if (const double v = *found.cut_off_v_deg + *context.turned_up_deg; v - open > highest_cut_off_deg)
                 claim(
                     IntakeFault::cut_off_high, true,
                     fmt::format("the cut-off lies at {}{}, on the horizon or above, and 0.57 D is expected: lower it by `percent_down`, or "
@@ -140,12 +147,15 @@ struct IntakeCheck {
     }
 
     void peak_place() {
+        if (!low() && share_ahead(lamp.table, peak()) >= bright_ahead)
+            return;
         const double h = peak().h_deg, v = peak().v_deg + context.turned_up_deg.value_or(0.0);
+        const bool aimed_by_cut_off = !context.turned_up_deg && found.cut_off_v_deg;
         const bool claimed_high =
             std::ranges::find(found.findings, IntakeFault::cut_off_high, &IntakeFinding::fault) != found.findings.end();
         const bool aside = std::abs(h) > (low() ? low_peak_aside_deg : high_peak_aside_deg);
-        const bool too_high = v > (low() ? low_peak_up_deg : high_peak_up_deg) && !(claimed_high && v < high_peak_up_deg);
-        const bool too_low = v < (low() ? low_peak_down_deg : -high_peak_up_deg);
+        const bool too_high = !aimed_by_cut_off && v > (low() && !claimed_high ? low_peak_up_deg : high_peak_up_deg);
+        const bool too_low = !aimed_by_cut_off && v < (low() ? low_peak_down_deg : -high_peak_up_deg);
         if (aside || too_high || too_low)
             claim(IntakeFault::peak, true,
                   fmt::format("its maximum lies at {}, where no {} beam has it: expected {}", direction_text(h, v), low() ? "low" : "high",
@@ -239,7 +249,7 @@ Intake check_intake(const LampFile& lamp, const IntakeContext& context) {
     if (check.axis())
         return found;
     if (check.low()) {
-        found.cut_off_v_deg = BeamOutline::level_deg(outline.upper_edge, outline.middle_h_deg);
+        found.cut_off_v_deg = outline.upper_level_deg();
         found.rise_deg = outline.rise_deg();
         found.step_deg = step_in_v(lamp, {outline.middle_h_deg - 2.5, found.cut_off_v_deg.value_or(-0.57)});
         check.cut_off();

@@ -4,7 +4,6 @@
 // silent where a beam might be so. Figures of UN R149 are those of its tables in metrics/regulation.
 #pragma once
 
-#include "metrics/beam/received_beam.h"
 #include "scenarios/lamps/lamp_file.h"
 
 #include <optional>
