@@ -1,6 +1,7 @@
 #include "metrics/beam/intake.h"
 
 #include "metrics/beam/beam_outline.h"
+#include "metrics/beam/cut_off.h"
 
 #include <algorithm>
 #include <array>
@@ -252,6 +253,10 @@ Intake check_intake(const LampFile& lamp, const IntakeContext& context) {
         found.cut_off_v_deg = outline.upper_level_deg();
         found.rise_deg = outline.rise_deg();
         found.step_deg = step_in_v(lamp, {outline.middle_h_deg - 2.5, found.cut_off_v_deg.value_or(-0.57)});
+        if (found.cut_off_v_deg) { // as `lamp --cut-off` has it, where it can be had
+            const double v = *found.cut_off_v_deg, h = outline.middle_h_deg + (found.rise_deg.value_or(0.0) < 0.0 ? 2.5 : -2.5);
+            found.cut_off_v_deg = vertical_scan({&lamp.table, {}}, h, v - 0.6, v + 0.6).inflection_deg.value_or(v);
+        }
         check.cut_off();
         check.rise();
     }

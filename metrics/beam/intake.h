@@ -36,7 +36,8 @@ struct Intake {
     bool function_stated = false;
     Peak peak;
     double flux_lm = 0.0;
-    std::optional<double> cut_off_v_deg; ///< V of the cut-off's level part as the table has it, to about 0.05 degrees or half a step
+    std::optional<double>
+        cut_off_v_deg; ///< V of the cut-off's level part as the table has it, as measure_cut_off finds it or to about 0.1 degrees
     std::optional<double> rise_deg;      ///< by which it lies higher on the right, between 1.5 and 6 degrees aside; < 0: on the left
     std::optional<double> step_deg;      ///< of the file's own samples in V, across the cut-off; low beams alone
     std::vector<IntakeFinding> findings; ///< at most one of a fault

@@ -349,12 +349,12 @@ JsonMembers report_members(Report& report) {
                    {"verdict_counts", count_verdicts(report), count_members},
                    {"known_failures", report.listed, verdict_members},
                    {"warnings", report.warnings},
-                   {"lamp_files", report.lamp_files, lamp_file_members},
                    {"complete", report.complete},
                    {"interrupted", or_null(report.interrupted)},
                    {"drives", report.played, played_members},
                    {"context", context_members(report.context)},
                    {"times", one_for_each(report.played, times_members, "drives")}},
+                  when(!report.lamp_files.empty(), {{"lamp_files", report.lamp_files, lamp_file_members}}),
                   when(report.live != nullptr, {{"live", value_of(report.live), live_members}}));
 }
 

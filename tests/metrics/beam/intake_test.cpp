@@ -161,7 +161,7 @@ TEST(Intake, ShippedLampsAreSoundAndTheirCutOffsFound) {
         EXPECT_THAT(intake.findings, IsEmpty()) << file << ": " << told(intake);
         EXPECT_EQ(intake.function, function) << file << ": " << told(intake);
         if (function == BeamFunction::low) {
-            EXPECT_NEAR(intake.cut_off_v_deg.value_or(0.0), -0.57, 0.06) << file;
+            EXPECT_NEAR(intake.cut_off_v_deg.value_or(0.0), -0.57, 0.02) << file;
             EXPECT_NEAR(intake.step_deg.value_or(0.0), 0.05, 1e-6) << file;
         }
     }

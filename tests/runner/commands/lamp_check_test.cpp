@@ -35,7 +35,7 @@ TEST(LampCheckCommand, AFindingIsAnErrorWhereStrict) {
     EXPECT_EQ(found["findings"][0]["fault"], "flux");
     EXPECT_EQ(found["findings"][0]["meaningless"], true);
     EXPECT_EQ(found["measured_at_v"], nullptr);
-    EXPECT_NEAR(found["cut_off_v_deg"].get<double>(), -0.57, 0.06);
+    EXPECT_NEAR(found["cut_off_v_deg"].get<double>(), -0.57, 0.02);
 }
 
 TEST(LampCheckCommand, RefusesWhatItDoesNotDo) {
