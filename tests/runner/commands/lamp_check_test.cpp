@@ -8,7 +8,7 @@ namespace fernlicht {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr, testing::Not;
+using testing::HasSubstr;
 
 std::string checked_lamp(const std::string& flags, int exit_code = 0) {
     return printed("lamp " + library_file("lamps/xenon-low.ies") + " --check " + flags, exit_code);
@@ -65,7 +65,8 @@ TEST_F(LampCheckOfARun, AMeaninglessFileIsAWarningAndStandsOnThePage) {
     EXPECT_THAT(outcome.output, HasSubstr("warning: lamp file other-side.ies ("));
     const json report = json::parse(content_of(folder_ / "out/report.json"));
     const json& files = report.at("lamp_files");
-    ASSERT_EQ(files.size(), 2u) << files.dump(2) << "halogen and xenon are different sources";
+    ASSERT_EQ(files.size(), 1u) << "once, on both sides of both lamp sets, which are one: " << files.dump(2);
+    EXPECT_EQ(files[0]["used_as"], json::array({"other-side: left", "other-side: right"}));
     EXPECT_EQ(files[0]["file"], "other-side.ies");
     EXPECT_EQ(files[0]["function"], "low");
     EXPECT_EQ(files[0]["findings"][0]["fault"], "rise");
