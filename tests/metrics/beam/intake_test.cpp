@@ -172,7 +172,7 @@ TEST(Intake, ShippedLampsAreSoundAndTheirCutOffsFound) {
 TEST(Intake, ACutOffOnTheHorizonOrAboveIsNamed) {
     for (const std::string& name : low_models)
         for (const bool left : {right_hand, left_hand})
-            for (const double up : {0.55, 0.57, 1.0, 2.0}) {
+            for (const double up : {0.55, 0.57, 0.8, 2.0}) {
                 LampFile lamp = shifted(model(name), 0.0, up);
                 if (left)
                     mirror(lamp);
