@@ -69,6 +69,9 @@ struct JudgingFlags {
 
 void add_judging_flags(CLI::App& command, JudgingFlags& flags);
 
+/// Of --strict: what it does with what the check of lamp files found.
+inline constexpr const char* strict_text = "refuse lamp files with which readings are meaningless, instead of a warning";
+
 /// Sets baselines, across_devices, repeats and today of `options`, and reads the list of known failures, where there is one. The only
 /// place that asks the clock for the day. Throws InputError for flags without effect, what is no date, and a list that cannot be read.
 std::optional<KnownFailures> take(const JudgingFlags& flags, RunOptions& options);

@@ -208,6 +208,9 @@ LampFile lamp_of(const LampRequest& request) {
 }
 
 int lamp_command(const LampRequest& request) {
+    if (request.check)
+        return lamp_check(request);
+    refuse_check_options(request);
     if (!request.regulation.empty())
         return lamp_regulation(request);
     check_picture_name(request.picture);
@@ -264,6 +267,7 @@ void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::funct
                "where Type C and EULUMDAT beams point: automatic, horizontal or nadir");
     add_recipe_flag(*command, request->reading.recipe);
     add_texture_options(*command, request->reading);
+    add_check_options(*command, *request);
     add_regulation_options(*command, *request);
     command->footer("Changes are applied in this order: scale, mirror, add, subtract.");
     command->callback([request, &chosen] { chosen = [request] { return lamp_command(*request); }; });

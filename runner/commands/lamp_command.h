@@ -34,6 +34,9 @@ struct LampRequest {
     std::filesystem::path aim_by;
     bool left_hand_traffic = false, no_re_aim = false;
     bool cut_off = false;
+    bool check = false, strict = false;
+    std::string function;                             ///< of --check; empty: recognised
+    std::optional<double> voltage_v;                  ///< of --check; nullopt: not stated
     SharpnessRule sharpness = SharpnessRule::maximum; ///< of --cut-off
     double detector_mm = 30.0;                        ///< of --cut-off, at 25 m
 };
@@ -54,10 +57,19 @@ int lamp_regulation(const LampRequest& request);
 /// Prints the cut-off's figures; 0. Throws InputError.
 int lamp_cut_off(const LampRequest& request);
 
+/// Prints the intake check, with `add` as the right lamp beside `file` as the left one; 0. Throws InputError, with `strict` also for what
+/// makes readings meaningless.
+int lamp_check(const LampRequest& request);
+
+/// Throws InputError where flags of the check are given without it.
+void refuse_check_options(const LampRequest& request);
+
 /// Throws InputError where flags of these two are given without either.
 void refuse_regulation_options(const LampRequest& request);
 
 /// The flags of both.
 void add_regulation_options(CLI::App& command, LampRequest& request);
+/// Those of the check.
+void add_check_options(CLI::App& command, LampRequest& request);
 
 } // namespace fernlicht

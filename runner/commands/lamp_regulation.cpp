@@ -103,7 +103,7 @@ void refuse_regulation_options(const LampRequest& request) {
                          : request.left_hand_traffic ? "--left-hand-traffic"
                                                      : nullptr;
     if (option)
-        throw InputError({{}, 0, 0, option}, "found without --regulation or --cut-off", "one of them");
+        throw InputError({{}, 0, 0, option}, "found without --regulation, --cut-off or --check", "one of them");
 }
 
 void add_regulation_options(CLI::App& command, LampRequest& request) {
@@ -114,7 +114,9 @@ void add_regulation_options(CLI::App& command, LampRequest& request) {
         ->option_text("ID|list")
         ->group(group);
     command.add_flag("--cut-off", request.cut_off, "measure the cut-off: position, sharpness, linearity, kink")->group(group);
-    command.add_flag("--left-hand-traffic", request.left_hand_traffic, "use the mirrored table")->group(group);
+    command
+        .add_flag("--left-hand-traffic", request.left_hand_traffic, "use the mirrored table; with --check: the road is driven on the left")
+        ->group(group);
     command
         .add_option("--aim", request.aim,
                     "how to aim, instead of the regulation's way: auto, as-is, cut-off, cut-off-line, elbow, vol, vor, maximum")

@@ -143,6 +143,7 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     sub->add_option("--frames", flags->frames, "FIRST:LAST: play these moments only, counted from 0");
     sub->add_option("--capture", flags->capture, "all: store every moment");
     add_judging_flags(*sub, flags->judging);
+    sub->add_flag("--strict", flags->options.strict, strict_text);
     sub->add_option("--out", flags->out, "new or empty folder for the report");
     add_tables_flag(*sub, flags->tables);
     sub->add_flag("--profile", flags->options.profile, "time each pass (slows rendering)");

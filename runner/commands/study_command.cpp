@@ -22,7 +22,7 @@ struct StudyFlags {
     std::string backend = "auto", frames, out;
     std::vector<std::string> only;
     JudgingFlags judging;
-    bool resume = false, quiet = false, no_accuracy = false, list = false;
+    bool strict = false, resume = false, quiet = false, no_accuracy = false, list = false;
 };
 
 int list_cells(const std::vector<StudyCell>& cells) {
@@ -54,6 +54,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     StudyOptions options;
     options.folder = result_folder(flags.out, study.name);
     options.only = items_of("--only", flags.only);
+    options.strict = flags.strict;
     options.resume = flags.resume;
     options.run.backend = flags.backend;
     options.run.ticks = tick_range(flags.frames);
@@ -80,6 +81,7 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_option("--backend", flags->backend, backend_names);
     sub->add_option("--frames", flags->frames, "FIRST:LAST: play these moments of each drive only, counted from 0");
     add_judging_flags(*sub, flags->judging);
+    sub->add_flag("--strict", flags->strict, strict_text);
     sub->add_flag("--no-accuracy", flags->no_accuracy, "do not compare moments of each cell with the reference");
     sub->add_option("--only", flags->only, "comma-separated names of cells, * and ? allowed: 'straight*,*xenon'")->allow_extra_args(false);
     sub->add_flag("--list", flags->list, "list the cells and play none");

@@ -9,6 +9,7 @@
 #include "renderer/renderer.h"
 #include "runner/findings/findings.h"
 #include "runner/findings/lamp_aim.h"
+#include "runner/findings/lamp_checks.h"
 #include "runner/findings/reach_error.h"
 #include "scenarios/drives/play/bus_report.h"
 #include "scenarios/drives/play/frame.h"
@@ -198,6 +199,7 @@ struct Report {
     std::string interrupted;                           ///< why not complete
     std::vector<Verdict> listed;                       ///< on the list of known failures itself: entries that are of no use any more
     std::vector<std::string> warnings;                 ///< one sentence each
+    std::vector<CheckedLampFile> lamp_files;           ///< as their check found them before the first frame
     std::shared_ptr<const LiveFigures> live = nullptr; ///< how punctual a live run was and what it lost (live_figures.h); nullptr: none
 };
 

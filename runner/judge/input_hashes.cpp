@@ -51,6 +51,12 @@ std::string text_hashed_before(Drive drive) {
     for (LampSource& source : drive.lamp_sources)
         if (uses(drive.lamp_sets.front(), source.file.get()))
             source.path = fmt::format("lamp file {}", ++used);
+    for (LampSet& lamp_set : drive.lamp_sets) // was always stated
+        for (MountedLamp& lamp : lamp_set.lamps)
+            lamp.reference_voltage_v = lamp.reference_voltage_v.value_or(un_voltage_v);
+    for (TrafficRow& row : drive.traffic_rows)
+        for (MountedLamp& lamp : row.lamps)
+            lamp.reference_voltage_v = lamp.reference_voltage_v.value_or(un_voltage_v);
     const std::string text = write_drive(drive);
     std::vector<std::string> unmatched;
     return renamed_keys(text.substr(text.find('\n') + 1), {}, Naming::before, unmatched); // the comment names the program's version

@@ -54,6 +54,11 @@ Stage::Stage(Drive d)
             "no bodies");
 }
 
+bool left_hand_traffic(const Stage& stage) {
+    const std::vector<Route::Leg>& legs = stage.route.legs();
+    return !legs.empty() && stage.network.roads[legs.front().road].left_hand_traffic;
+}
+
 std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage, const LampSet& lamp_set) {
     std::vector<Moment> moments;
     State state = start(stage.drive);

@@ -18,6 +18,9 @@ struct Stage {
     Stage& operator=(const Stage&) = delete;
 };
 
+/// The side of the road on which the route begins to drive.
+bool left_hand_traffic(const Stage& stage);
+
 /// The moments at these ticks, which rise.
 std::vector<Moment> moments_at(const std::vector<int>& ticks, const Stage& stage, const LampSet& lamp_set);
 

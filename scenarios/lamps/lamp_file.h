@@ -15,6 +15,9 @@ namespace fernlicht {
 /// Where a Type C file (and EULUMDAT) points its beam: at the horizon as headlamps are measured, or to the nadir as luminaires are.
 enum class TypeCAxis { automatic, horizontal, nadir };
 
+/// What a lamp's beam is for. other: neither of a headlamp's two, as fog lamps and street lamps.
+enum class BeamFunction { low, high, other };
+
 struct LampReadOptions {
     BetweenSamples rule = BetweenSamples::linear_cd;
     TypeCAxis type_c_axis = TypeCAxis::automatic;

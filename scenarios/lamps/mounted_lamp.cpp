@@ -17,13 +17,16 @@ Turn turn_of(const glm::dmat3& axes) {
     return {angle(forward.y, forward.x), angle(forward.z, level), angle(left.z, up.z)};
 }
 
-double MountedLamp::intensity_factor() const {
-    // Luminous flux of a filament goes with the 3.4th power of its voltage near the rated one (law of the lamp makers, within
-    // about 10 % of the rated voltage); the ballast of an arc and the driver of a LED keep their current.
+double filament_flux_factor(double voltage_v, double reference_v) {
     constexpr double flux_exponent = 3.4;
+    return std::pow(voltage_v / reference_v, flux_exponent);
+}
+
+double MountedLamp::intensity_factor() const {
+    // The ballast of an arc and the driver of a LED keep their current.
     if (source != SourceKind::filament)
         return level * flux_factor;
-    return level * flux_factor * std::pow(voltage_v / reference_voltage_v, flux_exponent);
+    return level * flux_factor * filament_flux_factor(voltage_v, reference_voltage_v.value_or(un_voltage_v));
 }
 
 void apply(const LampChange& change, MountedLamp& lamp) {

@@ -49,6 +49,11 @@ enum class BeamAim {
     automatic, ///< its beam's own mark, a cut-off or the middle of a high beam, put where it belongs
 };
 
+/// At which lamps are measured: UN R149 and its forerunners; FMVSS 108, S14.2.5.4.
+inline constexpr double un_voltage_v = 13.2, fmvss_voltage_v = 12.8;
+/// Flux of a filament lamp at `voltage_v` over that at `reference_v`: (U / U_ref)^3.4, the lamp makers' law between 12.0 and 13.8 V.
+double filament_flux_factor(double voltage_v, double reference_v);
+
 struct MountedLamp {
     std::string name; ///< "left", "right", "high-left" ...
     std::shared_ptr<const LampFile> file;
@@ -56,12 +61,13 @@ struct MountedLamp {
     double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0; ///< aim; pitch positive upwards
     double level = 1.0;                                    ///< 0..1, dimming
     double voltage_v = 13.2;
-    double reference_voltage_v = 13.2; ///< at which the file was measured
+    std::optional<double> reference_voltage_v; ///< at which the file was measured; nullopt: not stated, taken as un_voltage_v
     SourceKind source = SourceKind::filament;
     LampColour colour;
-    double photometric_distance_m = 0.0; ///< nearer than this the point-source equation is marked near-field
-    Turn mount;                          ///< how its place on the car is turned; the aim turns it further
-    double flux_factor = 1.0;            ///< light of this very lamp against its file's, undimmed; >= 0
+    std::optional<BeamFunction> function; ///< nullopt: not stated, recognised from the table where it matters
+    double photometric_distance_m = 0.0;  ///< nearer than this the point-source equation is marked near-field
+    Turn mount;                           ///< how its place on the car is turned; the aim turns it further
+    double flux_factor = 1.0;             ///< light of this very lamp against its file's, undimmed; >= 0
 
     BeamAim aim_rule = BeamAim::as_is;
     double cut_off_percent = -1.0; ///< where an automatic aim puts the cut-off: -1 is 1 cm down in 1 m

@@ -139,6 +139,8 @@ Drive cell_drive(const Study& study, const StudyCell& cell) {
         mounted.colour = lamp.colour;
         mounted.voltage_v = study.conditions.voltage_v[cell.voltage];
         aim_lamp(study, lamp, aim_percent, mounted);
+        mounted.reference_voltage_v = lamp.reference_voltage_v;
+        mounted.function = is_high_beam(mounted) ? std::nullopt : lamp.function;
     }
     aim_changes(lamp, aim_percent, lamp_set);
     if (study.conditions.mirror[cell.mirror])
@@ -198,8 +200,12 @@ const Fields<StudyLamp>& study_lamp_fields() {
             field("file_aim_percent", 3, &Lamp::file_aim_percent, range(-10.0, 10.0),
                   "the dip that the lamp's file already holds; not beside rule auto, which finds it"),
             field("mirrors", 4, &Lamp::mirrors, any(), "false: its tables stay as they are where the condition mirrors"),
-            field("recipe", 5, &Lamp::recipe, any(), "how those of its files that are text grids are laid out, as in a drive")
+            field("recipe", 10, &Lamp::recipe, any(), "how those of its files that are text grids are laid out, as in a drive")
                 .read_by([](const YamlEntry& given, Lamp& lamp) { lamp.recipe = recipe_of(given); }),
+            field("reference_voltage_v", 8, &Lamp::reference_voltage_v, range(12.0, 13.8),
+                  "at which its files were measured (UN 13.2, FMVSS 108 12.8); taken as 13.2 where it is not stated"),
+            field("function", 9, &Lamp::function, words({"low", "high", "other"}),
+                  "what `low`, or `left` and `right` are for, for the check of the files; recognised where it is not stated"),
         }
             .in_schema(R"({"oneOf": [{"required": ["left", "right"], "not": {"required": ["low"]}},
                 {"required": ["low"], "not": {"anyOf": [{"required": ["left"]}, {"required": ["right"]}]}}],
@@ -223,6 +229,8 @@ void read_study_lamps(const YamlEntry& entry, Study& study) {
             dip->refuse("file_aim_percent beside aim: auto", "one of them: auto finds the cut-off in the file");
         read_field(study_lamp_fields(), "mirrors", keys, &lamp);
         read_field(study_lamp_fields(), "recipe", keys, &lamp);
+        for (const char* const key : {"reference_voltage_v", "function"})
+            read_field(study_lamp_fields(), key, keys, &lamp);
     }
     study.opened.insert(study.opened.end(), cache.opened().begin(), cache.opened().end());
 }

@@ -17,7 +17,9 @@ struct StudyLamp {
     std::optional<double> pitch_rad, yaw_rad, roll_rad; ///< in place of the drive's
     /// The dip that the lamp's file already holds: files measured in regulation aim have their cut-off 1 % down. Not of an automatic aim.
     double file_aim_percent = -1.0;
-    bool mirrors = true; ///< false: its tables stay as the files have them where the condition mirrors
+    std::optional<double> reference_voltage_v; ///< at which its files were measured; nullopt: not stated
+    std::optional<BeamFunction> function;      ///< of `left` and `right`; nullopt: not stated
+    bool mirrors = true;                       ///< false: its tables stay as the files have them where the condition mirrors
 };
 
 /// Values of each condition; every combination is played.

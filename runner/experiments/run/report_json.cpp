@@ -6,6 +6,7 @@
 #include "runner/files/json_text.h"
 #include "runner/findings/context_json.h"
 #include "runner/findings/extent_keys.h"
+#include "runner/findings/lamp_checks_json.h"
 #include "runner/findings/moment_columns.h"
 #include "runner/findings/summary.h"
 #include "runner/judge/verdict_json.h"
@@ -355,6 +356,7 @@ JsonMembers report_members(Report& report) {
                    {"drives", report.played, played_members},
                    {"context", context_members(report.context)},
                    {"times", one_for_each(report.played, times_members, "drives")}},
+                  when(!report.lamp_files.empty(), {{"lamp_files", report.lamp_files, lamp_file_members}}),
                   when(report.live != nullptr, {{"live", value_of(report.live), live_members}}));
 }
 

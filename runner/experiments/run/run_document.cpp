@@ -157,6 +157,8 @@ Section verdict_section(const Report& report) {
         if (!table->rows.empty())
             section.blocks.emplace_back(std::move(*table));
     }
+    if (!report.lamp_files.empty())
+        section.blocks.emplace_back(lamp_files_table(report.lamp_files));
     return section;
 }
 

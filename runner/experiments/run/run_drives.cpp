@@ -379,6 +379,9 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
     for (const Stage& stage : stages)
         if (options.contact_sheet && !driver_view(stage.drive))
             throw InputError({stage.drive.file, 0, 0, "views"}, "found only maps", "a perspective view for --contact-sheet");
+    LampFileChecks lamps;
+    for (const Stage& stage : stages)
+        lamps.add(stage.drive, left_hand_traffic(stage), options.strict);
     Device device = open_device(options.backend);
     check_sanity(device);
     const RendererSettings settings = settings_for(device, options.profile);
@@ -387,6 +390,8 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
     OutputFolder folder(options.folder); // only now: bad input or a machine that cannot draw leaves no folder behind
     Report report;
     report.context = make_context(device.info(), options.command, drives.front().seed);
+    report.lamp_files = lamps.files();
+    report.warnings = lamp_warnings(report.lamp_files);
     const Interruption listening;
     std::exception_ptr failure;
     try {

@@ -20,6 +20,7 @@ struct RunOptions {
     int repeats = 1;                 ///< plays of each lamp set; all must agree
     std::optional<KnownFailures> known;
     std::string today;          ///< 2026-12-31: by which known failures expire
+    bool strict = false;        ///< refuse lamp files with which readings are meaningless
     bool accuracy = true;       ///< hold a few moments of each lamp set against the reference
     bool contact_sheet = false; ///< add one moment of each lamp set, drawn in every technique
     std::vector<std::string> command;

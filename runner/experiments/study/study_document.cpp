@@ -300,6 +300,7 @@ Document document(const StudyResult& result, const std::vector<std::string>& pap
     for (const Section& section : {lamps, aims_section(result), reach, glare, readings, views_section(result), maps, cells})
         if (!section.blocks.empty())
             document.sections.push_back(section);
+    add_lamp_files(result, document);
     return document;
 }
 
@@ -325,6 +326,8 @@ Document study_summary(const StudyResult& result) {
     for (const CellResult& cell : result.cells)
         judge(cell.cell.name + ": ", cell.verdicts);
     for (const std::string& warning : result.warnings)
+        say("warning: " + warning);
+    for (const std::string& warning : lamp_warnings(result.lamp_files))
         say("warning: " + warning);
     for (const LampComparison& lamps : result.lamps)
         say(lamp_verdict(lamps));

@@ -1,6 +1,7 @@
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/findings/context_json.h"
+#include "runner/findings/lamp_checks_json.h"
 #include "runner/judge/verdict_json.h"
 
 #include <algorithm>
@@ -135,23 +136,24 @@ JsonMembers study_members(StudyResult& result) {
             if (one.side != "right")
                 result.study.comparisons.push_back({one.tested, one.against});
     };
-    return {{"schema", json_constant("fernlicht study")},
-            {"schema_version", json_constant(1)},
-            {"name", result.study.name},
-            {"title", result.study.title},
-            {"verdict", overall(result), verdict_kind_part},
-            {"complete", result.complete()},
-            {"interrupted", or_null(result.interrupted)},
-            {"decide", result.study.decide},
-            {"sentence", study_sentence(result)},
-            {"played_in_part", or_null(result.played_in_part)},
-            {"largest_changes", in_turn(2, json_part(result.largest, by_id))},
-            {"lamps", lamps},
-            {"verdicts", result.verdicts, verdict_members},
-            {"changes", in_turn(1, json_part(result.changes, change))},
-            {"figures", in_turn(1, json_part(result.figures, figure))},
-            {"cells", result.cells, [&result](CellResult& cell) { return study_cell_members(cell, result.study); }},
-            {"context", study_context_members(result)}};
+    return joined({{"schema", json_constant("fernlicht study")},
+                   {"schema_version", json_constant(1)},
+                   {"name", result.study.name},
+                   {"title", result.study.title},
+                   {"verdict", overall(result), verdict_kind_part},
+                   {"complete", result.complete()},
+                   {"interrupted", or_null(result.interrupted)},
+                   {"decide", result.study.decide},
+                   {"sentence", study_sentence(result)},
+                   {"played_in_part", or_null(result.played_in_part)},
+                   {"largest_changes", in_turn(2, json_part(result.largest, by_id))},
+                   {"lamps", lamps},
+                   {"verdicts", result.verdicts, verdict_members},
+                   {"changes", in_turn(1, json_part(result.changes, change))},
+                   {"figures", in_turn(1, json_part(result.figures, figure))},
+                   {"cells", result.cells, [&result](CellResult& cell) { return study_cell_members(cell, result.study); }},
+                   {"context", study_context_members(result)}},
+                  when(!result.lamp_files.empty(), {{"lamp_files", result.lamp_files, lamp_file_members}}));
 }
 
 } // namespace fernlicht

@@ -5,6 +5,7 @@
 #include "metrics/readings/significance.h"
 #include "runner/experiments/compare/runs/played_report.h"
 #include "runner/findings/document.h"
+#include "runner/findings/lamp_checks.h"
 #include "runner/judge/known_failures.h"
 #include "scenarios/studies/study.h"
 
@@ -55,7 +56,8 @@ struct StudyResult : Findings {
     std::vector<std::size_t> largest; ///< at most three of `changes`: the largest real ones, each reading once
     std::vector<Verdict> verdicts;    ///< the study's own limits
     std::vector<StudyFigure> figures;
-    std::vector<std::string> warnings; ///< of the list of known failures
+    std::vector<std::string> warnings;       ///< of the list of known failures
+    std::vector<CheckedLampFile> lamp_files; ///< as their check found them before the first frame
 
     bool complete() const; ///< all cells were tried and played
     /// What the study calls the lamps of one of its cells.

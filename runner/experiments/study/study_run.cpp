@@ -14,8 +14,10 @@
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/glob.h"
+#include "scenarios/values/pose.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 #include <map>
@@ -30,6 +32,7 @@ namespace fs = std::filesystem;
 struct Planned {
     StudyCell cell;
     Drive drive;
+    bool left_hand_traffic = false;
 };
 
 /// Lamps that an automatic aim finds nothing in, by the first cell of each.
@@ -45,17 +48,31 @@ void refuse_unaimable(const std::vector<Planned>& planned) {
 std::vector<Planned> plan(const Study& study, const std::vector<std::string>& only) {
     std::vector<Planned> planned;
     for (const StudyCell& cell : chosen_cells(study, only)) {
-        planned.push_back({cell, cell_drive(study, cell)});
+        planned.push_back({cell, cell_drive(study, cell), false});
         refuse_auto_shadows(planned.back().drive); // each cell would choose for itself
     }
     const StudyCell* last = nullptr;
-    for (const Planned& one : planned) { // roads and techniques too, once each
+    bool left_hand = false;
+    for (Planned& one : planned) { // roads and techniques too, once each
         if (!last || last->drive != one.cell.drive || last->technique != one.cell.technique || last->mirror != one.cell.mirror)
-            const Stage stage(one.drive);
+            left_hand = left_hand_traffic(Stage(one.drive));
+        one.left_hand_traffic = left_hand;
         last = &one.cell;
     }
     refuse_unaimable(planned);
     return planned;
+}
+
+/// As the study has them at its usual aim, which is 1 % down: other aims are asked for. Lamps that stay as they are where the condition
+/// mirrors were made for the other side.
+std::vector<CheckedLampFile> check_lamp_files(const Study& study, const std::vector<Planned>& planned, bool strict) {
+    LampFileChecks checks;
+    for (const Planned& one : planned) {
+        const StudyLamp& lamp = study.lamps[one.cell.lamp];
+        const bool stays = study.conditions.mirror[one.cell.mirror] && !lamp.mirrors;
+        checks.add(one.drive, one.left_hand_traffic != stays, strict, degrees(std::atan(-0.01) - std::atan(lamp.file_aim_percent / 100.0)));
+    }
+    return checks.files();
 }
 
 /// The files of one lamp set against those of another, sides apart where they differ.
@@ -232,6 +249,7 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
     result.call = options.run.command;
     result.only = fmt::format("{}", fmt::join(options.only, ","));
     result.frames = frames_text(options.run.ticks);
+    result.lamp_files = check_lamp_files(study, planned, options.strict);
     result.lamps = compare_lamp_files(study);
     // A machine that cannot draw says so before there is a folder.
     result.context = make_context(open_device(options.run.backend).info(), options.run.command, planned.front().drive.seed);

@@ -12,6 +12,7 @@ struct StudyOptions {
     std::filesystem::path folder;
     std::vector<std::string> only;      ///< cells whose name fits one of these, * and ? allowed; empty: all
     std::optional<KnownFailures> known; ///< over all cells
+    bool strict = false;                ///< refuse lamp files with which readings are meaningless
     bool resume = false;                ///< go on in the study's folder; finished cells are kept, the report is written anew
     RunOptions run; ///< backend, moments, baselines, repeats, day, quiet, accuracy, command; the folder is each cell's own
     std::function<void(const StudyResult&)> write; ///< into the folder, before it is marked as complete

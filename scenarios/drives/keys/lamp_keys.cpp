@@ -161,7 +161,11 @@ const Fields<MountedLamp>& lamp_fields() {
             field("level", 5, &Lamp::level, range(0.0, 1.0), "dimming, 1 = full"),
             source_field(6, &Lamp::source),
             field("voltage_v", 7, &Lamp::voltage_v, range(12.0, 13.8), "supply"),
-            field("reference_voltage_v", 8, &Lamp::reference_voltage_v, range(12.0, 13.8), "at which the file was measured"),
+            field("reference_voltage_v", 8, &Lamp::reference_voltage_v, range(12.0, 13.8),
+                  "at which the file was measured (UN 13.2, FMVSS 108 12.8); taken as 13.2 where it is not stated"),
+            field("function", 12, &Lamp::function, words({"low", "high", "other"}),
+                  "what the beam is for, for the check of its file; recognised from the table where it is not stated")
+                .bits_by([](const Lamp&) { return std::string(); }), // it decides no result
             temperature_form<Lamp>(),
             spectrum_form<Lamp>(),
             field("colour", 9, &Lamp::colour, colour_fields(), "what a spectrum comes to"),

@@ -46,7 +46,8 @@ MountedLamp build_lamp(const std::string& name, const YamlMap& keys, const Car& 
     lamp.file = read_lamp_keys(keys, cache);
     if (!lamp.file)
         asked_by.refuse("a lamp without a file", "file, in the lamp or in its lamp set");
-    for (const char* const key : {"aim", "level", "voltage_v", "reference_voltage_v", "photometric_distance_m", "flux_factor", "source"})
+    for (const char* const key :
+         {"aim", "level", "voltage_v", "reference_voltage_v", "function", "photometric_distance_m", "flux_factor", "source"})
         read_field(lamp_fields(), key, keys, &lamp);
     lamp.colour = read_colour(keys, lamp.source, cache, asked_by);
     return lamp;

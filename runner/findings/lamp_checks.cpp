@@ -1,0 +1,165 @@
+#include "runner/findings/lamp_checks.h"
+
+#include "scenarios/traffic/road_user.h"
+#include "scenarios/values/errors.h"
+#include "scenarios/values/pose.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <iterator>
+
+namespace fernlicht {
+namespace {
+
+const LampSource* source_of(const Drive& drive, const LampFile* file) {
+    const auto found = std::ranges::find_if(drive.lamp_sources, [&](const LampSource& source) { return source.file.get() == file; });
+    return found == drive.lamp_sources.end() ? nullptr : &*found;
+}
+
+std::filesystem::path path_of(const Drive& drive, const LampFile& file) {
+    const LampSource* const source = source_of(drive, &file);
+    return source ? source->path : std::filesystem::path(file.name);
+}
+
+bool is_meaningless(const IntakeFinding& finding) { return finding.meaningless; }
+
+void refuse_meaningless(const std::filesystem::path& file, const CheckedLampFile& checked, bool strict) {
+    const auto found = std::ranges::find_if(checked.findings, is_meaningless);
+    if (strict && found != checked.findings.end())
+        throw InputError({file, 0, 0, "--strict"}, found->text, "a sound file, or the run without --strict");
+}
+
+const char* meaning_of(const IntakeFinding& finding) { return finding.meaningless ? "readings are meaningless" : "doubtful"; }
+
+} // namespace
+
+/// A file on a mount.
+struct LampFileChecks::Use {
+    const Drive& drive;
+    const LampFile& file;
+    const MountedLamp& lamp;
+    std::string as;
+    IntakeContext context;
+};
+
+CheckedLampFile& LampFileChecks::checked(const Use& use) {
+    const LampSource* const source = source_of(use.drive, &use.file);
+    const LampReadOptions options = source ? source->options : LampReadOptions{};
+    const std::filesystem::path path = path_of(use.drive, use.file);
+    const std::string key =
+        fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", path.string(), static_cast<int>(options.type_c_axis), static_cast<int>(options.rule),
+                    options.mirrored, use.context.function ? name_of(*use.context.function) : "", use.context.left_hand_traffic,
+                    use.context.turned_up_deg.value_or(0.0), static_cast<int>(use.lamp.source), use.lamp.reference_voltage_v.value_or(0.0));
+    const auto [place, is_new] = places_.emplace(key, files_.size());
+    if (is_new) {
+        Intake intake = check_intake(use.file, use.context);
+        files_.push_back({.file = path.filename().string(),
+                          .used_as = {},
+                          .function = intake.function,
+                          .function_stated = intake.function_stated,
+                          .filament = use.lamp.source == SourceKind::filament,
+                          .measured_at_v = use.lamp.reference_voltage_v,
+                          .findings = std::move(intake.findings)});
+    }
+    CheckedLampFile& file = files_[place->second];
+    if (std::ranges::find(file.used_as, use.as) == file.used_as.end())
+        file.used_as.push_back(use.as);
+    return file;
+}
+
+void LampFileChecks::check_pair(const Drive& drive, const LampSet& lamp_set, const std::string& left, const std::string& right,
+                                bool strict) {
+    const auto of_left = std::ranges::find(lamp_set.lamps, left, &MountedLamp::name),
+               of_right = std::ranges::find(lamp_set.lamps, right, &MountedLamp::name);
+    if (of_left == lamp_set.lamps.end() || of_right == lamp_set.lamps.end() || of_left->file == of_right->file)
+        return;
+    const LampSource* const source = source_of(drive, of_left->file.get());
+    const auto swapped = swapped_sides(*of_left->file, *of_right->file, !source || !source->options.mirrored);
+    if (!swapped)
+        return;
+    const std::string as = lamp_set.name + ": " + left;
+    for (CheckedLampFile& file : files_)
+        if (std::ranges::find(file.used_as, as) != file.used_as.end() &&
+            std::ranges::find(file.findings, IntakeFault::sides, &IntakeFinding::fault) == file.findings.end()) {
+            file.findings.push_back(*swapped);
+            refuse_meaningless(path_of(drive, *of_left->file), file, strict);
+        }
+}
+
+void LampFileChecks::add(const Drive& drive, bool left_hand_traffic, bool strict, std::optional<double> turned_up_deg) {
+    const auto look = [&](const std::string& set, const MountedLamp& lamp, const std::shared_ptr<const LampFile>& file, double pitch_rad,
+                          std::optional<BeamFunction> function) {
+        const double turned_deg = turned_up_deg.value_or(std::min(0.0, degrees(lamp.mount.pitch_rad + pitch_rad)));
+        const Use use{drive, *file, lamp, set + ": " + lamp.name, {function, left_hand_traffic, turned_deg}};
+        refuse_meaningless(path_of(drive, *file), checked(use), strict);
+    };
+    const auto look_at = [&](const std::string& set, const std::vector<MountedLamp>& lamps, const std::vector<LampChange>& changes) {
+        for (const MountedLamp& lamp : lamps) {
+            look(set, lamp, lamp.file, lamp.pitch_rad, lamp.function);
+            for (const LampChange& change : changes)
+                if (change.lamp == lamp.name && change.file)
+                    look(set, lamp, change.file, change.pitch_rad.value_or(lamp.pitch_rad), std::nullopt);
+        }
+    };
+    for (const LampSet& lamp_set : drive.lamp_sets) {
+        look_at(lamp_set.name, lamp_set.lamps, lamp_set.changes);
+        check_pair(drive, lamp_set, "left", "right", strict);
+        check_pair(drive, lamp_set, "high-left", "high-right", strict);
+    }
+    for (const TrafficRow& row : drive.traffic_rows) {
+        std::vector<MountedLamp> headlamps;
+        std::ranges::copy_if(row.lamps, std::back_inserter(headlamps), [](const MountedLamp& lamp) {
+            return function_of(lamp.name) == LampFunction::low || function_of(lamp.name) == LampFunction::high;
+        });
+        look_at("traffic " + row.name, headlamps, row.changes);
+    }
+}
+
+std::vector<std::string> lamp_warnings(const std::vector<CheckedLampFile>& files) {
+    std::vector<std::string> warnings;
+    for (const CheckedLampFile& file : files)
+        for (const IntakeFinding& finding : file.findings)
+            if (finding.meaningless)
+                warnings.push_back(fmt::format("lamp file {} ({}), {}: {}; readings with it are meaningless", printable(file.file),
+                                               printable(fmt::format("{}", fmt::join(file.used_as, "; ")), 80), name_of(finding.fault),
+                                               finding.text));
+    return warnings;
+}
+
+Table lamp_files_table(const std::vector<CheckedLampFile>& files) {
+    Table table{.name = "lamp-files",
+                .caption = "Lamp files",
+                .columns = columns_of("file<|used as<|function<|measured at<|finding<|found<|so<"),
+                .rows = {},
+                .folded = std::ranges::all_of(files, [](const CheckedLampFile& file) { return file.findings.empty(); })};
+    for (const CheckedLampFile& file : files) {
+        std::vector<Cell> row{file.file, fmt::format("{}", fmt::join(file.used_as, "; ")),
+                              function_text(file.function, file.function_stated), voltage_text(file.filament, file.measured_at_v)};
+        if (file.findings.empty()) {
+            row.insert(row.end(), {"none", "", ""});
+            table.rows.push_back(row);
+        }
+        for (const IntakeFinding& finding : file.findings) {
+            table.rows.push_back(row);
+            table.rows.back().insert(table.rows.back().end(), {name_of(finding.fault), finding.text, meaning_of(finding)});
+            row = {"", "", "", ""};
+        }
+    }
+    return table;
+}
+
+std::string voltage_text(bool filament, const std::optional<double>& measured_at_v) {
+    if (!filament)
+        return measured_at_v ? fmt::format("{:g} V; its light does not go with it", *measured_at_v) : "any voltage";
+    if (measured_at_v)
+        return fmt::format("{:g} V", *measured_at_v);
+    return fmt::format("not stated: taken as {:g} V (UN); a lamp measured at {:g} V (FMVSS 108) has ×{:.2f} of the light it has there",
+                       un_voltage_v, fmvss_voltage_v, filament_flux_factor(fmvss_voltage_v, un_voltage_v));
+}
+
+std::string function_text(BeamFunction function, bool stated) {
+    return fmt::format("{} ({})", name_of(function), stated ? "stated" : "recognised");
+}
+
+} // namespace fernlicht

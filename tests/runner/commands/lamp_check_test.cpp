@@ -1,0 +1,100 @@
+// The intake check through the program: of a lamp, and of the lamps of a run.
+#include "tests/runner/program.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace fernlicht {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+std::string checked_lamp(const std::string& flags, int exit_code = 0) {
+    return printed("lamp " + library_file("lamps/xenon-low.ies") + " --check " + flags, exit_code);
+}
+
+TEST(LampCheckCommand, TellsFunctionCutOffAndVoltage) {
+    const std::string text = checked_lamp("");
+    EXPECT_THAT(text, HasSubstr("low (recognised)"));
+    EXPECT_THAT(text, HasSubstr("degrees higher on the right"));
+    EXPECT_THAT(text, HasSubstr("not stated: taken as 13.2 V"));
+    EXPECT_THAT(text, HasSubstr("×0.90"));
+    EXPECT_THAT(text, HasSubstr("No finding."));
+    EXPECT_THAT(checked_lamp("--function low --voltage 12.8 --strict"), HasSubstr("low (stated)"));
+    EXPECT_THAT(checked_lamp("--function other"), HasSubstr("Not checked"));
+}
+
+TEST(LampCheckCommand, AFindingIsAnErrorWhereStrict) {
+    EXPECT_THAT(checked_lamp("--mirror"), HasSubstr("left-hand traffic, or the table is mirrored"));
+    EXPECT_THAT(checked_lamp("--mirror --left-hand-traffic"), HasSubstr("No finding."));
+    const std::string refused = checked_lamp("--mirror --strict", 2);
+    EXPECT_THAT(refused, HasSubstr("xenon-low.ies: --strict: its cut-off rises to the left"));
+    const json found = json::parse(checked_lamp("--scale 10 --json"));
+    ASSERT_EQ(found.at("findings").size(), 1u);
+    EXPECT_EQ(found["findings"][0]["fault"], "flux");
+    EXPECT_EQ(found["findings"][0]["meaningless"], true);
+    EXPECT_EQ(found["measured_at_v"], nullptr);
+    EXPECT_NEAR(found["cut_off_v_deg"].get<double>(), -0.57, 0.02);
+}
+
+TEST(LampCheckCommand, RefusesWhatItDoesNotDo) {
+    for (const char* flags :
+         {"--cut-off", "--regulation r98-d", "--spots 2", "--convert x.ies", "--picture x.png", "--function dim", "--voltage 24"})
+        checked_lamp(flags, 2);
+    for (const char* flags : {"--strict", "--function low", "--voltage 12.8"})
+        EXPECT_THAT(printed("lamp " + library_file("lamps/xenon-low.ies") + " " + flags, 2), HasSubstr("without --check"));
+}
+
+class LampCheckOfARun : public testing::Test {
+  protected:
+    LampCheckOfARun() { // for the other side of the road
+        printed("lamp " + library_file("lamps/halogen-low.ies") + " --mirror --convert " + mirrored_);
+    }
+    Outcome run(const std::string& flags) {
+        return run_program("run " + library_file("drives/straight.yaml") + " --lamp " + mirrored_ +
+                           " --quiet --no-accuracy --frames 0:1 --resolution 64x48 --out " + (folder_ / "out") + " " + flags);
+    }
+    TemporaryFolder folder_;
+    std::string mirrored_ = folder_ / "other-side.ies";
+};
+
+TEST_F(LampCheckOfARun, AMeaninglessFileIsAWarningAndStandsOnThePage) {
+    const Outcome outcome = run("");
+    EXPECT_LE(outcome.exit_code, 1) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("warning: lamp file other-side.ies ("));
+    const json report = json::parse(content_of(folder_ / "out/report.json"));
+    const json& files = report.at("lamp_files");
+    ASSERT_EQ(files.size(), 1u) << "once, on both sides of both lamp sets, which are one: " << files.dump(2);
+    EXPECT_EQ(files[0]["used_as"], json::array({"other-side: left", "other-side: right"}));
+    EXPECT_EQ(files[0]["file"], "other-side.ies");
+    EXPECT_EQ(files[0]["function"], "low");
+    EXPECT_EQ(files[0]["findings"][0]["fault"], "rise");
+    EXPECT_THAT(content_of(folder_ / "out/report.html"), HasSubstr("Lamp files"));
+}
+
+TEST_F(LampCheckOfARun, StrictRefusesItBeforeTheFirstFrame) {
+    const Outcome outcome = run("--strict");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.output, HasSubstr("other-side.ies: --strict: its cut-off rises to the left"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
+TEST_F(LampCheckOfARun, AStudyDoesTheSame) {
+    const std::string file = folder_ / "two.yaml";
+    std::ofstream(file) << "fernlicht_study: 1\nlamps:\n  ours: {low: " << library_file("lamps/halogen-low.ies")
+                        << ", function: low}\n  theirs: {low: " << mirrored_ << "}\ndrives: [" << library_file("drives/straight.yaml")
+                        << "]\npictured_moments: 1\nresolution_px: [64, 48]\n";
+    const std::string study = "study " + file + " --frames 0:1 --quiet --no-accuracy --out " + (folder_ / "study");
+    EXPECT_THAT(printed(study + " --strict", 2), HasSubstr("other-side.ies: --strict"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "study"));
+    EXPECT_THAT(printed(study), HasSubstr("warning: lamp file other-side.ies (theirs: left; theirs: right), rise: "));
+    const json found = json::parse(content_of(folder_ / "study/study.json"));
+    ASSERT_EQ(found.at("lamp_files").size(), 2u);
+    EXPECT_EQ(found["lamp_files"][0]["function_stated"], true);
+    EXPECT_TRUE(found["lamp_files"][0]["findings"].empty());
+    EXPECT_THAT(content_of(folder_ / "study/report.html"), HasSubstr("Lamp files"));
+}
+
+} // namespace
+} // namespace fernlicht
