@@ -1,6 +1,5 @@
 #include "metrics/beam/intake.h"
 
-#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <fmt/format.h>
