@@ -210,6 +210,11 @@ std::optional<double> offset_across_m(const CrossSection& section, Across across
     return offset_m;
 }
 
+std::optional<Pose> place_on_road(const Route& route, Across across, double along_m) {
+    const std::optional<double> offset_m = offset_across_m(route.cross_section(along_m), across);
+    return offset_m ? std::optional(route.pose(along_m, *offset_m)) : std::nullopt;
+}
+
 std::string place_name(Across across) {
     return across == Across::own_centre        ? "centre of the own lane"
            : across == Across::oncoming_centre ? "centre of the nearest oncoming lane"

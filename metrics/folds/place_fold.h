@@ -65,6 +65,9 @@ class SensorFold {
 /// Offset from the own lane's centre, left positive. nullopt: there is no such lane here. Edges are those of all driving lanes.
 std::optional<double> offset_across_m(const CrossSection& section, Across across);
 
+/// There on the surface, 0 to the route's length along it; nullopt where the road has no such lane.
+std::optional<Pose> place_on_road(const Route& route, Across across, double along_m);
+
 /// "right edge of the lanes".
 std::string place_name(Across across);
 

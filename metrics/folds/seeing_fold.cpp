@@ -40,7 +40,7 @@ SeeingFold::SeeingFold(const Drive& drive, const Route& route) {
         if (asked.glare->mirrors)
             mirrors_.emplace(drive, route);
         if (!drive.traffic.empty())
-            traffic_.emplace(drive);
+            traffic_.emplace(drive, route);
     }
     if (asked.visibility)
         visibility_.emplace(drive, route);
@@ -53,9 +53,8 @@ SeeingFold::SeeingFold(const Drive& drive, const Route& route) {
 }
 
 void SeeingFold::add(const Moment& moment, const LampSet& lamp_set) {
-    each_asked([&](auto& fold) { fold.add(moment); }, sensors_, oncoming_, mirrors_, traffic_, visibility_, homogeneity_, places_);
-    if (control_)
-        control_->add(moment, lamp_set);
+    each_asked([&](auto& fold) { fold.add(moment); }, sensors_, traffic_, visibility_, homogeneity_, places_);
+    each_asked([&](auto& fold) { fold.add(moment, lamp_set); }, oncoming_, mirrors_, control_);
 }
 
 Readings SeeingFold::readings() const {

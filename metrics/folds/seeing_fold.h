@@ -15,7 +15,8 @@ class SeeingFold {
     /// Drive and route must outlive the fold. Throws InputError for places beyond the route's end.
     SeeingFold(const Drive& drive, const Route& route);
 
-    /// `lamp_set`: the one that the moment is of; only lamp control asks for it.
+    /// `lamp_set`: the one that the moment is of; lamp control asks for it, and what dazzled drivers are adapted to. The same in every
+    /// call.
     void add(const Moment& moment, const LampSet& lamp_set);
     /// Nothing where the drive asks for nothing. Names do not depend on what was added.
     Readings readings() const;

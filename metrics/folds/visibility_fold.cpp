@@ -47,12 +47,6 @@ VisibilityFold::VisibilityFold(const Drive& drive, const Route& route) : drive_(
         }
 }
 
-/// Where on the road's surface a target stands, facing the car; nullopt where the road has no such lane.
-std::optional<Pose> VisibilityFold::foot(Across across, double along_m) const {
-    const std::optional<double> offset_m = offset_across_m(route_.cross_section(along_m), across);
-    return offset_m ? std::optional(route_.pose(along_m, *offset_m)) : std::nullopt;
-}
-
 std::vector<VisibilityFold::Square> VisibilityFold::squares(const Moment& moment, const LaneAhead& lane, const Pose& foot,
                                                             const Stand& stand, const glm::dvec3& eye_m) const {
     const VisibilityParameters& asked = *drive_.seeing.visibility;
@@ -112,7 +106,7 @@ void VisibilityFold::add_stand(const Moment& lit, const LaneAhead& lane, const g
     std::vector<std::vector<LineSample>> lines(stand.sights.size());
     for (std::size_t k = 1; static_cast<double>(k) * asked.step_m <= room_m; ++k) {
         const double ahead_m = static_cast<double>(k) * asked.step_m;
-        const std::optional<Pose> place = foot(stand.across, bumper_m + ahead_m);
+        const std::optional<Pose> place = place_on_road(route_, stand.across, bumper_m + ahead_m);
         const std::vector<Square> seen = place ? squares(lit, lane, *place, stand, eye_m) : std::vector<Square>{};
         for (std::size_t i = 0; i < lines.size(); ++i)
             lines[i].push_back({ahead_m, place ? level(seen, *stand.sights[i].target).number() : std::nullopt});
@@ -134,7 +128,7 @@ void VisibilityFold::add_stand(const Moment& lit, const LaneAhead& lane, const g
     for (std::size_t d = 0; d < asked.distances_m.size(); ++d) {
         const double along_m = bumper_m + asked.distances_m[d];
         const bool ends = along_m > route_.length_m();
-        const std::optional<Pose> place = ends ? std::nullopt : foot(stand.across, along_m);
+        const std::optional<Pose> place = ends ? std::nullopt : place_on_road(route_, stand.across, along_m);
         const std::vector<Square> seen = place ? squares(lit, lane, *place, stand, eye_m) : std::vector<Square>{};
         for (Sight& sight : stand.sights) {
             const Value now =

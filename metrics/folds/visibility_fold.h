@@ -55,7 +55,6 @@ class VisibilityFold {
         std::string missing;
     };
 
-    std::optional<Pose> foot(Across across, double along_m) const;
     std::vector<Square> squares(const Moment& moment, const LaneAhead& lane, const Pose& foot, const Stand& stand,
                                 const glm::dvec3& eye_m) const;
     Value level(const std::vector<Square>& squares, const VisibilityTarget& target) const;

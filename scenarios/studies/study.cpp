@@ -118,6 +118,7 @@ Drive cell_drive(const Study& study, const StudyCell& cell) {
             *change.pitch_rad += pitch;
     if (study.conditions.mirror[cell.mirror])
         mirror_traffic(drive, lamp.mirrors);
+    read_adaptation_lamp(drive);
     drive.capture.all = false;
     drive.capture.per_second = study.pictured_moments / drive.duration_s;
     // Of what the reader decided, that only one lamp set is left is the study's own doing.

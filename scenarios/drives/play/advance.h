@@ -44,6 +44,9 @@ void fit_to_route(Drive& drive, const Route& route);
 /// `offset_left_m`: the rear axle's from the lane's centre.
 Pose ego_pose(const Route& route, double distance_m, double wheelbase_m, double offset_left_m = 0.0);
 
+/// A mounted lamp as a car in `car`'s pose has it.
+LitLamp lit_lamp(const MountedLamp& lamp, const Pose& car);
+
 /// Everything that the renderer and the metrics need at one state, with the lamp set's changes up to then applied. With a vehicle, place
 /// and speed are those of the lamp set's motion: simulate() comes first, else std::logic_error.
 Moment moment_at(const State& state, const Drive& drive, const Route& route, const LampSet& lamp_set);

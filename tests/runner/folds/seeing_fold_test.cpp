@@ -50,6 +50,7 @@ TEST(Seeing, AnOncomingEyeIsDazzledAsTheRulerSays) {
     GlareParameters& glare = straight.drive.seeing.glare.emplace();
     glare.oncoming = {{"eye", 100.0, 1.1}};
     glare.thresholds_lx = {1.0};
+    glare.adaptation_cdm2 = 1.0;
     const SeeingFold fold = straight.played();
     const Readings readings = fold.readings();
     const auto series = fold.series();

@@ -1,6 +1,7 @@
 // measure's sensors and glare: read, refused, written back.
 #include "tests/scenarios/drives/drive_fixture.h"
 
+#include <algorithm>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -28,6 +29,7 @@ TEST_F(SeeingKeys, AreReadAndHaveDefaults) {
     EXPECT_EQ(short_form.glare->oncoming, (std::vector<GlareObserver>{{"a", 80.0, 1.1, 0.0}}));
     EXPECT_EQ(short_form.glare->mirrors, MirrorParameters{});
     EXPECT_EQ(short_form.glare->equation, VeilingEquation::cie_general);
+    EXPECT_EQ(short_form.glare->adaptation_cdm2, std::nullopt);
     const SeeingParameters long_form = seeing(
         "sensors: {thresholds_lx: [5], distances_m: [], points: {e: {at_m: 1, across: left-edge, above_m: 1.5}}}, glare: {oncoming: {a: "
         "{at_m: 80, eye_height_m: 2, look_ahead_m: 30}}, mirrors: {gaps_m: [10], eye_m: [1, 0, 1.5], reflectance: 0.4, places: {m: [2, 1, "
@@ -89,6 +91,26 @@ TEST_F(SeeingKeys, AreWrittenAsTheyWereRead) {
         const Drive drive = read(minimal + "measure: {" + measure + "}\n");
         EXPECT_EQ(read(write_drive(drive)).seeing, drive.seeing) << measure;
     }
+}
+
+TEST_F(SeeingKeys, TheDazzledDriverMayHaveALampOfHisOwn) {
+    const std::string lamp = FERNLICHT_SOURCE_DIR "/scenarios/library/lamps/xenon-low.ies", glare = "measure: {glare: {mirrors: true, ";
+    const Drive drive = read(minimal + glare + "adaptation_lamp: " + lamp + "}}\n");
+    ASSERT_TRUE(drive.adaptation_lamp);
+    EXPECT_EQ(drive.adaptation_lamp->table.cd, read_lamp(lamp, {}).table.cd);
+    EXPECT_EQ(std::ranges::count(drive.opened, std::filesystem::path(lamp), &FileRead::path), 1) << "among what decides the results";
+    EXPECT_EQ(read(minimal).adaptation_lamp, nullptr);
+    const Drive mirrored = read(minimal + glare + "adaptation_lamp: {file: " + lamp + ", mirrored: true}}}\n");
+    EXPECT_NE(mirrored.adaptation_lamp->table.cd, drive.adaptation_lamp->table.cd);
+    for (const Drive* each : {&drive, &mirrored}) {
+        const Drive again = read(write_drive(*each));
+        EXPECT_EQ(again.seeing, each->seeing);
+        EXPECT_EQ(again.adaptation_lamp->table.cd, each->adaptation_lamp->table.cd);
+    }
+    EXPECT_THAT(refused("glare: {mirrors: true, adaptation_cdm2: 1, adaptation_lamp: " + lamp + "}"),
+                HasSubstr("measure.glare.adaptation_lamp: adaptation_lamp beside adaptation_cdm2, expected one of them"));
+    EXPECT_THAT(refused("glare: {mirrors: true, adaptation_lamp: none.ies}"),
+                HasSubstr("measure.glare.adaptation_lamp.file: there is no file"));
 }
 
 TEST_F(SeeingKeys, RefuseWhatTheyCannotUse) {

@@ -1,0 +1,53 @@
+// What a set of lamps does to one eye, and that followed over the moments of a drive.
+#pragma once
+
+#include "metrics/folds/seeing_series.h"
+#include "metrics/glare/glare.h"
+#include "metrics/readings/readings.h"
+#include "metrics/road/lit_line.h"
+
+namespace fernlicht {
+
+/// What a set of sources does to one eye.
+struct GlareFigures {
+    double facing_lx = 0.0; ///< sum of I / d^2
+    double eye_lx = 0.0;    ///< across the line of sight
+    Value veiling_cdm2, increment_percent, de_boer;
+    Value adaptation_cdm2; ///< not measured: neither are the two that need it
+};
+GlareFigures glare_figures(const std::vector<GlareSource>& sources, double facing_lx, const Value& adaptation_cdm2,
+                           const GlareParameters& parameters);
+
+/// One figure of an eye over the moments.
+struct FollowedFigure {
+    Approach approach;
+    std::vector<std::string> why_not; ///< by moment: why it was not measured; "" where it was, and where the moment does not count
+
+    void add(const Moment& moment, double to_go_m, const Value& value, bool counts = true);
+    /// Why some moment that counts lacks it; "" where none does.
+    std::string missing() const;
+};
+
+/// Figures of one eye over the moments.
+struct GlareFollowed {
+    std::vector<int> ticks;
+    FollowedFigure facing, eye_lx, veiling, increment, de_boer;
+    std::vector<Value> adaptation;
+    std::vector<std::vector<double>> theta_deg; ///< by lamp
+
+    /// `theta_deg` of the first `lamps` sources are followed.
+    void add(const Moment& moment, double to_go_m, const std::vector<GlareSource>& sources, std::size_t lamps, const GlareFigures& figures);
+    /// Figures over the drive, under the eye's key: largest illuminances, veiling luminance and threshold increment, smallest rating; times
+    /// and metres beyond the limits; what the eye is adapted to, median. Moments whose adaptation is not measured do not count for the
+    /// threshold increment and the rating.
+    void say(Readings& readings, const ReadingKey& eye, const std::string& where, const std::string& why_none,
+             const GlareParameters& parameters) const;
+    SeeingSeries series(const ReadingKey& eye, const std::string& title, const std::string& over,
+                        const std::vector<std::string>& lamps) const;
+
+  private:
+    std::string adapted() const;
+    std::string no_adaptation() const; ///< why it lacks in all moments; "" where some moment has it, or there is none
+};
+
+} // namespace fernlicht
