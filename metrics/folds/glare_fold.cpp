@@ -79,7 +79,7 @@ Readings OncomingFold::readings() const {
         const std::string where = fmt::format("oncoming driver {} m along the route, eyes {} m above the road{}", observer.at_m,
                                               observer.eye_height_m, cut.empty() ? "" : " (" + cut + ")");
         const std::string none = eyes_[i].place_m ? "" : fmt::format("there is no oncoming lane at {} m", observer.at_m);
-        eyes_[i].followed.say(readings, eye, where, none, parameters);
+        eyes_[i].followed.say(readings, eye, where, none, parameters, parameters.ranges_m);
         for (const double distance_m : parameters.distances_m) {
             const Value lx = none.empty() ? value_at(eyes_[i].followed.facing.approach, distance_m) : Value::not_measured(none);
             readings.push_back({eye, lx, fmt::format("{}, the bumper {} m before it, facing the lamps", where, distance_m)});

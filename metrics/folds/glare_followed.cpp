@@ -54,6 +54,31 @@ std::string FollowedFigure::missing() const {
     return first == why_not.end() ? "" : *first;
 }
 
+Value FollowedFigure::extreme_between(double near_m, double far_m, bool of_largest, const std::string& why_none) const {
+    if (approach.empty())
+        return Value::not_measured(why_none);
+    const double from_m = std::min(approach.front().distance_m, far_m), to_m = std::max(approach.back().distance_m, near_m);
+    if (from_m < to_m)
+        return Value::not_measured(
+            fmt::format("the drive comes from {:.1f} m away to {:.1f} m", approach.front().distance_m, approach.back().distance_m));
+    if (from_m < far_m || to_m > near_m)
+        return Value::not_measured(fmt::format("the drive passes {:.1f} to {:.1f} m alone", to_m, from_m));
+    Approach within;
+    for (const double end_m : {far_m, near_m})
+        within.push_back({0.0, end_m, value_at(approach, end_m).number()});
+    for (std::size_t i = 0; i < approach.size(); ++i) {
+        const double here_m = approach[i].distance_m;
+        const bool touches = here_m > far_m    ? i + 1 < approach.size() && approach[i + 1].distance_m < far_m
+                             : here_m < near_m ? i > 0 && approach[i - 1].distance_m > near_m
+                                               : true;
+        if (touches && !why_not[i].empty())
+            return Value::not_measured("in some moment: " + why_not[i]);
+        if (here_m >= near_m && here_m <= far_m)
+            within.push_back(approach[i]);
+    }
+    return Value::of(of_largest ? largest(within) : smallest(within), why_none);
+}
+
 void GlareFollowed::add(const Moment& moment, double to_go_m, const std::vector<GlareSource>& sources, std::size_t lamps,
                         const GlareFigures& figures) {
     ticks.push_back(moment.tick);
@@ -87,7 +112,7 @@ std::string GlareFollowed::adapted() const {
 }
 
 void GlareFollowed::say(Readings& readings, const ReadingKey& eye, const std::string& where, const std::string& why_none,
-                        const GlareParameters& parameters) const {
+                        const GlareParameters& parameters, std::span<const double> ranges_m) const {
     const auto add = [&](Quantity quantity, Statistic statistic, const Threshold& threshold, const std::string& what, const Value& found) {
         ReadingKey key = eye;
         key.quantity = quantity;
@@ -97,17 +122,37 @@ void GlareFollowed::say(Readings& readings, const ReadingKey& eye, const std::st
     };
     const std::string none = why_none.empty() ? no_moment : why_none, unadapted = no_adaptation(), adapted_to = adapted();
     const std::string& no_increment = unadapted.empty() ? none : unadapted;
-    const auto most = [&](Quantity quantity, const std::string& what, const FollowedFigure& figure, const std::string& why) {
-        add(quantity, Statistic::maximum, {}, what, over_drive(largest(figure.approach), figure.missing(), why));
+    const bool dark = !facing.approach.empty() && largest(eye_lx.approach).value_or(0.0) == 0.0;
+    struct Extreme {
+        Quantity quantity;
+        const FollowedFigure& figure;
+        std::string what, why_none;
     };
-    most(Quantity::glare_facing, "facing the lamps, largest", facing, none);
-    most(Quantity::glare_eye, "across the line of sight, largest", eye_lx, none);
-    most(Quantity::glare_veiling, fmt::format("veiling luminance, {}, largest", name(parameters.equation)), veiling, none);
-    most(Quantity::glare_increment, "largest" + adapted_to, increment, no_increment);
-    const bool dark = !facing.approach.empty() && !largest(eye_lx.approach).value_or(0.0);
-    add(Quantity::glare_de_boer, Statistic::minimum, {},
-        fmt::format("smallest{}; 9 unnoticeable, 5 just acceptable, 1 unbearable", adapted_to),
-        over_drive(smallest(de_boer.approach), de_boer.missing(), dark ? "no light reaches the eye" : no_increment));
+    const Extreme extremes[] = {
+        {Quantity::glare_facing, facing, "facing the lamps, largest", none},
+        {Quantity::glare_eye, eye_lx, "across the line of sight, largest", none},
+        {Quantity::glare_veiling, veiling, fmt::format("veiling luminance, {}, largest", name(parameters.equation)), none},
+        {Quantity::glare_increment, increment, "largest" + adapted_to, no_increment},
+        {Quantity::glare_de_boer, de_boer, fmt::format("smallest{}; 9 unnoticeable, 5 just acceptable, 1 unbearable", adapted_to),
+         dark ? "no light reaches the eye" : no_increment}};
+    const auto statistic_of = [](Quantity quantity) {
+        return quantity == Quantity::glare_de_boer ? Statistic::minimum : Statistic::maximum;
+    };
+    for (std::size_t i = 1; i < ranges_m.size(); ++i)
+        for (const Extreme& extreme : extremes) {
+            const bool of_largest = statistic_of(extreme.quantity) == Statistic::maximum;
+            const std::string lightless =
+                of_largest || !unadapted.empty() || facing.approach.empty() ? extreme.why_none : "no light reaches the eye";
+            add(extreme.quantity, statistic_of(extreme.quantity), {},
+                fmt::format("the bumper {} to {} m before it, {}", ranges_m[i - 1], ranges_m[i], extreme.what),
+                extreme.figure.extreme_between(ranges_m[i - 1], ranges_m[i], of_largest, why_none.empty() ? lightless : why_none));
+            readings.back().key.distance_m = ranges_m[i - 1];
+            readings.back().key.to_m = ranges_m[i];
+        }
+    for (const Extreme& extreme : extremes)
+        add(extreme.quantity, statistic_of(extreme.quantity), {}, extreme.what,
+            over_drive(extreme.quantity == Quantity::glare_de_boer ? smallest(extreme.figure.approach) : largest(extreme.figure.approach),
+                       extreme.figure.missing(), extreme.why_none));
     add(Quantity::glare_adaptation, Statistic::median, {},
         parameters.adaptation_cdm2
             ? "what the eye is adapted to, as the drive says"

@@ -6,6 +6,8 @@
 #include "metrics/readings/readings.h"
 #include "metrics/road/lit_line.h"
 
+#include <span>
+
 namespace fernlicht {
 
 /// What a set of sources does to one eye.
@@ -26,6 +28,9 @@ struct FollowedFigure {
     void add(const Moment& moment, double to_go_m, const Value& value, bool counts = true);
     /// Why some moment that counts lacks it; "" where none does.
     std::string missing() const;
+    /// With distances to go: largest, or smallest, from `near_m` to `far_m`, both ends among them. Not measured where the drive does not
+    /// pass all of that, or a moment of it that counts lacks it; of none that counts, for the reason `why_none`.
+    Value extreme_between(double near_m, double far_m, bool of_largest, const std::string& why_none) const;
 };
 
 /// Figures of one eye over the moments.
@@ -37,11 +42,12 @@ struct GlareFollowed {
 
     /// `theta_deg` of the first `lamps` sources are followed.
     void add(const Moment& moment, double to_go_m, const std::vector<GlareSource>& sources, std::size_t lamps, const GlareFigures& figures);
-    /// Figures over the drive, under the eye's key: largest illuminances, veiling luminance and threshold increment, smallest rating; times
+    /// Figures under the eye's key, first over each range of distances to go between one edge of `ranges_m` and the next, then over the
+    /// drive: largest illuminances, veiling luminance and threshold increment, smallest rating; times
     /// and metres beyond the limits; what the eye is adapted to, median. Moments whose adaptation is not measured do not count for the
     /// threshold increment and the rating.
     void say(Readings& readings, const ReadingKey& eye, const std::string& where, const std::string& why_none,
-             const GlareParameters& parameters) const;
+             const GlareParameters& parameters, std::span<const double> ranges_m = {}) const;
     SeeingSeries series(const ReadingKey& eye, const std::string& title, const std::string& over,
                         const std::vector<std::string>& lamps) const;
 

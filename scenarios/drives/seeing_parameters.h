@@ -79,7 +79,9 @@ struct GlareParameters {
     std::vector<double> thresholds_lx{0.5, 1.0, 3.0};                ///< of illuminance facing the lamps, for times above them
     std::vector<double> thresholds_percent{10.0};                    ///< of the threshold increment
     std::vector<double> thresholds_de_boer{5.0, 3.0};                ///< for times below them
-    std::optional<AdaptationLamp> adaptation_lamp;                   ///< in place of each low beam of the drive; nullopt: these
+    /// Edges of ranges before an oncoming driver, from the front bumper: each from one to the next.
+    std::vector<double> ranges_m{15.0, 30.0, 60.0, 120.0, 220.0};
+    std::optional<AdaptationLamp> adaptation_lamp; ///< in place of each low beam of the drive; nullopt: these
 
     bool operator==(const GlareParameters&) const = default;
 };

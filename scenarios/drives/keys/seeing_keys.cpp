@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <functional>
 
 namespace fernlicht {
 namespace {
@@ -76,6 +77,9 @@ const Fields<AdaptationLamp>& adaptation_lamp_fields() {
 }
 
 void check_glare(const YamlMap& keys, const GlareParameters& glare) {
+    if (const auto ranges = keys.find("ranges_m");
+        ranges && (glare.ranges_m.size() == 1 || std::ranges::adjacent_find(glare.ranges_m, std::greater_equal()) != glare.ranges_m.end()))
+        ranges->refuse("edges that make no ranges", "distances that ascend, two or more; none for no range");
     if (const auto lamp = keys.find("adaptation_lamp"); lamp && glare.adaptation_cdm2)
         lamp->refuse("adaptation_lamp beside adaptation_cdm2", "one of them");
     if (glare.oncoming.empty() && !glare.mirrors)
@@ -108,6 +112,8 @@ const Fields<GlareParameters>& glare_fields() {
             field("thresholds_percent", 9, &GlareParameters::thresholds_percent, numbers(0, 16, 1.0e-6, 1.0e6),
                   "above these threshold increments"),
             field("thresholds_de_boer", 10, &GlareParameters::thresholds_de_boer, numbers(0, 16, 1.0, 9.0), "below these ratings"),
+            field("ranges_m", 12, &GlareParameters::ranges_m, distances(),
+                  "edges of ranges before an oncoming driver, from the front bumper, each with its own maxima"),
             field("adaptation_lamp", 11, &GlareParameters::adaptation_lamp, adaptation_lamp_fields(),
                   "in place of each low beam of the dazzled driver's car; the drive's own by default")
                 .short_for("file"),

@@ -2,6 +2,7 @@
 #include "tests/scenarios/drives/drive_fixture.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -123,6 +124,9 @@ TEST_F(SeeingKeys, RefuseWhatTheyCannotUse) {
     EXPECT_THAT(refused("glare: {mirrors: {eye_m: [1, 1, 1], places: {m: [1, 1, 1]}}}"), HasSubstr("a mirror in the driver's eye"));
     EXPECT_THAT(refused("glare: {mirrors: {places: {}}}"), HasSubstr("measure.glare.mirrors.places"));
     EXPECT_THAT(refused("glare: {mirrors: true, thresholds_de_boer: [0.5]}"), HasSubstr("thresholds_de_boer"));
+    for (const char* edges : {"[15]", "[15, 15]", "[60, 30]"})
+        EXPECT_THAT(refused(fmt::format("glare: {{mirrors: true, ranges_m: {}}}", edges)), HasSubstr("edges that make no ranges")) << edges;
+    EXPECT_EQ(seeing("glare: {mirrors: true, ranges_m: []}").glare->ranges_m.size(), 0U);
     EXPECT_THAT(refused("sensors: {}"), HasSubstr("measure.sensors.points: missing"));
     EXPECT_THAT(refused("sensors: {points: {a: {at_m: 3, across: kerb}}}"), HasSubstr("found 'kerb'"));
     EXPECT_THAT(refused("sensors: {points: {a: {at_m: -3}}}"), HasSubstr("measure.sensors.points.a.at_m: found '-3'"));
