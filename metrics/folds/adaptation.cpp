@@ -84,7 +84,7 @@ Value lane_luminance_cdm2(const Driver& driver, std::vector<LitLamp> lamps, cons
                          [](const LitLamp& lamp) { return lamp.body == fixed_in_world; });
     double sum = 0.0;
     for (const Pose& place : driver.lane)
-        sum += surface_luminance(lit, place.position_m, place.up(), asphalt, driver.eye_m).photopic_cdm2;
+        sum += seen_luminance(lit, place.position_m, place.up(), asphalt, driver.eye_m).photopic_cdm2;
     return sum / static_cast<double>(driver.lane.size());
 }
 

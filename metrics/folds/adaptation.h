@@ -37,7 +37,8 @@ Driver driver_ahead(const Drive& drive, const Route& route, double along_m, cons
 std::vector<LitLamp> low_beams(const Drive& drive, const LampSet& lamp_set, const Pose& car);
 
 /// The mean luminance, cd/m2, of asphalt as pictures have it (metrics/seeing/visibility.h), in the moment's lamps, sky and weather; of the
-/// other lamps those that are fixed in the world count, too. Nothing stands in the light's way. Not measured without a lane.
+/// other lamps those that are fixed in the world count, too. The air takes and adds its part. Nothing stands in the light's way. Not
+/// measured without a lane.
 Value lane_luminance_cdm2(const Driver& driver, std::vector<LitLamp> lamps, const Moment& moment);
 
 } // namespace fernlicht

@@ -1,6 +1,7 @@
 #include "metrics/folds/glare_fold.h"
 
 #include "metrics/folds/place_fold.h"
+#include "metrics/glare/wet_road.h"
 #include "metrics/statistics/statistics.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/place_street_lamps.h"
@@ -64,8 +65,15 @@ void OncomingFold::add(const Moment& moment, const LampSet& lamp_set) {
             facing += lamp.facing_lx;
             sources.push_back(glare_source(lamp, *eye.place_m, eye.gaze));
         }
+        const RoadLight by_film = light_over_road(moment, route_, observer.at_m, *eye.place_m);
+        for (const SeenLamp& patch : by_film.patches) {
+            facing += patch.facing_lx;
+            sources.push_back(glare_source(patch, *eye.place_m, eye.gaze));
+        }
         const Value adapted = adaptation_cdm2(moment, lamp_set, observer.at_m, eye);
-        eye.followed.add(moment, to_go_m, sources, lamps_.size(), glare_figures(sources, facing, adapted, parameters));
+        eye.followed.add(moment, to_go_m, sources, lamps_.size(),
+                         by_film.unknown.empty() ? glare_figures(sources, facing, adapted, parameters)
+                                                 : no_figures(by_film.unknown, adapted));
     }
 }
 
@@ -126,8 +134,9 @@ void MirrorFold::add(const Moment& moment, const LampSet& lamp_set) {
             continue; // the car ahead has left the route
         const Pose car = ego_pose(route_, ahead_m, drive_.wheelbase_m);
         const glm::dvec3 eye_m = to_parent(car, mirrors.eye_m);
-        std::vector<GlareSource> sources;
+        std::vector<GlareSource> sources, by_road;
         double facing = 0.0;
+        std::string unknown;
         for (std::size_t k = 0; k < mirrors.mirrors.size(); ++k) {
             const glm::dvec3 mirror_m = to_parent(car, mirrors.mirrors[k].position_m);
             double on_mirror = 0.0;
@@ -135,13 +144,24 @@ void MirrorFold::add(const Moment& moment, const LampSet& lamp_set) {
                 on_mirror += lamp.facing_lx;
                 sources.push_back(mirrored_source(lamp, mirror_m, mirrors.reflectance, eye_m, car.forward()));
             }
+            const RoadLight by_film = light_over_road(moment, route_, ahead_m, mirror_m);
+            for (const SeenLamp& patch : by_film.patches) {
+                on_mirror += patch.facing_lx;
+                by_road.push_back(mirrored_source(patch, mirror_m, mirrors.reflectance, eye_m, car.forward()));
+            }
+            unknown = by_film.unknown;
             gaps_[i].mirror_lx[k].push_back(on_mirror);
             facing = std::max(facing, on_mirror);
         }
         const Value adapted = parameters.adaptation_cdm2 ? Value(*parameters.adaptation_cdm2)
                                                          : lane_luminance_cdm2(driver_ahead(drive_, route_, ahead_m, car, eye_m),
                                                                                low_beams(drive_, lamp_set, car), moment);
-        gaps_[i].eye.add(moment, moment.distance_m, sources, sources.size(), glare_figures(sources, facing, adapted, parameters));
+        const std::size_t followed = sources.size();
+        sources.insert(sources.end(), by_road.begin(), by_road.end());
+        if (gaps_[i].unknown.empty())
+            gaps_[i].unknown = unknown;
+        gaps_[i].eye.add(moment, moment.distance_m, sources, followed,
+                         unknown.empty() ? glare_figures(sources, facing, adapted, parameters) : no_figures(unknown, adapted));
     }
 }
 
@@ -158,7 +178,9 @@ Readings MirrorFold::readings() const {
                                      .subject = mirrors.mirrors[k].name,
                                      .distance_m = mirrors.gaps_m[i],
                                      .statistic = statistic},
-                                    spread ? Value(*spread.*figure) : Value::not_measured(none),
+                                    !gaps_[i].unknown.empty() ? Value::not_measured("in some moment: " + gaps_[i].unknown)
+                                    : spread                  ? Value(*spread.*figure)
+                                                              : Value::not_measured(none),
                                     fmt::format("{}, {} mirror, facing the lamps, {}", where, mirrors.mirrors[k].name, what)});
             };
             say(Statistic::median, "median", &Spread::median);
@@ -188,7 +210,9 @@ TrafficFold::TrafficFold(const Drive& drive, const Route& route) : drive_(drive)
 void TrafficFold::add(const Moment& moment) {
     const GlareParameters& parameters = *drive_.seeing.glare;
     const glm::dvec3 eye_m = to_parent(moment.ego, driver_eye_m(drive_));
-    const std::vector<GlareSource> sources = traffic_glare(moment, eye_m, moment.ego.forward(), boxes_);
+    std::vector<GlareSource> sources = traffic_glare(moment, eye_m, moment.ego.forward(), boxes_);
+    const TrafficByRoad by_film = traffic_by_road(moment, eye_m, moment.ego.forward(), boxes_);
+    sources.insert(sources.end(), by_film.sources.begin(), by_film.sources.end());
     double facing = 0.0;
     for (const GlareSource& source : sources)
         facing += source.eye_lx / std::cos(radians(source.theta_deg));
@@ -197,7 +221,8 @@ void TrafficFold::add(const Moment& moment) {
         parameters.adaptation_cdm2
             ? Value(*parameters.adaptation_cdm2)
             : lane_luminance_cdm2(driver_ahead(drive_, route_, moment.distance_m, moment.ego, eye_m), moment.lamps, moment);
-    eye_.add(moment, moment.distance_m, sources, 0, glare_figures(sources, facing, adapted, parameters));
+    eye_.add(moment, moment.distance_m, sources, 0,
+             by_film.unknown.empty() ? glare_figures(sources, facing, adapted, parameters) : no_figures(by_film.unknown, adapted));
 }
 
 Readings TrafficFold::readings() const {

@@ -56,6 +56,7 @@ class MirrorFold {
     struct Gap {
         std::vector<std::vector<double>> mirror_lx; ///< by mirror
         GlareFollowed eye;
+        std::string unknown; ///< why the light on the mirrors is not known in some moment
     };
     const Drive& drive_;
     const Route& route_;

@@ -30,10 +30,12 @@ std::vector<double> numbers_in(const std::vector<Value>& values) {
 
 GlareFigures glare_figures(const std::vector<GlareSource>& sources, double facing, const Value& adaptation_cdm2,
                            const GlareParameters& parameters) {
+    double eye_lx = 0.0;
+    for (const GlareSource& source : sources)
+        eye_lx += source.eye_lx;
     GlareFigures figures;
     figures.facing_lx = facing;
-    for (const GlareSource& source : sources)
-        figures.eye_lx += source.eye_lx;
+    figures.eye_lx = eye_lx;
     figures.veiling_cdm2 = veiling_luminance_cdm2(parameters.equation, sources, {parameters.age_years, parameters.pigmentation});
     figures.adaptation_cdm2 = adaptation_cdm2;
     const std::optional<double> adapted = adaptation_cdm2.number();
@@ -42,6 +44,11 @@ GlareFigures glare_figures(const std::vector<GlareSource>& sources, double facin
                                                                  : threshold_increment_percent(*figures.veiling_cdm2.number(), *adapted);
     figures.de_boer = adapted ? de_boer_rating(sources, *adapted) : adaptation_cdm2;
     return figures;
+}
+
+GlareFigures no_figures(const std::string& why, const Value& adaptation_cdm2) {
+    const Value none = Value::not_measured(why);
+    return {none, none, none, none, none, adaptation_cdm2};
 }
 
 void FollowedFigure::add(const Moment& moment, double to_go_m, const Value& value, bool counts) {
@@ -88,7 +95,8 @@ void GlareFollowed::add(const Moment& moment, double to_go_m, const std::vector<
     eye_lx.add(moment, to_go_m, figures.eye_lx);
     veiling.add(moment, to_go_m, figures.veiling_cdm2);
     increment.add(moment, to_go_m, figures.increment_percent, adapted || !figures.veiling_cdm2.measured());
-    de_boer.add(moment, to_go_m, figures.de_boer, adapted && figures.eye_lx > 0.0); // in the dark nothing is rated, and nothing glares
+    de_boer.add(moment, to_go_m, figures.de_boer,
+                adapted && figures.eye_lx.number() != 0.0); // in the dark nothing is rated, and nothing glares
     theta_deg.resize(lamps);
     for (std::size_t i = 0; i < lamps; ++i)
         theta_deg[i].push_back(sources[i].theta_deg);

@@ -12,13 +12,15 @@ namespace fernlicht {
 
 /// What a set of sources does to one eye.
 struct GlareFigures {
-    double facing_lx = 0.0; ///< sum of I / d^2
-    double eye_lx = 0.0;    ///< across the line of sight
+    Value facing_lx = 0.0; ///< sum of I / d^2
+    Value eye_lx = 0.0;    ///< across the line of sight
     Value veiling_cdm2, increment_percent, de_boer;
     Value adaptation_cdm2; ///< not measured: neither are the two that need it
 };
 GlareFigures glare_figures(const std::vector<GlareSource>& sources, double facing_lx, const Value& adaptation_cdm2,
                            const GlareParameters& parameters);
+/// All of them not measured for this reason, but what the eye is adapted to.
+GlareFigures no_figures(const std::string& why, const Value& adaptation_cdm2);
 
 /// One figure of an eye over the moments.
 struct FollowedFigure {

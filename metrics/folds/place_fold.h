@@ -54,6 +54,7 @@ class SensorFold {
         std::optional<glm::dvec3> point_m; ///< nullopt: there is no such lane at this place
         Approach approach;
         std::vector<int> ticks;
+        std::string unknown; ///< why some moment has no light by way of the road
         bool near_field = false;
         bool passed = false; ///< some moment is beyond it
     };

@@ -106,7 +106,7 @@ constexpr QuantityRow rows[] = {
      .unit = "cd/m2", .exactness = Exactness::double_precision, .with_light = WithLight::proportional,
      .words = "luminance of the road behind a place {distance} ahead{lane}",
      .meaning = "of the road that the driver sees behind a place 0.1 m above the own lane, photopic",
-     .equation = "L = Σ q E", .source = "dry asphalt as in pictures"},
+     .equation = "L = Σ q E", .source = "asphalt as in pictures"},
     {.quantity = Quantity::mesopic_luminance, .id = "mesopic_luminance", .forms = "mesopic_luminance_(own)_at_<m>m(median)_cdm2",
      .unit = "cd/m2", .exactness = Exactness::double_precision, .with_light = WithLight::proportional,
      .words = "mesopic luminance of the road behind a place {distance} ahead{lane}", .meaning = "of the same, mesopic",

@@ -284,7 +284,7 @@ TEST(Quantities, NamesEndInTheirUnitAndHoldTheirSubject) {
             std::find_if(std::begin(ends), std::end(ends), [&](const auto& known) { return std::string(known.first) == row.unit; });
         ASSERT_NE(end, std::end(ends)) << row.unit;
         for (const ReadingKey& key :
-             shapes_of({.quantity = row.quantity, .subject = "a", .lane = "own", .threshold = {1.0}, .distance_m = 5.0}))
+             shapes_of({.quantity = row.quantity, .subject = "a", .lane = "own", .threshold = {1.0}, .distance_m = 5.0, .to_m = 9.0}))
             EXPECT_TRUE(name_of(key).ends_with(end->second)) << name_of(key);
     }
     for (const QuantityRow& row : quantities())

@@ -111,7 +111,7 @@ TEST_F(SeeingKeys, TheDazzledDriverMayHaveALampOfHisOwn) {
     EXPECT_THAT(refused("glare: {mirrors: true, adaptation_cdm2: 1, adaptation_lamp: " + lamp + "}"),
                 HasSubstr("measure.glare.adaptation_lamp: adaptation_lamp beside adaptation_cdm2, expected one of them"));
     EXPECT_THAT(refused("glare: {mirrors: true, adaptation_lamp: none.ies}"),
-                HasSubstr("measure.glare.adaptation_lamp.file: there is no file"));
+                HasSubstr("measure.glare.adaptation_lamp: there is no file none.ies"));
 }
 
 TEST_F(SeeingKeys, RefuseWhatTheyCannotUse) {
