@@ -3,7 +3,7 @@
 // facets of GGX, alpha 0.15 (scene.h), Smith's shadowing), integrated over the road between lamp and point, times the wetness.
 //
 // Validity: roads that are level between both; the film of pictures is ours, not measured, and all depends on it. A smooth one, standing
-// water, mirrors a low beam's foreground into an oncoming eye as the bare mirror image does, 50 m away some 20 times as much as this film:
+// water, mirrors a low beam's foreground into an oncoming eye as the bare mirror image does, 50 m away some 17 times as much as this film:
 // tests/metrics/glare/weather_glare_test.cpp holds the limit. Spray and the water on the windscreen are left out.
 #pragma once
 
