@@ -1,7 +1,7 @@
 #include "metrics/folds/control_fold.h"
 
 #include "metrics/folds/place_fold.h"
-#include "metrics/glare/glare.h"
+#include "metrics/glare/wet_road.h"
 #include "metrics/road/lit_line.h"
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/play/advance.h"
@@ -31,20 +31,28 @@ double curvature_per_m(const Route& route, double at_m) {
 }
 
 /// The most that any driver who comes towards the car gets, 1.1 m above the rear axle of the other car and 1.5 m before it. nullopt: nobody
-/// comes.
+/// comes, or light by way of a wet road is not known.
 std::optional<double> others_lx(const Moment& moment) {
     std::optional<double> most;
     for (const Body& body : moment.bodies) {
         const glm::dvec3 eye = to_parent(body.pose, {1.5, 0.0, eye_height_m}), in_car = to_local(moment.ego, eye);
         if (!body.visible || body.own || in_car.x < 5.0 || glm::dot(body.pose.forward(), moment.ego.forward()) > 0.0)
             continue;
-        most = std::max(most.value_or(0.0), facing_lx(seen_lamps(moment, eye)));
+        const RoadPlane plane = road_plane(moment.ego, body.pose);
+        if (!why_no_mirror(moment.weather, plane).empty())
+            return std::nullopt;
+        const double by_road = facing_lx(lamps_in_road(moment.lamps, moment.weather, plane, eye));
+        most = std::max(most.value_or(0.0), facing_lx(seen_lamps(moment, eye)) + by_road);
     }
     return most;
 }
 
-double lit_lx(const Moment& moment, const Pose& surface, double above_m) {
-    return facing_lx(seen_lamps(moment, surface.position_m + above_m * surface.up()));
+/// By way of a wet road, too; nullopt where that is not known.
+std::optional<double> lit_lx(const Moment& moment, const Route& route, double along_m, double left_m, double above_m) {
+    const Pose surface = route.pose(along_m, left_m);
+    const glm::dvec3 point = surface.position_m + above_m * surface.up();
+    const RoadLight by_film = light_by_road(moment, route, along_m, point);
+    return by_film.unknown.empty() ? std::optional(facing_lx(seen_lamps(moment, point)) + facing_lx(by_film.patches)) : std::nullopt;
 }
 
 } // namespace
@@ -88,7 +96,7 @@ ControlFold::Light ControlFold::light(const Moment& moment, double curvature) co
     const double bumper_m = moment.distance_m + drive_.bumper_m, there_m = bumper_m + look_m;
     std::vector<LineSample> line;
     for (double ahead_m = 0.0; ahead_m <= farthest_m && bumper_m + ahead_m <= route_.length_m(); ahead_m += line_step_m)
-        line.push_back({ahead_m, lit_lx(moment, route_.pose(bumper_m + ahead_m), target_m)});
+        line.push_back({ahead_m, facing_lx(seen_lamps(moment, to_parent(route_.pose(bumper_m + ahead_m), {0.0, 0.0, target_m})))});
     if (const LitLine lit = lit_line(line, reach_lx); !line.empty())
         light.reach_m = lit.last_m;
     if (there_m > route_.length_m())
@@ -96,9 +104,9 @@ ControlFold::Light ControlFold::light(const Moment& moment, double curvature) co
     const CrossSection section = route_.cross_section(there_m);
     for (const RouteLane& lane : section.lanes)
         if (lane.name == "own")
-            light.inside_lx = lit_lx(moment, route_.pose(there_m, curvature > 0.0 ? lane.left_m : lane.right_m), target_m);
+            light.inside_lx = lit_lx(moment, route_, there_m, curvature > 0.0 ? lane.left_m : lane.right_m, target_m);
     if (const std::optional<double> oncoming_m = offset_across_m(section, Across::oncoming_centre))
-        light.glare_lx = lit_lx(moment, route_.pose(there_m, *oncoming_m), eye_height_m);
+        light.glare_lx = lit_lx(moment, route_, there_m, *oncoming_m, eye_height_m);
     return light;
 }
 

@@ -1,116 +1,17 @@
 #include "metrics/folds/glare_fold.h"
 
 #include "metrics/folds/place_fold.h"
+#include "metrics/glare/wet_road.h"
 #include "metrics/statistics/statistics.h"
 #include "scenarios/drives/play/advance.h"
+#include "scenarios/drives/play/place_street_lamps.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <functional>
 #include <glm/geometric.hpp>
 
 namespace fernlicht {
-namespace {
-
-const char* const no_moment = "no moment of the drive was measured";
-
-/// The figure over the drive, or why some moment lacks it: an extreme over the rest could be another.
-Value over_drive(const std::optional<double>& extreme, const std::string& missing, const std::string& why_none) {
-    if (!missing.empty())
-        return Value::not_measured("in some moment: " + missing);
-    return Value::of(extreme, why_none);
-}
-
-} // namespace
-
-GlareFigures glare_figures(const std::vector<GlareSource>& sources, double facing, const GlareParameters& parameters) {
-    GlareFigures figures;
-    figures.facing_lx = facing;
-    for (const GlareSource& source : sources)
-        figures.eye_lx += source.eye_lx;
-    figures.veiling_cdm2 = veiling_luminance_cdm2(parameters.equation, sources, {parameters.age_years, parameters.pigmentation});
-    figures.increment_percent = figures.veiling_cdm2.measured()
-                                    ? threshold_increment_percent(*figures.veiling_cdm2.number(), parameters.adaptation_cdm2)
-                                    : figures.veiling_cdm2;
-    figures.de_boer = de_boer_rating(sources, parameters.adaptation_cdm2);
-    return figures;
-}
-
-void GlareFollowed::add(const Moment& moment, double to_go_m, const std::vector<GlareSource>& sources, const GlareFigures& figures) {
-    ticks.push_back(moment.tick);
-    facing.push_back({moment.time_s, to_go_m, figures.facing_lx});
-    eye_lx.push_back({moment.time_s, to_go_m, figures.eye_lx});
-    veiling.push_back({moment.time_s, to_go_m, figures.veiling_cdm2.number()});
-    increment.push_back({moment.time_s, to_go_m, figures.increment_percent.number()});
-    de_boer.push_back({moment.time_s, to_go_m, figures.de_boer.number()});
-    theta_deg.resize(sources.size());
-    for (std::size_t i = 0; i < sources.size(); ++i)
-        theta_deg[i].push_back(sources[i].theta_deg);
-    if (no_veiling.empty())
-        no_veiling = figures.veiling_cdm2.reason();
-    if (no_increment.empty())
-        no_increment = figures.increment_percent.reason();
-    if (no_de_boer.empty() && figures.eye_lx > 0.0) // in the dark nothing is rated, and nothing glares
-        no_de_boer = figures.de_boer.reason();
-}
-
-void GlareFollowed::say(Readings& readings, const ReadingKey& eye, const std::string& where, const std::string& why_none,
-                        const GlareParameters& parameters) const {
-    const auto add = [&](Quantity quantity, Statistic statistic, const Threshold& threshold, const std::string& what, const Value& found) {
-        ReadingKey key = eye;
-        key.quantity = quantity;
-        key.threshold = threshold;
-        key.statistic = statistic;
-        readings.push_back({key, found, where + ", " + what});
-    };
-    const std::string none = why_none.empty() ? no_moment : why_none;
-    const auto most = [&](Quantity quantity, const std::string& what, const Approach& figure, const std::string& missing) {
-        add(quantity, Statistic::maximum, {}, what, over_drive(largest(figure), missing, none));
-    };
-    most(Quantity::glare_facing, "facing the lamps, largest", facing, "");
-    most(Quantity::glare_eye, "across the line of sight, largest", eye_lx, "");
-    most(Quantity::glare_veiling, fmt::format("veiling luminance, {}, largest", name(parameters.equation)), veiling, no_veiling);
-    most(Quantity::glare_increment, fmt::format("adapted to {} cd/m2, largest", parameters.adaptation_cdm2), increment, no_increment);
-    const bool dark = !facing.empty() && no_de_boer.empty() && !smallest(de_boer);
-    add(Quantity::glare_de_boer, Statistic::minimum, {},
-        fmt::format("adapted to {} cd/m2, smallest; 9 unnoticeable, 5 just acceptable, 1 unbearable", parameters.adaptation_cdm2),
-        over_drive(smallest(de_boer), no_de_boer, dark ? "no light reaches the eye" : none));
-    const auto limits = [&](const std::vector<double>& values, const Approach& figure, const std::string& missing, ThresholdUnit unit,
-                            const std::string& what) {
-        for (const double limit : values) {
-            const Stretch stretch = unit == ThresholdUnit::de_boer ? below(figure, limit) : at_or_above(figure, limit);
-            const bool measured = missing.empty() && !figure.empty();
-            const auto figure_of = [&](double found) { return over_drive(measured ? std::optional(found) : std::nullopt, missing, none); };
-            add(Quantity::glare_time, Statistic::none, {limit, unit}, what, figure_of(stretch.time_s));
-            add(Quantity::glare_length, Statistic::none, {limit, unit}, what, figure_of(stretch.length_m));
-        }
-    };
-    limits(parameters.thresholds_lx, facing, "", ThresholdUnit::lx, "facing the lamps");
-    limits(parameters.thresholds_percent, increment, no_increment, ThresholdUnit::percent, "threshold increment");
-    limits(parameters.thresholds_de_boer, de_boer, no_de_boer, ThresholdUnit::de_boer, "de Boer's rating");
-}
-
-SeeingSeries GlareFollowed::series(const ReadingKey& eye, const std::string& title, const std::string& over,
-                                   const std::vector<std::string>& lamps) const {
-    SeeingSeries series{eye_name(eye), title, over, ticks};
-    for (const ApproachSample& sample : facing)
-        series.at_m.push_back(sample.distance_m);
-    const auto column = [&](const char* name, const char* label, const char* unit, bool logarithmic, const Approach& figure) {
-        series.add({name, label, unit, logarithmic}, figure,
-                   [](const ApproachSample& sample) { return Value::of(sample.value, "not measured at this place"); });
-    };
-    column("facing_lx", "facing illuminance", "lx", true, facing);
-    column("eye_lx", "illuminance across the line of sight", "lx", true, eye_lx);
-    series.columns.back().drawn = false;
-    column("veiling_cdm2", "veiling luminance", "cd/m2", true, veiling);
-    column("threshold_increment_percent", "threshold increment", "%", true, increment);
-    column("de_boer", "de Boer's rating", "", false, de_boer);
-    for (std::size_t i = 0; i < theta_deg.size(); ++i)
-        series.add({"theta_" + lamps.at(i) + "_deg", "angle of " + lamps.at(i), "deg", false, false}, theta_deg[i], std::identity());
-    return series;
-}
-
 OncomingFold::OncomingFold(const Drive& drive, const Route& route) : drive_(drive), route_(route) {
     for (const GlareObserver& observer : drive.seeing.glare->oncoming) {
         Eye& eye = eyes_.emplace_back();
@@ -126,10 +27,27 @@ OncomingFold::OncomingFold(const Drive& drive, const Route& route) : drive_(driv
             if (glm::distance(looked_at, *eye.place_m) > 0.1) // not at the route's very start
                 eye.gaze = glm::normalize(looked_at - *eye.place_m);
         }
+        eye.driver = oncoming_driver(drive, route, observer.at_m, observer.eye_height_m);
     }
 }
 
-void OncomingFold::add(const Moment& moment) {
+Value OncomingFold::adaptation_cdm2(const Moment& moment, const LampSet& lamp_set, double at_m, Eye& eye) const {
+    if (drive_.seeing.glare->adaptation_cdm2)
+        return *drive_.seeing.glare->adaptation_cdm2;
+    if (!eye.adapted || eye.adapted->daylight != moment.daylight || eye.adapted->weather != moment.weather) {
+        Moment there; // street lamps about the observer, who may be far from the own car
+        there.distance_m = at_m;
+        there.ego = eye.driver.car;
+        there.daylight = moment.daylight;
+        there.weather = moment.weather;
+        add_street_lamps(drive_, route_, street_lamps_within_m, there);
+        eye.adapted = {moment.daylight, moment.weather,
+                       lane_luminance_cdm2(eye.driver, low_beams(drive_, lamp_set, eye.driver.car), there)};
+    }
+    return eye.adapted->cdm2;
+}
+
+void OncomingFold::add(const Moment& moment, const LampSet& lamp_set) {
     const GlareParameters& parameters = *drive_.seeing.glare;
     if (lamps_.empty())
         for (const LitLamp& lamp : moment.lamps)
@@ -147,7 +65,15 @@ void OncomingFold::add(const Moment& moment) {
             facing += lamp.facing_lx;
             sources.push_back(glare_source(lamp, *eye.place_m, eye.gaze));
         }
-        eye.followed.add(moment, to_go_m, sources, glare_figures(sources, facing, parameters));
+        const RoadLight by_film = light_over_road(moment, route_, observer.at_m, *eye.place_m);
+        for (const SeenLamp& patch : by_film.patches) {
+            facing += patch.facing_lx;
+            sources.push_back(glare_source(patch, *eye.place_m, eye.gaze));
+        }
+        const Value adapted = adaptation_cdm2(moment, lamp_set, observer.at_m, eye);
+        eye.followed.add(moment, to_go_m, sources, lamps_.size(),
+                         by_film.unknown.empty() ? glare_figures(sources, facing, adapted, parameters)
+                                                 : no_figures(by_film.unknown, adapted));
     }
 }
 
@@ -157,13 +83,13 @@ Readings OncomingFold::readings() const {
     for (std::size_t i = 0; i < eyes_.size(); ++i) {
         const GlareObserver& observer = parameters.oncoming[i];
         const ReadingKey eye{.quantity = Quantity::glare_facing, .subject = observer.name};
-        const std::string cut = cut_short(eyes_[i].followed.facing, eyes_[i].passed);
+        const std::string cut = cut_short(eyes_[i].followed.facing.approach, eyes_[i].passed);
         const std::string where = fmt::format("oncoming driver {} m along the route, eyes {} m above the road{}", observer.at_m,
                                               observer.eye_height_m, cut.empty() ? "" : " (" + cut + ")");
         const std::string none = eyes_[i].place_m ? "" : fmt::format("there is no oncoming lane at {} m", observer.at_m);
-        eyes_[i].followed.say(readings, eye, where, none, parameters);
+        eyes_[i].followed.say(readings, eye, where, none, parameters, parameters.ranges_m);
         for (const double distance_m : parameters.distances_m) {
-            const Value lx = none.empty() ? value_at(eyes_[i].followed.facing, distance_m) : Value::not_measured(none);
+            const Value lx = none.empty() ? value_at(eyes_[i].followed.facing.approach, distance_m) : Value::not_measured(none);
             readings.push_back({eye, lx, fmt::format("{}, the bumper {} m before it, facing the lamps", where, distance_m)});
             readings.back().key.distance_m = distance_m;
         }
@@ -195,7 +121,7 @@ MirrorFold::MirrorFold(const Drive& drive, const Route& route)
         gap.mirror_lx.resize(drive.seeing.glare->mirrors->mirrors.size());
 }
 
-void MirrorFold::add(const Moment& moment) {
+void MirrorFold::add(const Moment& moment, const LampSet& lamp_set) {
     const GlareParameters& parameters = *drive_.seeing.glare;
     const MirrorParameters& mirrors = *parameters.mirrors;
     if (sources_.empty())
@@ -208,8 +134,9 @@ void MirrorFold::add(const Moment& moment) {
             continue; // the car ahead has left the route
         const Pose car = ego_pose(route_, ahead_m, drive_.wheelbase_m);
         const glm::dvec3 eye_m = to_parent(car, mirrors.eye_m);
-        std::vector<GlareSource> sources;
+        std::vector<GlareSource> sources, by_road;
         double facing = 0.0;
+        std::string unknown;
         for (std::size_t k = 0; k < mirrors.mirrors.size(); ++k) {
             const glm::dvec3 mirror_m = to_parent(car, mirrors.mirrors[k].position_m);
             double on_mirror = 0.0;
@@ -217,10 +144,24 @@ void MirrorFold::add(const Moment& moment) {
                 on_mirror += lamp.facing_lx;
                 sources.push_back(mirrored_source(lamp, mirror_m, mirrors.reflectance, eye_m, car.forward()));
             }
+            const RoadLight by_film = light_over_road(moment, route_, ahead_m, mirror_m);
+            for (const SeenLamp& patch : by_film.patches) {
+                on_mirror += patch.facing_lx;
+                by_road.push_back(mirrored_source(patch, mirror_m, mirrors.reflectance, eye_m, car.forward()));
+            }
+            unknown = by_film.unknown;
             gaps_[i].mirror_lx[k].push_back(on_mirror);
             facing = std::max(facing, on_mirror);
         }
-        gaps_[i].eye.add(moment, moment.distance_m, sources, glare_figures(sources, facing, parameters));
+        const Value adapted = parameters.adaptation_cdm2 ? Value(*parameters.adaptation_cdm2)
+                                                         : lane_luminance_cdm2(driver_ahead(drive_, route_, ahead_m, car, eye_m),
+                                                                               low_beams(drive_, lamp_set, car), moment);
+        const std::size_t followed = sources.size();
+        sources.insert(sources.end(), by_road.begin(), by_road.end());
+        if (gaps_[i].unknown.empty())
+            gaps_[i].unknown = unknown;
+        gaps_[i].eye.add(moment, moment.distance_m, sources, followed,
+                         unknown.empty() ? glare_figures(sources, facing, adapted, parameters) : no_figures(unknown, adapted));
     }
 }
 
@@ -237,7 +178,9 @@ Readings MirrorFold::readings() const {
                                      .subject = mirrors.mirrors[k].name,
                                      .distance_m = mirrors.gaps_m[i],
                                      .statistic = statistic},
-                                    spread ? Value(*spread.*figure) : Value::not_measured(none),
+                                    !gaps_[i].unknown.empty() ? Value::not_measured("in some moment: " + gaps_[i].unknown)
+                                    : spread                  ? Value(*spread.*figure)
+                                                              : Value::not_measured(none),
                                     fmt::format("{}, {} mirror, facing the lamps, {}", where, mirrors.mirrors[k].name, what)});
             };
             say(Statistic::median, "median", &Spread::median);
@@ -259,19 +202,27 @@ std::vector<SeeingSeries> MirrorFold::series() const {
     return all;
 }
 
-TrafficFold::TrafficFold(const Drive& drive) : drive_(drive) {
+TrafficFold::TrafficFold(const Drive& drive, const Route& route) : drive_(drive), route_(route) {
     for (const RoadUser& user : drive.traffic)
         boxes_.push_back({user.size_m, user.rear_m});
 }
 
 void TrafficFold::add(const Moment& moment) {
-    const std::vector<GlareSource> sources =
-        traffic_glare(moment, to_parent(moment.ego, driver_eye_m(drive_)), moment.ego.forward(), boxes_);
+    const GlareParameters& parameters = *drive_.seeing.glare;
+    const glm::dvec3 eye_m = to_parent(moment.ego, driver_eye_m(drive_));
+    std::vector<GlareSource> sources = traffic_glare(moment, eye_m, moment.ego.forward(), boxes_);
+    const TrafficByRoad by_film = traffic_by_road(moment, eye_m, moment.ego.forward(), boxes_);
+    sources.insert(sources.end(), by_film.sources.begin(), by_film.sources.end());
     double facing = 0.0;
     for (const GlareSource& source : sources)
         facing += source.eye_lx / std::cos(radians(source.theta_deg));
     // How many lamps are seen changes from moment to moment: their angles are not followed.
-    eye_.add(moment, moment.distance_m, {}, glare_figures(sources, facing, *drive_.seeing.glare));
+    const Value adapted =
+        parameters.adaptation_cdm2
+            ? Value(*parameters.adaptation_cdm2)
+            : lane_luminance_cdm2(driver_ahead(drive_, route_, moment.distance_m, moment.ego, eye_m), moment.lamps, moment);
+    eye_.add(moment, moment.distance_m, sources, 0,
+             by_film.unknown.empty() ? glare_figures(sources, facing, adapted, parameters) : no_figures(by_film.unknown, adapted));
 }
 
 Readings TrafficFold::readings() const {

@@ -4,42 +4,17 @@
 // Glare from other road users in the own driver's eyes, folded over the drive.
 #pragma once
 
-#include "metrics/folds/seeing_series.h"
-#include "metrics/glare/glare.h"
-#include "metrics/readings/readings.h"
-#include "metrics/road/lit_line.h"
+#include "metrics/folds/adaptation.h"
+#include "metrics/folds/glare_followed.h"
 
 namespace fernlicht {
-
-/// What a set of sources does to one eye.
-struct GlareFigures {
-    double facing_lx = 0.0; ///< sum of I / d^2
-    double eye_lx = 0.0;    ///< across the line of sight
-    Value veiling_cdm2, increment_percent, de_boer;
-};
-GlareFigures glare_figures(const std::vector<GlareSource>& sources, double facing_lx, const GlareParameters& parameters);
-
-/// Figures of one eye over the moments.
-struct GlareFollowed {
-    std::vector<int> ticks;
-    Approach facing, eye_lx, veiling, increment, de_boer;
-    std::vector<std::vector<double>> theta_deg;       ///< by lamp
-    std::string no_veiling, no_increment, no_de_boer; ///< why it was not measured in some moment; "" where it was in all
-
-    void add(const Moment& moment, double to_go_m, const std::vector<GlareSource>& sources, const GlareFigures& figures);
-    /// Figures over the drive, under the eye's key: largest illuminances, veiling luminance and threshold increment, smallest rating; times
-    /// and metres beyond the limits.
-    void say(Readings& readings, const ReadingKey& eye, const std::string& where, const std::string& why_none,
-             const GlareParameters& parameters) const;
-    SeeingSeries series(const ReadingKey& eye, const std::string& title, const std::string& over,
-                        const std::vector<std::string>& lamps) const;
-};
 
 class OncomingFold {
   public:
     /// The drive must ask for glare. Drive and route must outlive the fold.
     OncomingFold(const Drive& drive, const Route& route);
-    void add(const Moment& moment);
+    /// `lamp_set`: what the dazzled driver's own car has, too.
+    void add(const Moment& moment, const LampSet& lamp_set);
     Readings readings() const;
     std::vector<SeeingSeries> series() const;
 
@@ -49,7 +24,17 @@ class OncomingFold {
         glm::dvec3 gaze{0.0};
         GlareFollowed followed;
         bool passed = false; ///< some moment is beyond it
+        Driver driver = {};
+        /// Last found, and in which light: a standing driver's changes with sky and weather alone.
+        struct Adapted {
+            Daylight daylight;
+            Weather weather;
+            Value cdm2;
+        };
+        std::optional<Adapted> adapted = {};
     };
+    Value adaptation_cdm2(const Moment& moment, const LampSet& lamp_set, double at_m, Eye& eye) const;
+
     const Drive& drive_;
     const Route& route_;
     std::vector<Eye> eyes_;
@@ -60,7 +45,7 @@ class MirrorFold {
   public:
     /// The drive must ask for glare in mirrors. Drive and route must outlive the fold.
     MirrorFold(const Drive& drive, const Route& route);
-    void add(const Moment& moment);
+    void add(const Moment& moment, const LampSet& lamp_set);
     /// Per gap of 15 m: mirror_NAME_at_15m_lx and _max_lx, median and largest illuminance on the mirror facing the lamps; and of the eye,
     /// through all mirrors together, glare_mirrors_15m_... as of an oncoming driver.
     Readings readings() const;
@@ -71,6 +56,7 @@ class MirrorFold {
     struct Gap {
         std::vector<std::vector<double>> mirror_lx; ///< by mirror
         GlareFollowed eye;
+        std::string unknown; ///< why the light on the mirrors is not known in some moment
     };
     const Drive& drive_;
     const Route& route_;
@@ -80,14 +66,16 @@ class MirrorFold {
 
 class TrafficFold {
   public:
-    /// The drive must ask for glare and have traffic. It must outlive the fold.
-    explicit TrafficFold(const Drive& drive);
+    /// The drive must ask for glare and have traffic. Drive and route must outlive the fold.
+    TrafficFold(const Drive& drive, const Route& route);
     void add(const Moment& moment);
-    /// glare_own_...: of the driver's eye, where the first view that is no map has it, looking along the car; as of an oncoming driver.
+    /// glare_own_...: of the driver's eye, where the first view that is no map has it, looking along the car; as of an oncoming driver. It
+    /// is adapted to the own lane as the moment's lamps light it, whatever shines.
     Readings readings() const;
 
   private:
     const Drive& drive_;
+    const Route& route_;
     std::vector<BodyBox> boxes_;
     GlareFollowed eye_;
 };

@@ -1,6 +1,6 @@
 #include "metrics/folds/place_fold.h"
 
-#include "metrics/glare/glare.h"
+#include "metrics/glare/wet_road.h"
 #include "metrics/seeing/visibility.h"
 #include "scenarios/light/light.h"
 #include "scenarios/roads/mesh/road_mesh.h"
@@ -70,7 +70,7 @@ void PlaceFold::add(const Moment& moment) {
     const PlaceParameters& asked = *drive_.seeing.places;
     const glm::dvec3 eye_m = to_parent(moment.ego, driver_eye_m(drive_));
     std::size_t next = 0;
-    const auto say = [&](std::optional<double> value, const char* missing) {
+    const auto say = [&](std::optional<double> value, const std::string& missing) {
         Figure& figure = figures_[next++];
         if (value)
             figure.values.push_back(*value);
@@ -80,15 +80,19 @@ void PlaceFold::add(const Moment& moment) {
     for (const double distance_m : asked.distances_m) {
         const double at_m = moment.distance_m + drive_.bumper_m + distance_m;
         const bool on_route = at_m <= route_.length_m();
-        const char* const missing = on_route ? "there is no such lane in some moment" : "beyond the route's end in some moment";
+        const char* const no_place = on_route ? "there is no such lane in some moment" : "beyond the route's end in some moment";
+        const auto say_there = [&](bool there, const std::string& unknown, const auto& value) {
+            say(there && unknown.empty() ? std::optional<double>(value()) : std::nullopt, there ? "in some moment: " + unknown : no_place);
+        };
         const CrossSection section = route_.cross_section(at_m);
         if (asked.kerb) {
             const std::optional<double> edge_m = on_route ? offset_across_m(section, Across::right_edge) : std::nullopt;
             const Pose surface = route_.pose(at_m, edge_m.value_or(0.0));
             const glm::dvec3 above = surface.position_m + kerb_target_m * surface.up();
             const Moment low = reaching(moment, route_, at_m, surface.position_m), high = reaching(moment, route_, at_m, above);
-            say(edge_m ? std::optional(surface_illuminance_lx(low, surface.position_m, surface.up())) : std::nullopt, missing);
-            say(edge_m ? std::optional(target_illuminance_lx(high, above)) : std::nullopt, missing);
+            const RoadLight by_film = light_by_road(high, route_, at_m, above);
+            say_there(edge_m.has_value(), "", [&] { return surface_illuminance_lx(low, surface.position_m, surface.up()); });
+            say_there(edge_m.has_value(), by_film.unknown, [&] { return target_illuminance_lx(high, above) + facing_lx(by_film.patches); });
         }
         for (const BoardPlace& place : boards) {
             if (!asked.boards)
@@ -97,8 +101,11 @@ void PlaceFold::add(const Moment& moment) {
             const Pose surface = route_.pose(at_m, from_m.value_or(0.0) + place.left_m);
             const glm::dvec3 point = surface.position_m + place.above_m * surface.up(), face = -surface.forward();
             const Moment lit = reaching(moment, route_, at_m, point);
-            say(from_m ? std::optional(surface_illuminance_lx(lit, point, face)) : std::nullopt, missing);
-            say(from_m ? std::optional(surface_luminance(lit, point, face, board_, eye_m).photopic_cdm2) : std::nullopt, missing);
+            const RoadLight by_film = light_by_road(lit, route_, at_m, point);
+            say_there(from_m.has_value(), by_film.unknown,
+                      [&] { return surface_illuminance_lx(lit, point, face) + illuminance_by_road_lx(by_film.patches, point, face); });
+            say_there(from_m.has_value(), by_film.unknown,
+                      [&] { return seen_luminance(lit, point, face, board_, eye_m, by_film.patches).photopic_cdm2; });
         }
         if (!asked.markings)
             continue;
@@ -107,9 +114,7 @@ void PlaceFold::add(const Moment& moment) {
             const bool there = on_route && own != section.lanes.end();
             const Pose surface = route_.pose(at_m, there ? *own.*side : 0.0);
             const Moment lit = reaching(moment, route_, at_m, surface.position_m);
-            say(there ? std::optional(surface_luminance(lit, surface.position_m, surface.up(), marking_, eye_m).photopic_cdm2)
-                      : std::nullopt,
-                missing);
+            say_there(there, "", [&] { return seen_luminance(lit, surface.position_m, surface.up(), marking_, eye_m).photopic_cdm2; });
         }
     }
 }
@@ -142,10 +147,13 @@ void SensorFold::add(const Moment& moment) {
         here.passed = here.passed || to_go_m < 0.0;
         if (!here.point_m || to_go_m < 0.0)
             continue;
-        const double lx = facing_lx(lamps_over_road(moment, route_, sensor.at_m, *here.point_m));
+        const RoadLight by_film = light_over_road(moment, route_, sensor.at_m, *here.point_m);
+        if (here.unknown.empty())
+            here.unknown = by_film.unknown;
+        const double lx = facing_lx(lamps_over_road(moment, route_, sensor.at_m, *here.point_m)) + facing_lx(by_film.patches);
         for (const LitLamp& lamp : moment.lamps)
             here.near_field = here.near_field || glm::distance(lamp.pose.position_m, *here.point_m) < lamp.photometric_distance_m;
-        here.approach.push_back({moment.time_s, to_go_m, lx});
+        here.approach.push_back({moment.time_s, to_go_m, by_film.unknown.empty() ? std::optional(lx) : std::nullopt});
         here.ticks.push_back(moment.tick);
     }
 }
@@ -161,6 +169,8 @@ Readings SensorFold::readings() const {
             "{}, {} m along the route, {} m above the road, facing the lamps{}{}", place_name(sensor.across), sensor.at_m, sensor.above_m,
             here.near_field ? ", near-field: nearer than a lamp's photometric distance" : "", cut.empty() ? "" : "; " + cut);
         const auto say = [&](const ReadingKey& key, Value found) {
+            if (here.point_m && !here.unknown.empty())
+                found = Value::not_measured("in some moment: " + here.unknown);
             if (!here.point_m)
                 found = Value::not_measured(fmt::format("there is no {} at {} m", place_name(sensor.across), sensor.at_m));
             readings.push_back({key, found, where});
@@ -208,6 +218,11 @@ std::optional<double> offset_across_m(const CrossSection& section, Across across
             offset_m = centre_m;
     }
     return offset_m;
+}
+
+std::optional<Pose> place_on_road(const Route& route, Across across, double along_m) {
+    const std::optional<double> offset_m = offset_across_m(route.cross_section(along_m), across);
+    return offset_m ? std::optional(route.pose(along_m, *offset_m)) : std::nullopt;
 }
 
 std::string place_name(Across across) {

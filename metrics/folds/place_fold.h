@@ -54,6 +54,7 @@ class SensorFold {
         std::optional<glm::dvec3> point_m; ///< nullopt: there is no such lane at this place
         Approach approach;
         std::vector<int> ticks;
+        std::string unknown; ///< why some moment has no light by way of the road
         bool near_field = false;
         bool passed = false; ///< some moment is beyond it
     };
@@ -64,6 +65,9 @@ class SensorFold {
 
 /// Offset from the own lane's centre, left positive. nullopt: there is no such lane here. Edges are those of all driving lanes.
 std::optional<double> offset_across_m(const CrossSection& section, Across across);
+
+/// There on the surface, 0 to the route's length along it; nullopt where the road has no such lane.
+std::optional<Pose> place_on_road(const Route& route, Across across, double along_m);
 
 /// "right edge of the lanes".
 std::string place_name(Across across);

@@ -41,7 +41,7 @@ SeeingFold::SeeingFold(const Drive& drive, const Route& route, const Nudge& nudg
         if (asked.glare->mirrors)
             mirrors_.emplace(drive, route);
         if (!drive.traffic.empty())
-            traffic_.emplace(drive);
+            traffic_.emplace(drive, route);
     }
     if (asked.visibility && medians)
         visibility_.emplace(drive, route);
@@ -55,9 +55,8 @@ SeeingFold::SeeingFold(const Drive& drive, const Route& route, const Nudge& nudg
 
 void SeeingFold::add(const Moment& as_is, const LampSet& lamp_set) {
     const Moment moment = nudged(as_is, nudge_);
-    each_asked([&](auto& fold) { fold.add(moment); }, sensors_, oncoming_, mirrors_, traffic_, visibility_, homogeneity_, places_);
-    if (control_)
-        control_->add(moment, lamp_set);
+    each_asked([&](auto& fold) { fold.add(moment); }, sensors_, traffic_, visibility_, homogeneity_, places_);
+    each_asked([&](auto& fold) { fold.add(moment, lamp_set); }, oncoming_, mirrors_, control_);
 }
 
 Readings SeeingFold::readings() const {

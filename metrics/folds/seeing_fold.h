@@ -19,7 +19,8 @@ class SeeingFold {
     /// Drive and route must outlive the fold. Every moment's lamps are nudged. Throws InputError for places beyond the route's end.
     SeeingFold(const Drive& drive, const Route& route, const Nudge& nudge = {}, SeeingPart part = SeeingPart::all);
 
-    /// `lamp_set`: the one that the moment is of; only lamp control asks for it.
+    /// `lamp_set`: the one that the moment is of; lamp control asks for it, and what dazzled drivers are adapted to. The same in every
+    /// call.
     void add(const Moment& moment, const LampSet& lamp_set);
     /// Nothing where the drive asks for nothing. Names do not depend on what was added.
     Readings readings() const;

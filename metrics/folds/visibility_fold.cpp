@@ -1,9 +1,11 @@
 #include "metrics/folds/visibility_fold.h"
 
 #include "metrics/folds/place_fold.h"
+#include "metrics/glare/wet_road.h"
 #include "metrics/readings/value.h"
 #include "metrics/road/lit_line.h"
 #include "metrics/seeing/visibility.h"
+#include "scenarios/light/fog_light.h"
 #include "scenarios/light/light.h"
 
 #include <algorithm>
@@ -18,6 +20,8 @@ namespace {
 /// an eleventh farther.
 constexpr double known_behind_m = 100.0;
 constexpr double background_above_m = 0.1;
+constexpr double far_m = 1000.0;      ///< where the line of sight ends that meets no road: in fog all light of the lamps comes from nearer
+constexpr double added_spacing = 1.2; ///< from one place at which what the weather adds is integrated to the next
 
 ReadingKey detection_of(const VisibilityTarget& target, Across across) {
     return {.quantity = Quantity::detection,
@@ -47,38 +51,47 @@ VisibilityFold::VisibilityFold(const Drive& drive, const Route& route) : drive_(
         }
 }
 
-/// Where on the road's surface a target stands, facing the car; nullopt where the road has no such lane.
-std::optional<Pose> VisibilityFold::foot(Across across, double along_m) const {
-    const std::optional<double> offset_m = offset_across_m(route_.cross_section(along_m), across);
-    return offset_m ? std::optional(route_.pose(along_m, *offset_m)) : std::nullopt;
+/// What is not road behind a target shines as the sky does: diffusely, where there is daylight. In fog it is the same: what the air takes
+/// of the sky's light it gives back.
+double VisibilityFold::dark_cdm2(const Moment& moment) const {
+    return std::max(drive_.seeing.visibility->dark_cdm2, moment.daylight.horizontal_illuminance_lx / pi);
 }
 
-std::vector<VisibilityFold::Square> VisibilityFold::squares(const Moment& moment, const LaneAhead& lane, const Pose& foot,
-                                                            const Stand& stand, const glm::dvec3& eye_m) const {
-    const VisibilityParameters& asked = *drive_.seeing.visibility;
-    // What is not road behind a target shines as the sky does: diffusely, where there is daylight.
-    const double dark_cdm2 = std::max(asked.dark_cdm2, moment.daylight.horizontal_illuminance_lx / pi);
+std::vector<VisibilityFold::Square> VisibilityFold::squares(const Moment& moment, const LaneAhead& lane, double along_m, const Stand& stand,
+                                                            const glm::dvec3& eye_m) const {
     std::vector<Square> all;
+    const std::optional<Pose> foot = place_on_road(route_, stand.across, along_m);
+    if (!foot)
+        return all;
+    const std::string no_mirror = why_no_mirror(moment.weather, road_plane(moment.ego, *foot));
     double adaptation_cdm2 = 0.0; // of the road behind the lowest square
     for (int i = 0; i < stand.squares; ++i) {
-        const glm::dvec3 middle = foot.position_m + (i + 0.5) * stand.size_m * foot.up();
+        const glm::dvec3 middle = foot->position_m + (i + 0.5) * stand.size_m * foot->up();
         Square square;
+        square.middle_m = middle;
+        square.face = -foot->forward();
         square.size_arcmin = arc_minutes_of(stand.size_m, glm::distance(eye_m, middle));
         square.hidden = lane.hides(eye_m, middle);
+        square.no_mirror = no_mirror;
         if (const std::optional<Pose> road = lane.behind(eye_m, middle)) {
+            square.on_road = true;
+            square.behind_m = road->position_m;
             square.background_cdm2 = surface_luminance(moment, road->position_m, road->up(), road_, eye_m).photopic_cdm2;
             if (adaptation_cdm2 == 0.0)
                 adaptation_cdm2 = square.background_cdm2;
             square.adaptation_cdm2 = square.background_cdm2;
         } else if (i > 0) {
-            square.background_cdm2 = dark_cdm2;
-            square.adaptation_cdm2 = std::max(adaptation_cdm2, dark_cdm2);
+            square.behind_m = eye_m + far_m * glm::normalize(middle - eye_m);
+            square.background_cdm2 = dark_cdm2(moment);
+            square.adaptation_cdm2 = std::max(adaptation_cdm2, square.background_cdm2);
         } else
             square.unknown = "the line of sight does not meet the road behind the target";
+        if (square.unknown.empty())
+            square.unknown = square.no_mirror;
         if (!square.hidden && square.unknown.empty()) {
             Moment reaching = moment;
             std::erase_if(reaching.lamps, [&](const LitLamp& lamp) { return lane.hides(lamp.pose.position_m, middle); });
-            square.illuminance_lx = surface_illuminance_lx(reaching, middle, -foot.forward());
+            square.illuminance_lx = surface_illuminance_lx(reaching, middle, square.face);
         }
         all.push_back(square);
         if (!all.front().unknown.empty())
@@ -87,17 +100,79 @@ std::vector<VisibilityFold::Square> VisibilityFold::squares(const Moment& moment
     return all;
 }
 
+VisibilityFold::Added VisibilityFold::added(const Moment& moment, const LaneAhead& lane, const glm::dvec3& eye_m, double along_m,
+                                            const Square& square) const {
+    const auto air = [&](const glm::dvec3& to_m) { return lamps_airlight(moment, to_m, eye_m).photopic_cdm2; };
+    Added added{air(square.middle_m), air(square.behind_m), 0.0};
+    if (moment.weather.wetness > 0.0 && !square.hidden) {
+        Moment reaching = moment;
+        std::erase_if(reaching.lamps, [&](const LitLamp& lamp) { return lane.hides(lamp.pose.position_m, square.middle_m); });
+        added[2] = illuminance_by_road_lx(light_by_road(reaching, route_, along_m, square.middle_m).patches, square.middle_m, square.face);
+    }
+    return added;
+}
+
+void VisibilityFold::add_weather(const Moment& moment, const LaneAhead& lane, const glm::dvec3& eye_m, std::vector<Place>& places) const {
+    if (!(moment.weather.extinction_per_m > 0.0) && !(moment.weather.wetness > 0.0))
+        return;
+    const auto squares_of = [](const Place& place) { return place.squares.size(); };
+    const std::size_t most = places.empty() ? 0 : squares_of(*std::ranges::max_element(places, {}, squares_of));
+    std::vector<double> adaptation_cdm2(places.size()); // of the road behind the lowest square
+    for (std::size_t i = 0; i < most; ++i) {
+        const auto fill = [&](std::size_t place, const Added& added) {
+            Square& square = places[place].squares[i];
+            const double way_m = glm::distance(eye_m, square.middle_m), far = glm::distance(eye_m, square.behind_m);
+            square.left = air_transmittance(moment.weather, way_m);
+            square.veil_cdm2 = added[0] + sky_airlight_cdm2(moment.daylight, moment.weather, way_m);
+            square.background_cdm2 = square.on_road
+                                         ? seen_through_air(moment, {square.background_cdm2, 0.0}, {added[1], 0.0}, far).photopic_cdm2
+                                         : square.background_cdm2 + added[1];
+            square.illuminance_lx += added[2];
+            if (adaptation_cdm2[place] == 0.0)
+                adaptation_cdm2[place] = square.background_cdm2;
+            square.adaptation_cdm2 = square.on_road ? square.background_cdm2 : std::max(adaptation_cdm2[place], square.background_cdm2);
+        };
+        const auto alike = [&](std::size_t a, std::size_t b) {
+            return a < places.size() && b < places.size() && i < squares_of(places[a]) && i < squares_of(places[b]) &&
+                   places[a].squares[i].on_road == places[b].squares[i].on_road &&
+                   places[a].squares[i].hidden == places[b].squares[i].hidden &&
+                   places[a].squares[i].unknown.empty() == places[b].squares[i].unknown.empty();
+        };
+        // What is added is integrated at some places and runs straight in the logarithm between them.
+        std::size_t from = places.size();
+        Added before{};
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            const bool goes_on = from < k && alike(from, k);
+            if (i >= squares_of(places[k]) || !places[k].squares[i].unknown.empty() ||
+                (goes_on && alike(k, k + 1) && places[k].ahead_m < added_spacing * places[from].ahead_m))
+                continue;
+            const Added here = added(moment, lane, eye_m, places[k].along_m, places[k].squares[i]);
+            for (std::size_t between = from + 1; goes_on && between < k; ++between) {
+                const double share = (places[between].ahead_m - places[from].ahead_m) / (places[k].ahead_m - places[from].ahead_m);
+                Added there{};
+                for (std::size_t n = 0; n < there.size(); ++n)
+                    there[n] = between_samples(before[n], here[n], share);
+                fill(between, there);
+            }
+            fill(k, here);
+            from = k;
+            before = here;
+        }
+    }
+}
+
 /// Of the clearest square that has one; 0 where the lane hides all.
 Value VisibilityFold::level(const std::vector<Square>& squares, const VisibilityTarget& target) const {
     const VisibilityParameters& asked = *drive_.seeing.visibility;
     std::optional<double> clearest;
     std::string reason;
     for (const Square& square : squares) {
-        const Value value = square.hidden ? Value(0.0)
-                            : square.unknown.empty()
-                                ? visibility_level(target.reflectance * square.illuminance_lx / pi, square.background_cdm2,
-                                                   square.adaptation_cdm2, square.size_arcmin, {asked.age_years, asked.time_s, asked.k})
-                                : Value::not_measured(square.unknown);
+        const Value value =
+            square.hidden ? Value(0.0)
+            : square.unknown.empty()
+                ? visibility_level(square.left * target.reflectance * square.illuminance_lx / pi + square.veil_cdm2, square.background_cdm2,
+                                   square.adaptation_cdm2, square.size_arcmin, {asked.age_years, asked.time_s, asked.k})
+                : Value::not_measured(square.unknown);
         if (const auto number = value.number())
             clearest = std::max(clearest.value_or(0.0), *number);
         else if (reason.empty())
@@ -109,14 +184,19 @@ Value VisibilityFold::level(const std::vector<Square>& squares, const Visibility
 void VisibilityFold::add_stand(const Moment& lit, const LaneAhead& lane, const glm::dvec3& eye_m, double bumper_m, Stand& stand) const {
     const VisibilityParameters& asked = *drive_.seeing.visibility;
     const double room_m = std::min(asked.ahead_m, route_.length_m() - bumper_m);
-    std::vector<std::vector<LineSample>> lines(stand.sights.size());
+    std::vector<Place> places;
     for (std::size_t k = 1; static_cast<double>(k) * asked.step_m <= room_m; ++k) {
         const double ahead_m = static_cast<double>(k) * asked.step_m;
-        const std::optional<Pose> place = foot(stand.across, bumper_m + ahead_m);
-        const std::vector<Square> seen = place ? squares(lit, lane, *place, stand, eye_m) : std::vector<Square>{};
-        for (std::size_t i = 0; i < lines.size(); ++i)
-            lines[i].push_back({ahead_m, place ? level(seen, *stand.sights[i].target).number() : std::nullopt});
+        places.push_back({ahead_m, bumper_m + ahead_m, squares(lit, lane, bumper_m + ahead_m, stand, eye_m)});
     }
+    add_weather(lit, lane, eye_m, places);
+    std::vector<std::vector<LineSample>> lines(stand.sights.size());
+    for (const Place& place : places)
+        for (std::size_t i = 0; i < lines.size(); ++i)
+            lines[i].push_back(
+                {place.ahead_m, place.squares.empty() ? std::nullopt : level(place.squares, *stand.sights[i].target).number()});
+    const auto bent =
+        std::ranges::find_if(places, [](const Place& place) { return !place.squares.empty() && !place.squares.front().no_mirror.empty(); });
     for (std::size_t i = 0; i < lines.size(); ++i) {
         // Where the route's end comes into sight, backgrounds of the last places are missing: the detection is cut off by it.
         const double wanted = stand.sights[i].target->level;
@@ -125,21 +205,23 @@ void VisibilityFold::add_stand(const Moment& lit, const LaneAhead& lane, const g
         const auto known = std::find_if(lines[i].rbegin(), lines[i].rend(), [](const LineSample& sample) { return sample.lx.has_value(); });
         const bool beyond = known != lines[i].rend() && *known->lx >= wanted;
         const auto found = [&](double metres) {
-            return !beyond      ? Value(metres)
-                   : to_the_end ? Value::not_measured("cut off by the end of the road or lane")
-                                : Value::at_least(metres);
+            return bent != places.end() ? Value::not_measured(bent->squares.front().no_mirror)
+                   : !beyond            ? Value(metres)
+                   : to_the_end         ? Value::not_measured("cut off by the end of the road or lane")
+                                        : Value::at_least(metres);
         };
         stand.sights[i].detections.push_back({found(detected.last_m), found(detected.unlit_before_last_m)});
     }
     for (std::size_t d = 0; d < asked.distances_m.size(); ++d) {
         const double along_m = bumper_m + asked.distances_m[d];
         const bool ends = along_m > route_.length_m();
-        const std::optional<Pose> place = ends ? std::nullopt : foot(stand.across, along_m);
-        const std::vector<Square> seen = place ? squares(lit, lane, *place, stand, eye_m) : std::vector<Square>{};
+        std::vector<Place> there{{asked.distances_m[d], along_m, ends ? std::vector<Square>{} : squares(lit, lane, along_m, stand, eye_m)}};
+        add_weather(lit, lane, eye_m, there);
+        const std::vector<Square>& seen = there.front().squares;
         for (Sight& sight : stand.sights) {
-            const Value now =
-                place ? level(seen, *sight.target)
-                      : Value::not_measured(ends ? "the route ends nearer than this in some moment" : "the road has no such lane there");
+            const Value now = !seen.empty() ? level(seen, *sight.target)
+                                            : Value::not_measured(ends ? "the route ends nearer than this in some moment"
+                                                                       : "the road has no such lane there");
             sight.at[d].series.push_back(now);
             if (const auto number = now.number())
                 sight.at[d].level.push_back(*number);
@@ -162,7 +244,7 @@ void VisibilityFold::add_background(const Moment& lit, const LaneAhead& lane, co
         background.missing = "the line of sight does not meet the road in some moment";
         return;
     }
-    const SurfaceLuminance seen = surface_luminance(lit, road->position_m, road->up(), road_, eye_m);
+    const SurfaceLuminance seen = seen_luminance(lit, road->position_m, road->up(), road_, eye_m);
     background.photopic.push_back(seen.photopic_cdm2);
     if (seen.photopic_cdm2 > 0.0 && lit.daylight.horizontal_illuminance_lx == 0.0)
         background.mesopic.push_back(mesopic_luminance(seen.photopic_cdm2, seen.scotopic_cdm2 / seen.photopic_cdm2).luminance_cdm2);

@@ -7,6 +7,8 @@
 #include "metrics/road/lit_line.h"
 #include "metrics/seeing/visibility.h"
 
+#include <array>
+
 namespace fernlicht {
 
 class VisibilityFold {
@@ -22,11 +24,15 @@ class VisibilityFold {
     std::vector<SeeingSeries> series() const;
 
   private:
-    /// A square of a target as the driver sees it; nullopt where something of that is not known.
+    /// A square of a target as the driver sees it.
     struct Square {
+        glm::dvec3 middle_m{0.0}, behind_m{0.0}; ///< its own, and of what is seen behind it; without a road there, far off
+        glm::dvec3 face{0.0};                    ///< unit normal, towards the car
         double illuminance_lx = 0.0, background_cdm2 = 0.0, adaptation_cdm2 = 0.0, size_arcmin = 0.0;
-        bool hidden = false;
-        std::string unknown; ///< why it has no level; "" where it has
+        double left = 1.0, veil_cdm2 = 0.0; ///< share of its light that the air leaves, and what the air puts before it
+        bool hidden = false, on_road = false;
+        std::string no_mirror; ///< why light by way of a wet road is not known
+        std::string unknown;   ///< why it has no level; "" where it has
     };
     struct Detection {
         Value from_m, undetected_m; ///< not measured where the route's end cuts them off
@@ -55,9 +61,20 @@ class VisibilityFold {
         std::string missing;
     };
 
-    std::optional<Pose> foot(Across across, double along_m) const;
-    std::vector<Square> squares(const Moment& moment, const LaneAhead& lane, const Pose& foot, const Stand& stand,
+    struct Place {
+        double ahead_m = 0.0, along_m = 0.0; ///< from the bumper, on the route
+        std::vector<Square> squares = {};    ///< none without such a lane
+    };
+    /// What the weather adds to one square: light in the air before it and before what is behind it, light by way of a wet road.
+    using Added = std::array<double, 3>;
+
+    /// As it stands that far along the route, in clear air and by the lamps' own light.
+    std::vector<Square> squares(const Moment& moment, const LaneAhead& lane, double along_m, const Stand& stand,
                                 const glm::dvec3& eye_m) const;
+    /// What air and water take and add, places from near to far.
+    void add_weather(const Moment& moment, const LaneAhead& lane, const glm::dvec3& eye_m, std::vector<Place>& places) const;
+    Added added(const Moment& moment, const LaneAhead& lane, const glm::dvec3& eye_m, double along_m, const Square& square) const;
+    double dark_cdm2(const Moment& moment) const;
     Value level(const std::vector<Square>& squares, const VisibilityTarget& target) const;
     void add_stand(const Moment& lit, const LaneAhead& lane, const glm::dvec3& eye_m, double bumper_m, Stand& stand) const;
     void add_background(const Moment& lit, const LaneAhead& lane, const glm::dvec3& eye_m, double ahead_m, Background& background) const;

@@ -1,5 +1,6 @@
 #include "metrics/glare/glare.h"
 
+#include "scenarios/light/fog_light.h"
 #include "scenarios/light/light.h"
 
 #include <algorithm>
@@ -101,7 +102,8 @@ std::vector<SeenLamp> seen_lamps(const Moment& moment, const glm::dvec3& point_m
     std::vector<SeenLamp> seen;
     for (const LitLamp& lamp : moment.lamps) {
         const double distance_m = glm::distance(lamp.pose.position_m, point_m), cd = intensity_towards_cd(lamp, point_m);
-        seen.push_back({lamp.name, lamp.pose.position_m, cd > 0.0 ? cd / (distance_m * distance_m) : 0.0, distance_m});
+        seen.push_back({lamp.name, lamp.pose.position_m,
+                        cd > 0.0 ? cd / (distance_m * distance_m) * air_transmittance(moment.weather, distance_m) : 0.0, distance_m});
     }
     return seen;
 }
@@ -185,7 +187,8 @@ std::vector<GlareSource> traffic_glare(const Moment& moment, const glm::dvec3& e
         for (std::size_t i = 0; i < moment.bodies.size() && i < boxes.size() && !hidden; ++i)
             hidden =
                 moment.bodies[i].visible && static_cast<int>(i) != lamp.body && box_hides(boxes[i], moment.bodies[i].pose, eye_m, at_m);
-        const GlareSource source = glare_source({lamp.name, at_m, cd / d2, std::sqrt(d2)}, eye_m, gaze);
+        const GlareSource source =
+            glare_source({lamp.name, at_m, cd / d2 * air_transmittance(moment.weather, std::sqrt(d2)), std::sqrt(d2)}, eye_m, gaze);
         if (!hidden && source.eye_lx > 0.0)
             sources.push_back(source);
     }

@@ -10,7 +10,8 @@
 // Nothing is extrapolated: outside a domain the figure is not measured, and the reason names the angle or luminance.
 //
 // The lamps of a moment as an eye, a mirror or a sensor meets them, from the candela tables in double (scenarios/light/light.h), those of
-// other road users in the own driver's eyes among them.
+// other road users in the own driver's eyes among them. Fog, rain and snow take their part once, from lamp to eye (Bouguer;
+// photometry.glsl); what they scatter into the eye is left out. Images of lamps in a wet road: wet_road.h.
 #pragma once
 
 #include "metrics/readings/value.h"
@@ -56,14 +57,14 @@ Value de_boer_rating(const std::vector<GlareSource>& sources, double adaptation_
 struct SeenLamp {
     std::string name;
     glm::dvec3 position_m{0.0};
-    double facing_lx = 0.0; ///< I / d^2, on a plane that faces the lamp
+    double facing_lx = 0.0; ///< I / d^2, on a plane that faces the lamp, less what the air takes
     double distance_m = 0.0;
 };
 
 /// Every lamp of the moment, also those that give nothing. A lamp at the point itself gives nothing (scenarios/light/light.h).
 std::vector<SeenLamp> seen_lamps(const Moment& moment, const glm::dvec3& point_m);
 
-/// Sum of I / d^2, lx.
+/// Their sum, lx.
 double facing_lx(const std::vector<SeenLamp>& lamps);
 
 /// Across the line of sight `gaze` (unit): E = I cos(theta) / d^2, nothing from behind the eye.

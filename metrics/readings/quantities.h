@@ -18,6 +18,7 @@ enum class Quantity {
     glare_veiling,
     glare_increment,
     glare_de_boer,
+    glare_adaptation,
     glare_time,
     glare_length,
     mirror_illuminance,

@@ -14,8 +14,8 @@ namespace fernlicht {
 namespace {
 
 /// A word of a form and what it says. Forms (quantities.h) are made of such words in brackets, of which a name
-/// has one; of slots: <name>, <lane>, <eye>, <m> for a distance, <lx>, <percent> and <rating> for a threshold; and of letters that stand
-/// for themselves. "Not set" is each field's default.
+/// has one; of slots: <name>, <lane>, <eye>, <m> for a distance, <from> and <to> for a range of them, <lx>, <percent> and <rating> for a
+/// threshold; and of letters that stand for themselves. "Not set" is each field's default.
 struct Word {
     const char* word;
     Aspect aspect = Aspect::value;
@@ -163,6 +163,8 @@ ThresholdUnit threshold_unit(std::string_view slot) {
     return slot == "<lx>" ? ThresholdUnit::lx : slot == "<percent>" ? ThresholdUnit::percent : ThresholdUnit::de_boer;
 }
 
+bool is_distance(std::string_view slot) { return slot == "<m>" || slot == "<from>" || slot == "<to>"; }
+
 /// A name in this form; nullopt where the key lacks what it asks for.
 std::optional<std::string> spell(std::span<const Part> form, const ReadingKey& key) {
     std::string text;
@@ -182,10 +184,11 @@ std::optional<std::string> spell(std::span<const Part> form, const ReadingKey& k
             if (named.empty())
                 return std::nullopt;
             text += named;
-        } else if (part == "<m>") {
-            if (!key.distance_m)
+        } else if (is_distance(part)) {
+            const std::optional<double>& metres = part == "<to>" ? key.to_m : key.distance_m;
+            if (!metres)
                 return std::nullopt;
-            text += fmt::format("{}", *key.distance_m);
+            text += fmt::format("{}", *metres);
         } else if (part[0] == '<') {
             if (key.threshold.unit != threshold_unit(part))
                 return std::nullopt;
@@ -252,8 +255,8 @@ bool match(std::span<const Part> form, std::string_view text, ReadingKey& key) {
     if (part[0] == '<') {
         const auto number = number_at(text);
         return number && goes_on(number->first, [&](ReadingKey& next) {
-                   if (part == "<m>")
-                       next.distance_m = number->second;
+                   if (is_distance(part))
+                       (part == "<to>" ? next.to_m : next.distance_m) = number->second;
                    else
                        next.threshold = {number->second, threshold_unit(part)};
                });
@@ -271,8 +274,8 @@ void add_shapes(std::span<const Part> form, ReadingKey key, const ReadingKey& sa
         key.subject = sample.subject;
     else if (part == "<lane>")
         key.lane = sample.lane;
-    else if (part == "<m>")
-        key.distance_m = sample.distance_m;
+    else if (is_distance(part))
+        (part == "<to>" ? key.to_m : key.distance_m) = part == "<to>" ? sample.to_m : sample.distance_m;
     else if (part[0] == '<')
         key.threshold = {sample.threshold.value, threshold_unit(part)};
     for (const Word* word : words) {
@@ -352,8 +355,8 @@ std::optional<std::size_t> place_among(const ReadingKey& key, const std::vector<
 bool is_clear_subject(SubjectKind kind, std::string_view subject) {
     for (const QuantityRow& row : quantities())
         if (row.subject == kind)
-            for (ReadingKey& key :
-                 shapes_of({.quantity = row.quantity, .subject = std::string(subject), .threshold = {1.0}, .distance_m = 1.0})) {
+            for (ReadingKey& key : shapes_of(
+                     {.quantity = row.quantity, .subject = std::string(subject), .threshold = {1.0}, .distance_m = 1.0, .to_m = 2.0})) {
                 if (!is_clear(key))
                     return false;
                 if (key.aspect == Aspect::value) {
@@ -402,8 +405,9 @@ std::vector<ReadingKey> shapes_of(const ReadingKey& sample) {
 }
 
 std::vector<std::string> forms_in_words(const QuantityRow& row) {
-    static constexpr std::pair<const char*, const char*> slots[] = {
-        {"<name>", "NAME"}, {"<lane>", "LANE"}, {"<eye>", "EYE"}, {"<m>", "50"}, {"<lx>", "5"}, {"<percent>", "10"}, {"<rating>", "5"}};
+    static constexpr std::pair<const char*, const char*> slots[] = {{"<name>", "NAME"}, {"<lane>", "LANE"},  {"<eye>", "EYE"},
+                                                                    {"<m>", "50"},      {"<from>", "30"},    {"<to>", "60"},
+                                                                    {"<lx>", "5"},      {"<percent>", "10"}, {"<rating>", "5"}};
     std::vector<std::string> all;
     for (const std::string_view form : split(row.forms, ' ')) {
         std::string& text = all.emplace_back();

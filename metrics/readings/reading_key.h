@@ -55,6 +55,7 @@ struct ReadingKey {
     Threshold threshold = {};
     ReadingPlace place = ReadingPlace::none;
     std::optional<double> distance_m = {};
+    std::optional<double> to_m = {}; ///< far end of a range of distances, whose near end is distance_m
     Aspect aspect = Aspect::value;
     Statistic statistic = Statistic::none;
     auto operator<=>(const ReadingKey&) const = default;

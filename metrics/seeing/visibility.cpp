@@ -1,5 +1,7 @@
 #include "metrics/seeing/visibility.h"
 
+#include "metrics/glare/wet_road.h"
+#include "scenarios/light/fog_light.h"
 #include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
 #include "scenarios/values/pose.h"
@@ -7,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <stdexcept>
 
 namespace fernlicht {
@@ -130,26 +133,94 @@ double reflectance_of(const glm::vec3& c) {
     return 0.2126 * static_cast<double>(c.x) + 0.7152 * static_cast<double>(c.y) + 0.0722 * static_cast<double>(c.z);
 }
 
+namespace {
+
+/// Of a grey surface in light from one place: dry, and as far as it is wet.
+double returned_cdm2(const Moment& moment, double albedo, double e_perp, const glm::dvec3& to_light, const glm::dvec3& normal,
+                     const Material& material, const glm::dvec3& to_eye) {
+    const double cosine = photometry::incidence(normal, to_light);
+    if (!(cosine > 0.0) || !(e_perp > 0.0))
+        return 0.0;
+    double luminance = photometry::diffuse_luminance(albedo, e_perp * cosine);
+    if (material.retro_rl > 0.0F)
+        luminance += photometry::retro_luminance(
+            static_cast<double>(material.retro_rl), e_perp, cosine, photometry::observation_angle(to_light, to_eye),
+            static_cast<double>(material.retro_reference_rad), 1.0 / static_cast<double>(material.retro_falloff_rad));
+    if (moment.weather.wetness > 0.0 && gets_wet(material.kind))
+        return partly_wet(glm::dvec3(luminance),
+                          wet_light(glm::dvec3(albedo), normal, glm::normalize(to_light), glm::normalize(to_eye), e_perp),
+                          moment.weather.wetness)
+            .x;
+    return luminance;
+}
+
+double of_sky_cdm2(const Moment& moment, double albedo, const glm::dvec3& normal, const Material& material, const glm::dvec3& to_eye) {
+    const double dry = photometry::diffuse_luminance(albedo, daylight_illuminance_lx(moment.daylight, normal));
+    if (!(moment.weather.wetness > 0.0) || !gets_wet(material.kind))
+        return dry;
+    const glm::dvec3 out = glm::normalize(to_eye);
+    glm::dvec3 wet =
+        wet_sky_light(glm::dvec3(albedo), normal, out, photometry::sky_illuminance(moment.daylight.horizontal_illuminance_lx, normal),
+                      sky_luminance_cdm2(moment.daylight));
+    if (const DirectLight* const direct = moment.daylight.direct())
+        wet += wet_light(glm::dvec3(albedo), normal, direct->towards(), out, direct->illuminance_lx);
+    return partly_wet(glm::dvec3(dry), wet, moment.weather.wetness).x;
+}
+
+} // namespace
+
 SurfaceLuminance surface_luminance(const Moment& moment, const glm::dvec3& point_m, const glm::dvec3& normal, const Material& material,
-                                   const glm::dvec3& eye_m) {
+                                   const glm::dvec3& eye_m, const std::vector<SeenLamp>& by_road) {
     const double albedo = reflectance_of(material.albedo);
+    const glm::dvec3 to_eye = eye_m - point_m;
     SurfaceLuminance result;
-    result.photopic_cdm2 = photometry::diffuse_luminance(albedo, daylight_illuminance_lx(moment.daylight, normal));
-    for (const LitLamp& lamp : moment.lamps) {
-        const glm::dvec3 to_lamp = lamp.pose.position_m - point_m;
-        const double cosine = photometry::incidence(normal, to_lamp), cd = intensity_towards_cd(lamp, point_m);
-        if (!(cosine > 0.0) || !(cd > 0.0))
-            continue;
-        const double e_perp = photometry::facing_illuminance(cd, to_lamp);
-        double luminance = photometry::diffuse_luminance(albedo, e_perp * cosine);
-        if (material.retro_rl > 0.0F)
-            luminance += photometry::retro_luminance(
-                static_cast<double>(material.retro_rl), e_perp, cosine, photometry::observation_angle(to_lamp, eye_m - point_m),
-                static_cast<double>(material.retro_reference_rad), 1.0 / static_cast<double>(material.retro_falloff_rad));
+    result.photopic_cdm2 = of_sky_cdm2(moment, albedo, normal, material, to_eye);
+    const auto add = [&](const LitLamp& lamp, double e_perp, const glm::dvec3& to_light) {
+        const double luminance = returned_cdm2(moment, albedo, e_perp, to_light, normal, material, to_eye);
         result.photopic_cdm2 += luminance;
         result.scotopic_cdm2 += lamp.colour.sp_ratio * luminance;
+    };
+    for (std::size_t i = 0; i < moment.lamps.size(); ++i) {
+        const LitLamp& lamp = moment.lamps[i];
+        const glm::dvec3 to_lamp = lamp.pose.position_m - point_m;
+        if (const double cd = intensity_towards_cd(lamp, point_m); cd > 0.0)
+            add(lamp, photometry::facing_illuminance(cd, to_lamp) * air_transmittance(moment.weather, glm::length(to_lamp)), to_lamp);
+        for (std::size_t k = i * streak_patches; k < std::min((i + 1) * streak_patches, by_road.size()); ++k)
+            add(lamp, by_road[k].facing_lx, by_road[k].position_m - point_m);
     }
     return result;
+}
+
+SurfaceLuminance lamps_airlight(const Moment& moment, const glm::dvec3& point_m, const glm::dvec3& eye_m) {
+    SurfaceLuminance air;
+    if (moment.weather.extinction_per_m > 0.0)
+        for (const LitLamp& lamp : moment.lamps) {
+            const double luminance = airlight_cdm2(lamp, moment.weather, eye_m, point_m, airlight_samples);
+            air.photopic_cdm2 += luminance;
+            air.scotopic_cdm2 += lamp.colour.sp_ratio * luminance;
+        }
+    return air;
+}
+
+SurfaceLuminance seen_through_air(const Moment& moment, const SurfaceLuminance& surface, const SurfaceLuminance& airlight,
+                                  double distance_m) {
+    const double left = air_transmittance(moment.weather, distance_m);
+    return {left * surface.photopic_cdm2 + airlight.photopic_cdm2 + sky_airlight_cdm2(moment.daylight, moment.weather, distance_m),
+            left * surface.scotopic_cdm2 + airlight.scotopic_cdm2};
+}
+
+SurfaceLuminance seen_luminance(const Moment& moment, const glm::dvec3& point_m, const glm::dvec3& normal, const Material& material,
+                                const glm::dvec3& eye_m, const std::vector<SeenLamp>& by_road) {
+    return seen_through_air(moment, surface_luminance(moment, point_m, normal, material, eye_m, by_road),
+                            lamps_airlight(moment, point_m, eye_m), glm::distance(point_m, eye_m));
+}
+
+double illuminance_by_road_lx(const std::vector<SeenLamp>& by_road, const glm::dvec3& point_m, const glm::dvec3& normal) {
+    double e = 0.0;
+    for (const SeenLamp& patch : by_road)
+        if (patch.facing_lx > 0.0)
+            e += patch.facing_lx * photometry::incidence(normal, patch.position_m - point_m);
+    return e;
 }
 
 } // namespace fernlicht

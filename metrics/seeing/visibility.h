@@ -17,9 +17,12 @@
 // Luminance of a surface in the light of a moment's lamps, by the same equations as every picture (scenarios/photometry.glsl), in double.
 #pragma once
 
+#include "metrics/glare/glare.h"
 #include "metrics/readings/value.h"
 #include "scenarios/drives/play/moment.h"
 #include "scenarios/values/scene.h"
+
+#include <vector>
 
 namespace fernlicht {
 
@@ -62,10 +65,26 @@ struct SurfaceLuminance {
     double scotopic_cdm2 = 0.0; ///< lamps alone, by their ratios S/P; of daylight nothing is known
 };
 
-/// Diffuse and retroreflected light of the material's own colour, without textures, whose mean it is. Luminance as of a grey of the same Y:
-/// lamps' colours change it by what colour and surface have in common, which rendered pictures know. Sky included.
+/// What leaves the surface towards the eye: diffuse and retroreflected light of the material's own colour, without textures, whose mean it
+/// is. Luminance as of a grey of the same Y: lamps' colours change it by what colour and surface have in common, which rendered pictures
+/// know. Sky included. The air takes its part from lamp to surface; under a film of water road and markings return what light.h says, the
+/// rest of them stays dry. `by_road`: what a wet road mirrors of each lamp (metrics/glare/wet_road.h) onto what stands upright.
 SurfaceLuminance surface_luminance(const Moment& moment, const glm::dvec3& point_m, const glm::dvec3& normal, const Material& material,
-                                   const glm::dvec3& eye_m);
+                                   const glm::dvec3& eye_m, const std::vector<SeenLamp>& by_road = {});
+
+/// Points of a ray at which lamps' light in the air is asked for: as many as pictures have.
+inline constexpr int airlight_samples = 32;
+/// What the air adds between eye and point: the light of the moment's lamps, scattered once, as pictures have it (fog_light.h).
+SurfaceLuminance lamps_airlight(const Moment& moment, const glm::dvec3& point_m, const glm::dvec3& eye_m);
+/// The surface as an eye so far away sees it: less what the air takes on the way, with what lamps and sky put in its place.
+SurfaceLuminance seen_through_air(const Moment& moment, const SurfaceLuminance& surface, const SurfaceLuminance& airlight,
+                                  double distance_m);
+/// surface_luminance() as the eye sees it through the air.
+SurfaceLuminance seen_luminance(const Moment& moment, const glm::dvec3& point_m, const glm::dvec3& normal, const Material& material,
+                                const glm::dvec3& eye_m, const std::vector<SeenLamp>& by_road = {});
+
+/// E = sum of E_perp cos(alpha) of patches of the road on a surface of unit `normal`, lx.
+double illuminance_by_road_lx(const std::vector<SeenLamp>& by_road, const glm::dvec3& point_m, const glm::dvec3& normal);
 
 /// Y of a linear sRGB reflectance.
 double reflectance_of(const glm::vec3& linear_srgb);

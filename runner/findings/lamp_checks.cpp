@@ -90,7 +90,9 @@ void LampFileChecks::check_pair(const Drive& drive, const LampSet& lamp_set, con
 void LampFileChecks::add(const Drive& drive, bool left_hand_traffic, bool strict, std::optional<double> turned_up_deg) {
     const auto look = [&](const std::string& set, const MountedLamp& lamp, const std::shared_ptr<const LampFile>& file, double pitch_rad,
                           std::optional<BeamFunction> function) {
-        const double turned_deg = turned_up_deg.value_or(std::min(0.0, degrees(lamp.mount.pitch_rad + pitch_rad)));
+        std::optional<double> turned_deg; // an automatic aim finds the cut-off wherever the file has it
+        if (lamp.aim_rule != BeamAim::automatic)
+            turned_deg = turned_up_deg.value_or(std::min(0.0, degrees(lamp.mount.pitch_rad + pitch_rad)));
         const Use use{drive, *file, lamp, set + ": " + lamp.name, {function, left_hand_traffic, turned_deg}};
         refuse_meaningless(path_of(drive, *file), checked(use), strict);
     };

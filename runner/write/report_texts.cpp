@@ -12,8 +12,8 @@
 namespace fernlicht {
 
 std::string report_csv(const Report& report) {
-    std::string out = "drive,lamp_set,technique,frame,quantity,aspect,threshold,threshold_unit,surface,lane,place,distance_m,statistic,"
-                      "subject,bound,value,unit,reason,where,name";
+    std::string out = "drive,lamp_set,technique,frame,quantity,aspect,threshold,threshold_unit,surface,lane,place,distance_m,to_m,"
+                      "statistic,subject,bound,value,unit,reason,where,name";
     for (const SensitivityRow& row : sensitivity_rows)
         out += fmt::format(",{}", row.name);
     out += "\r\n";
@@ -25,8 +25,8 @@ std::string report_csv(const Report& report) {
             out += csv_line(csv_text(played.drive), csv_text(played.lamp_set), csv_text(played.technique),
                             reading.tick < 0 ? "" : fmt::format("{}", reading.tick), row_of(key.quantity).id, name_of(key.aspect),
                             has_threshold ? csv_number(key.threshold.value) : "", name_of(key.threshold.unit), name_of(key.surface),
-                            key.lane, name_of(key.place), csv_number(key.distance_m), name_of(key.statistic), csv_text(key.subject),
-                            bound_name(reading.value), csv_number(reading.value.figure()), csv_text(reading.unit()),
+                            key.lane, name_of(key.place), csv_number(key.distance_m), csv_number(key.to_m), name_of(key.statistic),
+                            csv_text(key.subject), bound_name(reading.value), csv_number(reading.value.figure()), csv_text(reading.unit()),
                             csv_text(reading.value.reason()), csv_text(reading.where), csv_text(reading.name()), csv_number(s.aim_up),
                             csv_number(s.aim_down), csv_number(s.brighter), csv_number(s.dimmer), csv_number(s.higher), csv_number(s.lower),
                             csv_number(s.loaded));

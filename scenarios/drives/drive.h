@@ -134,7 +134,8 @@ struct Drive {
     std::string technique = "photometric";
     std::optional<ExtentParameters> extent;
     std::vector<Probe> probes;
-    SeeingParameters seeing; ///< sensors and glare
+    SeeingParameters seeing;                         ///< sensors and glare
+    std::shared_ptr<const LampFile> adaptation_lamp; ///< of seeing.glare, as read_drive() read it; nullptr: none. Not part of the file
     std::vector<PlacedModel> scenery;
     std::vector<Limit> limits;
     ShadowSettings shadows;          ///< of the technique photometric; none: nothing casts a shadow, in rays neither

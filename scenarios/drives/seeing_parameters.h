@@ -1,6 +1,7 @@
 // What a drive measures beyond extents and probes: light at fixed places that the car drives up to, and what it does to the eyes of others.
 #pragma once
 
+#include <filesystem>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -59,17 +60,28 @@ struct MirrorParameters {
 
 enum class VeilingEquation { stiles_holladay, age_adjusted, cie_general };
 
+/// A low beam for the dazzled driver's own car.
+struct AdaptationLamp {
+    std::filesystem::path file;
+    bool mirrored = false; ///< left and right exchanged
+
+    bool operator==(const AdaptationLamp&) const = default;
+};
+
 struct GlareParameters {
     std::vector<GlareObserver> oncoming;
     std::optional<MirrorParameters> mirrors;
     VeilingEquation equation = VeilingEquation::cie_general;
     double age_years = 25.0;
     double pigmentation = 0.5;
-    double adaptation_cdm2 = 1.0;
+    std::optional<double> adaptation_cdm2; ///< nullopt: of his own lane in his own low beams (metrics/folds/adaptation.h)
     std::vector<double> distances_m{25.0, 50.0, 75.0, 100.0, 150.0}; ///< from the front bumper
     std::vector<double> thresholds_lx{0.5, 1.0, 3.0};                ///< of illuminance facing the lamps, for times above them
     std::vector<double> thresholds_percent{10.0};                    ///< of the threshold increment
     std::vector<double> thresholds_de_boer{5.0, 3.0};                ///< for times below them
+    /// Edges of ranges before an oncoming driver, from the front bumper: each from one to the next.
+    std::vector<double> ranges_m{15.0, 30.0, 60.0, 120.0, 220.0};
+    std::optional<AdaptationLamp> adaptation_lamp; ///< in place of each low beam of the drive; nullopt: these
 
     bool operator==(const GlareParameters&) const = default;
 };

@@ -145,6 +145,7 @@ Drive cell_drive(const Study& study, const StudyCell& cell) {
     aim_changes(lamp, aim_percent, lamp_set);
     if (study.conditions.mirror[cell.mirror])
         mirror_traffic(drive, lamp.mirrors);
+    read_adaptation_lamp(drive);
     drive.capture.all = false;
     drive.capture.per_second = study.pictured_moments / drive.duration_s;
     // Of what the reader decided, that only one lamp set is left is the study's own doing.
@@ -361,8 +362,8 @@ const std::vector<std::string>& decides_by_default() {
         "reach_5lx_target_own_left_edge_m",
         "reach_3lx_target_own_m",
         "reach_1lx_target_own_m",
-        "glare_*_facing_30_to_60m_max_lx",
-        "glare_*_facing_60_to_120m_max_lx",
+        "glare_*_facing_from_30_to_60m_max_lx",
+        "glare_*_facing_from_60_to_120m_max_lx",
         "glare_mirrors_at_*_facing_max_lx",
         "detection_*_own_m",
         "detection_*_right_m",

@@ -37,6 +37,8 @@ void mirror(SeeingParameters& seeing) {
         return;
     for (GlareObserver& observer : seeing.glare->oncoming)
         observer.name = other_side(observer.name);
+    if (seeing.glare->adaptation_lamp)
+        seeing.glare->adaptation_lamp->mirrored = !seeing.glare->adaptation_lamp->mirrored;
     if (!seeing.glare->mirrors)
         return;
     change_sign(seeing.glare->mirrors->eye_m.y);

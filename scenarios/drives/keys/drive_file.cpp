@@ -103,6 +103,7 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     opened.insert(opened.end(), drive.opened.begin(), drive.opened.end());
     drive.opened = std::move(opened);
     drive.opened.insert(drive.opened.end(), cache.opened().begin(), cache.opened().end());
+    read_adaptation_lamp(drive);
     return drive;
 }
 

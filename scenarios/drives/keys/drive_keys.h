@@ -81,5 +81,8 @@ void read_display(const YamlEntry& given, Drive& drive);
 
 /// `measure`'s keys of seeing and glare: sensors, glare, visibility, homogeneity and places.
 const Fields<SeeingParameters>& seeing_fields();
+/// Reads the lamp that `measure.glare.adaptation_lamp` names into Drive::adaptation_lamp, its file among what was opened. Throws InputError
+/// (lamp_file.h).
+void read_adaptation_lamp(Drive& drive);
 
 } // namespace fernlicht

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <functional>
 
 namespace fernlicht {
 namespace {
@@ -61,7 +62,26 @@ const Fields<MirrorParameters>& mirrors_fields() {
     return fields;
 }
 
+const Fields<AdaptationLamp>& adaptation_lamp_fields() {
+    static const Fields<AdaptationLamp> fields{
+        field("file", 1, &AdaptationLamp::file, any(), "of one low beam; relative to the drive file")
+            .read_by([](const YamlEntry& entry, AdaptationLamp& lamp) {
+                lamp.file = entry.path();
+                check_file(lamp.file, entry);
+            })
+            .required(),
+        field("mirrored", 2, &AdaptationLamp::mirrored, any(), "left and right exchanged: a lamp for the other side of the road")
+            .written_off_default(),
+    };
+    return fields;
+}
+
 void check_glare(const YamlMap& keys, const GlareParameters& glare) {
+    if (const auto ranges = keys.find("ranges_m");
+        ranges && (glare.ranges_m.size() == 1 || std::ranges::adjacent_find(glare.ranges_m, std::greater_equal()) != glare.ranges_m.end()))
+        ranges->refuse("edges that make no ranges", "distances that ascend, two or more; none for no range");
+    if (const auto lamp = keys.find("adaptation_lamp"); lamp && glare.adaptation_cdm2)
+        lamp->refuse("adaptation_lamp beside adaptation_cdm2", "one of them");
     if (glare.oncoming.empty() && !glare.mirrors)
         keys.entry().refuse("glare without eyes", "oncoming: {NAME: {at_m: ...}}, mirrors: true or both");
 }
@@ -83,18 +103,25 @@ const Fields<GlareParameters>& glare_fields() {
             field("age_years", 4, &GlareParameters::age_years, range(16.0, 100.0), "of the observer"),
             field("pigmentation", 5, &GlareParameters::pigmentation, range(0.0, 1.2),
                   "of the eye: 0 black, 0.5 brown, 1 blue-green, 1.2 very light"),
-            field("adaptation_cdm2", 6, &GlareParameters::adaptation_cdm2, range(1.0e-4, 1.0e5),
-                  "what the eye is adapted to, for threshold increment and de Boer's rating"),
+            field(
+                "adaptation_cdm2", 6, &GlareParameters::adaptation_cdm2, range(1.0e-4, 1.0e5),
+                "what the eye is adapted to, for threshold increment and de Boer's rating; the mean of the dazzled driver's own lane 15 to "
+                "60 m ahead in his own low beams by default"),
             field("distances_m", 7, &GlareParameters::distances_m, distances(), "from the front bumper"),
             field("thresholds_lx", 8, &GlareParameters::thresholds_lx, illuminances(), "times and metres above these, facing the lamps"),
             field("thresholds_percent", 9, &GlareParameters::thresholds_percent, numbers(0, 16, 1.0e-6, 1.0e6),
                   "above these threshold increments"),
             field("thresholds_de_boer", 10, &GlareParameters::thresholds_de_boer, numbers(0, 16, 1.0, 9.0), "below these ratings"),
+            field("ranges_m", 12, &GlareParameters::ranges_m, distances(),
+                  "edges of ranges before an oncoming driver, from the front bumper, each with its own maxima"),
+            field("adaptation_lamp", 11, &GlareParameters::adaptation_lamp, adaptation_lamp_fields(),
+                  "in place of each low beam of the dazzled driver's car; the drive's own by default")
+                .short_for("file"),
         }
             .block()
             .checked(check_glare)
-            .in_schema(R"({"anyOf": [{"required": ["oncoming"]}, {"required": ["mirrors"],
-        "properties": {"mirrors": {"anyOf": [{"const": true}, {"type": "object"}]}}}]})");
+            .in_schema(R"({"not": {"required": ["adaptation_cdm2", "adaptation_lamp"]}, "anyOf": [{"required": ["oncoming"]},
+        {"required": ["mirrors"], "properties": {"mirrors": {"anyOf": [{"const": true}, {"type": "object"}]}}}]})");
     return fields;
 }
 
@@ -230,6 +257,24 @@ const std::vector<VisibilityTarget>& default_targets() {
                                                        {"pedestrian-dark", 0.25, 7, 0.05, 10.0, edges},
                                                        {"pedestrian-light", 0.25, 7, 0.4, 10.0, edges}};
     return targets;
+}
+
+void read_adaptation_lamp(Drive& drive) {
+    drive.adaptation_lamp.reset();
+    if (!drive.seeing.glare || !drive.seeing.glare->adaptation_lamp)
+        return;
+    const AdaptationLamp& asked = *drive.seeing.glare->adaptation_lamp;
+    LampReadOptions options;
+    options.mirrored = asked.mirrored;
+    const auto known = std::ranges::find_if(
+        drive.lamp_sources, [&](const LampSource& source) { return source.path == asked.file && source.options == options; });
+    if (known != drive.lamp_sources.end()) {
+        drive.adaptation_lamp = known->file;
+        return;
+    }
+    drive.adaptation_lamp = std::make_shared<const LampFile>(read_lamp(asked.file, options));
+    drive.lamp_sources.push_back({asked.file, options, drive.adaptation_lamp});
+    drive.opened.insert(drive.opened.end(), drive.adaptation_lamp->opened.begin(), drive.adaptation_lamp->opened.end());
 }
 
 const Fields<SeeingParameters>& seeing_fields() {

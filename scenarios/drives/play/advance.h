@@ -46,6 +46,8 @@ Pose ego_pose(const Route& route, double distance_m, double wheelbase_m, double 
 
 /// The lamp set's lamps at one state: changed, moved and dimmed as the drive has it.
 std::vector<MountedLamp> lamps_at(const State& state, const Drive& drive, const LampSet& lamp_set);
+/// A mounted lamp as a car in `car`'s pose has it.
+LitLamp lit_lamp(const MountedLamp& lamp, const Pose& car);
 
 /// Everything that the renderer and the metrics need at one state, with the lamp set's changes up to then applied. With a vehicle, place
 /// and speed are those of the lamp set's motion: simulate() comes first, else std::logic_error.

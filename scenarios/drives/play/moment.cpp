@@ -62,11 +62,11 @@ bool rest_on_load(CarPlace& place, const Motion& motion) {
     return true;
 }
 
-LitLamp lit(const MountedLamp& lamp, const Pose& ego) {
-    return {lamp.name, lamp.file, compose(ego, lamp.pose()), lamp.intensity_factor(), lamp.colour, lamp.photometric_distance_m};
-}
-
 } // namespace
+
+LitLamp lit_lamp(const MountedLamp& lamp, const Pose& car) {
+    return {lamp.name, lamp.file, compose(car, lamp.pose()), lamp.intensity_factor(), lamp.colour, lamp.photometric_distance_m};
+}
 
 Pose ego_pose(const Route& route, double distance_m, double wheelbase_m, double offset_left_m) {
     const Pose rear = contact(route, distance_m, offset_left_m);
@@ -126,7 +126,7 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
         moment.wheels = moved(in_lane, place);
     }
     for (const MountedLamp& lamp : lamps_at(state, drive, lamp_set))
-        moment.lamps.push_back(lit(lamp, moment.ego));
+        moment.lamps.push_back(lit_lamp(lamp, moment.ego));
     add_traffic(drive, moment);
     add_street_lamps(drive, route, street_lamps_within_m, moment);
     if (drive.replay) {

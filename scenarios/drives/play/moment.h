@@ -5,6 +5,8 @@
 
 namespace fernlicht {
 
+inline constexpr int fixed_in_world = -2; ///< LitLamp::body of a lamp that belongs to nobody
+
 struct LitLamp {
     std::string name;
     std::shared_ptr<const LampFile> file;
@@ -12,7 +14,7 @@ struct LitLamp {
     double intensity_factor = 1.0; ///< 0: off
     LampColour colour;
     double photometric_distance_m = 0.0;
-    int body = -1;          ///< into Moment::bodies; -1: on the own car; -2: fixed in the world
+    int body = -1;          ///< into Moment::bodies; -1: on the own car; or fixed_in_world
     glm::dvec2 face_m{0.0}; ///< width and height of the luminous face; 0: a point that is not seen
 };
 

@@ -40,7 +40,7 @@ Pose lamp_pose(const StreetLampRow& row, const Pose& foot, double beside_m, doub
 
 void add_lamp(const StreetLampRow& row, std::string name, const Pose& pose, Moment& moment) {
     LitLamp lamp{std::move(name), row.file, pose, row.level, row.colour};
-    lamp.body = -2;
+    lamp.body = fixed_in_world;
     lamp.face_m = {head_m, head_width_m};
     moment.other_lamps.push_back(std::move(lamp));
 }

@@ -65,6 +65,14 @@ TEST(ReadingKey, EveryFieldHasItsPlaceInTheName) {
         {"sensor_right-edge_max_lx", {.quantity = Quantity::sensor_illuminance, .subject = "right-edge", .statistic = Statistic::maximum}},
         {"glare_opposite_time_above_10percent_s",
          {.quantity = Quantity::glare_time, .subject = "opposite", .threshold = {10.0, ThresholdUnit::percent}}},
+        {"glare_opposite_facing_from_30_to_60m_max_lx",
+         {.quantity = Quantity::glare_facing, .subject = "opposite", .distance_m = 30.0, .to_m = 60.0, .statistic = Statistic::maximum}},
+        {"glare_a_threshold_increment_from_7.5_to_15m_max_percent",
+         {.quantity = Quantity::glare_increment, .subject = "a", .distance_m = 7.5, .to_m = 15.0, .statistic = Statistic::maximum}},
+        {"glare_a_de_boer_from_60_to_120m_min",
+         {.quantity = Quantity::glare_de_boer, .subject = "a", .distance_m = 60.0, .to_m = 120.0, .statistic = Statistic::minimum}},
+        {"glare_mirrors_at_15m_adaptation_cdm2",
+         {.quantity = Quantity::glare_adaptation, .place = ReadingPlace::mirrors, .distance_m = 15.0, .statistic = Statistic::median}},
         {"glare_own_length_below_5_de_boer_m",
          {.quantity = Quantity::glare_length, .threshold = {5.0, ThresholdUnit::de_boer}, .place = ReadingPlace::own_eyes}},
         {"glare_mirrors_at_15m_de_boer_min",
@@ -101,8 +109,12 @@ TEST(ReadingKey, EveryShapeLeadsBackToItsKeyAsItsOtherSideDoesAndNoTwoShareAName
     std::set<std::string> names;
     std::size_t shapes = 0;
     for (const QuantityRow& row : quantities())
-        for (const ReadingKey& shape :
-             shapes_of({.quantity = row.quantity, .subject = "a_b-left.1", .lane = "left 3", .threshold = {0.5}, .distance_m = 12.5})) {
+        for (const ReadingKey& shape : shapes_of({.quantity = row.quantity,
+                                       .subject = "a_b-left.1",
+                                       .lane = "left 3",
+                                       .threshold = {0.5},
+                                       .distance_m = 12.5,
+                                       .to_m = 25.0})) {
             const std::string name = name_of(shape);
             EXPECT_EQ(key_of(name), shape) << name;
             EXPECT_EQ(name_of(key(other_side(name))), other_side(name));
@@ -143,8 +155,12 @@ TEST(ReadingKey, RandomKeysComeBack) {
                                      : std::string(1, letters[below(letters.size())]);
         const double threshold = std::ldexp(static_cast<double>(below(1U << 20U)), static_cast<int>(below(40)) - 30);
         const std::string lane = below(2) == 0 ? "all" : "right " + std::to_string(1 + below(30));
-        auto shapes = shapes_of(
-            {.quantity = row.quantity, .subject = subject, .lane = lane, .threshold = {threshold}, .distance_m = std::ldexp(threshold, 3)});
+        auto shapes = shapes_of({.quantity = row.quantity,
+                                 .subject = subject,
+                                 .lane = lane,
+                                 .threshold = {threshold},
+                                 .distance_m = std::ldexp(threshold, 3),
+                                 .to_m = std::ldexp(threshold, 4)});
         ReadingKey& shape = shapes[below(shapes.size())];
         if (shape.aspect == Aspect::value && below(8) == 0)
             shape.aspect = Aspect::standard_error;
@@ -220,6 +236,10 @@ TEST(ReadingWords, SayWhatANameSaysAndLeaveNothingOpen) {
         {"probe_kerb_lx", "illuminance, probe kerb"},
         {"sensor_right-edge_at_50m_lx", "illuminance 50 m before it, sensor right-edge"},
         {"glare_oncoming_facing_max_lx", "largest illuminance, eyes of an oncoming driver"},
+        {"glare_opposite_facing_from_30_to_60m_max_lx", "largest illuminance from 30 to 60 m before it, eyes of oncoming driver opposite"},
+        {"glare_opposite_de_boer_from_30_to_60m_min",
+         "smallest de Boer rating from 30 to 60 m before it, eyes of oncoming driver opposite"},
+        {"glare_own_adaptation_cdm2", "adaptation luminance, eyes of the own driver"},
         {"glare_opposite_at_50m_lx", "illuminance 50 m before it, eyes of oncoming driver opposite"},
         {"glare_far_away_length_above_0.5lx_m", "metres above 0.5 lx, eyes of oncoming driver far_away"},
         {"glare_mirrors_at_15m_de_boer_min", "smallest de Boer rating, mirrors of a car 15 m ahead"},
@@ -264,7 +284,7 @@ TEST(Quantities, NamesEndInTheirUnitAndHoldTheirSubject) {
             std::find_if(std::begin(ends), std::end(ends), [&](const auto& known) { return std::string(known.first) == row.unit; });
         ASSERT_NE(end, std::end(ends)) << row.unit;
         for (const ReadingKey& key :
-             shapes_of({.quantity = row.quantity, .subject = "a", .lane = "own", .threshold = {1.0}, .distance_m = 5.0}))
+             shapes_of({.quantity = row.quantity, .subject = "a", .lane = "own", .threshold = {1.0}, .distance_m = 5.0, .to_m = 9.0}))
             EXPECT_TRUE(name_of(key).ends_with(end->second)) << name_of(key);
     }
     for (const QuantityRow& row : quantities())

@@ -8,6 +8,7 @@
 #include "scenarios/values/errors.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -50,6 +51,7 @@ TEST(Seeing, AnOncomingEyeIsDazzledAsTheRulerSays) {
     GlareParameters& glare = straight.drive.seeing.glare.emplace();
     glare.oncoming = {{"eye", 100.0, 1.1}};
     glare.thresholds_lx = {1.0};
+    glare.adaptation_cdm2 = 1.0;
     const SeeingFold fold = straight.played();
     const Readings readings = fold.readings();
     const auto series = fold.series();
@@ -73,6 +75,48 @@ TEST(Seeing, AnOncomingEyeIsDazzledAsTheRulerSays) {
     EXPECT_NEAR(value(readings, "glare_eye_length_above_1lx_m"), from_m - to_m, 0.01);
     EXPECT_NEAR(value(readings, "glare_eye_time_above_1lx_s"), (from_m - to_m) / 10.0, 0.001);
     EXPECT_NEAR(value(readings, "glare_eye_at_50m_lx"), 1000.0 / (2500.0 + beside), 1e-4);
+}
+
+// The same eye: it comes nearer from 96.4 m, so that of the ranges 15 to 30 and 30 to 60 m are passed.
+TEST(Seeing, EachRangeHasItsOwnMaxima) {
+    OneLampStraight straight;
+    GlareParameters& glare = straight.drive.seeing.glare.emplace();
+    glare.oncoming = {{"eye", 100.0, 1.1}};
+    glare.adaptation_cdm2 = 1.0;
+    const Readings readings = straight.played().readings();
+    const double beside = 3.5 * 3.5 + 0.45 * 0.45;
+    for (const auto& [near_m, far_m] : {std::pair(15.0, 30.0), std::pair(30.0, 60.0)}) {
+        // Facing the lamp there is most at the near end, with the logarithm straight between moments a metre apart: off by 1 / (4 d^2).
+        const std::string range = fmt::format("from_{}_to_{}m", near_m, far_m);
+        const double facing = 1000.0 / (near_m * near_m + beside), across = facing * near_m / std::sqrt(near_m * near_m + beside);
+        EXPECT_NEAR(value(readings, "glare_eye_facing_" + range + "_max_lx"), facing, 0.3 / (near_m * near_m) * facing);
+        EXPECT_NEAR(value(readings, "glare_eye_eye_" + range + "_max_lx"), across, 0.5 / (near_m * near_m) * across);
+        double veil = 0.0, rating = 99.0;
+        for (double d = near_m; d <= far_m; d += 0.1) {
+            const GlareSource source{1000.0 * d / std::pow(d * d + beside, 1.5), degrees(std::atan(std::sqrt(beside) / d))};
+            veil = std::max(veil, veiling_luminance_cdm2(VeilingEquation::cie_general, {source}, {}).number().value());
+            rating = std::min(rating, de_boer_rating({source}, 1.0).number().value());
+        }
+        EXPECT_NEAR(value(readings, "glare_eye_veiling_" + range + "_max_cdm2"), veil, 2e-3 * veil);
+        EXPECT_NEAR(value(readings, "glare_eye_threshold_increment_" + range + "_max_percent"), 65.0 * veil, 2e-3 * 65.0 * veil);
+        EXPECT_NEAR(value(readings, "glare_eye_de_boer_" + range + "_min"), rating, 2e-3);
+        EXPECT_THAT(named(readings, "glare_eye_facing_" + range + "_max_lx").where,
+                    HasSubstr(fmt::format("the bumper {} to {} m before it, facing the lamps", near_m, far_m)));
+    }
+    EXPECT_GT(value(readings, "glare_eye_facing_max_lx"), value(readings, "glare_eye_facing_from_15_to_30m_max_lx"));
+    EXPECT_THAT(named(readings, "glare_eye_facing_from_60_to_120m_max_lx").value.reason(),
+                HasSubstr("the drive passes 60.0 to 96.4 m alone"));
+    EXPECT_THAT(named(readings, "glare_eye_facing_from_120_to_220m_max_lx").value.reason(), HasSubstr("the drive comes from 96.4 m away"));
+    // A moment that lacks the figure matters to its own range alone: below a degree age-adjusted veils are not defined.
+    glare.equation = VeilingEquation::age_adjusted;
+    glare.oncoming = {{"eye", 300.0, 1.1}};
+    glare.ranges_m = {190.0, 200.0, 250.0};
+    const Readings far = straight.played().readings();
+    EXPECT_TRUE(named(far, "glare_eye_veiling_from_190_to_200m_max_cdm2").value.measured());
+    EXPECT_THAT(named(far, "glare_eye_veiling_from_200_to_250m_max_cdm2").value.reason(), HasSubstr("in some moment: a source 0."));
+    glare.ranges_m = {};
+    for (const Reading& reading : straight.played().readings())
+        EXPECT_FALSE(reading.key.to_m) << reading.name();
 }
 
 // The car ahead at 30 m from the bumper: its mirror 1.9 m before its rear axle, 0.95 m to the left, 1 m up.

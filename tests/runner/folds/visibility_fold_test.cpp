@@ -1,4 +1,5 @@
 // Small targets, evenness and light on boards over a drive on the straight, at places worked out by hand.
+#include "tests/runner/folds/asphalt_by_hand.h"
 #include "tests/runner/folds/one_lamp_straight.h"
 
 #include "metrics/seeing/visibility.h"
@@ -10,18 +11,6 @@ namespace fernlicht {
 namespace {
 
 using testing::HasSubstr;
-
-/// Luminance of asphalt d metres from the bumper, from the driver's eye: rho E / pi and R_L E_perp exp((reference - angle) / falloff).
-double asphalt_cdm2(double cd, double d, double left, double eye_back) {
-    const Material road = material_named("asphalt");
-    const glm::dvec3 to_lamp{-d, -left, 0.65}, to_eye{-d - eye_back, 0.35 - left, 1.2};
-    const double square = d * d + left * left + 0.65 * 0.65;
-    const double angle = std::acos((to_lamp.x * to_eye.x + to_lamp.y * to_eye.y + to_lamp.z * to_eye.z) /
-                                   std::sqrt(square * (to_eye.x * to_eye.x + to_eye.y * to_eye.y + to_eye.z * to_eye.z)));
-    return 0.08 / pi * cd * 0.65 / std::pow(square, 1.5) +
-           static_cast<double>(road.retro_rl) * cd / square *
-               std::exp((static_cast<double>(road.retro_reference_rad) - angle) / static_cast<double>(road.retro_falloff_rad));
-}
 
 VisibilityParameters looking_for(const VisibilityTarget& target, std::vector<double> distances_m) {
     VisibilityParameters asked;

@@ -1,6 +1,8 @@
 // measure's sensors and glare: read, refused, written back.
 #include "tests/scenarios/drives/drive_fixture.h"
 
+#include <algorithm>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -28,6 +30,7 @@ TEST_F(SeeingKeys, AreReadAndHaveDefaults) {
     EXPECT_EQ(short_form.glare->oncoming, (std::vector<GlareObserver>{{"a", 80.0, 1.1, 0.0}}));
     EXPECT_EQ(short_form.glare->mirrors, MirrorParameters{});
     EXPECT_EQ(short_form.glare->equation, VeilingEquation::cie_general);
+    EXPECT_EQ(short_form.glare->adaptation_cdm2, std::nullopt);
     const SeeingParameters long_form = seeing(
         "sensors: {thresholds_lx: [5], distances_m: [], points: {e: {at_m: 1, across: left-edge, above_m: 1.5}}}, glare: {oncoming: {a: "
         "{at_m: 80, eye_height_m: 2, look_ahead_m: 30}}, mirrors: {gaps_m: [10], eye_m: [1, 0, 1.5], reflectance: 0.4, places: {m: [2, 1, "
@@ -91,6 +94,26 @@ TEST_F(SeeingKeys, AreWrittenAsTheyWereRead) {
     }
 }
 
+TEST_F(SeeingKeys, TheDazzledDriverMayHaveALampOfHisOwn) {
+    const std::string lamp = FERNLICHT_SOURCE_DIR "/scenarios/library/lamps/xenon-low.ies", glare = "measure: {glare: {mirrors: true, ";
+    const Drive drive = read(minimal + glare + "adaptation_lamp: " + lamp + "}}\n");
+    ASSERT_TRUE(drive.adaptation_lamp);
+    EXPECT_EQ(drive.adaptation_lamp->table.cd, read_lamp(lamp, {}).table.cd);
+    EXPECT_EQ(std::ranges::count(drive.opened, std::filesystem::path(lamp), &FileRead::path), 1) << "among what decides the results";
+    EXPECT_EQ(read(minimal).adaptation_lamp, nullptr);
+    const Drive mirrored = read(minimal + glare + "adaptation_lamp: {file: " + lamp + ", mirrored: true}}}\n");
+    EXPECT_NE(mirrored.adaptation_lamp->table.cd, drive.adaptation_lamp->table.cd);
+    for (const Drive* each : {&drive, &mirrored}) {
+        const Drive again = read(write_drive(*each));
+        EXPECT_EQ(again.seeing, each->seeing);
+        EXPECT_EQ(again.adaptation_lamp->table.cd, each->adaptation_lamp->table.cd);
+    }
+    EXPECT_THAT(refused("glare: {mirrors: true, adaptation_cdm2: 1, adaptation_lamp: " + lamp + "}"),
+                HasSubstr("measure.glare.adaptation_lamp: adaptation_lamp beside adaptation_cdm2, expected one of them"));
+    EXPECT_THAT(refused("glare: {mirrors: true, adaptation_lamp: none.ies}"),
+                HasSubstr("measure.glare.adaptation_lamp: there is no file none.ies"));
+}
+
 TEST_F(SeeingKeys, RefuseWhatTheyCannotUse) {
     EXPECT_THAT(refused("glare: {}"), HasSubstr("measure.glare: glare without eyes, expected oncoming"));
     EXPECT_THAT(refused("glare: {mirrors: false}"), HasSubstr("glare without eyes"));
@@ -101,6 +124,9 @@ TEST_F(SeeingKeys, RefuseWhatTheyCannotUse) {
     EXPECT_THAT(refused("glare: {mirrors: {eye_m: [1, 1, 1], places: {m: [1, 1, 1]}}}"), HasSubstr("a mirror in the driver's eye"));
     EXPECT_THAT(refused("glare: {mirrors: {places: {}}}"), HasSubstr("measure.glare.mirrors.places"));
     EXPECT_THAT(refused("glare: {mirrors: true, thresholds_de_boer: [0.5]}"), HasSubstr("thresholds_de_boer"));
+    for (const char* edges : {"[15]", "[15, 15]", "[60, 30]"})
+        EXPECT_THAT(refused(fmt::format("glare: {{mirrors: true, ranges_m: {}}}", edges)), HasSubstr("edges that make no ranges")) << edges;
+    EXPECT_EQ(seeing("glare: {mirrors: true, ranges_m: []}").glare->ranges_m.size(), 0U);
     EXPECT_THAT(refused("sensors: {}"), HasSubstr("measure.sensors.points: missing"));
     EXPECT_THAT(refused("sensors: {points: {a: {at_m: 3, across: kerb}}}"), HasSubstr("found 'kerb'"));
     EXPECT_THAT(refused("sensors: {points: {a: {at_m: -3}}}"), HasSubstr("measure.sensors.points.a.at_m: found '-3'"));

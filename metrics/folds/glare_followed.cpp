@@ -1,0 +1,206 @@
+#include "metrics/folds/glare_followed.h"
+
+#include "metrics/folds/adaptation.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <functional>
+
+namespace fernlicht {
+namespace {
+
+const char* const no_moment = "no moment of the drive was measured";
+
+/// The figure over the drive, or why some moment lacks it: an extreme over the rest could be another.
+Value over_drive(const std::optional<double>& extreme, const std::string& missing, const std::string& why_none) {
+    if (!missing.empty())
+        return Value::not_measured("in some moment: " + missing);
+    return Value::of(extreme, why_none);
+}
+
+std::vector<double> numbers_in(const std::vector<Value>& values) {
+    std::vector<double> numbers;
+    for (const Value& value : values)
+        if (const auto number = value.number())
+            numbers.push_back(*number);
+    return numbers;
+}
+
+} // namespace
+
+GlareFigures glare_figures(const std::vector<GlareSource>& sources, double facing, const Value& adaptation_cdm2,
+                           const GlareParameters& parameters) {
+    double eye_lx = 0.0;
+    for (const GlareSource& source : sources)
+        eye_lx += source.eye_lx;
+    GlareFigures figures;
+    figures.facing_lx = facing;
+    figures.eye_lx = eye_lx;
+    figures.veiling_cdm2 = veiling_luminance_cdm2(parameters.equation, sources, {parameters.age_years, parameters.pigmentation});
+    figures.adaptation_cdm2 = adaptation_cdm2;
+    const std::optional<double> adapted = adaptation_cdm2.number();
+    figures.increment_percent = !figures.veiling_cdm2.measured() ? figures.veiling_cdm2
+                                : !adapted                       ? adaptation_cdm2
+                                                                 : threshold_increment_percent(*figures.veiling_cdm2.number(), *adapted);
+    figures.de_boer = adapted ? de_boer_rating(sources, *adapted) : adaptation_cdm2;
+    return figures;
+}
+
+GlareFigures no_figures(const std::string& why, const Value& adaptation_cdm2) {
+    const Value none = Value::not_measured(why);
+    return {none, none, none, none, none, adaptation_cdm2};
+}
+
+void FollowedFigure::add(const Moment& moment, double to_go_m, const Value& value, bool counts) {
+    approach.push_back({moment.time_s, to_go_m, value.number()});
+    why_not.push_back(counts ? value.reason() : "");
+}
+
+std::string FollowedFigure::missing() const {
+    const auto first = std::ranges::find_if(why_not, [](const std::string& reason) { return !reason.empty(); });
+    return first == why_not.end() ? "" : *first;
+}
+
+Value FollowedFigure::extreme_between(double near_m, double far_m, bool of_largest, const std::string& why_none) const {
+    if (approach.empty())
+        return Value::not_measured(why_none);
+    const double from_m = std::min(approach.front().distance_m, far_m), to_m = std::max(approach.back().distance_m, near_m);
+    if (from_m < to_m)
+        return Value::not_measured(
+            fmt::format("the drive comes from {:.1f} m away to {:.1f} m", approach.front().distance_m, approach.back().distance_m));
+    if (from_m < far_m || to_m > near_m)
+        return Value::not_measured(fmt::format("the drive passes {:.1f} to {:.1f} m alone", to_m, from_m));
+    Approach within;
+    for (const double end_m : {far_m, near_m})
+        within.push_back({0.0, end_m, value_at(approach, end_m).number()});
+    for (std::size_t i = 0; i < approach.size(); ++i) {
+        const double here_m = approach[i].distance_m;
+        const bool touches = here_m > far_m    ? i + 1 < approach.size() && approach[i + 1].distance_m < far_m
+                             : here_m < near_m ? i > 0 && approach[i - 1].distance_m > near_m
+                                               : true;
+        if (touches && !why_not[i].empty())
+            return Value::not_measured("in some moment: " + why_not[i]);
+        if (here_m >= near_m && here_m <= far_m)
+            within.push_back(approach[i]);
+    }
+    return Value::of(of_largest ? largest(within) : smallest(within), why_none);
+}
+
+void GlareFollowed::add(const Moment& moment, double to_go_m, const std::vector<GlareSource>& sources, std::size_t lamps,
+                        const GlareFigures& figures) {
+    ticks.push_back(moment.tick);
+    adaptation.push_back(figures.adaptation_cdm2);
+    const bool adapted = figures.adaptation_cdm2.measured();
+    facing.add(moment, to_go_m, figures.facing_lx);
+    eye_lx.add(moment, to_go_m, figures.eye_lx);
+    veiling.add(moment, to_go_m, figures.veiling_cdm2);
+    increment.add(moment, to_go_m, figures.increment_percent, adapted || !figures.veiling_cdm2.measured());
+    de_boer.add(moment, to_go_m, figures.de_boer,
+                adapted && figures.eye_lx.number() != 0.0); // in the dark nothing is rated, and nothing glares
+    theta_deg.resize(lamps);
+    for (std::size_t i = 0; i < lamps; ++i)
+        theta_deg[i].push_back(sources[i].theta_deg);
+}
+
+std::string GlareFollowed::no_adaptation() const {
+    return adaptation.empty() || std::ranges::any_of(adaptation, &Value::measured) ? "" : adaptation.front().reason();
+}
+
+std::string GlareFollowed::adapted() const {
+    const std::vector<double> numbers = numbers_in(adaptation);
+    if (numbers.empty())
+        return "";
+    const auto [least, most] = std::ranges::minmax(numbers);
+    const std::string from = fmt::format("{:.3g}", least), to = fmt::format("{:.3g}", most);
+    std::string text = fmt::format(", adapted to {}{} cd/m2", from, from == to ? "" : " to " + to);
+    if (const std::size_t out = adaptation.size() - numbers.size(); out > 0)
+        text += fmt::format(" ({} moment{} left out: {})", out, out == 1 ? "" : "s",
+                            std::ranges::find_if(adaptation, [](const Value& value) { return !value.measured(); })->reason());
+    return text;
+}
+
+void GlareFollowed::say(Readings& readings, const ReadingKey& eye, const std::string& where, const std::string& why_none,
+                        const GlareParameters& parameters, std::span<const double> ranges_m) const {
+    const auto add = [&](Quantity quantity, Statistic statistic, const Threshold& threshold, const std::string& what, const Value& found) {
+        ReadingKey key = eye;
+        key.quantity = quantity;
+        key.threshold = threshold;
+        key.statistic = statistic;
+        readings.push_back({key, found, fmt::format("{}, {}", where, what)});
+    };
+    const std::string none = why_none.empty() ? no_moment : why_none, unadapted = no_adaptation(), adapted_to = adapted();
+    const std::string& no_increment = unadapted.empty() ? none : unadapted;
+    const bool dark = !facing.approach.empty() && largest(eye_lx.approach).value_or(0.0) == 0.0;
+    struct Extreme {
+        Quantity quantity;
+        const FollowedFigure& figure;
+        std::string what, why_none;
+    };
+    const Extreme extremes[] = {
+        {Quantity::glare_facing, facing, "facing the lamps, largest", none},
+        {Quantity::glare_eye, eye_lx, "across the line of sight, largest", none},
+        {Quantity::glare_veiling, veiling, fmt::format("veiling luminance, {}, largest", name(parameters.equation)), none},
+        {Quantity::glare_increment, increment, "largest" + adapted_to, no_increment},
+        {Quantity::glare_de_boer, de_boer, fmt::format("smallest{}; 9 unnoticeable, 5 just acceptable, 1 unbearable", adapted_to),
+         dark ? "no light reaches the eye" : no_increment}};
+    const auto statistic_of = [](Quantity quantity) {
+        return quantity == Quantity::glare_de_boer ? Statistic::minimum : Statistic::maximum;
+    };
+    for (std::size_t i = 1; i < ranges_m.size(); ++i)
+        for (const Extreme& extreme : extremes) {
+            const bool of_largest = statistic_of(extreme.quantity) == Statistic::maximum;
+            const std::string lightless =
+                of_largest || !unadapted.empty() || facing.approach.empty() ? extreme.why_none : "no light reaches the eye";
+            add(extreme.quantity, statistic_of(extreme.quantity), {},
+                fmt::format("the bumper {} to {} m before it, {}", ranges_m[i - 1], ranges_m[i], extreme.what),
+                extreme.figure.extreme_between(ranges_m[i - 1], ranges_m[i], of_largest, why_none.empty() ? lightless : why_none));
+            readings.back().key.distance_m = ranges_m[i - 1];
+            readings.back().key.to_m = ranges_m[i];
+        }
+    for (const Extreme& extreme : extremes)
+        add(extreme.quantity, statistic_of(extreme.quantity), {}, extreme.what,
+            over_drive(extreme.quantity == Quantity::glare_de_boer ? smallest(extreme.figure.approach) : largest(extreme.figure.approach),
+                       extreme.figure.missing(), extreme.why_none));
+    add(Quantity::glare_adaptation, Statistic::median, {},
+        parameters.adaptation_cdm2
+            ? "what the eye is adapted to, as the drive says"
+            : fmt::format("what the eye is adapted to: its own lane {} to {} m ahead, median", adaptation_from_m, adaptation_to_m),
+        median_value(numbers_in(adaptation), no_increment));
+    const auto limits = [&](const std::vector<double>& values, const FollowedFigure& figure, const std::string& why, ThresholdUnit unit,
+                            const std::string& what) {
+        const std::string missing = figure.missing();
+        for (const double limit : values) {
+            const Stretch stretch = unit == ThresholdUnit::de_boer ? below(figure.approach, limit) : at_or_above(figure.approach, limit);
+            const bool measured = missing.empty() && !figure.approach.empty() && (unit == ThresholdUnit::lx || unadapted.empty());
+            const auto figure_of = [&](double found) { return over_drive(measured ? std::optional(found) : std::nullopt, missing, why); };
+            add(Quantity::glare_time, Statistic::none, {limit, unit}, what, figure_of(stretch.time_s));
+            add(Quantity::glare_length, Statistic::none, {limit, unit}, what, figure_of(stretch.length_m));
+        }
+    };
+    limits(parameters.thresholds_lx, facing, none, ThresholdUnit::lx, "facing the lamps");
+    limits(parameters.thresholds_percent, increment, no_increment, ThresholdUnit::percent, "threshold increment" + adapted_to);
+    limits(parameters.thresholds_de_boer, de_boer, no_increment, ThresholdUnit::de_boer, "de Boer's rating" + adapted_to);
+}
+
+SeeingSeries GlareFollowed::series(const ReadingKey& eye, const std::string& title, const std::string& over,
+                                   const std::vector<std::string>& lamps) const {
+    SeeingSeries series{eye_name(eye), title, over, ticks};
+    for (const ApproachSample& sample : facing.approach)
+        series.at_m.push_back(sample.distance_m);
+    const auto column = [&](const char* name, const char* label, const char* unit, bool logarithmic, const FollowedFigure& figure) {
+        series.add({name, label, unit, logarithmic}, figure.approach,
+                   [](const ApproachSample& sample) { return Value::of(sample.value, "not measured at this place"); });
+    };
+    column("facing_lx", "facing illuminance", "lx", true, facing);
+    column("eye_lx", "illuminance across the line of sight", "lx", true, eye_lx);
+    series.columns.back().drawn = false;
+    column("veiling_cdm2", "veiling luminance", "cd/m2", true, veiling);
+    column("threshold_increment_percent", "threshold increment", "%", true, increment);
+    column("de_boer", "de Boer's rating", "", false, de_boer);
+    series.add({"adaptation_cdm2", "adaptation luminance", "cd/m2", true, false}, adaptation, std::identity());
+    for (std::size_t i = 0; i < theta_deg.size(); ++i)
+        series.add({"theta_" + lamps.at(i) + "_deg", "angle of " + lamps.at(i), "deg", false, false}, theta_deg[i], std::identity());
+    return series;
+}
+
+} // namespace fernlicht
