@@ -5,8 +5,11 @@
 #include "tests/runner/schema_check.h"
 
 #include <cmath>
+#include <fstream>
 #include <gmock/gmock.h>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace fernlicht {
 namespace {
@@ -46,6 +49,38 @@ TEST(KnownDifferences, ShippedLampsAreWhatTheyAreSaidToBeByteForByte) {
         EXPECT_TRUE(content_of(path) == content_of(library_file(std::string("studies/known-differences/") + name + ".ies")))
             << path << " was written";
     }
+}
+
+/// 0.08 degrees of aim are within what a mounting leaves open, in every reading; 0.3 degrees are not, where it counts.
+TEST(PlantedAim, IsAimInEveryReadingAndRealBeyondIt) {
+    const TemporaryFolder folder;
+    for (const auto& [name, up_deg] : {std::pair("little", 0.08), std::pair("much", 0.3)}) {
+        LampFile lamp = read_lamp(library_file("lamps/halogen-low.ies"));
+        lamp.table = aimed(lamp.table, 0.0, up_deg);
+        write_lamp(lamp, folder / (std::string(name) + ".ies"));
+    }
+    std::ofstream(folder / "aim.yaml") << "fernlicht_study: 1\nlamps:\n  halogen: {low: " << library_file("lamps/halogen-low.ies")
+                                       << "}\n  little: {low: little.ies}\n  much: {low: much.ies}\ndrives: ["
+                                       << library_file("drives/straight.yaml")
+                                       << "]\nmeasure: {glare: {oncoming: {a: {at_m: 60}}, mirrors: {gaps_m: [15, 50]}}, visibility: true, "
+                                          "homogeneity: true, places: [kerb, boards, markings]}\nresolution_px: [64, 48]\n";
+    const Outcome run = run_program("study " + (folder / "aim.yaml") + " --frames 0:1 --quiet --no-accuracy --out " + (folder / "out"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    const json study = json::parse(content_of(folder / "out/study.json"));
+    std::map<std::string, std::size_t> real;
+    std::set<std::string> beyond;
+    for (const json& change : study.at("changes")) {
+        const std::string cell = change.at("new_cell"), reading = change.at("reading");
+        if (change.at("kind") != "real")
+            continue;
+        ++real[cell];
+        EXPECT_NE(cell, "straight_little") << change;
+        beyond.insert(reading);
+    }
+    EXPECT_GT(real["straight_much"], 300U);
+    for (const char* const reading : {"reach_5lx_target_own_m", "reach_5lx_target_own_right_edge_m", "mirror_inside_at_15m_lx"})
+        EXPECT_TRUE(beyond.contains(reading)) << reading;
+    EXPECT_THAT(study.at("sentence").get<std::string>(), HasSubstr("it is the aim, not the lamp"));
 }
 
 class StudyOfLamps : public testing::Test {
