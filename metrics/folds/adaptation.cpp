@@ -60,16 +60,17 @@ Driver driver_ahead(const Drive& drive, const Route& route, double along_m, cons
     return driver;
 }
 
-std::vector<LitLamp> low_beams(const Drive& drive, const LampSet& lamp_set, const Pose& car) {
-    std::vector<LitLamp> lamps;
+std::vector<LitLamp> low_beams(const Drive& drive, const LampSet& lamp_set, const Pose& car, const Nudge& nudge) {
+    Moment his;
+    his.ego = car;
     for (const MountedLamp& mounted : lamp_set.lamps) {
         if (!is_low_beam(lamp_set, mounted.name))
             continue;
-        LitLamp& lamp = lamps.emplace_back(lit_lamp(mounted, car));
+        LitLamp& lamp = his.lamps.emplace_back(lit_lamp(mounted, car));
         if (drive.adaptation_lamp)
             lamp.file = drive.adaptation_lamp;
     }
-    return lamps;
+    return drive.adaptation_lamp ? his.lamps : nudged(std::move(his), nudge).lamps;
 }
 
 Value lane_luminance_cdm2(const Driver& driver, std::vector<LitLamp> lamps, const Moment& moment) {

@@ -1,10 +1,10 @@
 // What a dazzled driver's eye is adapted to: the mean luminance of his own lane, as he sees it, in the low beams of his own car, the light
-// of the sky and that of street lamps. On an unlit road that is some 0.1 cd/m2, at which the same veil raises the threshold six times as
-// much as at 1 cd/m2.
+// of the sky and that of street lamps. On an unlit road that is some 0.5 cd/m2, of which most is the road nearer than 30 m; at 50 m it is
+// 0.1.
 #pragma once
 
 #include "metrics/readings/value.h"
-#include "scenarios/drives/play/moment.h"
+#include "scenarios/drives/play/nudge.h"
 #include "scenarios/roads/route.h"
 
 #include <string>
@@ -33,8 +33,9 @@ Driver oncoming_driver(const Drive& drive, const Route& route, double at_m, doub
 Driver driver_ahead(const Drive& drive, const Route& route, double along_m, const Pose& car, const glm::dvec3& eye_m);
 
 /// The low beams of the lamp set as they are mounted, before any change, on a car in that pose: without high beams and cornering lamps,
-/// without what lamp control does. Drive::adaptation_lamp takes the place of each one's file.
-std::vector<LitLamp> low_beams(const Drive& drive, const LampSet& lamp_set, const Pose& car);
+/// without what lamp control does. Drive::adaptation_lamp takes the place of each one's file; without it his lamps are the lamp set's, and
+/// nudged as they are.
+std::vector<LitLamp> low_beams(const Drive& drive, const LampSet& lamp_set, const Pose& car, const Nudge& nudge = {});
 
 /// The mean luminance, cd/m2, of asphalt as pictures have it (metrics/seeing/visibility.h), in the moment's lamps, sky and weather; of the
 /// other lamps those that are fixed in the world count, too. The air takes and adds its part. Nothing stands in the light's way. Not

@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 
 namespace fernlicht {
-OncomingFold::OncomingFold(const Drive& drive, const Route& route) : drive_(drive), route_(route) {
+OncomingFold::OncomingFold(const Drive& drive, const Route& route, const Nudge& nudge) : drive_(drive), route_(route), nudge_(nudge) {
     for (const GlareObserver& observer : drive.seeing.glare->oncoming) {
         Eye& eye = eyes_.emplace_back();
         const std::optional<double> left_m = offset_across_m(route.cross_section(observer.at_m), Across::oncoming_centre);
@@ -42,7 +42,7 @@ Value OncomingFold::adaptation_cdm2(const Moment& moment, const LampSet& lamp_se
         there.weather = moment.weather;
         add_street_lamps(drive_, route_, street_lamps_within_m, there);
         eye.adapted = {moment.daylight, moment.weather,
-                       lane_luminance_cdm2(eye.driver, low_beams(drive_, lamp_set, eye.driver.car), there)};
+                       lane_luminance_cdm2(eye.driver, low_beams(drive_, lamp_set, eye.driver.car, nudge_), there)};
     }
     return eye.adapted->cdm2;
 }
@@ -115,8 +115,8 @@ ReadingKey eyes_behind(double gap_m) { return {.quantity = Quantity::glare_facin
 
 } // namespace
 
-MirrorFold::MirrorFold(const Drive& drive, const Route& route)
-    : drive_(drive), route_(route), gaps_(drive.seeing.glare->mirrors->gaps_m.size()) {
+MirrorFold::MirrorFold(const Drive& drive, const Route& route, const Nudge& nudge)
+    : drive_(drive), route_(route), nudge_(nudge), gaps_(drive.seeing.glare->mirrors->gaps_m.size()) {
     for (Gap& gap : gaps_)
         gap.mirror_lx.resize(drive.seeing.glare->mirrors->mirrors.size());
 }
@@ -155,7 +155,7 @@ void MirrorFold::add(const Moment& moment, const LampSet& lamp_set) {
         }
         const Value adapted = parameters.adaptation_cdm2 ? Value(*parameters.adaptation_cdm2)
                                                          : lane_luminance_cdm2(driver_ahead(drive_, route_, ahead_m, car, eye_m),
-                                                                               low_beams(drive_, lamp_set, car), moment);
+                                                                               low_beams(drive_, lamp_set, car, nudge_), moment);
         const std::size_t followed = sources.size();
         sources.insert(sources.end(), by_road.begin(), by_road.end());
         if (gaps_[i].unknown.empty())

@@ -12,7 +12,8 @@ namespace fernlicht {
 class OncomingFold {
   public:
     /// The drive must ask for glare. Drive and route must outlive the fold.
-    OncomingFold(const Drive& drive, const Route& route);
+    /// `nudge`: of the lamps of his own car, where they are the lamp set's.
+    OncomingFold(const Drive& drive, const Route& route, const Nudge& nudge = {});
     /// `lamp_set`: what the dazzled driver's own car has, too.
     void add(const Moment& moment, const LampSet& lamp_set);
     Readings readings() const;
@@ -37,6 +38,7 @@ class OncomingFold {
 
     const Drive& drive_;
     const Route& route_;
+    Nudge nudge_;
     std::vector<Eye> eyes_;
     std::vector<std::string> lamps_;
 };
@@ -44,7 +46,7 @@ class OncomingFold {
 class MirrorFold {
   public:
     /// The drive must ask for glare in mirrors. Drive and route must outlive the fold.
-    MirrorFold(const Drive& drive, const Route& route);
+    MirrorFold(const Drive& drive, const Route& route, const Nudge& nudge = {}); ///< as OncomingFold
     void add(const Moment& moment, const LampSet& lamp_set);
     /// Per gap of 15 m: mirror_NAME_at_15m_lx and _max_lx, median and largest illuminance on the mirror facing the lamps; and of the eye,
     /// through all mirrors together, glare_mirrors_15m_... as of an oncoming driver.
@@ -60,6 +62,7 @@ class MirrorFold {
     };
     const Drive& drive_;
     const Route& route_;
+    Nudge nudge_;
     std::vector<Gap> gaps_;
     std::vector<std::string> sources_; ///< "left_in_inside": each lamp in each mirror
 };

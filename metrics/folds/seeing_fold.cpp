@@ -37,9 +37,9 @@ SeeingFold::SeeingFold(const Drive& drive, const Route& route, const Nudge& nudg
     if (asked.glare && others) {
         for (const GlareObserver& observer : asked.glare->oncoming)
             check_place(drive, route, fmt::format("measure.glare.oncoming.{}.at_m", observer.name), observer.at_m);
-        oncoming_.emplace(drive, route);
+        oncoming_.emplace(drive, route, nudge);
         if (asked.glare->mirrors)
-            mirrors_.emplace(drive, route);
+            mirrors_.emplace(drive, route, nudge);
         if (!drive.traffic.empty())
             traffic_.emplace(drive, route);
     }

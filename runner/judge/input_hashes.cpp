@@ -57,6 +57,8 @@ std::string text_hashed_before(Drive drive) {
     for (TrafficRow& row : drive.traffic_rows)
         for (MountedLamp& lamp : row.lamps)
             lamp.reference_voltage_v = lamp.reference_voltage_v.value_or(un_voltage_v);
+    if (drive.seeing.glare)
+        drive.seeing.glare->adaptation_cdm2 = drive.seeing.glare->adaptation_cdm2.value_or(1.0);
     const std::string text = write_drive(drive);
     std::vector<std::string> unmatched;
     return renamed_keys(text.substr(text.find('\n') + 1), {}, Naming::before, unmatched); // the comment names the program's version

@@ -76,7 +76,7 @@ TEST(Run, WhatLiesBeyondTheGridIsABoundEverywhere) {
             EXPECT_EQ(summary.at("reach_m").at("median"), bound);
             EXPECT_TRUE(summary.at("reach_m").at("mean").is_null());
         }
-    EXPECT_THAT(content_of(folder / "out/readings.csv"), testing::ContainsRegex(",at_least,200,m,[^\n]*,reach_1lx_target_own_m\r\n"));
+    EXPECT_THAT(content_of(folder / "out/readings.csv"), testing::ContainsRegex(",at_least,200,m,[^\n]*,reach_1lx_target_own_m,"));
     EXPECT_THAT(content_of(folder / "out/report.html"), testing::HasSubstr("&gt; 200.0"));
 }
 

@@ -113,7 +113,8 @@ const Fields<GlareParameters>& glare_fields() {
                   "above these threshold increments"),
             field("thresholds_de_boer", 10, &GlareParameters::thresholds_de_boer, numbers(0, 16, 1.0, 9.0), "below these ratings"),
             field("ranges_m", 12, &GlareParameters::ranges_m, distances(),
-                  "edges of ranges before an oncoming driver, from the front bumper, each with its own maxima"),
+                  "edges of ranges before an oncoming driver, from the front bumper, each with its own maxima")
+                .written_off_default(),
             field("adaptation_lamp", 11, &GlareParameters::adaptation_lamp, adaptation_lamp_fields(),
                   "in place of each low beam of the dazzled driver's car; the drive's own by default")
                 .short_for("file"),
@@ -290,7 +291,8 @@ const Fields<SeeingParameters>& seeing_fields() {
                       field("ahead_m", 2, &HomogeneityParameters::ahead_m, range(10.0, 500.0), "how far is looked, from the front bumper"),
                       field("patch_factor", 3, &HomogeneityParameters::patch_factor, range(1.01, 1000.0), "what counts as a patch"),
                       field("distances_m", 4, &HomogeneityParameters::distances_m, numbers(0, 16, 1.0, farthest_seen_m),
-                            "from the front bumper, where evenness across the lane is told"),
+                            "from the front bumper, where evenness across the lane is told")
+                          .written_off_default(),
                   },
                   "how evenly the own lane is lit")
                 .or_flag(),

@@ -263,7 +263,7 @@ TEST_F(StudySchema, AgreesWithTheReader) {
               {"conditions", "{time_of_day: dusk}|{time_of_day: [day, night]}|{aim_percent: [11]}|{aim_percent: []}|{voltage_v: 11}|"
                              "{voltage_v: [12, 13]}|{mirror: true}|{mirror: [false, true]}|{mirror: []}|{mirror: left}"},
               {"compare", "[]|[{new: a}]|[{new: b, against: a}]"},
-              {"", "readings: []"},
+              {"", "decide: []"},
               {"limits", "[{at_least: 1}]|[{reading: x_m, at_least: 1}]"},
               {"pictured_moments", "0|13"},
               {"resolution_px", "[64]|[64, 48]"},

@@ -32,7 +32,7 @@ class StudyAgainstBaselines : public ::testing::Test {
         const std::string run = temporary / (out + "/cells/straight_halogen"), file = run + "/readings.csv";
         const std::string value = tests::field_of(run, name, "value");
         std::string text = content_of(file);
-        const std::size_t row = text.rfind("\r\n", text.find("," + name + "\r\n"));
+        const std::size_t row = text.rfind("\r\n", text.find("," + name + ","));
         text.replace(text.find("," + value + ",", row) + 1, value.size(), std::to_string(1.03 * std::stod(value)));
         std::ofstream(file, std::ios::trunc) << text;
     }

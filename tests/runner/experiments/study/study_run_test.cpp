@@ -71,7 +71,7 @@ TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
             EXPECT_THAT(page, HasSubstr("<tr id=\"" + change.at("id").get<std::string>() + "\""));
         }
     }
-    EXPECT_EQ(deciding, 6U);
+    EXPECT_EQ(deciding, 7U);
     ASSERT_EQ(study.at("largest_changes").size(), 3U);
     for (const json& id : study.at("largest_changes"))
         EXPECT_THAT(page, HasSubstr("<a href=\"#" + id.get<std::string>() + "\">"));
@@ -168,7 +168,7 @@ TEST_F(StudyProgram, AFinishedStudyIsReportedAgainFromItsCells) {
     EXPECT_EQ(again.exit_code, 0) << again.output;
     EXPECT_EQ(content_of(folder / "out/study.csv"), first);
     // Judged anew: a deciding reading that is misspelt, over the same cells.
-    const std::string misspelt = write_study_file(folder, xenon, "readings: [reach_1lx_tarket_own_m]\n");
+    const std::string misspelt = write_study_file(folder, xenon, "decide: [reach_1lx_tarket_own_m]\n");
     const Outcome red = run_program("study " + misspelt + quick + out + " --resume");
     EXPECT_EQ(red.exit_code, 1);
     EXPECT_THAT(red.output, HasSubstr("NOT MEASURED deciding reading reach_1lx_tarket_own_m: there is no reading of this name; the "
