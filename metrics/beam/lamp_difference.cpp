@@ -69,6 +69,10 @@ std::vector<std::size_t> sources_of(const CandelaTable& t) {
     return source;
 }
 
+bool same_system(const SampledBeam& a, const SampledBeam& b) {
+    return a.measured && b.measured ? a.measured->system.name == b.measured->system.name : !a.measured && !b.measured;
+}
+
 class Comparison {
   public:
     Comparison(const SampledBeam& tested, const SampledBeam& against, const LampDifferenceOptions& options)
@@ -76,7 +80,8 @@ class Comparison {
           peak_cd_(std::max(peak_of(tested.samples()).cd, peak_of(against.samples()).cd)),
           against_(against.samples(), floor_share * peak_cd_, against.measured ? &against.measured->system : nullptr),
           line_(BeamField(*against.table, floor_share * peak_cd_), peak_cd_), options_(options), source_(sources_of(tested_)),
-          source_against_(sources_of(against_.table())), steps_(coarser(finest_steps(tested), finest_steps(against))) {
+          source_against_(sources_of(against_.table())), steps_(coarser(finest_steps(tested), finest_steps(against))),
+          is_same_system_(same_system(tested, against)) {
         collect();
         share_noise();
         set_noise({});
@@ -390,7 +395,7 @@ class Comparison {
     std::vector<double> spread_;           ///< by sample: see share_noise
     std::array<double, 3> decade_noise_{}; ///< by decades below the peak: of one sample of either file
     double noise_at_peak_ = 0.0, z_limit_ = 0.0, rounding_cd_ = 0.0;
-    bool is_same_system_;
+    bool is_same_system_; ///< of angles: both files were measured alike
 };
 
 } // namespace

@@ -53,8 +53,8 @@ std::string filled(std::string_view slot, const ReadingKey& key) {
         {"subject", key.subject},
         {"distance", distance},
         {"before", distance.empty() || key.place == ReadingPlace::mirrors ? ""
-                   : key.to_m ? fmt::format(" from {} to {} m before it", *key.distance_m, *key.to_m)
-                              : fmt::format(" {} before it", distance)},
+                   : key.to_m                                             ? fmt::format(" at {} to {} m", *key.distance_m, *key.to_m)
+                                                                          : fmt::format(" {} before it", distance)},
         {"most", key.statistic == Statistic::maximum   ? "largest "
                  : key.statistic == Statistic::minimum ? "smallest "
                                                        : ""},

@@ -1,5 +1,6 @@
 #include "scenarios/light/light_bounds.h"
 
+#include "scenarios/light/fog_light.h"
 #include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
 
@@ -72,7 +73,7 @@ double LightBounds::Table::linear_cd(double h_deg, double v_deg) const {
     return lower + (upper - lower) * fv;
 }
 
-LightBounds::LightBounds(const Moment& moment) : daylight_(moment.daylight) {
+LightBounds::LightBounds(const Moment& moment) : daylight_(moment.daylight), weather_(moment.weather) {
     std::map<const LampFile*, std::size_t> known;
     for (const LitLamp& lamp : moment.lamps) {
         if (lamp.intensity_factor == 0.0)
@@ -131,8 +132,10 @@ LuxBounds LightBounds::sum(const glm::dvec3& point_m, const glm::dvec3* normal, 
         if (cosine <= 0.0)
             continue;
         const Intensity intensity = towards(lamp, -to_lamp, inverse_d);
-        e += intensity.cd * inverse_d * inverse_d * cosine;
-        error += intensity.error_cd * inverse_d * inverse_d * cosine;
+        const double share =
+            inverse_d * inverse_d * cosine * (weather_.extinction_per_m > 0.0 ? air_transmittance(weather_, 1.0 / inverse_d) : 1.0);
+        e += intensity.cd * share;
+        error += intensity.error_cd * share;
     }
     error += rounding * e;
     return {std::max(e - error, 0.0), e + error};

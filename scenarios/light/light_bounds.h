@@ -63,6 +63,7 @@ class LightBounds {
     std::vector<Table> tables_; ///< one per lamp file
     std::vector<Lamp> lamps_;   ///< those that are on
     Daylight daylight_;
+    Weather weather_;
 };
 
 } // namespace fernlicht

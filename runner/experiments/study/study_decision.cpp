@@ -3,8 +3,10 @@
 #include "metrics/readings/reading_labels.h"
 #include "runner/experiments/study/change_text.h"
 #include "runner/findings/figures.h"
+#include "scenarios/values/pose.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <map>
@@ -59,16 +61,49 @@ void conclude(const StudyResult& result, DecidedReading& decided) {
     decided.told = by_size[by_size.size() / 2];
 }
 
+/// How far apart the marks of two aims lie, up and to the right together, and how much of that is up; nullopt where one was not found.
+std::optional<std::pair<double, double>> apart_deg(const LampAim& a, const LampAim& b) {
+    if (!a.percent || !b.percent)
+        return std::nullopt;
+    const double up = degrees(std::atan(0.01 * *a.percent) - std::atan(0.01 * *b.percent));
+    return std::pair(std::hypot(up, a.right_deg && b.right_deg ? *a.right_deg - *b.right_deg : 0.0), up);
+}
+
+/// Of the low beams of the first place that both lamps were played in: the largest distance, and the mean of what is up.
+std::optional<std::pair<double, double>> mounted_apart_deg(const StudyResult& result, const StudyComparison& comparison) {
+    for (const auto& [tested, against] : result.pairs_of(comparison)) {
+        double most = 0.0, up = 0.0;
+        int found = 0;
+        for (const LampAim& now : result.cells[tested].aims)
+            for (const LampAim& before : result.cells[against].aims)
+                if (now.lamp == before.lamp && !now.high_beam && !before.high_beam)
+                    if (const auto apart = apart_deg(now, before)) {
+                        most = std::max(most, apart->first);
+                        up += apart->second;
+                        ++found;
+                    }
+        if (found > 0)
+            return std::pair(most, up / found);
+    }
+    return std::nullopt;
+}
+
+constexpr double alike_deg = 0.02; ///< nearer, two marks are one: what they are found to in beams with noise
+constexpr double notable_deg = 0.05;
+
+/// Files that are one beam, perhaps turned, on lamps that are not aimed alike.
 bool differ_by_aim_alone(const StudyResult& result, const StudyComparison& comparison) {
-    bool aimed = false;
+    const auto mounted = mounted_apart_deg(result, comparison);
+    bool turned = false, compared = false;
     for (const LampComparison& lamps : result.lamps)
         if (lamps.tested == comparison.tested && lamps.against == comparison.against) {
             const LampDifference& d = lamps.difference;
             if (d.cut_off_up_deg || d.level || !d.zones.empty())
                 return false;
-            aimed = aimed || d.aim_up_deg;
+            compared = true;
+            turned = turned || (d.aim_up_deg && !lamps.is_turned_later);
         }
-    return aimed;
+    return compared && (mounted ? mounted->first > alike_deg : turned);
 }
 
 const StudyComparison& comparison_of(const StudyResult& result, const Decision& decision) {
@@ -139,6 +174,8 @@ std::vector<Decision> decide(const StudyResult& result) {
                 decided.changes.push_back(i);
         }
         Decision decision{.comparison = comparison, .readings = {}, .aim_alone = differ_by_aim_alone(result, pair)};
+        if (const auto mounted = mounted_apart_deg(result, pair))
+            decision.aimed_up_deg = mounted->second;
         for (auto& [place, decided] : by_place) {
             conclude(result, decided);
             decision.readings.push_back(std::move(decided));
@@ -162,7 +199,10 @@ std::vector<std::string> decision_parts(const StudyResult& result, const Decisio
     if (const std::size_t same = decision.count(DecisionOutcome::same))
         parts.push_back(fmt::format("{} without a difference", counted(same, "reading")));
     if (decision.aim_alone)
-        parts.emplace_back("The tables of both lamps differ by their aim alone: it is the aim, not the lamp");
+        parts.emplace_back("Both beams differ by their aim alone: it is the aim, not the lamp");
+    else if (std::abs(decision.aimed_up_deg.value_or(0.0)) > notable_deg)
+        parts.push_back(fmt::format("As mounted its cut-off lies {:.2f}° {}: part of this is aim, which `aim: auto` takes away",
+                                    std::abs(*decision.aimed_up_deg), *decision.aimed_up_deg > 0.0 ? "higher" : "lower"));
     std::erase(parts, "");
     return parts;
 }
@@ -175,26 +215,24 @@ std::string decision_sentence(const StudyResult& result, const Decision& decisio
     return fmt::format("{} against {}: {}", pair.tested, pair.against, text);
 }
 
-std::string decision_heading(const StudyResult& result, const std::vector<Decision>& decisions) {
-    if (decisions.size() != 1)
-        return decisions.empty() ? "Nothing was compared" : fmt::format("What {} decide", counted(decisions.size(), "comparison"));
-    const Decision& decision = decisions.front();
+std::string decision_count(const StudyResult& result, const Decision& decision) {
     const StudyComparison& pair = comparison_of(result, decision);
-    const std::size_t better = decision.count(DecisionOutcome::better), worse = decision.count(DecisionOutcome::worse),
-                      mixed = decision.count(DecisionOutcome::mixed), within = decision.count(DecisionOutcome::within_aim);
-    const std::string of = fmt::format("of {}", counted(decision.readings.size(), "deciding reading"));
-    if (better + worse + mixed == 0)
-        return within > 0                                       ? fmt::format("{} is within 0.1° of aim of {}", pair.tested, pair.against)
-               : decision.count(DecisionOutcome::undecided) > 0 ? fmt::format("{} and {}: undecided", pair.tested, pair.against)
-                                                                : fmt::format("{} and {} do not differ", pair.tested, pair.against);
     std::vector<std::string> parts;
-    if (better > 0)
-        parts.push_back(fmt::format("better in {}", better));
-    if (worse > 0)
-        parts.push_back(fmt::format("worse in {}", worse));
-    if (mixed > 0)
-        parts.push_back(fmt::format("both in {}", mixed));
-    return fmt::format("{} is {} {}", pair.tested, fmt::join(parts, ", "), of);
+    for (const auto& [outcome, words] :
+         {std::pair(DecisionOutcome::better, "better in"), {DecisionOutcome::worse, "worse in"}, {DecisionOutcome::mixed, "both in"}})
+        if (const std::size_t count = decision.count(outcome))
+            parts.push_back(fmt::format("{} {}", words, count));
+    if (!parts.empty())
+        return fmt::format("{} is {} of {}", pair.tested, fmt::join(parts, ", "), counted(decision.readings.size(), "deciding reading"));
+    return decision.count(DecisionOutcome::within_aim) > 0  ? fmt::format("{} is within 0.1° of aim of {}", pair.tested, pair.against)
+           : decision.count(DecisionOutcome::undecided) > 0 ? fmt::format("{} and {}: undecided", pair.tested, pair.against)
+                                                            : fmt::format("{} and {} do not differ", pair.tested, pair.against);
+}
+
+std::string decision_heading(const StudyResult& result, const std::vector<Decision>& decisions) {
+    return decisions.empty()       ? "Nothing was compared"
+           : decisions.size() == 1 ? decision_count(result, decisions.front())
+                                   : fmt::format("What {} decide", counted(decisions.size(), "comparison"));
 }
 
 std::vector<std::string> same_results(const StudyResult& result, const std::vector<Decision>& decisions) {

@@ -27,9 +27,10 @@ struct DecidedReading {
 };
 
 struct Decision {
-    std::size_t comparison = 0;           ///< of the study
-    std::vector<DecidedReading> readings; ///< in the order in which the study names them
-    bool aim_alone = false;               ///< the tables of the two lamps differ by their aim and by nothing else
+    std::size_t comparison = 0;              ///< of the study
+    std::vector<DecidedReading> readings;    ///< in the order in which the study names them
+    bool aim_alone = false;                  ///< the beams of both lamps differ by their aim and by nothing else
+    std::optional<double> aimed_up_deg = {}; ///< of the new lamp's low beams against the old one's, as mounted; nullopt: not known
     std::size_t count(DecisionOutcome outcome) const;
 };
 
@@ -41,7 +42,9 @@ std::vector<Decision> decide(const StudyResult& result);
 std::vector<std::string> decision_parts(const StudyResult& result, const Decision& decision);
 /// "xenon against halogen: better by .... Worse by .... Undecided: ... because ...."
 std::string decision_sentence(const StudyResult& result, const Decision& decision);
-/// "xenon is better in 9 and worse in 4 of 22 deciding readings".
+/// "xenon is better in 9, worse in 4 of 22 deciding readings".
+std::string decision_count(const StudyResult& result, const Decision& decision);
+/// That of one comparison, "What 2 comparisons decide" of several.
 std::string decision_heading(const StudyResult& result, const std::vector<Decision>& decisions);
 /// "straight-1 and village-1 give one result in 7 deciding readings; it counts once"; one for each such pair of places.
 std::vector<std::string> same_results(const StudyResult& result, const std::vector<Decision>& decisions);

@@ -165,7 +165,8 @@ Section decision_section(const StudyResult& result, const std::vector<Decision>&
     for (const Decision& decision : decisions) {
         const StudyComparison& pair = result.study.comparisons[decision.comparison];
         Listing parts(decision_parts(result, decision));
-        parts.caption = fmt::format("{} against {}", pair.tested, pair.against);
+        parts.caption = decisions.size() == 1 ? fmt::format("{} against {}", pair.tested, pair.against)
+                                              : fmt::format("{}, against {}", decision_count(result, decision), pair.against);
         section.blocks.emplace_back(std::move(parts));
     }
     if (!was_judged(result))
@@ -317,6 +318,10 @@ Document study_summary(const StudyResult& result) {
         }
     };
     say(result.study.title + (was_judged(result) ? std::string(": ") + verdict_name(overall(result)) : ""));
+    for (const std::string& warning : lamp_warnings(result.lamp_files))
+        say("warning: " + warning);
+    for (const Decision& decision : decide(result))
+        say(decision_count(result, decision));
     say(study_sentence(result));
     say(result.played_in_part);
     say(result.interrupted.empty() ? "" : "incomplete: " + result.interrupted);
@@ -326,8 +331,6 @@ Document study_summary(const StudyResult& result) {
     for (const CellResult& cell : result.cells)
         judge(cell.cell.name + ": ", cell.verdicts);
     for (const std::string& warning : result.warnings)
-        say("warning: " + warning);
-    for (const std::string& warning : lamp_warnings(result.lamp_files))
         say("warning: " + warning);
     for (const LampComparison& lamps : result.lamps)
         say(lamp_verdict(lamps));

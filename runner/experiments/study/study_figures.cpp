@@ -10,6 +10,7 @@
 #include "runner/play/stage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <set>
@@ -102,6 +103,21 @@ std::set<std::pair<Surface, double>> plotted_reaches(const StudyResult& result) 
     return keys;
 }
 
+/// A lamp's reach that is one figure all over the drive, as on a straight and level road: that figure; nullopt where it is not.
+std::optional<double> flat_m(const plots::Series& line, double within_m) {
+    const auto [least, most] = std::ranges::minmax_element(line.points, {}, &plots::Point::y);
+    return least != line.points.end() && most->y - least->y <= within_m ? std::optional(0.5 * (most->y + least->y)) : std::nullopt;
+}
+
+/// Whether both show the same flat lines.
+bool is_same_flat(const plots::Figure& a, const plots::Figure& b, double within_m) {
+    return a.title == b.title && std::ranges::equal(a.series, b.series, [&](const plots::Series& one, const plots::Series& other) {
+               const auto first = flat_m(one, within_m), second = flat_m(other, within_m);
+               return one.name == other.name && first && second && std::abs(*first - *second) <= within_m;
+           });
+}
+
+/// Places that draw one and the same flat line have it once.
 void add_reach(const StudyResult& result, const std::vector<std::size_t>& group, Surface surface, double threshold_lx,
                std::vector<StudyFigure>& figures) {
     GroupLines lines(result, group,
@@ -112,6 +128,15 @@ void add_reach(const StudyResult& result, const std::vector<std::size_t>& group,
                 lines.add(cell, reach.distance_m, reach.reach_m);
     if (lines.figure.series.empty())
         return;
+    const double within_m = result.cells[group.front()].grid_cell_m;
+    for (StudyFigure& drawn : figures)
+        if (auto* const same = std::get_if<plots::Figure>(&drawn.plot.figure); same && is_same_flat(*same, lines.figure, within_m)) {
+            const std::string also = "; the same: " + result.cells[group.front()].drive;
+            same->subtitle += also;
+            drawn.title += also;
+            drawn.cells.insert(drawn.cells.end(), group.begin(), group.end());
+            return;
+        }
     lines.figure.x = plots::axis_around("along the route", "m", lines.xs);
     lines.figure.y = plots::axis_around("reach", "m", lines.ys, plots::Scale::linear, true);
     figures.push_back(small_figure(fmt::format("reach-{:g}lx-{}_{}", threshold_lx, surface_name(surface), group_name(result, group)),

@@ -14,7 +14,7 @@ void add_lamp_files(const StudyResult& result, Document& document) {
     Table table = lamp_files_table(result.lamp_files);
     table.caption = "";
     section.blocks.emplace_back(std::move(table));
-    const auto place = warnings.empty() ? document.sections.end() - (document.sections.size() > 1 ? 1 : 0) : document.sections.begin() + 1;
+    const auto place = warnings.empty() ? document.sections.end() - (document.sections.size() > 1 ? 1 : 0) : document.sections.begin();
     document.sections.insert(place, std::move(section));
 }
 

@@ -90,6 +90,16 @@ TEST(TwinExtent, ReachesWhereTheLawSaysOrTheCutOffEnds) {
     EXPECT_FALSE(extent_of(extents, "own", 1.0).reach_is_cut_off);
 }
 
+// Bounds that knew nothing of the air took points for lit that fog leaves dark.
+TEST(TwinExtent, FogIsInTheBoundsToo) {
+    const ExtentGrid grid = straight_grid({.ahead_m = 100.0, .beside_m = 5.0, .target_height_m = 0.25});
+    Moment moment = moment_of({lamp_with(everywhere(10000.0), {-0.2, 0.6, 0.65}), dipped_lamp()});
+    moment.weather.extinction_per_m = 0.03;
+    for (const Surface surface : {Surface::road, Surface::target})
+        EXPECT_EQ(measure_extent(grid, twin_lux_near_thresholds(grid, moment, surface, {1.0, 5.0}), surface, {1.0, 5.0}, {20.0}),
+                  measure_extent(grid, twin_illuminance_lx(grid, moment, surface), surface, {1.0, 5.0}, {20.0}));
+}
+
 /// Of a reach on the own lane, metres: nudged less as it is.
 double moved_m(const NudgedExtents& extents, NudgeKind kind, Surface surface, double threshold_lx) {
     const auto reach_m = [&](const std::vector<LaneExtent>& all) {

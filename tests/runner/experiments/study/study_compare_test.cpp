@@ -284,7 +284,8 @@ TEST(StudyCompare, WhereNothingWasPlayedNothingIsSaidToBeUnchanged) {
 TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
     StudyResult result = two_cells(40.0, 50.0);
     compare_cells(result);
-    EXPECT_THAT(document_text(study_summary(result)), testing::StartsWith("by hand\nnew against old: better by reach at 5 lx"));
+    EXPECT_THAT(document_text(study_summary(result)),
+                testing::StartsWith("by hand\nnew is better in 1 of 1 deciding reading\nnew against old: better by reach at 5 lx"));
     EXPECT_THAT(document_html(document(result), result),
                 AllOf(HasSubstr("<p>No limits were set.</p>"), Not(HasSubstr("<h2>No limits")), Not(HasSubstr("Within limits"))));
     EXPECT_THAT(report_junit(suites_of(result)), HasSubstr("all moments"));

@@ -90,6 +90,20 @@ TEST(Decision, TwoPlacesWithOneResultCountOnce) {
     EXPECT_THAT(same_results(study.result, MadeStudy().on(0, reach, 40.0, 50.0).on(1, reach, 41.0, 51.0).decided()), IsEmpty());
 }
 
+TEST(Decision, PlacesThatDrawOneFlatLineHaveItOnce) {
+    MadeStudy study;
+    study.on(0, reach, 40.0, 50.0).on(1, reach, 40.0, 50.0).on(2, reach, 40.0, 50.0);
+    for (std::size_t i = 0; i < study.result.cells.size(); ++i) {
+        const double reach_m = i % 2 == 0 ? 40.0 : 50.0, bend_m = i / 2 == 2 ? 5.0 : 0.0; // the third drive has a bend
+        study.result.cells[i].reaches = {{Surface::target, 5.0, {0.0, 10.0, 20.0}, {reach_m, reach_m - bend_m, reach_m}}};
+    }
+    const std::vector<StudyFigure> figures = study_figures(study.result, {});
+    ASSERT_EQ(figures.size(), 2U);
+    EXPECT_THAT(figures[0].title, testing::EndsWith("; the same: drive-1"));
+    EXPECT_THAT(figures[0].cells, ElementsAre(0U, 1U, 2U, 3U));
+    EXPECT_THAT(figures[1].cells, ElementsAre(4U, 5U));
+}
+
 TEST(Decision, TheFirstWordsOfAllAreTheSentence) {
     MadeStudy study;
     study.on(0, reach, 40.0, 50.0).on(0, glare, 1.0, 1.1, 0.05).on(0, neutral, 2.0, 3.0, std::nullopt);
@@ -100,7 +114,8 @@ TEST(Decision, TheFirstWordsOfAllAreTheSentence) {
               "new against old: better by reach at 5 lx on a target, own lane +10.00 m (+25 %). Worse by largest illuminance on "
               "the mirror left of a car 15 m ahead +0.10 lx (+10 %). Undecided: foreground: mean light on the road from 5 to 15 m, "
               "own lane because nothing tells what 0.1 degrees of aim would do to this reading.");
-    EXPECT_THAT(document_text(study_summary(study.result)), testing::StartsWith("by hand\n" + sentence));
+    EXPECT_THAT(document_text(study_summary(study.result)),
+                testing::StartsWith("by hand\nnew is better in 1, worse in 1 of 3 deciding readings\n" + sentence));
     const std::string page = document_html(document(study.result), study.result);
     EXPECT_LT(page.find("better in 1, worse in 1"), page.find("The largest changes"));
     EXPECT_THAT(sentence, Not(HasSubstr(" 1 ")));
@@ -113,7 +128,18 @@ TEST(Decision, ALampThatIsOnlyAimedOtherwiseIsCalledSo) {
     study.result.lamps.front().difference.aim_up_deg.emplace();
     study.result.lamps.front().difference.aim_right_deg.emplace();
     EXPECT_THAT(decision_sentence(study.result, study.decided().front()), HasSubstr("it is the aim, not the lamp"));
+    study.result.lamps.front().is_turned_later = true;
+    EXPECT_THAT(decision_sentence(study.result, decide(study.result).front()), Not(HasSubstr("it is the aim"))) << "aim: auto took it away";
+    const auto mount = [&](double new_percent) { // one file, or two of one beam: where they are put decides
+        for (CellResult& cell : study.result.cells)
+            cell.aims = {{.lamp = "left", .percent = cell.cell.lamp == 1 ? new_percent : -1.0}};
+        return decision_sentence(study.result, decide(study.result).front());
+    };
+    EXPECT_THAT(mount(-0.6), HasSubstr("it is the aim, not the lamp"));
+    EXPECT_THAT(mount(-1.0), Not(HasSubstr("it is the aim")));
     study.result.lamps.front().difference.level.emplace();
+    EXPECT_THAT(mount(-0.6), HasSubstr("As mounted its cut-off lies 0.23° higher: part of this is aim"));
+    EXPECT_THAT(mount(-1.05), Not(HasSubstr("part of this is aim")));
     EXPECT_THAT(decision_sentence(study.result, decide(study.result).front()), Not(HasSubstr("it is the aim")));
 }
 
