@@ -165,8 +165,7 @@ Section decision_section(const StudyResult& result, const std::vector<Decision>&
     for (const Decision& decision : decisions) {
         const StudyComparison& pair = result.study.comparisons[decision.comparison];
         Listing parts(decision_parts(result, decision));
-        parts.caption = decisions.size() == 1 ? fmt::format("{} against {}", pair.tested, pair.against)
-                                              : fmt::format("{}, against {}", decision_count(result, decision), pair.against);
+        parts.caption = decisions.size() == 1 ? fmt::format("{} against {}", pair.tested, pair.against) : decision_count(result, decision);
         section.blocks.emplace_back(std::move(parts));
     }
     if (!was_judged(result))
