@@ -41,6 +41,8 @@ StudyCell named(const Study& study, StudyCell cell) {
                             part(study.techniques.size() > 1, study.techniques[cell.technique]), condition_part(study, cell));
     cell.condition = fmt::format("{}, aim {:g} %, {:g} V{}", c.times_of_day[cell.time_of_day].name, c.aim_percent[cell.aim],
                                  c.voltage_v[cell.voltage], c.mirror[cell.mirror] ? ", mirrored" : "");
+    for (std::size_t i = 0; i < study.axes.size(); ++i)
+        cell.axes.push_back({study.axes[i].name, study.points[cell.point][i]});
     if (!study.axes.empty())
         cell.condition += ", " + point_text(study.axes, study.points[cell.point]);
     return cell;

@@ -31,6 +31,13 @@ struct StudySample {
     std::uint64_t seed = 0; ///< of low_discrepancy: 0 is Sobol's sequence as published (sobol.h)
 };
 
+/// Of one cell.
+struct AxisValue {
+    std::string axis, value; ///< name; YAML, "" for the drive's own
+
+    bool operator==(const AxisValue&) const = default;
+};
+
 /// The value of each axis, as YAML; "" leaves the drive's own.
 using StudyPoint = std::vector<std::string>;
 
