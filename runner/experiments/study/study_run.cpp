@@ -23,6 +23,7 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace fernlicht {
@@ -48,8 +49,9 @@ void refuse_unaimable(const std::vector<Planned>& planned) {
 
 /// Axes may put a drive on another road, or elsewhere on it.
 bool is_same_road(const Planned& a, const Planned& b) {
+    const auto start_of = [](const Planned& one) { return std::tie(one.drive.start.road, one.drive.start.lane, one.drive.start.s_m); };
     return a.cell.drive == b.cell.drive && a.cell.technique == b.cell.technique && a.cell.mirror == b.cell.mirror &&
-           a.drive.road_file == b.drive.road_file && a.drive.mirrored_road == b.drive.mirrored_road && a.drive.start == b.drive.start &&
+           a.drive.road_file == b.drive.road_file && a.drive.mirrored_road == b.drive.mirrored_road && start_of(a) == start_of(b) &&
            a.drive.via == b.drive.via;
 }
 
