@@ -62,7 +62,7 @@ TEST_F(StudyAxesProgram, PlaysEveryPointAndTellsItsValues) {
     std::getline(csv, line);
     EXPECT_THAT(line, HasSubstr(",0,0.5\r"));
     EXPECT_THAT(content_of(folder / "out/report.html"), HasSubstr("weather.wetness 1, mount_height_m 0.8"));
-    EXPECT_THAT(content_of(folder / "out/cells/straight_new_p04/straight.yaml"), HasSubstr("wetness: 1"));
+    EXPECT_THAT(content_of(folder / "out/cells/straight_new_p04/straight-1.yaml"), HasSubstr("wetness: 1"));
 }
 
 TEST_F(StudyAxesProgram, ListsPointsAndRefusesBeforeAnythingIsPlayed) {
