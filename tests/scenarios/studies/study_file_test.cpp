@@ -188,7 +188,7 @@ TEST_F(StudyFile, RefusesInOneSentenceWithItsPlace) {
         volts += (i ? ", " : "") + std::to_string(12.0 + 0.01 * i);
     }
     EXPECT_THAT(refusal(with("conditions: {aim_percent: [" + aims + "], voltage_v: [" + volts + "], mirror: [false, true]}\n")),
-                HasSubstr("32400 cells (drives x lamps x techniques x conditions), expected at most 20000"));
+                HasSubstr("32400 cells (drives x lamps x techniques x conditions), expected at most 10000"));
     std::string text = with("");
     text.replace(text.find("straight.yaml"), 13, "first-light.yaml");
     const Study study = read(text);
