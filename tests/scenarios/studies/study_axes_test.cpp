@@ -189,21 +189,21 @@ TEST_F(StudyAxes, RefusesInOneSentenceWithItsAxis) {
     EXPECT_THAT(refusal("axes: {mount_height_m: [0.6], car.mounts: [{left: [3, 0.6, 0.6]}]}\n"), HasSubstr("both move the lamps"));
     EXPECT_THAT(refusal("sample: one_at_a_time\n"), HasSubstr("a sample without axes"));
     EXPECT_THAT(refusal("axes: {weather.wetness: [0]}\nsample: {low_discrepancy: 10001}\n"), HasSubstr("1 to 10000"));
-    EXPECT_THAT(refusal("axes: {weather.wetness: {from: 0, to: 1, count: 200}, mount_height_m: {from: 0.5, to: 1, count: 51}}\n"),
-                HasSubstr("20400 cells (drives x lamps x techniques x conditions x points of axes), expected at most 10000"));
+    EXPECT_THAT(refusal("axes: {weather.wetness: {from: 0, to: 1, count: 100}, mount_height_m: {from: 0.5, to: 1, count: 51}}\n"),
+                HasSubstr("10200 cells (drives x lamps x techniques x conditions x points of axes), expected at most 10000"));
 }
 
 TEST_F(StudyAxes, ThousandsOfCellsAreListedAtOnce) {
     const auto start = std::chrono::steady_clock::now();
-    const Study study = read("axes: {weather.wetness: {from: 0, to: 1, count: 50}, mount_height_m: {from: 0.5, to: 1, step: 0.01}, "
+    const Study study = read("axes: {weather.wetness: {from: 0, to: 1, count: 25}, mount_height_m: {from: 0.5, to: 1, step: 0.01}, "
                              "yaw_deg: [-0.1, 0, 0.1]}\n");
     const std::vector<StudyCell> cells = cells_of(study);
-    ASSERT_EQ(cells.size(), 50U * 51U * 3U * 2U);
+    ASSERT_EQ(cells.size(), 25U * 51U * 3U * 2U);
     std::set<std::string> names;
     for (const StudyCell& cell : cells)
         names.insert(cell.name);
     EXPECT_EQ(names.size(), cells.size());
-    EXPECT_EQ(cells.back().name, "straight_b_p7650");
+    EXPECT_EQ(cells.back().name, "straight_b_p3825");
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     EXPECT_LT(took.count(), 2.0) << "seconds";
 }
