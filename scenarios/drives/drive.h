@@ -158,6 +158,8 @@ struct DriveEdits {
     std::optional<std::string> shadows; ///< method by name
     std::optional<std::pair<int, int>> resolution;
     std::optional<bool> capture_all;
+    /// Key path (fields/key_path.h) and YAML in place of what the file has there, before it is read; relative paths start at the file.
+    std::vector<std::pair<std::string, std::string>> values;
     std::vector<std::filesystem::path> road_folders; ///< where a storyboard's road is looked for, too
     bool lenient = false;                            ///< what a storyboard has that is not supported is left out
     std::string ego;                                 ///< the storyboard's entity that is the own car; "": as the drive says

@@ -3,12 +3,16 @@
 #include "scenarios/drives/edits/mirrored_drive.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/drives/keys/lamp_keys.h"
+#include "scenarios/fields/key_path.h"
 #include "scenarios/fields/read_fields.h"
+#include "scenarios/studies/axes_on_drive.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
+#include <string_view>
 
 namespace fernlicht {
 namespace {
@@ -18,11 +22,17 @@ bool is_high_beam(const MountedLamp& lamp) { return lamp.name.find("high") != st
 /// "aim-1.5": what tells a cell's condition from the study's others; "" where the study has one value.
 std::string part(bool several, const std::string& text) { return several ? "_" + text : std::string(); }
 
+/// "p007": points have numbers of one length, from 1.
+std::string point_name(const Study& study, std::size_t point) {
+    return fmt::format("p{:0{}}", point + 1, std::max<std::size_t>(2, fmt::formatted_size("{}", study.points.size())));
+}
+
 std::string condition_part(const Study& study, const StudyCell& cell) {
     const StudyConditions& c = study.conditions;
     return part(c.times_of_day.size() > 1, c.times_of_day[cell.time_of_day].name) +
            part(c.aim_percent.size() > 1, fmt::format("aim{:g}", c.aim_percent[cell.aim])) +
-           part(c.voltage_v.size() > 1, fmt::format("{:g}V", c.voltage_v[cell.voltage])) + part(c.mirror[cell.mirror], "mirrored");
+           part(c.voltage_v.size() > 1, fmt::format("{:g}V", c.voltage_v[cell.voltage])) + part(c.mirror[cell.mirror], "mirrored") +
+           part(!study.axes.empty(), point_name(study, cell.point));
 }
 
 StudyCell named(const Study& study, StudyCell cell) {
@@ -31,6 +41,10 @@ StudyCell named(const Study& study, StudyCell cell) {
                             part(study.techniques.size() > 1, study.techniques[cell.technique]), condition_part(study, cell));
     cell.condition = fmt::format("{}, aim {:g} %, {:g} V{}", c.times_of_day[cell.time_of_day].name, c.aim_percent[cell.aim],
                                  c.voltage_v[cell.voltage], c.mirror[cell.mirror] ? ", mirrored" : "");
+    for (std::size_t i = 0; i < study.axes.size(); ++i)
+        cell.axes.push_back({study.axes[i].name, study.points[cell.point][i]});
+    if (!study.axes.empty())
+        cell.condition += ", " + point_text(study.axes, study.points[cell.point]);
     return cell;
 }
 
@@ -42,6 +56,7 @@ DriveEdits edits_for(const Study& study, const StudyLamp& lamp, const StudyCell&
     edits.lamp_recipe = lamp.recipe;
     edits.technique = study.techniques[cell.technique];
     edits.resolution = study.resolution_px;
+    edits.values = values_of_point(study.axes, study.points[cell.point]);
     return edits;
 }
 
@@ -112,22 +127,26 @@ std::vector<StudyCell> cells_of(const Study& study) {
                 for (cell.aim = 0; cell.aim < c.aim_percent.size(); ++cell.aim)
                     for (cell.voltage = 0; cell.voltage < c.voltage_v.size(); ++cell.voltage)
                         for (cell.mirror = 0; cell.mirror < c.mirror.size(); ++cell.mirror)
-                            for (cell.lamp = 0; cell.lamp < study.lamps.size(); ++cell.lamp)
-                                cells.push_back(named(study, cell));
-    for (std::size_t i = 0; i < cells.size(); ++i)
-        for (std::size_t k = 0; k < i; ++k)
-            if (cells[i].name == cells[k].name)
-                throw InputError({study.file, 0, 0, "drives"}, "found two cells '" + cells[i].name + "'", "drive files of different names");
+                            for (cell.point = 0; cell.point < study.points.size(); ++cell.point)
+                                for (cell.lamp = 0; cell.lamp < study.lamps.size(); ++cell.lamp)
+                                    cells.push_back(named(study, cell));
+    std::set<std::string_view> names;
+    for (const StudyCell& one : cells)
+        if (!names.insert(one.name).second)
+            throw InputError({study.file, 0, 0, "drives"}, "found two cells '" + one.name + "'", "drive files of different names");
     return cells;
 }
 
-Drive cell_drive(const Study& study, const StudyCell& cell) {
+namespace {
+
+Drive drive_of_cell(const Study& study, const StudyCell& cell) {
     const StudyLamp& lamp = study.lamps[cell.lamp];
     DriveEdits edits = edits_for(study, lamp, cell);
     Drive drive = read_drive(study.drives[cell.drive], edits);
     put_high_beams(study, lamp, drive, edits);
     add_measures(study.measure, drive.seeing);
-    drive.daylight = study.conditions.times_of_day[cell.time_of_day];
+    if (!is_daylight_an_axis(study.axes))
+        drive.daylight = study.conditions.times_of_day[cell.time_of_day];
     if (drive.storyboard)
         drive.storyboard->own_daylight = true; // of the study: no environment of the storyboard changes it
     drive.lamp_sets.resize(1);
@@ -143,6 +162,7 @@ Drive cell_drive(const Study& study, const StudyCell& cell) {
         mounted.function = is_high_beam(mounted) ? std::nullopt : lamp.function;
     }
     aim_changes(lamp, aim_percent, lamp_set);
+    set_named_axes(study.axes, study.points[cell.point], drive);
     if (study.conditions.mirror[cell.mirror])
         mirror_traffic(drive, lamp.mirrors);
     read_adaptation_lamp(drive);
@@ -151,6 +171,46 @@ Drive cell_drive(const Study& study, const StudyCell& cell) {
     // Of what the reader decided, that only one lamp set is left is the study's own doing.
     std::erase_if(drive.notes, [](const std::string& note) { return note.starts_with("every lamp set would have"); });
     return drive;
+}
+
+/// "changes.0.level" of "changes[0].level".
+std::string path_in_dots(std::string key) {
+    std::erase(key, ']');
+    std::ranges::replace(key, '[', '.');
+    return key;
+}
+
+/// A drive that is read as it is refuses a point: the axes are the reason, one of them where the refused key is its own.
+[[noreturn]] void refuse_point(const Study& study, const StudyCell& cell, const InputError& error) {
+    const StudyPoint& point = study.points[cell.point];
+    const StudyAxis* named = nullptr;
+    std::string values = point_text(study.axes, point);
+    for (std::size_t i = 0; i < point.size(); ++i)
+        if (!point[i].empty() && !error.where().key.empty() && paths_overlap(study.axes[i].key, path_in_dots(error.where().key))) {
+            named = &study.axes[i];
+            values = point[i];
+        }
+    const StudyAxis& at = named ? *named : study.axes.front();
+    throw InputError({study.file, at.line, at.column, named ? "axes." + at.name : "axes"},
+                     fmt::format("found {}, which this drive refuses: {}", values, error.what()));
+}
+
+} // namespace
+
+Drive cell_drive(const Study& study, const StudyCell& cell) {
+    try {
+        return drive_of_cell(study, cell);
+    } catch (const InputError& error) {
+        if (study.axes.empty())
+            throw;
+        Study plain = study;
+        plain.axes.clear();
+        plain.points = {{}};
+        StudyCell without = cell;
+        without.point = 0;
+        drive_of_cell(plain, without); // what it refuses, too, is not the axes' doing
+        refuse_point(study, cell, error);
+    }
 }
 
 namespace {
@@ -349,8 +409,12 @@ void refuse_too_many(const Study& study, const YamlEntry& entry) {
     for (const std::size_t values : {study.drives.size(), study.lamps.size(), study.techniques.size(), c.times_of_day.size(),
                                      c.aim_percent.size(), c.voltage_v.size(), c.mirror.size()})
         cells *= values; // seven factors of at most 100 each stay below 2^64
-    if (cells > max_study_cells)
-        entry.refuse(fmt::format("{} cells (drives x lamps x techniques x conditions)", cells), fmt::format("at most {}", max_study_cells));
+    const std::size_t points = number_of_points(study.axes, study.sample);
+    if (points > max_study_cells || cells > max_study_cells || cells * points > max_study_cells)
+        entry.refuse(fmt::format("{} cells (drives x lamps x techniques x conditions{})",
+                                 points > max_study_cells ? fmt::format("{} x {}", cells, points) : fmt::format("{}", cells * points),
+                                 study.axes.empty() ? "" : " x points of axes"),
+                     fmt::format("at most {}", max_study_cells));
 }
 
 } // namespace
@@ -388,6 +452,12 @@ const Fields<Study>& study_fields() {
         values_form("drives", &Study::drives, existing, false, text, "drive files; relative to the study file").required(),
         values_form("techniques", &Study::techniques, technique_name, false, text, "how the drives are rendered; photometric by default"),
         field("conditions", 4, &Study::conditions, condition_fields(), "every combination is played"),
+        form<Study>("axes", FieldKind::own, {},
+                    "any key of the drives, or mounts, aim, load and speed of the car, over values; each point is a condition", read_axes)
+            .schema_by(axes_schema()),
+        form<Study>("sample", FieldKind::own, {}, "points of the axes: grid (default), one_at_a_time, or {low_discrepancy: N, seed: 0}",
+                    read_sample)
+            .schema_by(sample_schema()),
         form<Study>("compare", FieldKind::list, names(0, max_entries), "all with the first by default", read_comparisons)
             .of(comparison_fields()),
         field("measure", 5, &Study::measure, seeing_fields(), "in every drive that does not ask itself"),
@@ -422,7 +492,11 @@ Study read_study(const std::filesystem::path& path) {
         study.title = study.name;
     for (std::size_t i = 1; i < study.lamps.size() && !keys.find("compare"); ++i) // all with the first
         study.comparisons.push_back({study.lamps[i].name, study.lamps.front().name});
+    check_axes(whole, study);
     refuse_too_many(study, whole);
+    study.points = points_of(study.axes, study.sample);
+    if (is_daylight_an_axis(study.axes))
+        study.conditions.times_of_day.front().name = "daylight by axis";
     return study;
 }
 

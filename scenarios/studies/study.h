@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenarios/drives/drive.h"
+#include "scenarios/studies/study_axes.h"
 
 namespace fernlicht {
 
@@ -49,7 +50,10 @@ struct Study {
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> techniques{"photometric"};
     StudyConditions conditions;
-    SeeingParameters measure; ///< what every drive measures of seeing and glare where it does not ask for it itself
+    std::vector<StudyAxis> axes;
+    StudySample sample;
+    std::vector<StudyPoint> points{{}}; ///< of the axes; every one is played under every condition
+    SeeingParameters measure;           ///< what every drive measures of seeing and glare where it does not ask for it itself
     std::vector<StudyComparison> comparisons;
     std::vector<std::string> decide; ///< readings by name or pattern (glob.h), the most important first
     std::vector<StudyLimit> limits;
@@ -62,26 +66,30 @@ struct Study {
 template <class Struct> struct Fields;
 const Fields<Study>& study_fields(); ///< the keys of its file
 
-inline constexpr std::size_t max_study_cells = 500;
+/// Every drive is read before the first frame and kept until its turn: 0.43 MB each with two lamp files, 4.3 GB of this many.
+inline constexpr std::size_t max_study_cells = 10'000;
 
 /// One thing that is played: a drive with one lamp set in one technique under one condition.
 struct StudyCell {
-    std::string name; ///< its folder: "straight_xenon", with technique and conditions where the study has several
-    std::size_t drive = 0, lamp = 0, technique = 0, time_of_day = 0, aim = 0, voltage = 0, mirror = 0; ///< indices into the study's lists
-    std::string condition; ///< "night, aim -1 %, 13.2 V, mirrored"; for people
+    std::string name; ///< its folder: "straight_xenon", with technique, conditions and the number of the point where the study has several
+    std::size_t drive = 0, lamp = 0, technique = 0, time_of_day = 0, aim = 0, voltage = 0, mirror = 0,
+                point = 0;       ///< indices into the study's lists
+    std::vector<AxisValue> axes; ///< of its point, all axes of the study
+    std::string condition;       ///< "night, aim -1 %, 13.2 V, mirrored, weather.wetness 0.5"; for people
 };
 
 /// Reads and checks a study file, version 1 (scenarios/study.example.yaml explains every key). Throws InputError with file, line, column
-/// and key: unknown keys (with the nearest known one), names that no lamp has, a condition that cannot be played, more than 500 cells. Lamp
-/// and drive files must exist; they are read by cell_drive.
+/// and key: unknown keys (with the nearest known one), names that no lamp has, a condition that cannot be played, more cells than
+/// max_study_cells. Lamp and drive files must exist; they are read by cell_drive.
 Study read_study(const std::filesystem::path& path);
 
-/// All cells: drives, then techniques, times of day, aims, voltages, mirrors, and lamps innermost, so that what is compared lies side by
-/// side.
+/// All cells: drives, then techniques, times of day, aims, voltages, mirrors, points of the axes, and lamps innermost, so that what is
+/// compared lies side by side.
 std::vector<StudyCell> cells_of(const Study& study);
 
-/// The drive that plays a cell: the study's drive file with this lamp set alone, its aim, voltage and daylight, few stored moments. Throws
-/// InputError for what the drive file or the lamp refuses, and for a drive with high beams where the lamp set has none.
+/// The drive that plays a cell: the study's drive file with the values of its point and with this lamp set alone, its aim, voltage and
+/// daylight, few stored moments. Throws InputError for what the drive file or the lamp refuses, naming the axis where a value is the
+/// reason, and for a drive with high beams where the lamp set has none.
 Drive cell_drive(const Study& study, const StudyCell& cell);
 
 /// The readings that decide where nobody names any: what is bought with light (docs/studies.md#what-decides).

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 #include <set>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -100,13 +102,14 @@ void judge_deciding(StudyResult& result) {
 
 void judge_values(StudyResult& result, const StudyLimit& limit) {
     const auto key = key_of(limit.reading);
+    const std::set<ReadingKey> keys = keys_in(result);
     for (const CellResult& cell : result.cells) {
         if (!limit.lamp.empty() && result.study.lamps[cell.cell.lamp].name != limit.lamp)
             continue;
         const auto found = key ? cell.readings.find(*key) : cell.readings.end();
         const bool known = found != cell.readings.end();
         const Value value = known ? found->second.value
-                                  : Value::not_measured(cell.failed.empty() ? no_such_reading(limit.reading, keys_in(result))
+                                  : Value::not_measured(cell.failed.empty() ? no_such_reading(limit.reading, keys)
                                                                             : "the cell was not played: " + cell.failed);
         result.verdicts.push_back(verdict_on(cell.cell.name + ": " + limit.reading, value, known ? unit_of(*key) : "", limit.at_least,
                                              limit.at_most, repeat_command(result.call, {"--only", cell.cell.name})));
@@ -155,15 +158,23 @@ std::string played_in_part(const StudyResult& result) {
 
 bool is_same_place(const StudyCell& a, const StudyCell& b) {
     return a.drive == b.drive && a.technique == b.technique && a.time_of_day == b.time_of_day && a.aim == b.aim && a.voltage == b.voltage &&
-           a.mirror == b.mirror;
+           a.mirror == b.mirror && a.point == b.point;
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> StudyResult::pairs_of(const StudyComparison& comparison) const {
+    const auto place = [&](std::size_t i) {
+        const StudyCell& c = cells[i].cell;
+        return std::tuple(c.drive, c.technique, c.time_of_day, c.aim, c.voltage, c.mirror, c.point);
+    };
+    std::multimap<decltype(place(0)), std::size_t> against; // in the order of cells where a place has several
+    for (std::size_t k = 0; k < cells.size(); ++k)
+        if (lamp_of(k) == comparison.against)
+            against.emplace(place(k), k);
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for (std::size_t i = 0; i < cells.size(); ++i)
-        for (std::size_t k = 0; k < cells.size(); ++k)
-            if (lamp_of(i) == comparison.tested && lamp_of(k) == comparison.against && is_same_place(cells[i].cell, cells[k].cell))
-                pairs.emplace_back(i, k);
+        if (lamp_of(i) == comparison.tested)
+            for (auto [found, end] = against.equal_range(place(i)); found != end; ++found)
+                pairs.emplace_back(i, found->second);
     return pairs;
 }
 

@@ -230,8 +230,11 @@ Section lamps_section(const StudyResult& result) {
 /// Driver's views of the same moment with two lamps.
 Section views_section(const StudyResult& result) {
     Section section{"What the driver sees", {}};
-    for (const StudyComparison& pair : result.study.comparisons)
-        for (const auto& [tested, against] : result.pairs_of(pair))
+    for (const StudyComparison& pair : result.study.comparisons) {
+        std::vector<std::pair<std::size_t, std::size_t>> pairs = result.pairs_of(pair);
+        if (!result.study.axes.empty())
+            pairs.resize(std::min(pairs.size(), max_pictured_places));
+        for (const auto& [tested, against] : pairs)
             for (const StoredFrame& now : result.cells[tested].frames)
                 for (const StoredFrame& before : result.cells[against].frames)
                     if (now.tick == before.tick && now.view == before.view && !now.png.empty() && !before.png.empty())
@@ -239,6 +242,7 @@ Section views_section(const StudyResult& result) {
                                                                                now.time_s, result.cells[tested].cell.condition),
                                                                    {pair.tested, pair.against},
                                                                    {now.png, before.png}});
+    }
     return section;
 }
 
@@ -280,6 +284,9 @@ Document document(const StudyResult& result, const std::vector<std::string>& pap
                                                  {"figures/work-precision", &cells}})
             if (figure.plot.name.starts_with(beginning))
                 section->blocks.emplace_back(figure.plot);
+    if (!result.study.axes.empty() && result.cells.size() > max_pictured_places * result.study.lamps.size())
+        cells.blocks.emplace_back(
+            fmt::format("Pictures are of the first {} places; the others' are in the reports of their cells.", max_pictured_places));
     cells.blocks.emplace_back(cells_table(result));
     Listing files({Cell("study.json").linked("study.json"), Cell("study.csv").linked("study.csv")});
     for (const std::string& paper : papers)
@@ -365,9 +372,13 @@ Document study_paper(const StudyResult& result) {
 }
 
 std::string study_csv(const StudyResult& result) {
+    const std::vector<AxisValue> axes = result.cells.empty() ? std::vector<AxisValue>{} : result.cells.front().cell.axes;
     std::string csv = "id,new,against,drive,technique,condition,reading,unit,old_value,new_value,change,uncertainty,by_tenth_degree,by_"
                       "tenth_flux,by_10mm,by_75kg,by_noise,kind,decides,"
-                      "new_cell,old_cell,why_not,old_bound,new_bound,change_bound\r\n";
+                      "new_cell,old_cell,why_not,old_bound,new_bound,change_bound";
+    for (const AxisValue& axis : axes)
+        csv += "," + csv_text(axis.axis);
+    csv += "\r\n";
     for (const Change& c : result.changes) {
         const CellResult &now = result.cells[c.tested], &before = result.cells[c.against];
         csv +=
@@ -378,6 +389,12 @@ std::string study_csv(const StudyResult& result) {
                      csv_number(c.height_effect), csv_number(c.load_effect), csv_number(c.noise_effect), change_name(c.kind),
                      c.decides ? "yes" : "no", csv_text(now.cell.name), csv_text(before.cell.name), csv_text(c.reason_unknown),
                      bound_name(c.old_value), bound_name(c.new_value), bound_name(c.change()));
+        if (axes.empty())
+            continue;
+        csv.resize(csv.size() - 2); // before the line's end
+        for (const AxisValue& axis : now.cell.axes)
+            csv += "," + csv_text(axis.value);
+        csv += "\r\n";
     }
     return csv;
 }

@@ -21,6 +21,9 @@ std::string study_csv(const StudyResult& result);
 /// The verdicts as those of a run: one suite a cell, and one of the study's own limits.
 Report suites_of(const StudyResult& result);
 
+/// Of studies with axes, pictures are of the first so many places.
+inline constexpr std::size_t max_pictured_places = 48;
+
 /// Reach over each drive, lux from above and its difference, error over time, the lamps' difference. EXR files are read below `folder`.
 std::vector<StudyFigure> study_figures(const StudyResult& result, const std::filesystem::path& folder);
 

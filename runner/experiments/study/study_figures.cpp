@@ -45,6 +45,17 @@ std::vector<std::vector<std::size_t>> groups_of(const StudyResult& result) {
     return groups;
 }
 
+/// Of one group, as StudyResult::pairs_of.
+std::vector<std::pair<std::size_t, std::size_t>> pairs_within(const StudyResult& result, const std::vector<std::size_t>& group,
+                                                              const StudyComparison& pair) {
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (const std::size_t a : group)
+        for (const std::size_t b : group)
+            if (result.lamp_of(a) == pair.tested && result.lamp_of(b) == pair.against)
+                pairs.emplace_back(a, b);
+    return pairs;
+}
+
 /// "straight_twilight": the group's cells' common name.
 std::string group_name(const StudyResult& result, const std::vector<std::size_t>& group) {
     std::string name = result.cells[group.front()].cell.name;
@@ -180,7 +191,7 @@ void add_maps(const StudyResult& result, const std::vector<std::size_t>& group, 
             maps.emplace(cell, std::move(*map));
         }
     for (const StudyComparison& pair : result.study.comparisons)
-        for (const auto& [a, b] : result.pairs_of(pair)) {
+        for (const auto& [a, b] : pairs_within(result, group, pair)) {
             if (!maps.contains(a) || !maps.contains(b))
                 continue;
             const std::string title = fmt::format("{} over {}, {}", pair.tested, pair.against, place_of(result, group));
@@ -243,7 +254,9 @@ void add_lamp_differences(const StudyResult& result, std::vector<StudyFigure>& f
 std::vector<StudyFigure> study_figures(const StudyResult& result, const std::filesystem::path& folder) {
     std::vector<StudyFigure> figures;
     add_lamp_differences(result, figures);
-    const std::vector<std::vector<std::size_t>> groups = groups_of(result);
+    std::vector<std::vector<std::size_t>> groups = groups_of(result);
+    if (!result.study.axes.empty()) // a page shows no thousands of pictures
+        groups.resize(std::min(groups.size(), max_pictured_places));
     for (const auto& [surface, threshold_lx] : plotted_reaches(result))
         for (const std::vector<std::size_t>& group : groups)
             add_reach(result, group, surface, threshold_lx, figures);

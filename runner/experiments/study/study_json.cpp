@@ -5,7 +5,12 @@
 #include "runner/judge/verdict_json.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
 #include <functional>
+#include <map>
+#include <memory>
 #include <ranges>
 
 namespace fernlicht {
@@ -22,17 +27,47 @@ template <class List, class Name = std::identity> JsonPart place_in_study(List& 
                    });
 }
 
-/// A place in a list that was read before, as what is there is called.
-template <class List, class Name> JsonPart place_read_before(const List& list, std::size_t& place, Name name) {
+/// A place in a list that was read before, as what is there is called. `known` is filled once: tens of thousands of changes name thousands
+/// of cells.
+using PlacesByName = std::shared_ptr<std::map<std::string, std::size_t>>;
+template <class List, class Name> JsonPart place_read_before(const List& list, const PlacesByName& known, std::size_t& place, Name name) {
     const auto name_at = [&list, name](std::size_t i) { return std::invoke(name, list[i]); };
     JsonPart part = one_of(place, names_of<std::size_t>(name_at, static_cast<int>(list.size())));
-    part.write = [&place, name_at] { return name_at(place); }; // thousands of changes name hundreds of cells
+    part.write = [&place, name_at] { return name_at(place); };
+    part.read = [&list, &place, known, name_at, refuse = part.read](const CheckedJson& json) {
+        if (known->empty())
+            for (std::size_t i = 0; i < list.size(); ++i)
+                known->emplace(name_at(i), i);
+        if (const auto found = known->find(json.text()); found != known->end())
+            place = found->second;
+        else
+            refuse(json);
+    };
     return part;
 }
 
-JsonPart cell_by_name(const StudyResult& result, std::size_t& cell) {
-    return place_read_before(result.cells, cell, [](const CellResult& one) { return one.cell.name; });
+JsonPart cell_by_name(const StudyResult& result, const PlacesByName& cells, std::size_t& cell) {
+    return place_read_before(result.cells, cells, cell, [](const CellResult& one) { return one.cell.name; });
 }
+
+/// A number where it is one, null for the drive's own.
+JsonPart axis_value_part(std::string& value) {
+    using Json = nlohmann::ordered_json;
+    return {[&value] {
+                double number = 0.0;
+                const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+                const bool is_number = error == std::errc{} && end == value.data() + value.size() && std::isfinite(number);
+                return value.empty() ? Json(nullptr) : is_number ? Json(number) : Json(value);
+            },
+            [&value](const CheckedJson& json) {
+                value = json.is_null() ? "" : json.dump().starts_with('"') ? json.text() : fmt::format("{}", json.number());
+            },
+            [] {
+                return Json{{"type", {"number", "string", "null"}}};
+            }};
+}
+
+JsonMembers axis_value_members(AxisValue& one) { return {{"axis", one.axis}, {"value", axis_value_part(one.value)}}; }
 
 JsonMembers lamp_comparison_members(LampComparison& lamps) {
     return joined({{"new", lamps.tested},
@@ -45,11 +80,11 @@ JsonMembers lamp_comparison_members(LampComparison& lamps) {
                   when(lamps.is_turned_later, {{"turned_later", lamps.is_turned_later}}));
 }
 
-JsonMembers study_change_members(Change& change, const StudyResult& result) {
+JsonMembers study_change_members(Change& change, const StudyResult& result, const PlacesByName& cells) {
     const Value found = change.change();
     return joined({{"id", change.id},
-                   {"new_cell", cell_by_name(result, change.tested)},
-                   {"old_cell", cell_by_name(result, change.against)},
+                   {"new_cell", cell_by_name(result, cells, change.tested)},
+                   {"old_cell", cell_by_name(result, cells, change.against)},
                    {"reading", change.reading},
                    {"unit", change.unit()},
                    {"old_value", change.old_value},
@@ -67,11 +102,11 @@ JsonMembers study_change_members(Change& change, const StudyResult& result) {
                   when(change.kind == ChangeKind::unknown, {{"why_not", change.reason_unknown}}));
 }
 
-JsonMembers study_figure_members(StudyFigure& figure, const StudyResult& result) {
+JsonMembers study_figure_members(StudyFigure& figure, const StudyResult& result, const PlacesByName& cells) {
     std::string& name = figure.plot.name;
     const auto svg =
         through([&name] { return name + ".svg"; }, [&name](const std::string& file) { name = file.substr(0, file.rfind('.')); });
-    const auto by_name = [&result](std::size_t& cell) { return cell_by_name(result, cell); };
+    const auto by_name = [&result, cells](std::size_t& cell) { return cell_by_name(result, cells, cell); };
     return {{"svg", svg}, {"png", name + ".png"}, {"title", figure.title}, {"cells", figure.cells, by_name}};
 }
 
@@ -109,7 +144,9 @@ JsonMembers study_cell_members(CellResult& cell, Study& study) {
                         {"error_share_p95", cell.error_share},
                         {"error_floor_share_p95", cell.error_floor_share},
                         {"readings", readings}};
-    return joined(std::move(members), when(!cell.aims.empty(), {{"aims", cell.aims, lamp_aim_members}}));
+    const auto point = through([&at] { return std::uint64_t{at.point} + 1; }, [&at](std::uint64_t number) { at.point = number - 1; });
+    return joined(std::move(members), when(!cell.aims.empty(), {{"aims", cell.aims, lamp_aim_members}}),
+                  when(!at.axes.empty(), {{"point", point}, {"axes", at.axes, axis_value_members}}));
 }
 
 JsonMembers cell_time_members(CellResult& cell) {
@@ -126,9 +163,10 @@ JsonMembers study_context_members(StudyResult& result) {
 } // namespace
 
 JsonMembers study_members(StudyResult& result) {
-    const auto by_id = [&result](std::size_t& change) { return place_read_before(result.changes, change, &Change::id); };
-    const auto change = [&result](Change& one) { return study_change_members(one, result); };
-    const auto figure = [&result](StudyFigure& one) { return study_figure_members(one, result); };
+    const auto cells = std::make_shared<PlacesByName::element_type>(), ids = std::make_shared<PlacesByName::element_type>();
+    const auto by_id = [&result, ids](std::size_t& change) { return place_read_before(result.changes, ids, change, &Change::id); };
+    const auto change = [&result, cells](Change& one) { return study_change_members(one, result, cells); };
+    const auto figure = [&result, cells](StudyFigure& one) { return study_figure_members(one, result, cells); };
     JsonPart lamps = json_part(result.lamps, lamp_comparison_members);
     lamps.read = [&result, read = lamps.read](const CheckedJson& json) {
         read(json);

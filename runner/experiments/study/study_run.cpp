@@ -17,11 +17,13 @@
 #include "scenarios/values/pose.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace fernlicht {
@@ -45,19 +47,27 @@ void refuse_unaimable(const std::vector<Planned>& planned) {
         }
 }
 
+/// Axes may put a drive on another road, or elsewhere on it.
+bool is_same_road(const Planned& a, const Planned& b) {
+    const auto start_of = [](const Planned& one) { return std::tie(one.drive.start.road, one.drive.start.lane, one.drive.start.s_m); };
+    return a.cell.drive == b.cell.drive && a.cell.technique == b.cell.technique && a.cell.mirror == b.cell.mirror &&
+           a.drive.road_file == b.drive.road_file && a.drive.mirrored_road == b.drive.mirrored_road && start_of(a) == start_of(b) &&
+           a.drive.via == b.drive.via;
+}
+
 std::vector<Planned> plan(const Study& study, const std::vector<std::string>& only) {
     std::vector<Planned> planned;
     for (const StudyCell& cell : chosen_cells(study, only)) {
         planned.push_back({cell, cell_drive(study, cell), false});
         refuse_auto_shadows(planned.back().drive); // each cell would choose for itself
     }
-    const StudyCell* last = nullptr;
+    const Planned* last = nullptr;
     bool left_hand = false;
     for (Planned& one : planned) { // roads and techniques too, once each
-        if (!last || last->drive != one.cell.drive || last->technique != one.cell.technique || last->mirror != one.cell.mirror)
+        if (!last || !is_same_road(*last, one))
             left_hand = left_hand_traffic(Stage(one.drive));
         one.left_hand_traffic = left_hand;
-        last = &one.cell;
+        last = &one;
     }
     refuse_unaimable(planned);
     return planned;
@@ -215,10 +225,10 @@ bool play_cell(const Planned& planned, const StudyOptions& options, CellResult& 
 
 /// To the maps of what was played, drive by drive.
 void add_lanes(const std::vector<Planned>& planned, StudyResult& result) {
-    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> alike;
+    std::map<std::array<std::size_t, 3>, std::vector<std::size_t>> alike; // axes may move the car
     for (std::size_t i = 0; i < result.cells.size(); ++i)
         if (result.cells[i].failed.empty())
-            alike[{result.cells[i].cell.drive, result.cells[i].cell.mirror}].push_back(i);
+            alike[{result.cells[i].cell.drive, result.cells[i].cell.mirror, result.cells[i].cell.point}].push_back(i);
     for (const auto& [key, indices] : alike) {
         std::vector<CellResult*> cells;
         for (const std::size_t i : indices)

@@ -7,6 +7,7 @@
 #include "scenarios/drives/keys/story_drive.h"
 #include "scenarios/drives/play/drive_log.h"
 #include "scenarios/fields/field_bits.h"
+#include "scenarios/fields/key_path.h"
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/fields/write_fields.h"
 #include "scenarios/values/errors.h"
@@ -85,12 +86,33 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const Dri
     return drive;
 }
 
+/// What is set has no line in the file.
+void take_off_lines(YamlValue& value) {
+    value.line = value.column = 0;
+    for (YamlValue& item : value.items)
+        take_off_lines(item);
+    for (YamlMember& member : value.members) {
+        member.line = member.column = 0;
+        take_off_lines(member.value);
+    }
+}
+
+YamlValue document_of(const std::string& text, const std::filesystem::path& path, const DriveEdits& edits) {
+    YamlValue document = parse_yaml(text, path);
+    for (const auto& [key, yaml] : edits.values) {
+        YamlValue value = parse_yaml(yaml, path);
+        take_off_lines(value);
+        set_value(document, drive_fields(), key, value, path);
+    }
+    return document;
+}
+
 } // namespace
 
 Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     FilesRead opened;
     const std::string text = is_storyboard_file(path) ? storyboard_drive_text(path, edits) : to_utf8(read_file(path, opened, max_bytes));
-    const YamlValue document = parse_yaml(text, path);
+    const YamlValue document = document_of(text, path, edits);
     const YamlMap keys(YamlEntry(document, path, ""), keys_of(drive_fields()));
     if (keys.require("fernlicht").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht").refuse(fmt::format("{}, the version of the drive file's schema", schema_version));

@@ -182,10 +182,13 @@ TEST_F(StudyFile, RefusesInOneSentenceWithItsPlace) {
     EXPECT_THAT(refusal(with("limits: [{reading: x}]\n")), HasSubstr("a limit without a number"));
     EXPECT_THAT(refusal("fernlicht_study: 2\n"), HasSubstr("version of the study file's schema"));
     EXPECT_THAT(refusal(with("lamps: {}\n")), HasSubstr("lamps"));
-    std::string aims;
-    for (int i = 0; i < 90; ++i)
+    std::string aims, volts;
+    for (int i = 0; i < 90; ++i) {
         aims += (i ? ", " : "") + std::to_string(-0.01 * i);
-    EXPECT_THAT(refusal(with("conditions: {aim_percent: [" + aims + "], voltage_v: [12, 13, 13.5]}\n")), HasSubstr("540 cells"));
+        volts += (i ? ", " : "") + std::to_string(12.0 + 0.01 * i);
+    }
+    EXPECT_THAT(refusal(with("conditions: {aim_percent: [" + aims + "], voltage_v: [" + volts + "], mirror: [false, true]}\n")),
+                HasSubstr("32400 cells (drives x lamps x techniques x conditions), expected at most 10000"));
     std::string text = with("");
     text.replace(text.find("straight.yaml"), 13, "first-light.yaml");
     const Study study = read(text);
@@ -262,6 +265,14 @@ TEST_F(StudySchema, AgreesWithTheReader) {
               {"techniques", "[]|[photometric]"},
               {"conditions", "{time_of_day: dusk}|{time_of_day: [day, night]}|{aim_percent: [11]}|{aim_percent: []}|{voltage_v: 11}|"
                              "{voltage_v: [12, 13]}|{mirror: true}|{mirror: [false, true]}|{mirror: []}|{mirror: left}"},
+              {"axes",
+               "{}|{weather.wetness: [0, 1]}|{weather.wetness: []}|{weather.wetness: 1}|{weather.wetness: {from: 0, to: 1, count: 3}}|"
+               "{weather.wetness: {from: 0, to: 1, count: 1}}|{weather.wetness: {from: 0, to: 1, step: 0.1}}|"
+               "{weather.wetness: {from: 0, to: 1, step: 0}}|{weather.wetness: {from: 0, count: 3}}|"
+               "{weather.wetness: {from: 0, to: 1, count: 3, step: 0.5}}|{wet: {key: weather.wetness, values: [0]}}|"
+               "{wet: {key: weather.wetness, values: [0], from: 1}}|{wet: {kay: weather.wetness, values: [0]}}"},
+              {"", "sample: grid\naxes: {yaw_deg: [0]}|sample: random\naxes: {yaw_deg: [0]}|sample: {low_discrepancy: 8}\naxes: {yaw_deg: "
+                   "{from: 0, to: 1}}|sample: {low_discrepancy: 0}\naxes: {yaw_deg: [0]}|sample: {seed: 1}\naxes: {yaw_deg: [0]}"},
               {"compare", "[]|[{new: a}]|[{new: b, against: a}]"},
               {"", "decide: []"},
               {"limits", "[{at_least: 1}]|[{reading: x_m, at_least: 1}]"},
