@@ -73,11 +73,11 @@ struct VehicleParameters {
     double drag_area_m2 = 0.65; ///< cw * A
     double rolling_resistance = 0.012;
     std::vector<RoadStep> road_steps; ///< by distance
-    std::optional<RollParameters> roll;
-    std::optional<Roughness> roughness;
-    std::vector<LoadStep> load_steps; ///< by time
     Solver solver = Solver::automatic;
     double tolerance = 1.0e-6;
+    std::optional<RollParameters> roll; ///< none: the body does not roll
+    std::optional<Roughness> roughness;
+    std::vector<LoadStep> load_steps; ///< by time
 
     bool operator==(const VehicleParameters&) const = default;
 };
