@@ -97,7 +97,7 @@ template <class Real> Controls<Real> driver(const CarModel& model, const Real& t
     return hands;
 }
 
-template <class Real> void rates(const CarModel& model, const Real& t_s, const Real* x, Real* out) {
+template <bool rolls, class Real> void rates(const CarModel& model, const Real& t_s, const Real* x, Real* out) {
     const VehicleParameters& car = model.car;
     const double a = model.front_m(), b = model.rear_m(), l = model.wheelbase_m, m = car.mass_kg, radius = car.wheel_radius_m;
     const Real &v = x[forward_speed], &w = x[yaw_rate];
@@ -167,7 +167,7 @@ template <class Real> void rates(const CarModel& model, const Real& t_s, const R
     out[front_wheel_rate] = (front_load_n - front_rest_n - front_spring_n - link_n) / car.front.unsprung_mass_kg;
     out[rear_wheel_rate] = (rear_load_n - rear_rest_n - rear_spring_n + link_n) / car.rear.unsprung_mass_kg;
 
-    if (car.roll) {
+    if constexpr (rolls) {
         const RollModel body = model.roll();
         const Real to_the_left_mps2 = (front_left_n + rear.across_n) / m;
         out[body_roll] = x[body_roll_rate];
@@ -190,7 +190,7 @@ template <std::size_t states> void jacobian_by_duals(const CarModel& model, doub
     std::array<Number, states> at, out;
     for (std::size_t i = 0; i < states; ++i)
         at[i] = Number::variable(x[i], i);
-    rates(model, Number::variable(t_s, states), at.data(), out.data());
+    rates<(states > count)>(model, Number::variable(t_s, states), at.data(), out.data());
     for (std::size_t row = 0; row < states; ++row) {
         std::copy_n(out[row].slope.begin(), states, jacobian + row * states);
         dfdt[row] = out[row].slope[states];
@@ -223,7 +223,9 @@ double CarModel::self_steering_gradient() const {
            (rear_m() / car.front.cornering_stiffness_n_per_rad - front_m() / car.rear.cornering_stiffness_n_per_rad);
 }
 
-void car_rates(const CarModel& model, double t_s, const double* x, double* dxdt) { rates(model, t_s, x, dxdt); }
+void car_rates(const CarModel& model, double t_s, const double* x, double* dxdt) {
+    model.car.roll ? rates<true>(model, t_s, x, dxdt) : rates<false>(model, t_s, x, dxdt);
+}
 
 void car_jacobian(const CarModel& model, double t_s, const double* x, double* jacobian, double* dfdt) {
     model.car.roll ? jacobian_by_duals<count_with_roll>(model, t_s, x, jacobian, dfdt)
