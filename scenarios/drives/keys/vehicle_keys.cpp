@@ -2,6 +2,7 @@
 
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/read_fields.h"
+#include "scenarios/vehicle/car_model.h"
 #include "scenarios/vehicle/car_run.h"
 
 #include <fmt/format.h>

@@ -3,6 +3,7 @@
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/bus_play.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/pose.h"
 
 #include <algorithm>
 #include <cmath>
