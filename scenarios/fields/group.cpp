@@ -61,7 +61,8 @@ std::vector<std::string_view> keys_of(const Group& group) {
 
 std::string_view unit_of(std::string_view key) {
     // Longer ends first: cornering_stiffness_n_per_rad is no angle.
-    static constexpr std::pair<std::string_view, std::string_view> units[] = {{"_n_per_rad", "N/rad"},
+    static constexpr std::pair<std::string_view, std::string_view> units[] = {{"_nm_per_rad", "N m/rad"},
+                                                                              {"_n_per_rad", "N/rad"},
                                                                               {"_n_per_m", "N/m"},
                                                                               {"_ns_per_m", "Ns/m"},
                                                                               {"_per_m", "1/m"},

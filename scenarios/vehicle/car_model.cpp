@@ -27,6 +27,17 @@ template <class Real> Real on_course(const std::vector<double>& table, const Rea
     return chained(distance_m, value, derivative);
 }
 
+/// What an axle feels of the road's roughness.
+template <class Real> struct Unevenness { Real slope{0.0}, tilt_rad{0.0}, tilt_rate_rad_s{0.0}; };
+
+template <class Real> Unevenness<Real> unevenness(const RoughRoad& rough, const Real& distance_m, const Real& along_mps) {
+    if (rough.empty())
+        return {};
+    const RoughPlace at = rough.at(value_of(distance_m));
+    return {chained(distance_m, at.slope, at.bend_per_m), chained(distance_m, at.tilt_rad, at.tilt_slope_rad_per_m),
+            chained(distance_m, at.tilt_slope_rad_per_m, at.tilt_bend_rad_per_m2) * along_mps};
+}
+
 template <class Real> struct Contact {
     Real stretch_rate, sway_rate; ///< m/s
     Real along_n, across_n;       ///< on the car, in the wheel's directions
@@ -86,7 +97,7 @@ template <class Real> Controls<Real> driver(const CarModel& model, const Real& t
     return hands;
 }
 
-template <class Real> void rates(const CarModel& model, const Real& t_s, const Real* x, Real* out) {
+template <bool rolls, class Real> void rates(const CarModel& model, const Real& t_s, const Real* x, Real* out) {
     const VehicleParameters& car = model.car;
     const double a = model.front_m(), b = model.rear_m(), l = model.wheelbase_m, m = car.mass_kg, radius = car.wheel_radius_m;
     const Real &v = x[forward_speed], &w = x[yaw_rate];
@@ -103,10 +114,13 @@ template <class Real> void rates(const CarModel& model, const Real& t_s, const R
     // Up and down: springs, dampers and tyres, each by its change from the rest.
     const Real front_slope = on_course(model.road.slope, x[distance] + l), rear_slope = on_course(model.road.slope, x[distance]);
     const Real front_body_rate = x[heave_rate] + a * x[pitch_rate], rear_body_rate = x[heave_rate] - b * x[pitch_rate];
-    out[front_body] = front_body_rate - front_slope * along;
-    out[rear_body] = rear_body_rate - rear_slope * along;
-    out[front_wheel] = x[front_wheel_rate] - front_slope * along;
-    out[rear_wheel] = x[rear_wheel_rate] - rear_slope * along;
+    const Unevenness<Real> under_front = unevenness(model.rough, x[distance] + l, along),
+                           under_rear = unevenness(model.rough, x[distance], along);
+    const Real front_rise = front_slope + under_front.slope, rear_rise = rear_slope + under_rear.slope;
+    out[front_body] = front_body_rate - front_rise * along;
+    out[rear_body] = rear_body_rate - rear_rise * along;
+    out[front_wheel] = x[front_wheel_rate] - front_rise * along;
+    out[rear_wheel] = x[rear_wheel_rate] - rear_rise * along;
     const Real front_spring_n =
         -car.front.spring_n_per_m * (x[front_body] - x[front_wheel]) - car.front.damper_ns_per_m * (front_body_rate - x[front_wheel_rate]);
     const Real rear_spring_n =
@@ -147,10 +161,23 @@ template <class Real> void rates(const CarModel& model, const Real& t_s, const R
     // The forces on the ground pitch the body; links take their part of it straight to the wheels.
     const Real pitching_nm = ground_n * car.centre_of_gravity_height_m;
     const Real link_n = -car.anti_pitch * pitching_nm / l;
-    out[heave_rate] = (front_spring_n + rear_spring_n) / model.sprung_kg();
-    out[pitch_rate] = (a * front_spring_n - b * rear_spring_n + (1.0 - car.anti_pitch) * pitching_nm) / car.pitch_inertia_kgm2;
+    const Real front_lift_n = front_spring_n - model.front_added_n, rear_lift_n = rear_spring_n - model.rear_added_n;
+    out[heave_rate] = (front_lift_n + rear_lift_n) / model.sprung_kg();
+    out[pitch_rate] = (a * front_lift_n - b * rear_lift_n + (1.0 - car.anti_pitch) * pitching_nm) / car.pitch_inertia_kgm2;
     out[front_wheel_rate] = (front_load_n - front_rest_n - front_spring_n - link_n) / car.front.unsprung_mass_kg;
     out[rear_wheel_rate] = (rear_load_n - rear_rest_n - rear_spring_n + link_n) / car.rear.unsprung_mass_kg;
+
+    if constexpr (rolls) {
+        const RollModel body = model.roll();
+        const Real to_the_left_mps2 = (front_left_n + rear.across_n) / m;
+        out[body_roll] = x[body_roll_rate];
+        out[body_roll_rate] =
+            (body.arm_kgm * (to_the_left_mps2 + gravity_mps2 * x[body_roll]) -
+             body.front_nm_per_rad * (x[body_roll] - under_front.tilt_rad) - body.rear_nm_per_rad * (x[body_roll] - under_rear.tilt_rad) -
+             body.front_nms_per_rad * (x[body_roll_rate] - under_front.tilt_rate_rad_s) -
+             body.rear_nms_per_rad * (x[body_roll_rate] - under_rear.tilt_rate_rad_s)) /
+            body.inertia_kgm2;
+    }
 
     const Controls<Real> hands = driver(model, t_s, x, out[offset]);
     out[force] = hands.force_rate;
@@ -158,32 +185,58 @@ template <class Real> void rates(const CarModel& model, const Real& t_s, const R
     out[steering] = hands.steering_rate;
 }
 
+template <std::size_t states> void jacobian_by_duals(const CarModel& model, double t_s, const double* x, double* jacobian, double* dfdt) {
+    using Number = Dual<states + 1>;
+    std::array<Number, states> at, out;
+    for (std::size_t i = 0; i < states; ++i)
+        at[i] = Number::variable(x[i], i);
+    rates<(states > count)>(model, Number::variable(t_s, states), at.data(), out.data());
+    for (std::size_t row = 0; row < states; ++row) {
+        std::copy_n(out[row].slope.begin(), states, jacobian + row * states);
+        dfdt[row] = out[row].slope[states];
+    }
+}
+
 } // namespace
+
+double RollModel::stiffness_nm_per_rad() const { return front_nm_per_rad + rear_nm_per_rad - gravity_mps2 * arm_kgm; }
+
+RollModel CarModel::roll() const {
+    const double lever_m2 = 0.25 * car.roll->track_m * car.roll->track_m; // of two wheels: half the stiffness, at half the track, each
+    const double unsprung_kg = car.mass_kg - sprung_kg();
+    const double sprung_height_m = (car.mass_kg * car.centre_of_gravity_height_m - unsprung_kg * car.wheel_radius_m) / sprung_kg();
+    const double arm_m = sprung_height_m - car.roll->axis_height_m;
+    RollModel body{car.roll->inertia_kgm2 + sprung_kg() * arm_m * arm_m, sprung_kg() * arm_m, 0.0, 0.0, 0.0, 0.0};
+    const auto in_series = [&](const AxleParameters& axle, double bar_nm_per_rad, double& stiffness, double& damping) {
+        const double springs = axle.spring_n_per_m * lever_m2 + bar_nm_per_rad, tyres = axle.tyre_spring_n_per_m * lever_m2;
+        const double part = tyres / (springs + tyres); // of the roll that lies in the springs
+        stiffness = springs * part;
+        damping = axle.damper_ns_per_m * lever_m2 * part * part;
+    };
+    in_series(car.front, car.roll->front_bar_nm_per_rad, body.front_nm_per_rad, body.front_nms_per_rad);
+    in_series(car.rear, car.roll->rear_bar_nm_per_rad, body.rear_nm_per_rad, body.rear_nms_per_rad);
+    return body;
+}
 
 double CarModel::self_steering_gradient() const {
     return car.mass_kg / wheelbase_m *
            (rear_m() / car.front.cornering_stiffness_n_per_rad - front_m() / car.rear.cornering_stiffness_n_per_rad);
 }
 
-void car_rates(const CarModel& model, double t_s, const double* x, double* dxdt) { rates(model, t_s, x, dxdt); }
+void car_rates(const CarModel& model, double t_s, const double* x, double* dxdt) {
+    model.car.roll ? rates<true>(model, t_s, x, dxdt) : rates<false>(model, t_s, x, dxdt);
+}
 
 void car_jacobian(const CarModel& model, double t_s, const double* x, double* jacobian, double* dfdt) {
-    using Number = Dual<count + 1>;
-    std::array<Number, count> at, out;
-    for (std::size_t i = 0; i < count; ++i)
-        at[i] = Number::variable(x[i], i);
-    rates(model, Number::variable(t_s, count), at.data(), out.data());
-    for (std::size_t row = 0; row < count; ++row) {
-        std::copy_n(out[row].slope.begin(), count, jacobian + row * count);
-        dfdt[row] = out[row].slope[count];
-    }
+    model.car.roll ? jacobian_by_duals<count_with_roll>(model, t_s, x, jacobian, dfdt)
+                   : jacobian_by_duals<count>(model, t_s, x, jacobian, dfdt);
 }
 
 std::vector<double> steady_car(const CarModel& model, double distance_m) {
     const VehicleParameters& car = model.car;
     const double a = model.front_m(), b = model.rear_m(), l = model.wheelbase_m, m = car.mass_kg;
     const double v = model.wish.speed_mps, length_m = car.relaxation_length_m;
-    std::vector<double> x(count, 0.0);
+    std::vector<double> x(model.states(), 0.0);
     x[distance] = distance_m;
     x[forward_speed] = v;
     double unused = 0.0;
@@ -212,6 +265,8 @@ std::vector<double> steady_car(const CarModel& model, double distance_m) {
     x[heading] = rear_side_n / car.rear.cornering_stiffness_n_per_rad;
     x[side_speed] = -v * x[heading] + b * x[yaw_rate];
     x[steering] = (l + model.self_steering_gradient() * v * v) * bend;
+    if (car.roll)
+        x[body_roll] = model.roll().arm_kgm * v * v * bend / model.roll().stiffness_nm_per_rad();
     // Up: on the slope, pitched by the forces.
     const double pitching_nm = ground_n * car.centre_of_gravity_height_m;
     x[front_wheel] = pitching_nm / (l * car.front.tyre_spring_n_per_m);
@@ -231,7 +286,7 @@ OdeProblem car_problem(std::shared_ptr<const CarModel> model) {
     problem.jacobian = [model](double t_s, const double* x, double* jacobian, double* dfdt) {
         car_jacobian(*model, t_s, x, jacobian, dfdt);
     };
-    problem.scale.assign(count, 1.0);
+    problem.scale.assign(model->states(), 1.0);
     // What counts as one: 1 m along, 0.1 m across, 1 m/s, 1 cm in springs and tyres, 1 mm in contacts.
     static constexpr std::pair<std::size_t, double> scales[] = {
         {offset, 0.1},      {heading, 0.01},       {yaw_rate, 0.1},    {front_stretch, 1e-3},   {rear_stretch, 1e-3},
@@ -240,6 +295,10 @@ OdeProblem car_problem(std::shared_ptr<const CarModel> model) {
         {force, 1000.0},    {persistence, 1000.0}, {steering, 0.01}};
     for (const auto& [component, scale] : scales)
         problem.scale[component] = scale;
+    if (model->car.roll) {
+        problem.scale[body_roll] = 0.01;
+        problem.scale[body_roll_rate] = 0.1;
+    }
     return problem;
 }
 

@@ -1,8 +1,10 @@
 // The car as a system of 23 ordinary differential equations: single track with relaxing tyres, turning wheels, half a car on springs, a
-// driver. docs/vehicle.md derives them and names the sources. Angles are small where they are pitch, slope or heading beside the lane.
+// driver; with roll they are 25. docs/vehicle.md derives them and names the sources. Angles are small where they are pitch, slope or
+// heading beside the lane.
 #pragma once
 
 #include "scenarios/roads/route.h"
+#include "scenarios/vehicle/rough_road.h"
 #include "scenarios/vehicle/vehicle_parameters.h"
 
 #include <memory>
@@ -51,7 +53,10 @@ enum : std::size_t {
     force,       ///< of engine (positive) or brakes (negative), N
     persistence, ///< of the driver: the integral part of the force, N
     steering,    ///< angle of the front wheels, left positive, rad
-    count
+    count,
+    body_roll = count, ///< against the road without its roughness, left side up positive, rad; where the car has `roll`
+    body_roll_rate,
+    count_with_roll
 };
 }
 
@@ -62,11 +67,23 @@ struct SpeedSegment {
     bool holds() const { return speed_mps == 0.0 && acceleration_mps2 == 0.0; } ///< stands, with the foot on the brake
 };
 
+/// Roll of the body: inertia p'' = arm (a + g p) - sum over axles of (stiffness (p - tilt) + damping (p' - tilt')).
+struct RollModel {
+    double inertia_kgm2 = 0.0; ///< about the axis
+    double arm_kgm = 0.0;      ///< sprung mass by its height above the axis
+    double front_nm_per_rad = 0.0, rear_nm_per_rad = 0.0, front_nms_per_rad = 0.0, rear_nms_per_rad = 0.0;
+
+    /// What is left of the axles' stiffness when the weight has leant over; at or below 0 the car falls over.
+    double stiffness_nm_per_rad() const;
+};
+
 /// `driven` false: nobody touches pedals or steering, for checks against closed forms.
 struct CarModel {
     VehicleParameters car;
     double wheelbase_m = 2.7;
     RoadCourse road;
+    RoughRoad rough;
+    double front_added_n = 0.0, rear_added_n = 0.0; ///< weight that has come over the axles
     SpeedSegment wish;
     bool driven = true;
     double held_steering_rad = 0.0; ///< where it is not driven
@@ -77,6 +94,9 @@ struct CarModel {
     double sprung_kg() const { return car.mass_kg - car.front.unsprung_mass_kg - car.rear.unsprung_mass_kg; }
     /// Steering for a bend of curvature k: (l + gradient v^2) k. rad s2/m
     double self_steering_gradient() const;
+    /// Springs, bars and dampers act over the track, in series with the tyres, which follow at once. Only where the car has `roll`.
+    RollModel roll() const;
+    std::size_t states() const { return car.roll ? car_state::count_with_roll : car_state::count; }
 };
 
 /// x' by the model; both evaluate the same text.

@@ -18,8 +18,10 @@ struct CarPlace {
     double heading_rad = 0.0;      ///< beside the lane's, left positive
     double speed_mps = 0.0;        ///< along the car
     double rear_lift_m = 0.0;      ///< of the body over the rear axle, from the rest on a level road
-    double pitch_rad = 0.0;        ///< of the body against the road under its axles, nose up positive
+    double pitch_rad = 0.0;        ///< of the body against the road under its axles, without their roughness, nose up positive
     double spring_pitch_rad = 0.0; ///< what sensors at both axles' springs see of it: without the tyres
+    double roll_rad = 0.0;         ///< of the body against the road without its roughness, left side up positive
+    double roll_axis_m = 0.0;      ///< height of the axis that it turns about
     double steering_rad = 0.0;
     double yaw_rate_rad_s = 0.0;                  ///< to the left positive
     double front_load_n = 0.0, rear_load_n = 0.0; ///< of the axles' tyres on the road; 0: in the air
@@ -36,13 +38,16 @@ class CarRun {
     friend CarRun run_car(CarModel model, const std::vector<SpeedSegment>& wishes, double end_s);
     DensePath path_;
     SolverWork work_;
+    RoughRoad rough_;
+    std::optional<RollParameters> roll_;
     double wheelbase_m_ = 0.0;
     double front_rest_n_ = 0.0, rear_rest_n_ = 0.0; ///< loads at rest
     double front_tyre_n_per_m_ = 0.0, rear_tyre_n_per_m_ = 0.0;
 };
 
-/// Drives from time 0 and distance 0 to `end_s`. `wishes`: by time, the first at 0. Their kinks and the car's steps in the road are hit by
-/// the integrator: kinks exactly, steps within SolverOptions::event_tolerance_s. Throws InputError when the solver gives up.
+/// Drives from time 0 and distance 0 to `end_s`. `wishes`: by time, the first at 0. The road's roughness and weight
+/// that comes on follow from `model.car`. Kinks and loads are hit by the integrator exactly, the car's steps in the road within
+/// SolverOptions::event_tolerance_s. Throws InputError when the solver gives up.
 CarRun run_car(CarModel model, const std::vector<SpeedSegment>& wishes, double end_s);
 
 /// By which the sprung weight may press the springs together at rest. A body on such springs swings with sqrt(g / 0.4 m) = 0.8 Hz, below
@@ -50,6 +55,8 @@ CarRun run_car(CarModel model, const std::vector<SpeedSegment>& wishes, double e
 inline constexpr double greatest_deflection_m = 0.4;
 /// Of the body against the road: the equations take the angle for its sine, which differ by 0.4 % here.
 inline constexpr double greatest_pitch_rad = 0.15;
+/// As for the pitch. A car that leans by less has the wheels of both sides on the road, but for very tall or narrow ones.
+inline constexpr double greatest_roll_rad = 0.15;
 /// For which both wheels of an axle may be in the air at a stretch: in 0.2 s a falling body comes down by 0.2 m, the whole way of a car's
 /// springs, whose stops are not modelled. A wheel's own hop (10 to 14 Hz) is over sooner.
 inline constexpr double longest_hop_s = 0.2;

@@ -4,6 +4,7 @@
 #include "scenarios/vehicle/ode.h"
 
 #include <numbers>
+#include <optional>
 
 namespace fernlicht {
 
@@ -27,6 +28,35 @@ struct RoadStep {
     bool operator==(const RoadStep&) const = default;
 };
 
+/// Of ISO 8608, from very smooth to hardly passable; D is a bad road of asphalt.
+enum class RoadClass { A, B, C, D, E, F, G, H };
+
+/// All along the route: what the tyres feel; it is not drawn.
+struct Roughness {
+    RoadClass road_class = RoadClass::C;
+    int seed = 1; ///< at least 0
+
+    bool operator==(const Roughness&) const = default;
+};
+
+/// The body turns about an axis along the car, on its springs and its anti-roll bars; the axles roll with the road.
+struct RollParameters {
+    double inertia_kgm2 = 500.0; ///< of the sprung mass, about its centre of gravity
+    double axis_height_m = 0.1;  ///< above the road, below the centre of gravity
+    double track_m = 1.5;        ///< between the wheels of an axle
+    double front_bar_nm_per_rad = 25'000.0, rear_bar_nm_per_rad = 15'000.0;
+
+    bool operator==(const RollParameters&) const = default;
+};
+
+/// Weight that comes over the axles at a time, as forces on the body: who gets in. Negative: who gets out.
+struct LoadStep {
+    double at_s = 0.0; ///< above 0
+    double front_kg = 0.0, rear_kg = 0.0;
+
+    bool operator==(const LoadStep&) const = default;
+};
+
 /// A middle-class car with front-wheel drive, driver included.
 struct VehicleParameters {
     double mass_kg = 1500.0;
@@ -45,6 +75,9 @@ struct VehicleParameters {
     std::vector<RoadStep> road_steps; ///< by distance
     Solver solver = Solver::automatic;
     double tolerance = 1.0e-6;
+    std::optional<RollParameters> roll; ///< none: the body does not roll
+    std::optional<Roughness> roughness;
+    std::vector<LoadStep> load_steps; ///< by time
 
     bool operator==(const VehicleParameters&) const = default;
 };

@@ -2,6 +2,7 @@
 
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/read_fields.h"
+#include "scenarios/vehicle/car_model.h"
 #include "scenarios/vehicle/car_run.h"
 
 #include <fmt/format.h>
@@ -9,7 +10,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t max_road_steps = 10'000;
+constexpr std::size_t max_road_steps = 10'000, max_load_steps = 1000;
 
 const Fields<AxleParameters>& axle_fields() {
     static const Fields<AxleParameters> fields{
@@ -38,6 +39,19 @@ void check_springs(const YamlMap& keys, const char* name, const VehicleParameter
                   fmt::format("at most {:g} m (0.8 Hz): stiffer springs or less mass_kg", greatest_deflection_m));
 }
 
+void check_roll(const YamlEntry& entry, const VehicleParameters& car) {
+    CarModel model;
+    model.car = car;
+    const RollModel body = model.roll();
+    if (body.arm_kgm < 0.0)
+        entry.refuse(fmt::format("a roll axis at {:g} m, above the body's centre of gravity", car.roll->axis_height_m),
+                     "axis_height_m below centre_of_gravity_height_m");
+    if (!(body.stiffness_nm_per_rad() > 0.0))
+        entry.refuse(fmt::format("springs and bars that hold {:.3g} Nm/rad, while the leaning body's weight pulls with {:.3g}",
+                                 body.front_nm_per_rad + body.rear_nm_per_rad, gravity_mps2 * body.arm_kgm),
+                     "a car that does not fall over: more front_bar_nm_per_rad or track_m, a lower centre_of_gravity_height_m");
+}
+
 constexpr std::string_view levelling_words[] = {"none", "static", "dynamic"};
 
 /// "none" stays with whoever may leave the levelling out.
@@ -56,6 +70,13 @@ void check_vehicle(const YamlMap& keys, const VehicleParameters& car) {
     const double unsprung_kg = car.front.unsprung_mass_kg + car.rear.unsprung_mass_kg;
     if (unsprung_kg > 0.5 * car.mass_kg)
         keys.entry().refuse(fmt::format("axles of {} kg under a car of {} kg", unsprung_kg, car.mass_kg), "at most half of mass_kg");
+    for (std::size_t i = 1; i < car.load_steps.size(); ++i)
+        if (car.load_steps[i].at_s <= car.load_steps[i - 1].at_s)
+            keys.require("load_steps")
+                .list(0, max_load_steps)[i]
+                .refuse(fmt::format("at_s {} after {}", car.load_steps[i].at_s, car.load_steps[i - 1].at_s), "times that ascend");
+    if (car.roll)
+        check_roll(keys.require("roll"), car);
     check_springs(keys, "front", car, car.front, car.front_load);
     check_springs(keys, "rear", car, car.rear, 1.0 - car.front_load);
 }
@@ -159,6 +180,30 @@ const Fields<VehicleParameters>& vehicle_fields() {
                      field("height_m", 2, &RoadStep::height_m, range(-0.2, 0.2), "the road goes on higher by this").required(),
                  },
                  "edges across the road that the tyres feel; by distance"),
+            field("roll", 19, &Car::roll,
+                  Fields<RollParameters>{
+                      field("inertia_kgm2", 1, &RollParameters::inertia_kgm2, range(1.0, 1.0e7), "of the sprung mass"),
+                      field("axis_height_m", 2, &RollParameters::axis_height_m, range(-1.0, 5.0), "of the roll axis above the road"),
+                      field("track_m", 3, &RollParameters::track_m, range(0.2, 5.0), "between the wheels of an axle"),
+                      field("front_bar_nm_per_rad", 4, &RollParameters::front_bar_nm_per_rad, range(0.0, 1.0e8), "anti-roll bar"),
+                      field("rear_bar_nm_per_rad", 5, &RollParameters::rear_bar_nm_per_rad, range(0.0, 1.0e8), "anti-roll bar"),
+                  },
+                  "the body rolls on its springs")
+                .or_flag(),
+            field("roughness", 20, &Car::roughness,
+                  Fields<Roughness>{
+                      field("class", 1, &Roughness::road_class, words({"A", "B", "C", "D", "E", "F", "G", "H"}), "of ISO 8608"),
+                      field("seed", 2, &Roughness::seed, range(0.0, 1.0e9), "another seed is another road of that class"),
+                  },
+                  "of the road, which the tyres feel; not drawn")
+                .short_for("class"),
+            list("load_steps", 21, &Car::load_steps, 0, max_load_steps,
+                 Fields<LoadStep>{
+                     field("at_s", 1, &LoadStep::at_s, above(0.0, 1.0e6), "from then on").required(),
+                     field("front_kg", 2, &LoadStep::front_kg, range(-5000.0, 5000.0), "more over the front axle"),
+                     field("rear_kg", 3, &LoadStep::rear_kg, range(-5000.0, 5000.0), "more over the rear axle"),
+                 },
+                 "people who get in or out; by time"),
             field("solver", 17, &Car::solver, words({"auto", "dormand-prince", "rosenbrock"}), "auto: by stiffness"),
             field("tolerance", 18, &Car::tolerance, range(1.0e-12, 1.0e-2), "of the solver"),
         }

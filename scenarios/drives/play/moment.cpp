@@ -46,10 +46,13 @@ Pose contact(const Route& route, double distance_m, double offset_left_m) {
     return pose;
 }
 
-/// The body on its springs and beside its lane: over the rear axle lifted, turned about it.
+/// The body on its springs and beside its lane: over the rear axle lifted, turned about it, and about its roll axis.
 Pose moved(Pose ego, const CarPlace& place) {
     ego.position_m += place.rear_lift_m * ego.up();
-    ego.axes = ego.axes * axes_from_angles(place.heading_rad, place.pitch_rad, 0.0);
+    const glm::dvec3 axis_m = place.roll_axis_m * ego.up();
+    ego.axes = ego.axes * axes_from_angles(place.heading_rad, place.pitch_rad, place.roll_rad);
+    if (place.roll_rad != 0.0)
+        ego.position_m += axis_m - place.roll_axis_m * ego.up();
     return ego;
 }
 
@@ -122,7 +125,7 @@ Moment moment_at(const State& state, const Drive& drive, const Route& route, con
         moment.speed_mps = place.speed_mps;
         const Pose in_lane = ego_pose(route, moment.distance_m, drive.wheelbase_m, place.offset_left_m);
         moment.ego = moved(in_lane, place);
-        place.rear_lift_m = place.pitch_rad = 0.0;
+        place.rear_lift_m = place.pitch_rad = place.roll_rad = 0.0;
         moment.wheels = moved(in_lane, place);
     }
     for (const MountedLamp& lamp : lamps_at(state, drive, lamp_set))

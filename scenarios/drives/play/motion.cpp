@@ -3,6 +3,7 @@
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/bus_play.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/pose.h"
 
 #include <algorithm>
 #include <cmath>
@@ -129,6 +130,22 @@ void check_validity(Drive& drive, const CarRun& car) {
                                           counted(static_cast<std::uint64_t>(validity.hops), "time"), validity.longest_hop_s));
 }
 
+/// What disturbances do to the body, and so to a cut-off that no levelling holds: standard deviations over the drive, every 10 ms.
+std::string swung(const CarRun& car, double end_s) {
+    double n = 0.0, pitch = 0.0, pitch2 = 0.0, roll = 0.0, roll2 = 0.0;
+    for (double t_s = 0.0; t_s < end_s; t_s = 0.01 * n) {
+        const CarPlace at = car.at(t_s);
+        n += 1.0;
+        pitch += at.pitch_rad, pitch2 += at.pitch_rad * at.pitch_rad;
+        roll += at.roll_rad, roll2 += at.roll_rad * at.roll_rad;
+    }
+    const auto deviation_deg = [n](double sum, double squares) {
+        return degrees(std::sqrt(std::max(squares / n - sum / n * (sum / n), 0.0)));
+    };
+    return fmt::format("vehicle: the body's pitch has a standard deviation of {:.2g} degrees over the drive, its roll {:.2g}",
+                       deviation_deg(pitch, pitch2), deviation_deg(roll, roll2));
+}
+
 void simulate_vehicle(Drive& drive, const Route& route) {
     CarModel model;
     model.car = *drive.vehicle;
@@ -140,6 +157,8 @@ void simulate_vehicle(Drive& drive, const Route& route) {
     fit_to_route(drive, route, *car);
     check_validity(drive, *car);
     drive.notes.push_back(fmt::format("vehicle: {}; {}", solved(car->work()), strayed(*car, speed)));
+    if (model.car.roll || model.car.roughness || !model.car.load_steps.empty())
+        drive.notes.push_back(swung(*car, drive.duration_s));
     for (LampSet& lamp_set : drive.lamp_sets) {
         auto motion = std::make_shared<Motion>(Motion{car, std::nullopt, std::nullopt, std::nullopt, {}, {}});
         if (lamp_set.levelling) {

@@ -4,6 +4,7 @@
 #include "runner/experiments/stability/trial.h"
 #include "scenarios/control/control_stability.h"
 #include "scenarios/drives/play/advance.h"
+#include "scenarios/vehicle/disturbance_study.h"
 #include "scenarios/vehicle/solver_study.h"
 
 #include <algorithm>
@@ -68,6 +69,13 @@ std::vector<StabilityCase> motion_cases() {
          "some roundings of 1, and of 1 / h in the implicit method", worst_of(steps_of_a_microsecond_and_of_ten_seconds)},
         {"motion", "largest-stable-step", "a solver is not the one of the books", 1e-9, "of the step by theory; unstable steps",
          "2000 steps, judged to 1e-9, tell growth from decay more finely still", worst_of(largest_stable_steps)},
+        {"motion", "body-roll", "bars stiffer than any car's, or a body that all but tips over, are solved too coarsely", 1e-5,
+         "rad of pitch or roll", "steps are taken to 1e-6 of 1 cm, 0.01 rad and 0.1 m/s each, some hundred of them",
+         worst_of(roll_of_extreme_cars)},
+        {"motion", "rough-roads", "waves quicker than the steps, and wheels that fly, are passed over", 1e-4, "rad of pitch or roll",
+         "as for the roll; each landing is a kink that no step is told of", worst_of(extreme_rough_roads)},
+        {"motion", "load-steps", "loads that come within a step, or on springs of rock, are felt late", 1e-5, "rad of pitch or roll",
+         "as for the roll; loads end a step exactly", worst_of(extreme_loads)},
         {"motion", "lamp-control-actuators", "commands every tick to a stiff or slow actuator, late or rare, drive it beyond its limits",
          1e-5, "rad beyond stops and rate limit",
          "steps are taken to 1e-6 rad each, looked at between them by an interpolant of lower order",

@@ -228,6 +228,14 @@ class AnyDrive {
                               number(1e-12, 1e-2)};
         for (int i = 0; i < whole(0, 3); ++i)
             car.road_steps.push_back({10.0 * i + number(0.0, 9.0), number(-0.1, 0.1)});
+        if (coin()) {
+            car.roll = RollParameters{number(100.0, 1e4), number(-1.0, -0.6), number(1.0, 2.0), number(1e6, 1e7), number(1e6, 1e7)};
+            car.front.tyre_spring_n_per_m = car.rear.tyre_spring_n_per_m = number(1e6, 1e8); // or it falls over
+        }
+        if (coin())
+            car.roughness = Roughness{static_cast<RoadClass>(whole(0, 7)), whole(0, 1000)};
+        for (int i = 0; i < whole(0, 3); ++i)
+            car.load_steps.push_back({10.0 * i + number(1.0, 9.0), number(-100.0, 100.0), number(-100.0, 100.0)});
         drive.vehicle = car;
         for (LampSet& lamp_set : drive.lamp_sets) {
             if (coin())

@@ -149,6 +149,37 @@ TEST(Motion, WheelsThatHopOverAnEdgeAreANote) {
     EXPECT_THAT(StagedDrive(drive).drive.notes, testing::Contains(HasSubstr("vehicle: wheels of an axle leave the road")));
 }
 
+TEST(Motion, ARoughRoadPitchesAndRollsTheLampsAndNotTheWheels) {
+    Drive drive = read_drive(shipped_drives / "straight.yaml");
+    drive.vehicle = VehicleParameters{};
+    drive.vehicle->roll = RollParameters{};
+    drive.vehicle->roughness = Roughness{RoadClass::C, 1};
+    const StagedDrive played(drive);
+    const CarRun& car = *played.drive.lamp_sets[0].motion->car;
+    double steepest_rad = 0.0, most_rolled_rad = 0.0;
+    for (double time_s = 2.0; time_s < played.drive.duration_s; time_s += 0.05) {
+        const Moment moment = played.at(time_s);
+        const CarPlace place = car.at(time_s);
+        EXPECT_NEAR(climb_rad(moment.lamps[0].pose), place.pitch_rad, 1e-5);
+        EXPECT_NEAR(std::asin(moment.lamps[0].pose.left().z), std::asin(std::cos(place.pitch_rad) * std::sin(place.roll_rad)), 1e-5);
+        EXPECT_NEAR(moment.wheels.up().z, 1.0, 1e-12);
+        // The body turns about an axis 0.1 m above the road.
+        const glm::dvec3 in_wheels = to_local(moment.wheels, to_parent(moment.ego, {0.0, 0.0, place.roll_axis_m}));
+        EXPECT_NEAR(in_wheels.y, 0.0, 1e-12);
+        steepest_rad = std::max(steepest_rad, std::abs(place.pitch_rad));
+        most_rolled_rad = std::max(most_rolled_rad, std::abs(place.roll_rad));
+    }
+    EXPECT_GT(degrees(steepest_rad), 0.3);
+    EXPECT_LT(degrees(steepest_rad), 2.5);
+    EXPECT_GT(degrees(most_rolled_rad), 0.1);
+    EXPECT_LT(degrees(most_rolled_rad), 2.5);
+    EXPECT_THAT(played.drive.notes, testing::Contains(HasSubstr("vehicle: the body's pitch has a standard deviation of 0.")));
+    // As the seed has it, and another road by another.
+    EXPECT_EQ(StagedDrive(drive).at(5.0).ego, played.at(5.0).ego);
+    drive.vehicle->roughness->seed = 2;
+    EXPECT_NE(StagedDrive(drive).at(5.0).ego, played.at(5.0).ego);
+}
+
 using VehicleKeys = DriveFixture;
 
 TEST_F(VehicleKeys, AreReadWithTheirDefaults) {
@@ -167,6 +198,12 @@ TEST_F(VehicleKeys, AreReadWithTheirDefaults) {
     EXPECT_EQ(own.lamp_sets[0].levelling->actuator.rate_limit_rad_s, radians(10.0));
     EXPECT_EQ(own.lamp_sets[0].levelling->actuator.min_rad, radians(-2.0));
     EXPECT_FALSE(own.lamp_sets[0].swivel);
+    EXPECT_FALSE(own.vehicle->roll || own.vehicle->roughness || read(minimal + "vehicle: {roll: false}\n").vehicle->roll);
+    const Drive disturbed =
+        read(minimal + "vehicle: {roll: true, roughness: E, load_steps: [{at_s: 1, rear_kg: 80}, {at_s: 2, front_kg: -20}]}\n");
+    EXPECT_EQ(disturbed.vehicle->roll, RollParameters{});
+    EXPECT_EQ(disturbed.vehicle->roughness, (Roughness{RoadClass::E, 1}));
+    EXPECT_EQ(disturbed.vehicle->load_steps, (std::vector<LoadStep>{{1.0, 0.0, 80.0}, {2.0, -20.0, 0.0}}));
     EXPECT_FALSE(read(minimal + "vehicle: single-track\nactuators: {levelling: none, swivel: false}\n").lamp_sets[0].levelling);
 }
 
@@ -197,6 +234,15 @@ TEST_F(VehicleKeys, AreRefusedInASentence) {
     EXPECT_THAT(refusal(minimal + "vehicle: {tolerance: 0}\n"), HasSubstr("vehicle.tolerance"));
     EXPECT_THAT(refusal(minimal + "vehicle: {road_steps: [{at_m: 3, height_m: 0.1}, {at_m: 3, height_m: 0.1}]}\n"),
                 HasSubstr("places that ascend"));
+    EXPECT_THAT(refusal(minimal + "vehicle: {load_steps: [{at_s: 3, rear_kg: 80}, {at_s: 2, rear_kg: 80}]}\n"),
+                HasSubstr("at_s 2 after 3, expected times that ascend"));
+    EXPECT_THAT(refusal(minimal + "vehicle: {roughness: I}\n"), HasSubstr("vehicle.roughness"));
+    EXPECT_THAT(refusal(minimal + "vehicle: {roll: {axis_height_m: 0.6}}\n"),
+                HasSubstr("vehicle.roll: a roll axis at 0.6 m, above the body's centre of gravity, expected axis_height_m below"));
+    // A body at (1500 * 3 - 170 * 0.31) / 1330 - 0.1 = 3.24 m above the axis: 42.3 kNm/rad.
+    EXPECT_THAT(refusal(minimal + "vehicle: {centre_of_gravity_height_m: 3, roll: {front_bar_nm_per_rad: 0, rear_bar_nm_per_rad: 0, "
+                                  "track_m: 1.2}}\n"),
+                testing::AllOf(HasSubstr("while the leaning body's weight pulls with 4.23e+04, expected a car that does not fall over")));
     EXPECT_THAT(refusal(minimal + "actuators: {levelling: dynamic}\n"), HasSubstr("actuators in a drive without a vehicle"));
     EXPECT_THAT(refusal(minimal + "vehicle: single-track\nactuators: {levelling: {min_deg: 1}}\n"), HasSubstr("0 not outside"));
     EXPECT_THAT(refusal(minimal + "vehicle: single-track\nactuators: {lifting: dynamic}\n"), HasSubstr("actuators.lifting: unknown key"));
