@@ -70,7 +70,11 @@ std::vector<LitLamp> low_beams(const Drive& drive, const LampSet& lamp_set, cons
         if (drive.adaptation_lamp)
             lamp.file = drive.adaptation_lamp;
     }
-    return drive.adaptation_lamp ? his.lamps : nudged(std::move(his), nudge).lamps;
+    if (drive.adaptation_lamp)
+        return his.lamps;
+    Nudge of_all = nudge; // his own lamps differ by what differs in all of their kind, not in this car's
+    of_all.lamps.clear();
+    return nudged(std::move(his), of_all).lamps;
 }
 
 Value lane_luminance_cdm2(const Driver& driver, std::vector<LitLamp> lamps, const Moment& moment) {

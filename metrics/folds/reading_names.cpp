@@ -26,7 +26,15 @@ void check_subjects(const Drive& drive) {
         check(SubjectKind::target, "visibility.targets", asked.visibility->targets);
 }
 
-bool can_be_read(const Drive& drive, const Readings& others, const ReadingKey& key) {
+bool can_be_read(const Drive& drive, const Readings& others, ReadingKey key) {
+    if (is_of_cars(key)) {
+        if (!drive.seeing.tolerances)
+            return false;
+        const std::vector<Limit>& limits = drive.seeing.tolerances->limits;
+        if (key.quantity == Quantity::cars_within)
+            return key.subject == "all" ? limits.size() > 1 : std::ranges::find(limits, key.subject, &Limit::reading) != limits.end();
+        key.aspect = Aspect::value;
+    }
     return is_extent(key) || is_time(key) ||
            (key.quantity == Quantity::probe_illuminance &&
             std::ranges::find(drive.probes, key.subject, &Probe::name) != drive.probes.end()) ||
@@ -37,6 +45,12 @@ bool can_be_read(const Drive& drive, const Readings& others, const ReadingKey& k
 
 void check_names(const Drive& drive, const Readings& others) {
     check_subjects(drive);
+    if (drive.seeing.tolerances)
+        for (const Limit& limit : drive.seeing.tolerances->limits)
+            if (const auto key = key_of(limit.reading); !key || key->aspect != Aspect::value || !can_be_read(drive, others, *key))
+                throw InputError({drive.file, 0, 0, "measure.tolerances.limits"},
+                                 "found reading '" + printable(limit.reading) + "'",
+                                 "a reading of this drive, as reach_5lx_target_own_right_edge_m");
     for (const Limit& limit : drive.limits)
         if (const auto key = key_of(limit.reading); !key || !can_be_read(drive, others, *key))
             throw InputError({drive.file, limit.line, 0, "limits"}, "found reading '" + printable(limit.reading) + "'",

@@ -19,9 +19,9 @@ ByKey values_by_key(const Readings& readings) {
 
 } // namespace
 
-bool tells_sensitivity(int k, int planned) {
-    const auto place = [&](int at) { return static_cast<long long>(at) * sensitivity_moments / planned; };
-    return planned <= sensitivity_moments || k == 0 || place(k) != place(k - 1);
+bool tells_sensitivity(int k, int planned, int moments) {
+    const auto place = [&](int at) { return static_cast<long long>(at) * moments / planned; };
+    return planned <= moments || k == 0 || place(k) != place(k - 1);
 }
 
 SensitivityFold::SensitivityFold(const Drive& drive, const Route& route, const LampSet& lamp_set)

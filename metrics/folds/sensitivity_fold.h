@@ -7,8 +7,8 @@ namespace fernlicht {
 
 /// Of what is a median over the drive, so many moments tell how it moves; evenly over all that are played.
 inline constexpr int sensitivity_moments = 40;
-/// Whether the `k`th of `planned` moments is one of them.
-bool tells_sensitivity(int k, int planned);
+/// Whether the `k`th of `planned` moments is one of `moments`.
+bool tells_sensitivity(int k, int planned, int moments = sensitivity_moments);
 
 class SensitivityFold {
   public:

@@ -183,6 +183,11 @@ constexpr QuantityRow rows[] = {
     {.quantity = Quantity::control_class, .id = "control_class", .forms = "control_class_(c|v|e|w)_share(mean)", .unit = "1",
      .words = "share of class {subject}", .meaning = "share of the moments in that class of the beam",
      .equation = "mean", .source = "classes of UN R123"},
+    {.quantity = Quantity::cars_within, .id = "cars_within", .forms = "cars_within_<name>_percent",
+     .unit = "%", .subject = SubjectKind::limit, .better = Better::higher,
+     .words = "cars within the limit on {subject}",
+     .meaning = "share of cars within the drive's tolerances that keep the limit on the reading NAME; `all`: every limit of the tolerances",
+     .equation = "cars within / cars", .source = "[tolerances.md](tolerances.md)"},
     {.quantity = Quantity::pass_time, .id = "pass_time", .forms = "<name>_time(_median|_p95|_spread)_ms",
      .unit = "ms", .subject = SubjectKind::pass, .better = Better::lower, .words = "time of {subject}",
      .meaning = "of a pass that was timed, warm-up dropped; `spread`: 95th less 5th percentile. Times are reported and never part of baselines"}};

@@ -45,13 +45,14 @@ enum class Quantity {
     control_others,
     control_high_beam,
     control_class,
+    cars_within,
     pass_time
 };
 
 enum class Better { neither, higher, lower };
 
-/// What a quantity's subject is the name of. A drive gives these names, passes apart.
-enum class SubjectKind { none, probe, sensor, eye, mirror, target, pass };
+/// What a quantity's subject is the name of. A drive gives these names, limits (a reading's name) and passes apart.
+enum class SubjectKind { none, probe, sensor, eye, mirror, target, limit, pass };
 
 /// Where a figure's numerical uncertainty comes from.
 enum class Exactness {

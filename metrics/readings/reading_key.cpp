@@ -287,7 +287,11 @@ void add_shapes(std::span<const Part> form, ReadingKey key, const ReadingKey& sa
         add_shapes(form.subspan(1), std::move(key), sample, shapes);
 }
 
-constexpr std::string_view exact = "_standard_error_";
+/// Between a reading's name and its unit.
+constexpr std::pair<Aspect, std::string_view> aspects_before_unit[] = {{Aspect::standard_error, "_standard_error_"},
+                                                                       {Aspect::cars_p05, "_cars_p05_"},
+                                                                       {Aspect::cars_median, "_cars_median_"},
+                                                                       {Aspect::cars_p95, "_cars_p95_"}};
 
 /// "cdm2": a unit as names end in it; "1" for none.
 std::string unit_word(const ReadingKey& key) {
@@ -297,14 +301,15 @@ std::string unit_word(const ReadingKey& key) {
 
 /// A name that may lead back to another key, where the subject is not clear.
 std::optional<std::string> spell(const ReadingKey& key) {
-    if (key.aspect == Aspect::standard_error) { // of a value, whose unit moves behind it
+    if (const auto before = std::ranges::find(aspects_before_unit, key.aspect, &std::pair<Aspect, std::string_view>::first);
+        before != std::end(aspects_before_unit)) {
         ReadingKey of = key;
         of.aspect = Aspect::value;
         std::optional<std::string> name = spell(of);
         const std::string unit = unit_word(key);
         if (name && name->ends_with("_" + unit))
             name->resize(name->size() - unit.size() - 1);
-        return name ? std::optional(fmt::format("{}{}{}", *name, exact, unit)) : std::nullopt;
+        return name ? std::optional(fmt::format("{}{}{}", *name, before->second, unit)) : std::nullopt;
     }
     for (const Form& form : forms())
         if (std::optional<std::string> name = form.quantity == key.quantity ? spell(form.parts, key) : std::nullopt)
@@ -312,12 +317,13 @@ std::optional<std::string> spell(const ReadingKey& key) {
     return std::nullopt;
 }
 
-std::optional<ReadingKey> standard_error_of(std::string_view name, std::size_t at) {
-    const std::string_view unit = name.substr(at + exact.size());
+/// `at`: where the aspect begins.
+std::optional<ReadingKey> with_aspect(std::string_view name, std::size_t at, Aspect aspect, std::string_view spelt) {
+    const std::string_view unit = name.substr(at + spelt.size());
     std::optional<ReadingKey> key = key_of(fmt::format("{}{}{}", name.substr(0, at), unit == "1" ? "" : "_", unit == "1" ? "" : unit));
     if (!key || key->aspect != Aspect::value)
         return std::nullopt;
-    key->aspect = Aspect::standard_error;
+    key->aspect = aspect;
     return spell(*key) == name ? key : std::nullopt;
 }
 
@@ -336,8 +342,9 @@ std::string name_of(const ReadingKey& key) {
 }
 
 std::optional<ReadingKey> key_of(std::string_view name) {
-    if (const std::size_t at = name.rfind(exact); at != std::string_view::npos)
-        return standard_error_of(name, at);
+    for (const auto& [aspect, spelt] : aspects_before_unit)
+        if (const std::size_t at = name.rfind(spelt); at != std::string_view::npos)
+            return with_aspect(name, at, aspect, spelt);
     for (const Form& form : forms()) {
         ReadingKey key{.quantity = form.quantity};
         if (match(form.parts, name, key))
@@ -359,11 +366,12 @@ bool is_clear_subject(SubjectKind kind, std::string_view subject) {
                      {.quantity = row.quantity, .subject = std::string(subject), .threshold = {1.0}, .distance_m = 1.0, .to_m = 2.0})) {
                 if (!is_clear(key))
                     return false;
-                if (key.aspect == Aspect::value) {
-                    key.aspect = Aspect::standard_error;
-                    if (!is_clear(key))
-                        return false;
-                }
+                if (key.aspect == Aspect::value)
+                    for (const auto& [aspect, spelt] : aspects_before_unit) {
+                        key.aspect = aspect;
+                        if (!is_clear(key))
+                            return false;
+                    }
             }
     return true;
 }
@@ -395,6 +403,9 @@ const char* unit_of(const ReadingKey& key) { return row_of(key.quantity).unit; }
 bool is_extent(const ReadingKey& key) { return row_of(key.quantity).is_extent; }
 bool is_time(const ReadingKey& key) { return key.quantity == Quantity::pass_time; }
 bool is_uncertainty(const ReadingKey& key) { return key.aspect >= Aspect::twin; }
+bool is_of_cars(const ReadingKey& key) {
+    return (key.aspect >= Aspect::cars_p05 && key.aspect <= Aspect::cars_p95) || key.quantity == Quantity::cars_within;
+}
 
 std::vector<ReadingKey> shapes_of(const ReadingKey& sample) {
     std::vector<ReadingKey> shapes;
@@ -428,7 +439,8 @@ std::vector<std::string> forms_in_words(const QuantityRow& row) {
 }
 
 const char* name_of(Aspect aspect) {
-    static constexpr const char* names[] = {"value", "by_control", "held_still", "twin", "twin_difference", "grid_error", "standard_error"};
+    static constexpr const char* names[] = {"value",    "by_control", "held_still",      "cars_p05",   "cars_median",
+                                            "cars_p95", "twin",       "twin_difference", "grid_error", "standard_error"};
     return names[static_cast<std::size_t>(aspect)];
 }
 

@@ -15,6 +15,10 @@ enum class Aspect {
     value,
     by_control, ///< what lamp control adds: against the same lamps held still
     held_still, ///< with lamps held still
+    // What cars within the drive's tolerances read:
+    cars_p05,
+    cars_median,
+    cars_p95,
     // How exact the value is:
     twin,
     twin_difference,
@@ -81,6 +85,7 @@ const char* unit_of(const ReadingKey& key); ///< "m", "cd/m2", "%", "1"
 bool is_extent(const ReadingKey& key);      ///< reach, unlit length, width, area
 bool is_time(const ReadingKey& key);        ///< of this machine: reported, never compared
 bool is_uncertainty(const ReadingKey& key); ///< of another reading: never compared itself
+bool is_of_cars(const ReadingKey& key);     ///< a quantile of cars within tolerances, or a share of them
 
 /// Every key of the sample's quantity, with its subject, lane, distance and threshold's value where names have them.
 std::vector<ReadingKey> shapes_of(const ReadingKey& sample);

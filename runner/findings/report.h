@@ -148,6 +148,7 @@ struct Repeats {
 struct RenderingSettings;
 struct ShadowChoice;
 struct SeenDisplay;
+struct SeriesFindings;
 
 /// One moment side by side in several ways.
 struct StoredSheet {
@@ -181,10 +182,11 @@ struct PlayedCell {
     PruningSavings savings;
     DriveError error;
     std::shared_ptr<const RenderingSettings> rendering_settings =
-        nullptr;                                           ///< shadow method, tone mapper and display; nullptr: nothing was drawn
-    std::shared_ptr<const ShadowChoice> shadows = nullptr; ///< how `shadows: auto` was decided; nullptr: the drive names its method
-    std::shared_ptr<const SeenDisplay> display = nullptr;  ///< how pictures are seen; nullptr: the display says not where it is seen from
-    Readings readings;                                     ///< summary of the drive and probes
+        nullptr;                                            ///< shadow method, tone mapper and display; nullptr: nothing was drawn
+    std::shared_ptr<const ShadowChoice> shadows = nullptr;  ///< how `shadows: auto` was decided; nullptr: the drive names its method
+    std::shared_ptr<const SeriesFindings> series = nullptr; ///< of cars within tolerances; nullptr: none asked for, or interrupted
+    std::shared_ptr<const SeenDisplay> display = nullptr;   ///< how pictures are seen; nullptr: the display says not where it is seen from
+    Readings readings;                                      ///< summary of the drive and probes
     Repeats repeats;
     std::vector<Verdict> verdicts;
     std::vector<std::string> left_out; ///< what the scene did not need, one sentence each

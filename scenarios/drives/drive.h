@@ -3,6 +3,7 @@
 
 #include "scenarios/display/display_profile.h"
 #include "scenarios/display/tone_mapper.h"
+#include "scenarios/drives/limit.h"
 #include "scenarios/drives/seeing_parameters.h"
 #include "scenarios/drives/shadow_settings.h"
 #include "scenarios/lamps/beam_texels.h"
@@ -67,14 +68,6 @@ struct ExtentParameters {
     std::vector<double> width_at_m{20.0, 50.0};
 
     bool operator==(const ExtentParameters&) const = default;
-};
-
-struct Limit {
-    std::string reading; ///< name of a row, e.g. "reach_5lx_road_own_m"
-    std::optional<double> at_least, at_most;
-    std::size_t line = 0; ///< of the drive's file; 0: from elsewhere
-
-    bool operator==(const Limit& other) const { return reading == other.reading && at_least == other.at_least && at_most == other.at_most; }
 };
 
 struct Capture {

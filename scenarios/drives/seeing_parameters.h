@@ -1,6 +1,8 @@
 // What a drive measures beyond extents and probes: light at fixed places that the car drives up to, and what it does to the eyes of others.
 #pragma once
 
+#include "scenarios/drives/tolerance_parameters.h"
+
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -139,6 +141,7 @@ struct SeeingParameters {
     std::optional<VisibilityParameters> visibility;
     std::optional<HomogeneityParameters> homogeneity;
     std::optional<PlaceParameters> places;
+    std::optional<ToleranceParameters> tolerances; ///< what all of it, reach and width come to in other cars of the series
 
     bool operator==(const SeeingParameters&) const = default;
 };

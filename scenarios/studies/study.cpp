@@ -82,6 +82,7 @@ void add_measures(const SeeingParameters& everywhere, SeeingParameters& own) {
     add(everywhere.visibility, own.visibility);
     add(everywhere.homogeneity, own.homogeneity);
     add(everywhere.places, own.places);
+    add(everywhere.tolerances, own.tolerances);
 }
 
 /// Where no cut-off is looked for: the aim of the study is that of the cut-off, and the file has its own dip already. Equal ones turn

@@ -8,6 +8,7 @@
 #include "runner/findings/extent_keys.h"
 #include "runner/findings/lamp_checks_json.h"
 #include "runner/findings/moment_columns.h"
+#include "runner/findings/series.h"
 #include "runner/findings/summary.h"
 #include "runner/judge/verdict_json.h"
 #include "runner/play/display_pipeline.h"
@@ -272,32 +273,37 @@ JsonMembers bus_members(BusReport& bus) {
 }
 
 JsonMembers played_members(PlayedCell& played) {
-    return joined({{"drive", played.drive},
-                   {"lamp_set", played.lamp_set},
-                   {"technique", played.technique},
-                   {"lamps", played.lamps},
-                   {"inputs", played.input_hashes},
-                   {"ticks_planned", played.ticks_planned},
-                   {"ticks_done", played.ticks_done},
-                   {"readings", std::uint64_t{played.readings.size()}},
-                   {"moments", through([&played] { return std::max<std::uint64_t>(played.moments_told, moment_count(played)); },
-                                       [&played](std::uint64_t told) { played.moments_told = told; })},
-                   {"repeats", repeats_members(played.repeats)},
-                   {"verdicts", played.verdicts, verdict_members},
-                   {"left_out", played.left_out},
-                   {"notes", played.notes},
-                   {"summary", std::as_const(played.extent_summaries), summary_members},
-                   {"frames", played.frames, frame_members},
-                   {"contact_sheet", null_unless(!played.contact_sheet.png.empty(), sheet_members(played.contact_sheet))},
-                   {"accuracy", accuracy_part(played.error)}},
-                  when(played.rendering_settings != nullptr, {{"shadows", value_of(played.rendering_settings), drawn_shadows_members},
-                                                              {"shown_by", value_of(played.rendering_settings), shown_by_members}}),
-                  when(played.shadows != nullptr, {{"shadow_choice", value_of(played.shadows), choice_members}}),
-                  when(played.display != nullptr, {{"display", value_of(played.display), seen_display_members}}),
-                  when(!played.aims.empty(), {{"aims", played.aims, lamp_aim_members}}),
-                  when(!played.more_sheets.empty(), {{"more_sheets", played.more_sheets, titled_sheet_members}}),
-                  when(!played.seeing.empty(), {{"seeing", played.seeing, seeing_members}}),
-                  when(!played.bus.empty(), {{"signals", bus_members(played.bus)}}));
+    return joined(
+        {{"drive", played.drive},
+         {"lamp_set", played.lamp_set},
+         {"technique", played.technique},
+         {"lamps", played.lamps},
+         {"inputs", played.input_hashes},
+         {"ticks_planned", played.ticks_planned},
+         {"ticks_done", played.ticks_done},
+         {"readings", std::uint64_t{played.readings.size()}},
+         {"moments", through([&played] { return std::max<std::uint64_t>(played.moments_told, moment_count(played)); },
+                             [&played](std::uint64_t told) { played.moments_told = told; })},
+         {"repeats", repeats_members(played.repeats)},
+         {"verdicts", played.verdicts, verdict_members},
+         {"left_out", played.left_out},
+         {"notes", played.notes},
+         {"summary", std::as_const(played.extent_summaries), summary_members},
+         {"frames", played.frames, frame_members},
+         {"contact_sheet", null_unless(!played.contact_sheet.png.empty(), sheet_members(played.contact_sheet))},
+         {"accuracy", accuracy_part(played.error)}},
+        when(played.rendering_settings != nullptr, {{"shadows", value_of(played.rendering_settings), drawn_shadows_members},
+                                                    {"shown_by", value_of(played.rendering_settings), shown_by_members}}),
+        when(played.shadows != nullptr, {{"shadow_choice", value_of(played.shadows), choice_members}}),
+        when(played.display != nullptr, {{"display", value_of(played.display), seen_display_members}}),
+        when(played.series != nullptr,
+             {{"cars", through([&played] { return value_of(played.series); },
+                               [&played](const SeriesFindings& found) { played.series = std::make_shared<SeriesFindings>(found); },
+                               series_members)}}),
+        when(!played.aims.empty(), {{"aims", played.aims, lamp_aim_members}}),
+        when(!played.more_sheets.empty(), {{"more_sheets", played.more_sheets, titled_sheet_members}}),
+        when(!played.seeing.empty(), {{"seeing", played.seeing, seeing_members}}),
+        when(!played.bus.empty(), {{"signals", bus_members(played.bus)}}));
 }
 
 JsonMembers pass_time_members(PassTime& pass) {

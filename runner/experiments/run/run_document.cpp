@@ -181,7 +181,7 @@ RunPage run_page(const Report& report) {
     for (ComparedDrive& drive : compared_drives(report)) {
         RunPage::OfDrive& part = page.drives.emplace_back(RunPage::OfDrive{std::move(drive), {}, {}});
         add_extents(part.drive, part.extents);
-        for (const auto add : {add_aims, add_course, add_accuracy, add_details, add_drawing})
+        for (const auto add : {add_aims, add_course, add_cars, add_accuracy, add_details, add_drawing})
             add(part.drive, part.others);
     }
     return page;
@@ -193,7 +193,7 @@ Document document(const Report& report) {
         document.sections.push_back(live_section(*report.live));
     for (const ComparedDrive& drive : compared_drives(report)) {
         document.sections.push_back({drive.name, {}});
-        for (const auto add : {add_extents, add_aims, add_course, add_accuracy, add_details, add_drawing})
+        for (const auto add : {add_extents, add_aims, add_course, add_cars, add_accuracy, add_details, add_drawing})
             add(drive, document.sections);
     }
     return document;

@@ -20,6 +20,8 @@ void add_extents(const ComparedDrive& drive, Sections& sections);
 void add_aims(const ComparedDrive& drive, Sections& sections);
 /// Plots over the drive, signals, and what it cost.
 void add_course(const ComparedDrive& drive, Sections& sections);
+/// What cars within the drive's tolerances read.
+void add_cars(const ComparedDrive& drive, Sections& sections);
 /// How far each lamp set's lux images lie from the reference, and what that cost.
 void add_accuracy(const ComparedDrive& drive, Sections& sections);
 /// Readings beside each other per lamp set; lamps with their files; what was noted and left out, and what that saved.

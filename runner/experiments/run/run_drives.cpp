@@ -18,6 +18,7 @@
 #include "runner/play/display_pipeline.h"
 #include "runner/play/preparation.h"
 #include "runner/play/progress.h"
+#include "runner/play/series_play.h"
 #include "runner/play/shadows/choose_shadows.h"
 #include "runner/play/stage.h"
 #include "scenarios/drives/play/advance.h"
@@ -120,6 +121,17 @@ PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& 
     if (stage.drive.extent)
         played.extent_summaries = summarise_extents(played, *stage.drive.extent);
     std::ranges::copy(extent_readings(played), std::back_inserter(played.readings));
+    if (stage.drive.seeing.tolerances && !Interruption::requested()) {
+        std::optional<Progress> cars;
+        played.series = std::make_shared<const SeriesFindings>(
+            play_series(stage.drive, stage.route, lamp_set, options.ticks, played.readings, draw, [&](std::size_t done, std::size_t all) {
+                if (!cars)
+                    cars.emplace(label, static_cast<int>(all), options.quiet, "cars");
+                cars->done(static_cast<int>(done));
+                return !Interruption::requested();
+            }));
+        std::ranges::move(readings_of(*played.series), std::back_inserter(played.readings));
+    }
     Readings judged = played.readings;
     std::ranges::copy(times(played), std::back_inserter(judged)); // a limit may be set on them; rows of the report they are not
     played.verdicts = judge_limits(stage.drive, judged);

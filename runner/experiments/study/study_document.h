@@ -36,6 +36,8 @@ void add_map_edges(const Drive& drive, std::vector<CellResult*> cells);
 std::string lamp_verdict(const LampComparison& lamps);
 /// How each lamp's beams stand under each aim that was played.
 Section aims_section(const StudyResult& result);
+/// What cars within tolerances read, route by route; no blocks where nothing was asked.
+Section cars_section(const StudyResult& result);
 /// The check of the lamp files as a section: before all else where a file makes readings meaningless, else before the cells.
 void add_lamp_files(const StudyResult& result, Document& document);
 /// How many deciding readings changed, or why that is not known.

@@ -68,13 +68,6 @@ std::string beams_text(const Drive& drive) {
     return "{" + flow_text(beam_fields(), &*drive.beams) + "}";
 }
 
-void check_limit(const YamlMap& keys, const Limit& limit) {
-    if (!limit.at_least && !limit.at_most)
-        keys.entry().refuse("a limit without a number", "at_least, at_most or both");
-    if (limit.at_least && limit.at_most && *limit.at_least > *limit.at_most)
-        keys.entry().refuse(fmt::format("at_least {} above at_most {}", *limit.at_least, *limit.at_most), "a range that holds a value");
-}
-
 void check_extent(const YamlMap& keys, const ExtentParameters& extent) {
     const double cells = extent.ahead_m / extent.cell_m * (8.0 * extent.beside_m / extent.cell_m);
     if (cells > 4.0e6)
@@ -226,18 +219,7 @@ const Fields<Drive>& drive_fields() {
             inlined(3, &Drive::seeing, seeing_fields()),
         }
             .block(), "what is measured"),
-            list("limits", 37, &Drive::limits, 0, 1000, Fields<Limit>{
-            field("reading", 1, &Limit::reading, any(), "its name, as in readings.csv")
-                .read_by([](const YamlEntry& entry, Limit& limit) {
-                    limit.reading = entry.text();
-                    limit.line = entry.value().line;
-                })
-                .required(),
-            field("at_least", 2, &Limit::at_least, range(-1.0e12, 1.0e12), "in the reading's unit"),
-            field("at_most", 3, &Limit::at_most, range(-1.0e12, 1.0e12), "in the reading's unit"),
-        }
-            .checked(check_limit)
-            .in_schema(R"({"anyOf": [{"required": ["at_least"]}, {"required": ["at_most"]}]})"), "beyond these the run fails"),
+            list("limits", 37, &Drive::limits, 0, 1000, limit_fields(), "beyond these the run fails"),
             field("shadows", 38, &Drive::shadows, shadow_fields(),
                   "how they are rendered (docs/shadows.md): on or off, the method alone, or it and what it uses")
                 .read_by([](const YamlEntry& entry, Drive& drive) { read_shadows(entry, drive.shadows); })

@@ -79,7 +79,9 @@ const Fields<DisplaySettings>& display_fields();
 /// A profile's file, which is opened, or a map.
 void read_display(const YamlEntry& given, Drive& drive);
 
-/// `measure`'s keys of seeing and glare: sensors, glare, visibility, homogeneity and places.
+const Fields<Limit>& limit_fields();
+const Fields<ToleranceParameters>& tolerances_fields();
+/// `measure`'s keys of seeing and glare: sensors, glare, visibility, homogeneity, places and tolerances of them.
 const Fields<SeeingParameters>& seeing_fields();
 /// Reads the lamp that `measure.glare.adaptation_lamp` names into Drive::adaptation_lamp, its file among what was opened. Throws InputError
 /// (lamp_file.h).

@@ -306,6 +306,9 @@ const Fields<SeeingParameters>& seeing_fields() {
                   },
                   "light on kerb, boards and markings")
                 .short_list_for("what"),
+            field("tolerances", 6, &SeeingParameters::tolerances, tolerances_fields(),
+                  "what cars of one series read, whose lamps and load differ by these (docs/tolerances.md)")
+                .or_flag(),
         }
             .block();
     return fields;

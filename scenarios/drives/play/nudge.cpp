@@ -6,13 +6,12 @@
 #include <algorithm>
 
 namespace fernlicht {
-namespace {
 
-std::optional<Nudge> load_over_rear_axle(const Drive& drive, const LampSet& lamp_set) {
+std::optional<Nudge> loaded_nudge(const Drive& drive, const LampSet& lamp_set, double load_kg) {
     if (!drive.vehicle)
         return std::nullopt;
     constexpr double gravity_mps2 = 9.80665;
-    const double load_n = nudge_load_kg * gravity_mps2;
+    const double load_n = load_kg * gravity_mps2;
     const double springs_m = load_n / drive.vehicle->rear.spring_n_per_m, tyres_m = load_n / drive.vehicle->rear.tyre_spring_n_per_m;
     const std::optional<LevellingParameters>& levelling = lamp_set.control ? lamp_set.control->levelling : lamp_set.levelling;
     const double seen_rad = springs_m / drive.wheelbase_m;
@@ -20,8 +19,6 @@ std::optional<Nudge> load_over_rear_axle(const Drive& drive, const LampSet& lamp
                  .body_pitch_rad = (springs_m + tyres_m) / drive.wheelbase_m,
                  .body_rear_lift_m = -(springs_m + tyres_m)};
 }
-
-} // namespace
 
 Moment nudged(Moment moment, const Nudge& nudge) {
     const Pose car = moment.ego;
@@ -33,6 +30,11 @@ Moment nudged(Moment moment, const Nudge& nudge) {
         lamp.pose.position_m += nudge.lift_m * car.up();
         lamp.pose.axes = lamp.pose.axes * axes_from_angles(0.0, nudge.pitch_rad, 0.0);
         lamp.intensity_factor *= nudge.flux_factor;
+        for (const LampNudge& own : nudge.lamps)
+            if (own.lamp == lamp.name) {
+                lamp.pose.axes = lamp.pose.axes * axes_from_angles(own.yaw_rad, own.pitch_rad, own.roll_rad);
+                lamp.intensity_factor *= own.flux_factor;
+            }
     }
     return moment;
 }
@@ -45,7 +47,7 @@ Nudges usual_nudges(const Drive& drive, const LampSet& lamp_set) {
             Nudge{.flux_factor = 1.0 - nudge_flux},
             Nudge{.lift_m = nudge_height_m},
             Nudge{.lift_m = -nudge_height_m},
-            load_over_rear_axle(drive, lamp_set)};
+            loaded_nudge(drive, lamp_set, nudge_load_kg)};
 }
 
 } // namespace fernlicht

@@ -78,6 +78,7 @@ PlayedResult played_result(const PlayedCell& played, const CsvFile& moments, con
     result.drive = played.drive;
     result.lamp_set = played.lamp_set;
     result.aims = played.aims;
+    result.series = played.series;
     result.verdicts = played.verdicts;
     for (const StoredFrame& frame : played.frames)
         result.frames.push_back({frame.tick, frame.time_s, frame.view, file_below(folder, frame.png), file_below(folder, frame.exr)});

@@ -1,0 +1,94 @@
+#include "metrics/readings/reading_labels.h"
+#include "runner/experiments/study/study_document.h"
+#include "runner/findings/series.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace fernlicht {
+namespace {
+
+const SeriesFindings* series_in(const CellResult& cell) {
+    return cell.series && !cell.series->readings.empty() ? cell.series.get() : nullptr;
+}
+
+/// One row a place, a column a lamp: `find` gives what a cell has of the row, nullopt for nothing.
+void add_place_rows(const StudyResult& result, Table& table, const std::vector<Cell>& heads,
+                    const std::function<std::optional<Cell>(const SeriesFindings&)>& find) {
+    for (std::size_t i = 0; i < result.cells.size(); ++i) {
+        const StudyCell& place = result.cells[i].cell;
+        if (std::ranges::any_of(result.cells.begin(), result.cells.begin() + static_cast<std::ptrdiff_t>(i),
+                                [&](const CellResult& earlier) { return is_same_place(earlier.cell, place); }))
+            continue;
+        std::vector<Cell> row = heads;
+        row.emplace_back(result.cells[i].drive);
+        row.emplace_back(place.condition);
+        bool found = false;
+        for (std::size_t lamp = 0; lamp < result.study.lamps.size(); ++lamp) {
+            const auto cell = std::ranges::find_if(
+                result.cells, [&](const CellResult& one) { return one.cell.lamp == lamp && is_same_place(one.cell, place); });
+            const SeriesFindings* const series = cell == result.cells.end() ? nullptr : series_in(*cell);
+            const std::optional<Cell> there = series ? find(*series) : std::nullopt;
+            found = found || there;
+            row.push_back(there.value_or(Cell("")));
+        }
+        if (found)
+            table.rows.push_back(std::move(row));
+    }
+}
+
+Table table_by_lamp(const StudyResult& result, const std::string& name, const std::string& caption, const std::string& heads) {
+    Table table{name, caption, columns_of(heads + "|drive<|condition<"), {}};
+    for (std::size_t i = 0; i < result.study.lamps.size(); ++i)
+        table.columns.push_back({.head = result.study.lamps[i].name, .series = i});
+    table.sortable = true;
+    return table;
+}
+
+Table car_shares_table(const StudyResult& result, const SeriesFindings& first) {
+    Table table = table_by_lamp(result, "cars-within",
+                                "Share of cars within each limit, %, with the interval that holds with 95 % confidence", "reading`|limit<");
+    for (std::size_t i = 0; i < first.within.size(); ++i)
+        add_place_rows(result, table, {first.within[i].limit.reading, limit_words(first.within[i].limit)},
+                       [&](const SeriesFindings& series) {
+                           return i < series.within.size() ? std::optional(within_cell(series.within[i])) : std::nullopt;
+                       });
+    return table;
+}
+
+Table car_quantiles_table(const StudyResult& result) {
+    Table table = table_by_lamp(result, "cars", "Deciding readings of the car as designed, and what 5 % and 95 % of the cars lie below",
+                                "reading<|unit<");
+    std::vector<ReadingKey> keys;
+    for (const CellResult& cell : result.cells)
+        if (const SeriesFindings* const series = series_in(cell))
+            for (const ReadingOfCars& of : series->readings)
+                if (place_among(of.key, result.study.decide) && std::ranges::find(keys, of.key) == keys.end())
+                    keys.push_back(of.key);
+    std::ranges::stable_sort(keys, {}, [&](const ReadingKey& key) { return place_among(key, result.study.decide); });
+    for (const ReadingKey& key : keys)
+        add_place_rows(
+            result, table, {Cell(reading_label(key)).hinted(name_of(key)), unit_label(unit_of(key))}, [&](const SeriesFindings& series) {
+                const auto found = std::ranges::find(series.readings, key, &ReadingOfCars::key);
+                return found == series.readings.end() || !found->as_designed.measured() ? std::nullopt : std::optional(cars_cell(*found));
+            });
+    return table;
+}
+
+} // namespace
+
+Section cars_section(const StudyResult& result) {
+    Section section{"Cars of a series", {}};
+    const auto first = std::ranges::find_if(result.cells, [](const CellResult& cell) { return series_in(cell) != nullptr; });
+    if (first == result.cells.end())
+        return section;
+    section.blocks.emplace_back(
+        "What cars read whose lamps, height and load differ by the tolerances, each counted from the car as designed.");
+    section.blocks.emplace_back(tolerances_table(*first->series, "tolerances"));
+    if (!first->series->within.empty())
+        section.blocks.emplace_back(car_shares_table(result, *first->series));
+    section.blocks.emplace_back(car_quantiles_table(result));
+    return section;
+}
+
+} // namespace fernlicht
