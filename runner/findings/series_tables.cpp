@@ -42,7 +42,7 @@ Cell slope_cell(const ReadingOfCars& of) {
 
 std::string limit_words(const Limit& limit) {
     if (limit.reading == "all")
-        return "all of them";
+        return "";
     const auto key = key_of(limit.reading);
     const std::string unit = key ? unit_suffix(unit_of(*key)) : "";
     std::string words = limit.at_least ? fmt::format("at least {:g}", *limit.at_least) : "";

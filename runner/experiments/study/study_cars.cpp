@@ -12,6 +12,11 @@ const SeriesFindings* series_in(const CellResult& cell) {
     return cell.series && !cell.series->readings.empty() ? cell.series.get() : nullptr;
 }
 
+bool has_conditions(const StudyResult& result) {
+    return std::ranges::any_of(result.cells,
+                               [&](const CellResult& cell) { return cell.cell.condition != result.cells.front().cell.condition; });
+}
+
 /// One row a place, a column a lamp: `find` gives what a cell has of the row, nullopt for nothing.
 void add_place_rows(const StudyResult& result, Table& table, const std::vector<Cell>& heads,
                     const std::function<std::optional<Cell>(const SeriesFindings&)>& find) {
@@ -22,7 +27,8 @@ void add_place_rows(const StudyResult& result, Table& table, const std::vector<C
             continue;
         std::vector<Cell> row = heads;
         row.emplace_back(result.cells[i].drive);
-        row.emplace_back(place.condition);
+        if (has_conditions(result))
+            row.emplace_back(place.condition);
         bool found = false;
         for (std::size_t lamp = 0; lamp < result.study.lamps.size(); ++lamp) {
             const auto cell = std::ranges::find_if(
@@ -38,18 +44,23 @@ void add_place_rows(const StudyResult& result, Table& table, const std::vector<C
 }
 
 Table table_by_lamp(const StudyResult& result, const std::string& name, const std::string& caption, const std::string& heads) {
-    Table table{name, caption, columns_of(heads + "|drive<|condition<"), {}};
+    Table table{name, caption, columns_of(heads + (has_conditions(result) ? "|drive<|condition<" : "|drive<")), {}};
     for (std::size_t i = 0; i < result.study.lamps.size(); ++i)
         table.columns.push_back({.head = result.study.lamps[i].name, .series = i});
     table.sortable = true;
     return table;
 }
 
+Cell limited_cell(const Limit& limit) {
+    const auto key = key_of(limit.reading);
+    return key ? Cell(reading_label(*key)).hinted(limit.reading) : Cell("every limit");
+}
+
 Table car_shares_table(const StudyResult& result, const SeriesFindings& first) {
     Table table = table_by_lamp(result, "cars-within",
                                 "Share of cars within each limit, %, with the interval that holds with 95 % confidence", "reading`|limit<");
     for (std::size_t i = 0; i < first.within.size(); ++i)
-        add_place_rows(result, table, {first.within[i].limit.reading, limit_words(first.within[i].limit)},
+        add_place_rows(result, table, {limited_cell(first.within[i].limit), limit_words(first.within[i].limit)},
                        [&](const SeriesFindings& series) {
                            return i < series.within.size() ? std::optional(within_cell(series.within[i])) : std::nullopt;
                        });
