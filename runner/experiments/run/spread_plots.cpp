@@ -1,6 +1,7 @@
 #include "runner/experiments/run/run_plots.h"
 
 #include "metrics/readings/reading_labels.h"
+#include "metrics/statistics/statistics.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 

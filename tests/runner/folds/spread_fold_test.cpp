@@ -131,6 +131,7 @@ TEST(Spread, EachRangeHasTheQuantilesOfItsMoments) {
         << "half a moment's way to either side";
     // What comes between two moments has ends, which are interpolated, and no moment.
     glare.ranges_m = {30.5, 31.3};
+    straight.drive.speed = {{0.0, 10.0}};
     const Readings between = straight.played().readings();
     EXPECT_TRUE(named(between, "glare_eye_facing_from_30.5_to_31.3m_max_lx").value.measured());
     EXPECT_EQ(named(between, "glare_eye_facing_from_30.5_to_31.3m_lx").value.reason(), "no moment lies within that range");
@@ -138,7 +139,6 @@ TEST(Spread, EachRangeHasTheQuantilesOfItsMoments) {
     glare.equation = VeilingEquation::age_adjusted;
     glare.oncoming = {{"eye", 300.0, 1.1}};
     glare.ranges_m = {190.0, 200.0, 250.0};
-    straight.drive.speed = {{0.0, 10.0}};
     const Readings far = straight.played().readings();
     EXPECT_TRUE(named(far, "glare_eye_veiling_from_190_to_200m_p95_cdm2").value.measured());
     EXPECT_THAT(named(far, "glare_eye_veiling_from_200_to_250m_p95_cdm2").value.reason(), HasSubstr("in some moment: a source 0."));
