@@ -184,6 +184,7 @@ Readings MirrorFold::readings() const {
                                     fmt::format("{}, {} mirror, facing the lamps, {}", where, mirrors.mirrors[k].name, what)});
             };
             say(Statistic::median, "median", &Spread::median);
+            say(Statistic::p95, "95th percentile", &Spread::p95);
             say(Statistic::maximum, "largest", &Spread::maximum);
         }
         gaps_[i].eye.say(readings, eyes_behind(mirrors.gaps_m[i]), where + ", its driver's eye through all mirrors", none,

@@ -48,8 +48,8 @@ class MirrorFold {
     /// The drive must ask for glare in mirrors. Drive and route must outlive the fold.
     MirrorFold(const Drive& drive, const Route& route, const Nudge& nudge = {}); ///< as OncomingFold
     void add(const Moment& moment, const LampSet& lamp_set);
-    /// Per gap of 15 m: mirror_NAME_at_15m_lx and _max_lx, median and largest illuminance on the mirror facing the lamps; and of the eye,
-    /// through all mirrors together, glare_mirrors_15m_... as of an oncoming driver.
+    /// Per gap of 15 m: mirror_NAME_at_15m_lx, _p95_lx and _max_lx, median, 95th percentile and largest illuminance on the mirror facing
+    /// the lamps; and of the eye, through all mirrors together, glare_mirrors_at_15m_... as of an oncoming driver.
     Readings readings() const;
     /// Over the distance along the route.
     std::vector<SeeingSeries> series() const;

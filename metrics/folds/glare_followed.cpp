@@ -1,10 +1,13 @@
 #include "metrics/folds/glare_followed.h"
 
 #include "metrics/folds/adaptation.h"
+#include "metrics/statistics/statistics.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <functional>
+#include <iterator>
+#include <utility>
 
 namespace fernlicht {
 namespace {
@@ -17,6 +20,28 @@ Value over_drive(const std::optional<double>& extreme, const std::string& missin
         return Value::not_measured("in some moment: " + missing);
     return Value::of(extreme, why_none);
 }
+
+/// Type 7, of the moments that have the figure.
+std::optional<double> quantile_over(const Approach& moments, double share) {
+    std::vector<double> numbers;
+    for (const ApproachSample& sample : moments)
+        if (sample.value)
+            numbers.push_back(*sample.value);
+    std::ranges::sort(numbers);
+    return numbers.empty() ? std::nullopt : std::optional(quantile_of(numbers, share));
+}
+
+/// What is told of a figure over a range or a drive. `share`: of a quantile; nullopt: the extreme.
+struct Told {
+    Statistic statistic;
+    const char* word;
+    std::optional<double> share;
+};
+constexpr Told of_more_is_worse[] = {{Statistic::median, "median", 0.5},
+                                     {Statistic::p95, "95th percentile", 0.95},
+                                     {Statistic::maximum, "largest", {}}},
+               of_less_is_worse[] = {
+                   {Statistic::median, "median", 0.5}, {Statistic::p05, "5th percentile", 0.05}, {Statistic::minimum, "smallest", {}}};
 
 std::vector<double> numbers_in(const std::vector<Value>& values) {
     std::vector<double> numbers;
@@ -61,29 +86,46 @@ std::string FollowedFigure::missing() const {
     return first == why_not.end() ? "" : *first;
 }
 
-Value FollowedFigure::extreme_between(double near_m, double far_m, bool of_largest, const std::string& why_none) const {
+std::string FollowedFigure::unknown_between(double near_m, double far_m, const std::string& why_none) const {
     if (approach.empty())
-        return Value::not_measured(why_none);
+        return why_none;
     const double from_m = std::min(approach.front().distance_m, far_m), to_m = std::max(approach.back().distance_m, near_m);
     if (from_m < to_m)
-        return Value::not_measured(
-            fmt::format("the drive comes from {:.1f} m away to {:.1f} m", approach.front().distance_m, approach.back().distance_m));
+        return fmt::format("the drive comes from {:.1f} m away to {:.1f} m", approach.front().distance_m, approach.back().distance_m);
     if (from_m < far_m || to_m > near_m)
-        return Value::not_measured(fmt::format("the drive passes {:.1f} to {:.1f} m alone", to_m, from_m));
-    Approach within;
-    for (const double end_m : {far_m, near_m})
-        within.push_back({0.0, end_m, value_at(approach, end_m).number()});
+        return fmt::format("the drive passes {:.1f} to {:.1f} m alone", to_m, from_m);
     for (std::size_t i = 0; i < approach.size(); ++i) {
         const double here_m = approach[i].distance_m;
         const bool touches = here_m > far_m    ? i + 1 < approach.size() && approach[i + 1].distance_m < far_m
                              : here_m < near_m ? i > 0 && approach[i - 1].distance_m > near_m
                                                : true;
         if (touches && !why_not[i].empty())
-            return Value::not_measured("in some moment: " + why_not[i]);
-        if (here_m >= near_m && here_m <= far_m)
-            within.push_back(approach[i]);
+            return "in some moment: " + why_not[i];
     }
-    return Value::of(of_largest ? largest(within) : smallest(within), why_none);
+    return "";
+}
+
+Approach FollowedFigure::within(double near_m, double far_m) const {
+    Approach moments;
+    std::ranges::copy_if(approach, std::back_inserter(moments),
+                         [&](const ApproachSample& sample) { return sample.distance_m >= near_m && sample.distance_m <= far_m; });
+    return moments;
+}
+
+Value FollowedFigure::extreme_between(double near_m, double far_m, bool of_largest, const std::string& why_none) const {
+    if (std::string unknown = unknown_between(near_m, far_m, why_none); !unknown.empty())
+        return Value::not_measured(std::move(unknown));
+    Approach looked_at = within(near_m, far_m);
+    for (const double end_m : {far_m, near_m})
+        looked_at.push_back({0.0, end_m, value_at(approach, end_m).number()});
+    return Value::of(of_largest ? largest(looked_at) : smallest(looked_at), why_none);
+}
+
+Value FollowedFigure::quantile_between(double near_m, double far_m, double share, const std::string& why_none) const {
+    if (std::string unknown = unknown_between(near_m, far_m, why_none); !unknown.empty())
+        return Value::not_measured(std::move(unknown));
+    const Approach moments = within(near_m, far_m);
+    return Value::of(quantile_over(moments, share), moments.empty() ? "no moment lies within that range" : why_none);
 }
 
 void GlareFollowed::add(const Moment& moment, double to_go_m, const std::vector<GlareSource>& sources, std::size_t lamps,
@@ -131,36 +173,45 @@ void GlareFollowed::say(Readings& readings, const ReadingKey& eye, const std::st
     const std::string none = why_none.empty() ? no_moment : why_none, unadapted = no_adaptation(), adapted_to = adapted();
     const std::string& no_increment = unadapted.empty() ? none : unadapted;
     const bool dark = !facing.approach.empty() && largest(eye_lx.approach).value_or(0.0) == 0.0;
-    struct Extreme {
+    struct Followed {
         Quantity quantity;
         const FollowedFigure& figure;
-        std::string what, why_none;
+        std::string before, behind, why_none; ///< of the word for the statistic
+        std::span<const Told> told = of_more_is_worse;
     };
-    const Extreme extremes[] = {
-        {Quantity::glare_facing, facing, "facing the lamps, largest", none},
-        {Quantity::glare_eye, eye_lx, "across the line of sight, largest", none},
-        {Quantity::glare_veiling, veiling, fmt::format("veiling luminance, {}, largest", name(parameters.equation)), none},
-        {Quantity::glare_increment, increment, "largest" + adapted_to, no_increment},
-        {Quantity::glare_de_boer, de_boer, fmt::format("smallest{}; 9 unnoticeable, 5 just acceptable, 1 unbearable", adapted_to),
-         dark ? "no light reaches the eye" : no_increment}};
-    const auto statistic_of = [](Quantity quantity) {
-        return quantity == Quantity::glare_de_boer ? Statistic::minimum : Statistic::maximum;
-    };
+    const Followed all[] = {{Quantity::glare_facing, facing, "facing the lamps, ", "", none},
+                            {Quantity::glare_eye, eye_lx, "across the line of sight, ", "", none},
+                            {Quantity::glare_veiling, veiling, fmt::format("veiling luminance, {}, ", name(parameters.equation)), "", none},
+                            {Quantity::glare_increment, increment, "", adapted_to, no_increment},
+                            {Quantity::glare_de_boer, de_boer, "", adapted_to + "; 9 unnoticeable, 5 just acceptable, 1 unbearable",
+                             dark ? "no light reaches the eye" : no_increment, of_less_is_worse}};
     for (std::size_t i = 1; i < ranges_m.size(); ++i)
-        for (const Extreme& extreme : extremes) {
-            const bool of_largest = statistic_of(extreme.quantity) == Statistic::maximum;
-            const std::string lightless =
-                of_largest || !unadapted.empty() || facing.approach.empty() ? extreme.why_none : "no light reaches the eye";
-            add(extreme.quantity, statistic_of(extreme.quantity), {},
-                fmt::format("the bumper {} to {} m before it, {}", ranges_m[i - 1], ranges_m[i], extreme.what),
-                extreme.figure.extreme_between(ranges_m[i - 1], ranges_m[i], of_largest, why_none.empty() ? lightless : why_none));
-            readings.back().key.distance_m = ranges_m[i - 1];
-            readings.back().key.to_m = ranges_m[i];
+        for (const Followed& followed : all)
+            for (const Told& told : followed.told) {
+                const double near_m = ranges_m[i - 1], far_m = ranges_m[i];
+                const bool of_largest = followed.quantity != Quantity::glare_de_boer;
+                const std::string lightless =
+                    of_largest || !unadapted.empty() || facing.approach.empty() ? followed.why_none : "no light reaches the eye";
+                const std::string& why = why_none.empty() ? lightless : why_none;
+                add(followed.quantity, told.statistic, {},
+                    fmt::format("the bumper {} to {} m before it, {}{}{}", near_m, far_m, followed.before, told.word, followed.behind),
+                    told.share ? followed.figure.quantile_between(near_m, far_m, *told.share, why)
+                               : followed.figure.extreme_between(near_m, far_m, of_largest, why));
+                readings.back().key.distance_m = near_m;
+                readings.back().key.to_m = far_m;
+            }
+    const bool approaches = !eye.subject.empty(); // a distribution over it would mix distances
+    for (const Followed& followed : all)
+        for (const Told& told : followed.told) {
+            if (told.share && approaches)
+                continue;
+            const Approach& moments = followed.figure.approach;
+            add(followed.quantity, told.statistic, {}, followed.before + told.word + followed.behind,
+                over_drive(told.share                             ? quantile_over(moments, *told.share)
+                           : told.statistic == Statistic::minimum ? smallest(moments)
+                                                                  : largest(moments),
+                           followed.figure.missing(), followed.why_none));
         }
-    for (const Extreme& extreme : extremes)
-        add(extreme.quantity, statistic_of(extreme.quantity), {}, extreme.what,
-            over_drive(extreme.quantity == Quantity::glare_de_boer ? smallest(extreme.figure.approach) : largest(extreme.figure.approach),
-                       extreme.figure.missing(), extreme.why_none));
     add(Quantity::glare_adaptation, Statistic::median, {},
         parameters.adaptation_cdm2
             ? "what the eye is adapted to, as the drive says"

@@ -33,6 +33,13 @@ struct FollowedFigure {
     /// With distances to go: largest, or smallest, from `near_m` to `far_m`, both ends among them. Not measured where the drive does not
     /// pass all of that, or a moment of it that counts lacks it; of none that counts, for the reason `why_none`.
     Value extreme_between(double near_m, double far_m, bool of_largest, const std::string& why_none) const;
+    /// The quantile (type 7, `share` from 0 to 1) of the moments in that range, which are equally spaced in time; otherwise as
+    /// extreme_between(), and not measured where no moment lies there.
+    Value quantile_between(double near_m, double far_m, double share, const std::string& why_none) const;
+
+  private:
+    std::string unknown_between(double near_m, double far_m, const std::string& why_none) const; ///< why; "" where it is known
+    Approach within(double near_m, double far_m) const;                                          ///< the moments there
 };
 
 /// Figures of one eye over the moments.
@@ -45,9 +52,10 @@ struct GlareFollowed {
     /// `theta_deg` of the first `lamps` sources are followed.
     void add(const Moment& moment, double to_go_m, const std::vector<GlareSource>& sources, std::size_t lamps, const GlareFigures& figures);
     /// Figures under the eye's key, first over each range of distances to go between one edge of `ranges_m` and the next, then over the
-    /// drive: largest illuminances, veiling luminance and threshold increment, smallest rating; times
-    /// and metres beyond the limits; what the eye is adapted to, median. Moments whose adaptation is not measured do not count for the
-    /// threshold increment and the rating.
+    /// drive: largest illuminances, veiling luminance and threshold increment, smallest rating, in ranges with median and 95th (of the
+    /// rating 5th) percentile over the moments, over the drive where the eye has no name: such are no approach. Times and metres beyond the
+    /// limits; what the eye is adapted to, median. Moments whose adaptation is not measured do not count for the threshold increment and
+    /// the rating.
     void say(Readings& readings, const ReadingKey& eye, const std::string& where, const std::string& why_none,
              const GlareParameters& parameters, std::span<const double> ranges_m = {}) const;
     SeeingSeries series(const ReadingKey& eye, const std::string& title, const std::string& over,

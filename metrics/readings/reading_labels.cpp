@@ -60,6 +60,8 @@ std::string filled(std::string_view slot, const ReadingKey& key) {
                                                                           : fmt::format(" {} before it", distance)},
         {"most", key.statistic == Statistic::maximum   ? "largest "
                  : key.statistic == Statistic::minimum ? "smallest "
+                 : key.statistic == Statistic::p05     ? "5th percentile of "
+                 : key.statistic == Statistic::p95     ? "95th percentile of "
                                                        : ""},
         {"eye", eye_label(key)}};
     for (const auto& [word, text] : slots)

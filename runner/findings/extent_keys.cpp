@@ -6,8 +6,9 @@ namespace fernlicht {
 
 std::span<const ExtentFigure> extent_figures() {
     using enum Quantity;
-    static constexpr std::array spread = {Statistic::median, Statistic::minimum, Statistic::p05};
-    static constexpr std::array worst = {Statistic::median, Statistic::maximum, Statistic::none};
+    static constexpr std::array spread = {Statistic::median, Statistic::minimum, Statistic::p05, Statistic::none};
+    static constexpr std::array both_ends = {Statistic::median, Statistic::minimum, Statistic::p05, Statistic::p95};
+    static constexpr std::array worst = {Statistic::median, Statistic::maximum, Statistic::none, Statistic::none};
     static constexpr ExtentLine centre{&LaneExtent::reach_centre_m, &LaneExtent::reach_is_cut_off};
     static constexpr ExtentLine left{&LaneExtent::reach_left_edge_m, &LaneExtent::left_edge_is_cut_off};
     static constexpr ExtentLine right{&LaneExtent::reach_right_edge_m, &LaneExtent::right_edge_is_cut_off};
@@ -16,7 +17,7 @@ std::span<const ExtentFigure> extent_figures() {
     static constexpr auto is_lane = [](const std::string& lane) { return lane != "all"; };
     // clang-format off
     static constexpr ExtentFigure figures[] = {
-        {.quantity = reach, .statistics = spread, .where = on_centre, .where_of_all = of_all, .member = centre.reach_m, .line = &centre},
+        {.quantity = reach, .statistics = both_ends, .where = on_centre, .where_of_all = of_all, .member = centre.reach_m, .line = &centre},
         {.quantity = reach, .place = ReadingPlace::left_edge, .where = ", left edge", .where_of_all = ", leftmost line looked at",
          .member = left.reach_m, .line = &left},
         {.quantity = reach, .place = ReadingPlace::right_edge, .where = ", right edge", .where_of_all = ", rightmost line looked at",

@@ -28,7 +28,7 @@ struct ExtentFigure {
     ReadingPlace place = ReadingPlace::none;
     Aspect aspect = Aspect::value;
     bool (*is_of)(const std::string& lane) = [](const std::string&) { return true; };
-    std::array<Statistic, 3> statistics = {Statistic::median}; ///< over the moments; none: no more
+    std::array<Statistic, 4> statistics = {Statistic::median}; ///< over the moments; none: no more
     const char* where = "";                                    ///< for people, behind the lane
     const char* where_of_all = nullptr;                        ///< the same of "all", which has no lines of its own; nullptr: as any lane's
     // What it is in a moment, one of these two; width has none.

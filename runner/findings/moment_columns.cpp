@@ -92,6 +92,8 @@ void add_uncertainty(Columns& columns, const ExtentRow& row, std::size_t moment)
 void add_car(Columns& columns, const CarRow& row, std::size_t moment) {
     columns.number("car.pitch_deg", moment, row.pitch_deg);
     columns.number("car.rear_lift_mm", moment, row.rear_lift_mm);
+    if (row.roll_deg)
+        columns.number("car.roll_deg", moment, *row.roll_deg);
     if (row.levelling_deg)
         columns.number("car.levelling_deg", moment, *row.levelling_deg);
     if (row.swivel_deg)

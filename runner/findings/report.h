@@ -125,6 +125,7 @@ struct CarRow {
     double pitch_deg = 0.0;                          ///< of the body against the road under its axles, nose up positive
     double rear_lift_mm = 0.0;                       ///< of the body over the rear axle, from the rest on a level road
     std::optional<double> levelling_deg, swivel_deg; ///< of the lamps, up and left positive; where the lamp set has them
+    std::optional<double> roll_deg = {};             ///< of the body against the road, left side up positive; where the car has it
 
     bool operator==(const CarRow&) const = default;
 };

@@ -80,6 +80,7 @@ void add_extent(Readings& readings, const ExtentSummary& summary, const ExtentFi
     static constexpr std::tuple<Statistic, double, const char*> quantiles[] = {{Statistic::median, 0.5, "median"},
                                                                                {Statistic::minimum, 0.0, "smallest"},
                                                                                {Statistic::p05, 0.05, "5th percentile"},
+                                                                               {Statistic::p95, 0.95, "95th percentile"},
                                                                                {Statistic::maximum, 1.0, "largest"}};
     const auto& [surface, lane, threshold_lx] = summary.key;
     const bool all = lane == "all";

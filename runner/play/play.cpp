@@ -119,11 +119,13 @@ class Measuring {
     std::deque<std::future<ExtentRow>> waiting_; ///< each waits for its thread when it is destroyed
 };
 
-CarRow car_row(const Motion& motion, double time_s) {
+CarRow car_row(const Drive& drive, const Motion& motion, double time_s) {
     const CarPlace place = motion.car->at(time_s);
     CarRow row{time_s, degrees(place.pitch_rad), 1e3 * place.rear_lift_m, std::nullopt, std::nullopt};
     if (motion.levelling)
         row.levelling_deg = degrees(motion.levelling->angle_rad(time_s));
+    if (drive.vehicle && drive.vehicle->roll)
+        row.roll_deg = degrees(place.roll_rad);
     if (motion.swivel)
         row.swivel_deg = degrees(motion.swivel->angle_rad(time_s));
     return row;
@@ -203,7 +205,7 @@ PlayedCell play(const Drive& drive, const Route& route, const LampSet& lamp_set,
             measuring.add(std::move(*drawn));
         played.speed_mps.emplace_back(moment.time_s, moment.speed_mps);
         if (lamp_set.motion && lamp_set.motion->car)
-            played.car.push_back(car_row(*lamp_set.motion, moment.time_s));
+            played.car.push_back(car_row(drive, *lamp_set.motion, moment.time_s));
         ++played.ticks_done;
         if (!options.go_on(played.ticks_done))
             break;

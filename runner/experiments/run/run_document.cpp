@@ -164,6 +164,10 @@ Section verdict_section(const Report& report) {
 
 void add_course(const ComparedDrive& drive, Sections& sections) {
     add_reaches(drive, sections);
+    add_if_plotted(sections, "Spread over the moments",
+                   "The car sways, and its beam with it. Curves: the share of the moments below a value; one that ends below 100 % goes on "
+                   "beyond what was looked at. Over a range of distances the way through it spreads the light, too.",
+                   drive.name + "-spread", spread_figures(drive));
     add_if_plotted(sections, "Lamps that move",
                    "What the laws and actuators of the drive’s `control` did, and what it was worth against the same lamps held still: "
                    "computed in double precision from the candela tables, without shadows. Bends are those of less than 1500 m radius.",

@@ -255,6 +255,8 @@ std::vector<plots::Figure> car_figures(const ComparedDrive& drive) {
     std::vector<plots::Figure> figures;
     for (auto& figure :
          {car_figure(drive, "Pitch of the body against the road", "pitch, nose up", "deg", [](const CarRow& row) { return row.pitch_deg; }),
+          car_figure(drive, "Roll of the body against the road", "roll, left side up", "deg",
+                     [](const CarRow& row) { return row.roll_deg; }),
           car_figure(drive, "Lift of the body over the rear axle", "lift", "mm", [](const CarRow& row) { return row.rear_lift_mm; }),
           car_figure(drive, "Levelling", "lamps up", "deg", [](const CarRow& row) { return row.levelling_deg; }),
           car_figure(drive, "Swivel", "lamps to the left", "deg", [](const CarRow& row) { return row.swivel_deg; })})

@@ -25,9 +25,15 @@ void add_signals(const ComparedDrive& drive, std::vector<Section>& sections);
 /// Speed over time. All lamp sets drive alike, so the first one's. nullopt without samples.
 std::optional<plots::Figure> speed_figure(const ComparedDrive& drive);
 
-/// What the car of a drive with a vehicle does, over time: pitch of the body against the road, lift of the body over the rear axle, angles
-/// of levelling and swivel. A line per lamp set, one where all that have it agree. Without those that nobody has; none without a vehicle.
+/// What the car of a drive with a vehicle does, over time: pitch and roll of the body against the road, lift of the body over the rear
+/// axle, angles of levelling and swivel. A line per lamp set, one where all that have it agree. Without those that nobody has; none without
+/// a vehicle.
 std::vector<plots::Figure> car_figures(const ComparedDrive& drive);
+
+/// How a swaying car spreads what its lamps do over the moments: the share of the moments below each swing of the cut-off and below each
+/// reach on targets in the own lane; of the light in others' eyes, in each range before an oncoming driver and at each gap of mirrors, the
+/// 5th to 95th percentile, median and largest. Empty where no car sways by 0.01 degrees: nothing disturbs the drive.
+std::vector<plots::Figure> spread_figures(const ComparedDrive& drive);
 
 /// Time per moment of the pass "frame" per lamp set, with its median. nullopt without samples.
 std::optional<plots::Figure> timing_figure(const ComparedDrive& drive);

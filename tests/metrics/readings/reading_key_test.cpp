@@ -59,6 +59,12 @@ TEST(ReadingKey, EveryFieldHasItsPlaceInTheName) {
           .threshold = {3.0, ThresholdUnit::lx},
           .distance_m = 50.0,
           .statistic = Statistic::p05}},
+        {"reach_5lx_target_own_p95_m",
+         {.quantity = Quantity::reach,
+          .surface = ReadingSurface::target,
+          .lane = "own",
+          .threshold = {5.0, ThresholdUnit::lx},
+          .statistic = Statistic::p95}},
         {"probe_kerb-30m_twin_lx",
          {.quantity = Quantity::probe_illuminance, .subject = "kerb-30m", .aspect = Aspect::twin, .statistic = Statistic::median}},
         {"sensor_right-edge_at_50m_lx", {.quantity = Quantity::sensor_illuminance, .subject = "right-edge", .distance_m = 50.0}},
@@ -71,6 +77,15 @@ TEST(ReadingKey, EveryFieldHasItsPlaceInTheName) {
          {.quantity = Quantity::glare_increment, .subject = "a", .distance_m = 7.5, .to_m = 15.0, .statistic = Statistic::maximum}},
         {"glare_a_de_boer_from_60_to_120m_min",
          {.quantity = Quantity::glare_de_boer, .subject = "a", .distance_m = 60.0, .to_m = 120.0, .statistic = Statistic::minimum}},
+        {"glare_opposite_facing_from_30_to_60m_lx",
+         {.quantity = Quantity::glare_facing, .subject = "opposite", .distance_m = 30.0, .to_m = 60.0, .statistic = Statistic::median}},
+        {"glare_opposite_veiling_from_30_to_60m_p95_cdm2",
+         {.quantity = Quantity::glare_veiling, .subject = "opposite", .distance_m = 30.0, .to_m = 60.0, .statistic = Statistic::p95}},
+        {"glare_mirrors_at_15m_facing_p95_lx",
+         {.quantity = Quantity::glare_facing, .place = ReadingPlace::mirrors, .distance_m = 15.0, .statistic = Statistic::p95}},
+        {"glare_own_de_boer_p05", {.quantity = Quantity::glare_de_boer, .place = ReadingPlace::own_eyes, .statistic = Statistic::p05}},
+        {"mirror_left_at_15m_p95_lx",
+         {.quantity = Quantity::mirror_illuminance, .subject = "left", .distance_m = 15.0, .statistic = Statistic::p95}},
         {"glare_mirrors_at_15m_adaptation_cdm2",
          {.quantity = Quantity::glare_adaptation, .place = ReadingPlace::mirrors, .distance_m = 15.0, .statistic = Statistic::median}},
         {"glare_own_length_below_5_de_boer_m",
@@ -177,7 +192,8 @@ TEST(ReadingKey, WhatIsNoNameIsRefusedAndWhatNoReadingHasNotNamed) {
                    "reach_5.0lx_road_own_m|reach_+5lx_road_own_m|reach_-5lx_road_own_m|reach_infl_road_own_m|reach_1e999lx_road_own_m|"
                    "reach_5lx_road_left_m|reach_5lx_road_left_01_m|reach_5lx_road_left 1_m|Reach_5lx_road_own_m| reach_5lx_road_own_m|"
                    "reach_5lx_road_own_m |width_5lx_road_own_m|area_5lx_road_own_m|probe__lx|probe_lx|probe_a b_lx|sensor_a_lx|"
-                   "glare__facing_max_lx|glare_a_facing_lx|glare_a_time_above_5_de_boer_s|detection_card_m|detection_card_own_max_m|"
+                   "glare__facing_max_lx|glare_a_facing_p05_lx|glare_a_de_boer_p95|glare_a_time_above_5_de_boer_s|detection_card_m|"
+                   "detection_card_own_max_m|"
                    "visibility_level_card_own_at_50m_1|control_class_x_share|frame_time_ms|_time_median_ms|board_top_at_5m_lx|"
                    "reach_5lx_road_own_grid_error_standard_error_m|reach_5lx_road_own_standard_error_lx|"
                    "foreground_ratio_own_standard_error_|_standard_error_m"}}))
@@ -237,6 +253,9 @@ TEST(ReadingWords, SayWhatANameSaysAndLeaveNothingOpen) {
         {"sensor_right-edge_at_50m_lx", "illuminance 50 m before it, sensor right-edge"},
         {"glare_oncoming_facing_max_lx", "largest illuminance, eyes of an oncoming driver"},
         {"glare_opposite_facing_from_30_to_60m_max_lx", "largest illuminance at 30 to 60 m, eyes of oncoming driver opposite"},
+        {"glare_opposite_facing_from_30_to_60m_lx", "illuminance at 30 to 60 m, eyes of oncoming driver opposite"},
+        {"glare_opposite_facing_from_30_to_60m_p95_lx", "95th percentile of illuminance at 30 to 60 m, eyes of oncoming driver opposite"},
+        {"mirror_left_at_15m_p95_lx", "95th percentile of illuminance on the mirror left of a car 15 m ahead"},
         {"glare_opposite_de_boer_from_30_to_60m_min", "smallest de Boer rating at 30 to 60 m, eyes of oncoming driver opposite"},
         {"glare_own_adaptation_cdm2", "adaptation luminance, eyes of the own driver"},
         {"glare_opposite_at_50m_lx", "illuminance 50 m before it, eyes of oncoming driver opposite"},
@@ -346,6 +365,24 @@ TEST(Significance, ABoundIsExactAsABound) {
     }
     EXPECT_EQ(change(Value::at_least(200.0), 199.9).kind, ChangeKind::unknown) << "it may be much more";
     EXPECT_EQ(change(Value::at_least(200.0), Value::at_least(200.0)).reason_unknown, "both beyond 200 m");
+}
+
+TEST(Significance, QuantilesOfGlareAreJudgedAsTheLargestIs) {
+    for (const auto& [now, kind] : {std::pair(0.6, ChangeKind::real), {0.52, ChangeKind::within_aim}, {0.5 + 1e-8, ChangeKind::none}})
+        for (const char* name : {"glare_a_facing_from_30_to_60m_lx", "glare_a_facing_from_30_to_60m_p95_lx",
+                                 "glare_a_facing_from_30_to_60m_max_lx", "mirror_left_at_15m_p95_lx", "glare_mirrors_at_15m_facing_lx"}) {
+            const ReadingKey key = key_of(name).value();
+            const auto side = [&](double lx) {
+                ReadingsOfCell played;
+                played.readings[key] = {key, Value(lx)};
+                played.readings[key].sensitivity.aim_up = 0.05;
+                return played;
+            };
+            const ReadingChange found = change_of_reading(key, side(now), side(0.5), 0.01);
+            EXPECT_EQ(found.kind, kind) << name << ' ' << now;
+            EXPECT_NEAR(found.noise_effect.value(), 3.0 * 0.01 * now, 1e-9) << "goes with the light";
+            EXPECT_EQ(row_of(key.quantity).better, Better::lower);
+        }
 }
 
 TEST(Significance, TheGridsErrorIsAReadingAtEveryPlaceThatRestsOnIt) {

@@ -70,6 +70,7 @@ TEST(Summary, MediansMinimaAndPercentilesOverTheMomentsInOneOrder) {
     const std::pair<const char*, double> expected[] = {{"reach_5lx_road_own_m", 60.0},
                                                        {"reach_5lx_road_own_min_m", 50.0},
                                                        {"reach_5lx_road_own_p05_m", 51.0},
+                                                       {"reach_5lx_road_own_p95_m", 78.0},
                                                        {"reach_5lx_road_own_left_edge_m", 59.0},
                                                        {"reach_5lx_road_own_right_edge_m", 62.0},
                                                        {"unlit_before_reach_5lx_road_own_m", 0.0},
@@ -99,6 +100,7 @@ TEST(Summary, EachStatisticMovesByItself) {
     const Readings readings = summarise(played({reaching(60.0), reaching(50.0), reaching(80.0)}), looking_200_m());
     EXPECT_DOUBLE_EQ(find(readings, "reach_5lx_road_own_m").sensitivity.aim_up.value(), 7.0);
     EXPECT_DOUBLE_EQ(find(readings, "reach_5lx_road_own_min_m").sensitivity.aim_up.value(), 8.0);
+    EXPECT_NEAR(find(readings, "reach_5lx_road_own_p95_m").sensitivity.aim_up.value(), 8.8, 1e-9) << "86.8 less 78";
     EXPECT_NEAR(find(readings, "area_5lx_road_own_min_m2").sensitivity.brighter.value(), 50.0, 1e-9);
     EXPECT_NEAR(find(readings, "width_5lx_road_own_at_20m_m").sensitivity.brighter.value(), 0.6, 1e-9);
     EXPECT_FALSE(find(readings, "reach_5lx_road_own_m").sensitivity.aim_down.has_value()) << "not looked at";
@@ -121,7 +123,7 @@ TEST(Summary, BothSidesHaveTheSameFiguresAndTheGridsAreaErrorOfAllComesFirst) {
             there.insert(reading.name());
         EXPECT_EQ(here, there);
     }
-    const Reading area = summarise(played({reaching(60.0, "all")}), looking_200_m()).at(14);
+    const Reading area = summarise(played({reaching(60.0, "all")}), looking_200_m()).at(15);
     EXPECT_EQ(std::pair(area.name(), area.value), std::pair(std::string("area_5lx_road_all_grid_error_m2"), Value(3.0)));
 }
 

@@ -51,8 +51,8 @@ TEST(ShippedDrives, AreAllTested) {
     // are tested with their motion, the storyboard where the runner's tests play it.
     EXPECT_THAT(names, testing::ElementsAre("bench", "braking", "country", "dusk", "first-light", "fog", "glare-free", "iihs-left-150",
                                             "iihs-left-250", "iihs-right-150", "iihs-right-250", "iihs-straight", "motorway", "oncoming",
-                                            "s-bend", "s-bend-alc", "s-bend-can", "s-bend-story", "shelter", "straight", "village",
-                                            "village-lit", "worked-example"));
+                                            "rough-road", "s-bend", "s-bend-alc", "s-bend-can", "s-bend-story", "shelter", "straight",
+                                            "village", "village-lit", "worked-example"));
 }
 
 TEST(ShippedDrives, TheIihsSensorsStandInTheBend) {
