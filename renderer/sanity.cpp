@@ -3,6 +3,7 @@
 #include "scenarios/drives/play/camera.h"
 #include "scenarios/values/errors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
@@ -45,13 +46,21 @@ double check_sanity(Device& device) {
     view.vertical_fov_rad = radians(30.0);
     const Frame frame = renderer.draw(moment, view, {.illuminance = true});
     const Camera camera = camera_of(moment, view);
+    const auto expected_lx = [&](double x, double y) {
+        const double cosine = pixel_ray(camera, view, x, y).direction.x;
+        return intensity * cosine * cosine * cosine / (distance_m * distance_m);
+    };
     double worst = 0.0;
     for (int y = 0; y < view.height_px; ++y)
         for (int x = 0; x < view.width_px; ++x) {
-            const double cosine = pixel_ray(camera, view, x + 0.5, y + 0.5).direction.x;
-            const double expected = intensity * cosine * cosine * cosine / (distance_m * distance_m);
-            const double found = static_cast<double>(frame.illuminance_lx.at(x, y));
-            const double error = std::abs(found / expected - 1.0);
+            const double expected = expected_lx(x + 0.5, y + 0.5), found = static_cast<double>(frame.illuminance_lx.at(x, y));
+            double low = expected, high = expected; // of what the pixel may show where vertices stand beside their places
+            for (const double dx : {-sanity_place_px, sanity_place_px})
+                for (const double dy : {-sanity_place_px, sanity_place_px}) {
+                    low = std::min(low, expected_lx(x + 0.5 + dx, y + 0.5 + dy));
+                    high = std::max(high, expected_lx(x + 0.5 + dx, y + 0.5 + dy));
+                }
+            const double error = std::max(low - found, found - high) / expected;
             if (!(error <= sanity_bound))
                 throw DeviceError(fmt::format(
                     "{} computes light wrongly: a wall at 25 m before a lamp of 6250 cd should have {} lx at pixel ({}, {}), it has {}",

@@ -38,10 +38,14 @@ std::string tried(const std::string& name) {
     }
 }
 
-/// Opens the backend in a process of its own: a broken driver may crash (OSMesa does where it finds none), and one library's context must
-/// not meet another's.
-BackendAttempt try_in_child(const std::string& name) {
-    BackendAttempt attempt{name, false, {}, {}};
+/// What a process of its own says, and how it ended. A broken driver may crash (OSMesa does where it finds none), one library's context
+/// must not meet another's, and NVIDIA's EGL does not work in the child of a process that has looked at it.
+struct ChildsAnswer {
+    std::string said;
+    int status = 0; ///< of waitpid
+};
+
+template <class Say> ChildsAnswer ask_child(const Say& say) {
     int ends[2];
     if (::pipe(ends) != 0)
         throw DeviceError("a pipe cannot be made");
@@ -50,18 +54,23 @@ BackendAttempt try_in_child(const std::string& name) {
         throw DeviceError("a process cannot be started");
     if (child == 0) {
         ::close(ends[0]);
-        const std::string said = tried(name);
+        const std::string said = say();
         const ssize_t put = ::write(ends[1], said.data(), said.size());
         ::_exit(put == static_cast<ssize_t>(said.size()) ? 0 : 1);
     }
     ::close(ends[1]);
-    std::string said;
+    ChildsAnswer answer;
     std::array<char, 1024> buffer{};
     for (ssize_t got = 0; (got = ::read(ends[0], buffer.data(), buffer.size())) > 0;)
-        said.append(buffer.data(), static_cast<std::size_t>(got));
+        answer.said.append(buffer.data(), static_cast<std::size_t>(got));
     ::close(ends[0]);
-    int status = 0;
-    ::waitpid(child, &status, 0);
+    ::waitpid(child, &answer.status, 0);
+    return answer;
+}
+
+BackendAttempt try_in_child(const std::string& name) {
+    BackendAttempt attempt{name, false, {}, {}};
+    const auto [said, status] = ask_child([&] { return tried(name); });
     if (WIFSIGNALED(status)) {
         attempt.failure = fmt::format("{}: the driver crashes (signal {})", name, WTERMSIG(status));
     } else if (said.starts_with('+')) {
@@ -118,8 +127,11 @@ Device open_device(const std::string& backend) {
 
 std::vector<BackendAttempt> try_all_backends() {
     std::vector<std::string> names{"egl"};
-    for (const gl::EglDevice& device : gl::list_egl_devices())
-        names.push_back(fmt::format("egl-device={}", device.index));
+    std::istringstream devices(ask_child([] { return std::to_string(gl::list_egl_devices().size()); }).said);
+    std::size_t count = 0;
+    devices >> count; // none where the child says nothing
+    for (std::size_t index = 0; index < count; ++index)
+        names.push_back(fmt::format("egl-device={}", index));
     names.emplace_back("osmesa");
     std::vector<BackendAttempt> attempts;
     for (const std::string& name : names)
