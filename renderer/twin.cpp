@@ -85,6 +85,17 @@ std::optional<Twin::Hit> Twin::cast(const Moment& moment, const Ray& ray, double
 }
 
 TwinPixel Twin::pixel(const Moment& moment, const View& view, double x_px, double y_px) const {
+    TwinPixel pixel = at(moment, view, x_px, y_px);
+    double change_lx = 0.0;
+    for (const double dx : {-place_px_, place_px_})
+        for (const double dy : {-place_px_, place_px_})
+            if (place_px_ > 0.0)
+                change_lx = std::max(change_lx, std::abs(at(moment, view, x_px + dx, y_px + dy).illuminance_lx - pixel.illuminance_lx));
+    pixel.bound_lx += change_lx;
+    return pixel;
+}
+
+TwinPixel Twin::at(const Moment& moment, const View& view, double x_px, double y_px) const {
     const Camera camera = camera_of(moment, view);
     const Ray ray = pixel_ray(camera, view, x_px, y_px);
     TwinPixel pixel;

@@ -21,8 +21,9 @@ struct TwinPixel {
 
 class Twin {
   public:
-    /// `shadows`: cast a ray to each lamp. The scene must outlive the twin.
-    Twin(const Scene& scene, bool shadows) : scene_(scene), shadows_(shadows) {}
+    /// `shadows`: cast a ray to each lamp. `place_px`: how far beside its centre a pixel's place may lie (sanity_place_px on GPUs); its
+    /// bound has what the light changes by on the way. The scene must outlive the twin.
+    Twin(const Scene& scene, bool shadows, double place_px = 0.0) : scene_(scene), shadows_(shadows), place_px_(place_px) {}
 
     /// What the pixel with centre (x + 0.5, y + 0.5) shows. Maps see ground surfaces only, as the renderer's do.
     TwinPixel pixel(const Moment& moment, const View& view, double x_px, double y_px) const;
@@ -37,8 +38,11 @@ class Twin {
     std::optional<Hit> cast(const Moment& moment, const Ray& ray, double from_m, Met met) const;
 
   private:
+    TwinPixel at(const Moment& moment, const View& view, double x_px, double y_px) const;
+
     const Scene& scene_;
     bool shadows_;
+    double place_px_;
 };
 
 /// Bound on |float - double| of one lamp's illuminance at a point, given the intensity's logarithmic gradient per radian there:

@@ -62,7 +62,9 @@ PhotometricLighting::PhotometricLighting(Context& context, const Scene& scene, c
 void PhotometricLighting::set_lamps(const Shot& shot) {
     lamps_ = shining(shot.moment, !pruned_);
     // By what is mounted, not by what is on: pruning must not change how a pixel is computed.
-    by_vertex_ = shot.moment.lamps.size() <= (shot.moment.other_lamps.empty() ? max_lamps_by_vertex : max_lamps_by_vertex / 2);
+    // By vertex it is quick on llvmpipe alone, and GPUs have fewer inputs of fragments than fog, traffic and four lamps ask for.
+    by_vertex_ = context_.info.software &&
+                 shot.moment.lamps.size() <= (shot.moment.other_lamps.empty() ? max_lamps_by_vertex : max_lamps_by_vertex / 2);
     lamp_beams_.clear();
     packed_.clear();
     for (const LitLamp& lamp : lamps_) {

@@ -211,6 +211,7 @@ TEST_P(ColouredLight, ItsLuminanceIsTheLuminance) {
 /// The GPU shows it as an sRGB display does: luminance through the tone mapper, each channel clipped, the code rounded.
 TEST_P(ColouredLight, TheGpuShowsItsColours) {
     const DisplayProfile srgb = srgb_display();
+    const double a_code = device_.info().software ? 0.52 : 0.57; // half of one by rounding; a GPU's pow adds 0.065
     for (const ToneMapper& mapper :
          {ToneMapper{ToneMapperKind::rational, 20.0, 100.0, {}}, ToneMapper{ToneMapperKind::linear, 1.0, 50.0, {}},
           ToneMapper{ToneMapperKind::logarithmic, 50.0, 1000.0, {}}}) {
@@ -221,9 +222,9 @@ TEST_P(ColouredLight, TheGpuShowsItsColours) {
             const glm::dvec3 shares =
                 luminance > 0.0 ? glm::clamp(light * (toned(mapper, luminance) / luminance), 0.0, 1.0) : glm::dvec3(0.0);
             const Rgb8 shown = frame.colour.pixels()[i];
-            EXPECT_NEAR(255.0 * encoded(srgb, shares.r), shown.r, 0.52);
-            EXPECT_NEAR(255.0 * encoded(srgb, shares.g), shown.g, 0.52);
-            EXPECT_NEAR(255.0 * encoded(srgb, shares.b), shown.b, 0.52);
+            EXPECT_NEAR(255.0 * encoded(srgb, shares.r), shown.r, a_code);
+            EXPECT_NEAR(255.0 * encoded(srgb, shares.g), shown.g, a_code);
+            EXPECT_NEAR(255.0 * encoded(srgb, shares.b), shown.b, a_code);
         }
     }
 }

@@ -14,6 +14,7 @@ inline constexpr FrameOutputs all_results{
 class DeviceTest : public testing::Test {
   protected:
     Device device_ = open_device("auto");
+    double place_px_ = device_.info().software ? 0.0 : sanity_place_px; ///< for the twin's bounds
 };
 
 inline void expect_same_frames(const Frame& a, const Frame& b, const std::string& what) {

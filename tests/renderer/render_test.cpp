@@ -93,7 +93,7 @@ TEST_F(TwinTest, EveryPixelLiesWithinTheDerivedBound) {
     for (const double sky_lx : {0.0, 3.4}) {
         const Moment moment = two_lamps({}, sky_lx);
         const TwinComparison c =
-            compare(renderer.draw(moment, driver_view(96, 64), all_results), Twin(scene, false), moment, driver_view(96, 64));
+            compare(renderer.draw(moment, driver_view(96, 64), all_results), Twin(scene, false, place_px_), moment, driver_view(96, 64));
         EXPECT_GT(c.compared, 3000);
         EXPECT_EQ(c.beyond, 0) << "worst " << c.worst_ratio << " of the bound";
         EXPECT_LT(c.worst_relative_luminance, 4e-3);
@@ -109,15 +109,15 @@ TEST_F(TwinTest, TheBoundIsNotSlack) {
     const Frame frame = renderer.draw(moment, driver_view(96, 64), all_results);
     Moment one_lamp = moment;
     one_lamp.lamps.pop_back();
-    EXPECT_GT(compare(frame, Twin(scene, false), one_lamp, driver_view(96, 64)).beyond, 1000);
+    EXPECT_GT(compare(frame, Twin(scene, false, place_px_), one_lamp, driver_view(96, 64)).beyond, 1000);
     Moment shifted = moment;
     for (LitLamp& lamp : shifted.lamps)
         lamp.pose.axes = axes_from_angles(0.0, radians(0.01), 0.0);
-    EXPECT_GT(compare(frame, Twin(scene, false), shifted, driver_view(96, 64)).beyond, 1000);
+    EXPECT_GT(compare(frame, Twin(scene, false, place_px_), shifted, driver_view(96, 64)).beyond, 1000);
     Moment brighter = moment;
     for (LitLamp& lamp : brighter.lamps)
         lamp.intensity_factor = 1.0005;
-    EXPECT_GT(compare(frame, Twin(scene, false), brighter, driver_view(96, 64)).beyond, 1000);
+    EXPECT_GT(compare(frame, Twin(scene, false, place_px_), brighter, driver_view(96, 64)).beyond, 1000);
 }
 
 TEST_F(TwinTest, UtmCoordinatesGiveTheSameFrame) {

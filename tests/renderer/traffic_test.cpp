@@ -32,7 +32,7 @@ TEST_F(Traffic, LightsTheSceneAsInDoublePrecision) {
         RendererSettings s = settings();
         s.shadows.method = ShadowMethod::none;
         const View view = driver(48, 32);
-        const Twin twin(street.scene, false);
+        const Twin twin(street.scene, false, place_px_);
         const Frame frame = draw(street, moment, view, s);
         double brightest = 0.0;
         int others = 0;

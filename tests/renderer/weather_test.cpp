@@ -75,7 +75,7 @@ TEST_F(DrawnWeather, MeetsTheTwinWithMoreMidpoints) {
     const View view = ahead_in_weather(16, 12);
     Moment moment = in({0.03, 1.0, 0.85, 0.0}, 2.0);
     moment.lamps.pop_back();
-    const Twin twin(scene, true);
+    const Twin twin(scene, true, place_px_);
     double error[3] = {}, sum = 0.0;
     int beyond = 0;
     const Frame frames[] = {draw(scene, moment, "photometric", 16, nullptr, view), draw(scene, moment, "photometric", 32, nullptr, view),
