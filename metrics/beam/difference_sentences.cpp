@@ -1,3 +1,4 @@
+#include "metrics/beam/intake.h"
 #include "metrics/beam/lamp_difference.h"
 
 #include <algorithm>
@@ -57,6 +58,16 @@ std::string zone_where(const BeamZone& zone) {
     return zone.part_of.empty() ? "" : "part of " + zone.part_of;
 }
 
+bool is_of_other_function(const LampDifference& difference) {
+    return difference.function != BeamFunction::other && difference.function_against != BeamFunction::other &&
+           difference.function != difference.function_against;
+}
+
+std::string other_function_text(const LampDifference& difference) {
+    return fmt::format("a {} beam by its light, the other lamp a {} beam: they do not stand for one another", name_of(difference.function),
+                       name_of(difference.function_against));
+}
+
 bool is_for_other_side(const LampDifference& difference) {
     return difference.side != TrafficSide::unknown && difference.side_against != TrafficSide::unknown &&
            difference.side != difference.side_against;
@@ -75,6 +86,8 @@ std::string place_text(const PlaceChange& change) {
 
 std::vector<std::string> sentences_of(const LampDifference& difference) {
     std::vector<std::string> out;
+    if (is_of_other_function(difference))
+        out.push_back(other_function_text(difference));
     if (is_for_other_side(difference))
         out.push_back(other_side_text(difference));
     const auto turned = [](double deg, const char* more, const char* less) {

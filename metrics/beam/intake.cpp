@@ -90,6 +90,15 @@ BeamFunction recognised(const LampFile& lamp, const BeamOutline& o) {
     return BeamFunction::other;
 }
 
+/// Low by a cut-off below the horizon, high by half the maximum straight ahead and no cut-off.
+BeamFunction clear_function_of(const LampFile& lamp, const BeamOutline& o) {
+    const BeamFunction by_light = recognised(lamp, o);
+    const bool clear = by_light == BeamFunction::low    ? o.upper_level_deg().value_or(0.0) < 0.0
+                       : by_light == BeamFunction::high ? share_ahead(lamp.table, o.peak) >= bright_ahead
+                                                        : false;
+    return clear ? by_light : BeamFunction::other;
+}
+
 struct IntakeCheck {
     const LampFile& lamp;
     const IntakeContext& context;
@@ -101,18 +110,17 @@ struct IntakeCheck {
     void claim(IntakeFault fault, bool meaningless, std::string text) { found.findings.push_back({fault, meaningless, std::move(text)}); }
 
     /// Of stated functions and of mounts, where the light is clearly that of the other beam.
-    bool function(BeamFunction recognised) {
+    bool function() {
         const std::optional<BeamFunction> expected = context.function ? context.function : context.mount;
-        if (!expected || *expected == recognised || recognised == BeamFunction::other || *expected == BeamFunction::other)
+        const BeamFunction clear = clear_function_of(lamp, outline);
+        if (!expected || *expected == BeamFunction::other || clear == BeamFunction::other || *expected == clear)
             return false;
-        const double ahead = share_ahead(lamp.table, peak());
-        const bool is_low = recognised == BeamFunction::low;
-        if (is_low ? outline.upper_level_deg().value_or(0.0) >= 0.0 : ahead < bright_ahead)
-            return false;
+        const bool is_low = clear == BeamFunction::low;
         claim(IntakeFault::function, true,
               fmt::format("it is {} by its light ({}), {} {}", is_low ? "a low beam" : "a high beam",
-                          is_low ? "a cut-off, and the maximum below it"
-                                 : fmt::format("no cut-off, and {:.0f} % of the maximum straight ahead", 100.0 * ahead),
+                          is_low ? "its cut-off lies below the horizon"
+                                 : fmt::format("no cut-off, and {:.0f} % of its maximum straight ahead",
+                                               100.0 * share_ahead(lamp.table, peak())),
                           context.function ? "and is stated to be" : "on the mount of", is_low ? "a high beam" : "a low beam"));
         return true;
     }
@@ -297,20 +305,19 @@ const char* name_of(BeamFunction function) {
     return names[static_cast<std::size_t>(function)];
 }
 
-BeamFunction recognised_function(const LampFile& lamp) { return recognised(lamp, outline_of(lamp)); }
+BeamFunction clear_function(const LampFile& lamp) { return clear_function_of(lamp, outline_of(lamp)); }
 
 Intake check_intake(const LampFile& lamp, const IntakeContext& context) {
     const BeamOutline outline = outline_of(lamp);
-    const BeamFunction by_light = recognised(lamp, outline);
     Intake found;
     found.peak = outline.peak;
     found.flux_lm = outline.flux_lm;
     found.function_stated = context.function.has_value();
-    found.function = context.function.value_or(by_light);
+    found.function = context.function ? *context.function : recognised(lamp, outline);
     if (found.function == BeamFunction::other || !(found.peak.cd > 0.0))
         return found;
     IntakeCheck check{lamp, context, outline, found};
-    if (check.axis() || check.function(by_light))
+    if (check.axis() || check.function())
         return found;
     if (check.low()) {
         found.cut_off_v_deg = outline.upper_level_deg();

@@ -30,7 +30,7 @@ struct IntakeContext {
     /// How far its mount turns the beam up, degrees; nullopt where it is aimed by its cut-off, wherever the table has that.
     std::optional<double> turned_up_deg = 0.0;
     double turned_right_deg = 0.0;     ///< and to the right
-    std::optional<BeamFunction> mount; ///< whose place on the car it has, low or high; nullopt: not known, or for any beam
+    std::optional<BeamFunction> mount = {}; ///< whose place on the car it has, low or high; nullopt: not known, or for any beam
 };
 
 struct Intake {
@@ -51,8 +51,8 @@ struct Intake {
 /// beam stands for a high beam or the other way round, nothing else is claimed: all else follows from it.
 Intake check_intake(const LampFile& lamp, const IntakeContext& context = {});
 
-/// Low, high or other, by the light alone.
-BeamFunction recognised_function(const LampFile& lamp);
+/// Low or high where the light alone leaves no doubt: a cut-off below the horizon, or none and half the maximum straight ahead; else other.
+BeamFunction clear_function(const LampFile& lamp);
 
 /// Whether the files of a car's left and right lamp of one function stand in each other's place: by "left" and "right" in their names
 /// (`by_names`; false where the lamps were mirrored after reading), or by the wide light, of which a headlamp sends more to its own side of

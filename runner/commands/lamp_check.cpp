@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fmt/format.h>
 
 namespace fernlicht {
@@ -113,10 +114,10 @@ int lamp_check(const LampRequest& request) {
     if (!request.add.empty())
         if (const auto swapped = swapped_sides(lamp, read_lamp(request.add.front(), request.reading), !request.mirror))
             intake.findings.push_back(*swapped);
-    const auto meaningless = std::ranges::find_if(intake.findings, [](const IntakeFinding& finding) { return finding.meaningless; });
-    if (request.strict && meaningless != intake.findings.end())
-        throw InputError({request.file, 0, 0, "--strict"}, meaningless->text, "a sound file, or the check without --strict");
     fmt::print("{}", request.json ? check_json(lamp, intake, request) : document_text(document(lamp, intake, request)));
+    std::fflush(stdout); // the table before the error
+    if (request.strict)
+        refuse_meaningless(request.file, intake.findings, "the check");
     return 0;
 }
 

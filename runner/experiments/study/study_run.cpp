@@ -80,8 +80,10 @@ std::vector<CheckedLampFile> check_lamp_files(const Study& study, const std::vec
     for (const Planned& one : planned) {
         const StudyLamp& lamp = study.lamps[one.cell.lamp];
         const bool stays = study.conditions.mirror[one.cell.mirror] && !lamp.mirrors;
-        checks.add(one.drive, one.left_hand_traffic != stays, strict, degrees(std::atan(-0.01) - std::atan(lamp.file_aim_percent / 100.0)));
+        checks.add(one.drive, one.left_hand_traffic != stays, degrees(std::atan(-0.01) - std::atan(lamp.file_aim_percent / 100.0)));
     }
+    if (strict)
+        checks.refuse_meaningless();
     return checks.files();
 }
 
