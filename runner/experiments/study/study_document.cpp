@@ -168,6 +168,11 @@ Section decision_section(const StudyResult& result, const std::vector<Decision>&
         parts.caption = decisions.size() == 1 ? fmt::format("{} against {}", pair.tested, pair.against) : decision_count(result, decision);
         section.blocks.emplace_back(std::move(parts));
     }
+    if (!result.warnings.empty()) {
+        Listing warnings(result.warnings);
+        warnings.caption = result.warnings.size() == 1 ? "Warning" : "Warnings";
+        section.blocks.emplace_back(std::move(warnings));
+    }
     if (!was_judged(result))
         section.blocks.emplace_back("No limits were set.");
     if (!result.played_in_part.empty())
@@ -326,6 +331,8 @@ Document study_summary(const StudyResult& result) {
     say(result.study.title + (was_judged(result) ? std::string(": ") + verdict_name(overall(result)) : ""));
     for (const std::string& warning : lamp_warnings(result.lamp_files))
         say("warning: " + warning);
+    for (const std::string& warning : result.warnings)
+        say("warning: " + warning);
     for (const Decision& decision : decide(result))
         say(decision_count(result, decision));
     say(study_sentence(result));
@@ -336,8 +343,6 @@ Document study_summary(const StudyResult& result) {
     judge("", result.verdicts);
     for (const CellResult& cell : result.cells)
         judge(cell.cell.name + ": ", cell.verdicts);
-    for (const std::string& warning : result.warnings)
-        say("warning: " + warning);
     for (const LampComparison& lamps : result.lamps)
         say(lamp_verdict(lamps));
     for (const std::string& same : same_results(result, decide(result)))
