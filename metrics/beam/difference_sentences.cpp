@@ -90,12 +90,13 @@ std::vector<std::string> sentences_of(const LampDifference& difference) {
         out.push_back(other_function_text(difference));
     if (is_for_other_side(difference))
         out.push_back(other_side_text(difference));
-    const auto turned = [](double deg, const char* more, const char* less) {
-        return fmt::format("{:.3f} degrees {}", std::abs(deg), deg < 0.0 ? less : more);
+    const auto turned = [](double deg, const char* more, const char* less, const char* not_at_all = "") {
+        return std::abs(deg) < 0.0005 ? std::string(not_at_all) : fmt::format("{:.3f} degrees {}", std::abs(deg), deg < 0.0 ? less : more);
     };
     if (difference.aim_up_deg)
-        out.push_back(fmt::format("aimed {} and {}: the whole beam ({} and {})", turned(difference.aim_up_deg->value, "higher", "lower"),
-                                  turned(difference.aim_right_deg->value, "to the right", "to the left"),
+        out.push_back(fmt::format("aimed {} and {}: the whole beam ({} and {})",
+                                  turned(difference.aim_up_deg->value, "higher", "lower", "neither higher nor lower"),
+                                  turned(difference.aim_right_deg->value, "to the right", "to the left", "not aside"),
                                   error_text(difference.aim_up_deg->uncertainty), error_text(difference.aim_right_deg->uncertainty)));
     if (difference.cut_off_up_deg)
         out.push_back(fmt::format("cut-off {} ({}), over the light below it", turned(difference.cut_off_up_deg->value, "higher", "lower"),
@@ -104,8 +105,8 @@ std::vector<std::string> sentences_of(const LampDifference& difference) {
         out.push_back(fmt::format("{:.2f} % {} all over ({})", 100.0 * std::abs(difference.level->value),
                                   difference.level->value < 0.0 ? "dimmer" : "brighter", uncertainty_text(difference.level->uncertainty)));
     for (const BeamZone& zone : difference.zones)
-        out.push_back(fmt::format("{} ({}; {}, {} directions)", named_text(zone), coordinates_text(zone),
-                                  uncertainty_text(zone.uncertainty), zone.samples));
+        out.push_back(fmt::format("{} ({}; {}, {} direction{})", named_text(zone), coordinates_text(zone),
+                                  uncertainty_text(zone.uncertainty), zone.samples, zone.samples == 1 ? "" : "s"));
     if (!difference.is_explained())
         for (const PlaceChange& change : difference.places)
             if (change.is_beyond_noise)

@@ -68,7 +68,7 @@ Document document(const LampFile& lamp, const Intake& intake, const LampRequest&
     fact("flux", fmt::format("{:.0f} lm", intake.flux_lm));
     fact("cut-off", cut_off_fact(intake));
     fact("its steps", intake.step_deg ? fmt::format("{:.2g} degrees between samples in V", *intake.step_deg) : "");
-    fact("measured at", voltage_text(true, request.voltage_v));
+    fact("measured at", voltage_text(true, request.voltage_v) + (request.voltage_v ? "" : "; lamps without a filament keep theirs"));
     Section section{"", {std::move(facts)}};
     if (intake.findings.empty()) {
         section.blocks.emplace_back(intake.function == BeamFunction::other
@@ -76,7 +76,7 @@ Document document(const LampFile& lamp, const Intake& intake, const LampRequest&
                                         : "No finding.");
         return {"Intake check", {std::move(section)}};
     }
-    Table findings{.name = "findings", .caption = "", .columns = columns_of("finding<|so<|found<"), .rows = {}, .prose = true};
+    Table findings{.name = "findings", .caption = "", .columns = columns_of("finding<|meaning<|found<"), .rows = {}, .prose = true};
     for (const IntakeFinding& finding : intake.findings)
         findings.rows.push_back(
             {name_of(finding.fault), finding.meaningless ? "readings with it are meaningless" : "doubtful", finding.text});

@@ -36,7 +36,7 @@ bool is_of_aim(const IntakeFinding& finding) { return finding.fault == IntakeFau
 
 /// What a user may do about it.
 std::string instead_of_strict(bool any_aim, const char* without) {
-    return fmt::format("a sound file, {}or {} without --strict", any_aim ? "`aim: auto`, " : "", without);
+    return fmt::format("a file without such findings, {}or {} without --strict", any_aim ? "`aim: auto`, " : "", without);
 }
 
 const char* meaning_of(const IntakeFinding& finding) { return finding.meaningless ? "readings are meaningless" : "doubtful"; }
@@ -176,7 +176,7 @@ std::vector<std::string> lamp_warnings(const std::vector<CheckedLampFile>& files
 Table lamp_files_table(const std::vector<CheckedLampFile>& files) {
     Table table{.name = "lamp-files",
                 .caption = "Lamp files",
-                .columns = columns_of("file<|used as<|function<|measured at<|finding<|found<|so<"),
+                .columns = columns_of("file<|used as<|function<|measured at<|finding<|found<|meaning<"),
                 .rows = {},
                 .folded = std::ranges::all_of(files, [](const CheckedLampFile& file) { return file.findings.empty(); })};
     for (const CheckedLampFile& file : files) {
