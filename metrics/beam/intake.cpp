@@ -117,11 +117,11 @@ struct IntakeCheck {
             return false;
         const bool is_low = clear == BeamFunction::low;
         claim(IntakeFault::function, true,
-              fmt::format("it is {} by its light ({}), {} {}", is_low ? "a low beam" : "a high beam",
-                          is_low ? "its cut-off lies below the horizon"
-                                 : fmt::format("no cut-off, and {:.0f} % of its maximum straight ahead",
-                                               100.0 * share_ahead(lamp.table, peak())),
-                          context.function ? "and is stated to be" : "on the mount of", is_low ? "a high beam" : "a low beam"));
+              fmt::format(
+                  "it is {} by its light ({}), {} {}", is_low ? "a low beam" : "a high beam",
+                  is_low ? "its cut-off lies below the horizon"
+                         : fmt::format("no cut-off, and {:.0f} % of its maximum straight ahead", 100.0 * share_ahead(lamp.table, peak())),
+                  context.function ? "and is stated to be" : "on the mount of", is_low ? "a high beam" : "a low beam"));
         return true;
     }
 
@@ -152,11 +152,11 @@ struct IntakeCheck {
         if (found.cut_off_v_deg) {
             const double step = found.step_deg.value_or(0.0), open = step >= coarse_step_deg ? step / 2.0 : 0.0;
             if (const double v = *found.cut_off_v_deg + *context.turned_up_deg; v - open > highest_cut_off_deg)
-                claim(
-                    IntakeFault::cut_off_high, true,
-                    fmt::format("the cut-off lies at {}{}, on the horizon or above, and 0.57 D is expected: `aim: auto` lowers it to there, "
-                                "or `percent_down` by what you say",
-                                up_or_down(v), mounted));
+                claim(IntakeFault::cut_off_high, true,
+                      fmt::format(
+                          "the cut-off lies at {}{}, on the horizon or above, and 0.57 D is expected: `aim: auto` lowers it to there, "
+                          "or `percent_down` by what you say",
+                          up_or_down(v), mounted));
         } else if (const double ahead = share_ahead(lamp.table, peak()); found.function_stated && ahead >= bright_ahead)
             claim(IntakeFault::cut_off_high, true,
                   fmt::format("no cut-off is found below the horizon, and straight ahead lies {:.0f} % of the maximum: is it a high beam?",
@@ -227,10 +227,11 @@ struct IntakeCheck {
 
     void units() {
         if (const double least = low() ? weak_low_cd : weak_high_cd; peak().cd >= least_peak_cd && peak().cd < least) {
-            claim(IntakeFault::units, false,
-                  fmt::format("its maximum is {:.4g} cd, and car headlamps have {:.0f} or more: wrong by a factor, a moped's lamp, or one of "
-                              "several modules",
-                              peak().cd, least));
+            claim(
+                IntakeFault::units, false,
+                fmt::format("its maximum is {:.4g} cd, and car headlamps have {:.0f} or more: wrong by a factor, a moped's lamp, or one of "
+                            "several modules",
+                            peak().cd, least));
             return;
         }
         const std::optional<double> source = lamp.declared_flux_lm;
@@ -295,8 +296,8 @@ struct IntakeCheck {
 } // namespace
 
 const char* name_of(IntakeFault fault) {
-    static constexpr const char* names[]{"function", "cut-off", "aim",      "rise",  "flux",      "peak",
-                                         "type or axis", "units", "coverage", "steps", "sharpness", "sides"};
+    static constexpr const char* names[]{"function",     "cut-off", "aim",      "rise",  "flux",      "peak",
+                                         "type or axis", "units",   "coverage", "steps", "sharpness", "sides"};
     return names[static_cast<std::size_t>(fault)];
 }
 

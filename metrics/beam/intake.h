@@ -29,7 +29,7 @@ struct IntakeContext {
     bool left_hand_traffic = false;
     /// How far its mount turns the beam up, degrees; nullopt where it is aimed by its cut-off, wherever the table has that.
     std::optional<double> turned_up_deg = 0.0;
-    double turned_right_deg = 0.0;     ///< and to the right
+    double turned_right_deg = 0.0;          ///< and to the right
     std::optional<BeamFunction> mount = {}; ///< whose place on the car it has, low or high; nullopt: not known, or for any beam
 };
 

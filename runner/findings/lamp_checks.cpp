@@ -144,9 +144,9 @@ void LampFileChecks::refuse_meaningless() const {
             }
     if (!told.empty())
         throw InputError({first, 0, 0, "--strict"},
-                         told.size() == 1 ? told.front()
-                                          : fmt::format("{} findings that make readings meaningless:\n  {}\n", told.size(),
-                                                        fmt::join(told, "\n  ")),
+                         told.size() == 1
+                             ? told.front()
+                             : fmt::format("{} findings that make readings meaningless:\n  {}\n", told.size(), fmt::join(told, "\n  ")),
                          instead_of_strict(any_aim, "the run"));
 }
 

@@ -153,10 +153,11 @@ Value reach_moved_m(const ExtentSummary& summary, std::optional<double> (*by)(co
     const ReadingKey reading = extent_reading(summary.key, Quantity::reach, place);
     const auto nudged = summary.nudged.find(reading);
     const auto moments = summary.moments.find(reading);
-    return Value::of(nudged == summary.nudged.end()
-                         ? std::nullopt
-                         : by(sensitivity_of(nudged->second, moments == summary.moments.end() ? Value() : moments->second.quantile(0.5), 0.5)),
-                     "no reach on both sides of the change");
+    return Value::of(
+        nudged == summary.nudged.end()
+            ? std::nullopt
+            : by(sensitivity_of(nudged->second, moments == summary.moments.end() ? Value() : moments->second.quantile(0.5), 0.5)),
+        "no reach on both sides of the change");
 }
 
 Readings extent_readings(const PlayedCell& played) {

@@ -85,11 +85,13 @@ std::string no_such_reading(const std::string& name, const std::set<ReadingKey>&
 /// What a drive is to measure for readings whose names begin so; "" where it is no affair of `measure:`.
 std::string asked_for_by(std::string_view name) {
     static constexpr std::array<std::pair<std::string_view, const char*>, 19> rows{{
-        {"glare_", "glare"},          {"mirror_", "glare"},         {"sensor_", "sensors"},      {"detection_", "visibility"},
-        {"undetected_", "visibility"}, {"visibility_", "visibility"}, {"background_", "visibility"}, {"mesopic_", "visibility"},
-        {"uniformity_", "homogeneity"}, {"gradient_", "homogeneity"}, {"patch_", "homogeneity"},   {"foreground_", "homogeneity"},
-        {"kerb_", "places"},          {"board_", "places"},         {"marking_", "places"},      {"reach_", "extent"},
-        {"unlit_", "extent"},         {"width_", "extent"},         {"area_", "extent"},
+        {"glare_", "glare"},           {"mirror_", "glare"},          {"sensor_", "sensors"},
+        {"detection_", "visibility"},  {"undetected_", "visibility"}, {"visibility_", "visibility"},
+        {"background_", "visibility"}, {"mesopic_", "visibility"},    {"uniformity_", "homogeneity"},
+        {"gradient_", "homogeneity"},  {"patch_", "homogeneity"},     {"foreground_", "homogeneity"},
+        {"kerb_", "places"},           {"board_", "places"},          {"marking_", "places"},
+        {"reach_", "extent"},          {"unlit_", "extent"},          {"width_", "extent"},
+        {"area_", "extent"},
     }};
     const auto found = std::ranges::find_if(rows, [&](const auto& row) { return name.starts_with(row.first); });
     return found == rows.end() ? "" : found->second;

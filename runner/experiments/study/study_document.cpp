@@ -54,8 +54,8 @@ std::string change_sentence(const StudyResult& result, const Change& change) {
                        with_unit(change.old_value, change.unit()), with_unit(change.new_value, change.unit()),
                        with_bound(found, fmt::format("{:+.{}f}", found.figure().value_or(0.0), decimals_of(change))),
                        unit_suffix(change.unit()), change.relative() ? fmt::format(" ({:+.1f} %)", 100.0 * *change.relative()) : "",
-                       open_cell(change, change.uncertainty.value_or(0.0)).text, result.lamp_of(change.tested), result.lamp_of(change.against), cell.drive,
-                       cell.cell.condition);
+                       open_cell(change, change.uncertainty.value_or(0.0)).text, result.lamp_of(change.tested),
+                       result.lamp_of(change.against), cell.drive, cell.cell.condition);
 }
 
 Card card_of(const StudyResult& result, const Change& change) {

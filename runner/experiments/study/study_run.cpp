@@ -277,7 +277,8 @@ void refuse_unaimable(const Study& study) {
                 continue;
             seen.push_back(file);
             if (const AimMark mark = aim_mark(read_lamp(file, {.recipe = lamp.recipe}).table, is_high); !mark.v_deg)
-                refuse_aim(study, lamp, fmt::format("found auto, and nothing to aim by in {}: {}", printable(file.string(), 400), mark.why_not),
+                refuse_aim(study, lamp,
+                           fmt::format("found auto, and nothing to aim by in {}: {}", printable(file.string(), 400), mark.why_not),
                            "as-is, or the file of a beam with a cut-off");
         }
     }

@@ -207,7 +207,8 @@ TEST(Intake, ALowBeamForAHighBeamAndTheOtherWayRoundIsNamed) {
                 << "what is stated is believed: " << name;
         }
     }
-    for (const SoundTable& sound : sound_tables) // their own mount is right; the other one is claimed where the light is clear, or not at all
+    for (const SoundTable& sound :
+         sound_tables) // their own mount is right; the other one is claimed where the light is clear, or not at all
         EXPECT_THAT(faults_of(lamp_with(generated::Lamp(regulation(sound.regulation)).table), {.function = {}, .mount = sound.function}),
                     IsEmpty())
             << sound.regulation;
@@ -236,7 +237,8 @@ TEST(Intake, ALowBeamAimedAsideOrFarDownIsDoubtful) {
                 const double aside = left ? -right : right;
                 const IntakeContext context{.function = {}, .left_hand_traffic = left};
                 const IntakeFinding finding = only_finding(lamp, context);
-                EXPECT_EQ(finding.fault, IntakeFault::aim) << name << " " << aside << ", " << up << ": " << told(check_intake(lamp, context));
+                EXPECT_EQ(finding.fault, IntakeFault::aim)
+                    << name << " " << aside << ", " << up << ": " << told(check_intake(lamp, context));
                 EXPECT_FALSE(finding.meaningless);
                 EXPECT_THAT(finding.text, HasSubstr("`aim: auto`"));
                 EXPECT_EQ(finding.text.find("the cut-off lies") != std::string::npos, up < 0.0) << finding.text;

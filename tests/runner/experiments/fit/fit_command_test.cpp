@@ -150,15 +150,16 @@ TEST(FitCommand, WarnsOfLuxInAnotherUnitAndOfFewPoints) {
     for (const auto& row : csv_rows(Tunnel{}.csv(7)))
         if (row.at(0) != "name") {
             const auto line = [&](double factor) {
-                return fmt::format("{},{},{},{},{},{},{},{},{}\n", row[0], row[1], row[2], row[3], row[4], row[5], factor * std::stod(row[6]),
-                                   row[7], factor * std::stod(row[8]));
+                return fmt::format("{},{},{},{},{},{},{},{},{}\n", row[0], row[1], row[2], row[3], row[4], row[5],
+                                   factor * std::stod(row[6]), row[7], factor * std::stod(row[8]));
             };
             wrong_unit += line(10.0);
             if (++number % 40 == 1)
                 few += line(1.0);
         }
     const auto said = [&](const std::string& text, const char* out) {
-        return run_program("fit " + straight + " --points " + tests::written("points.csv", text).string() + " --out " + (folder / out)).output;
+        return run_program("fit " + straight + " --points " + tests::written("points.csv", text).string() + " --out " + (folder / out))
+            .output;
     };
     const std::string tenfold = said(wrong_unit, "ten");
     EXPECT_THAT(tenfold, testing::ContainsRegex("Warning: by the points left and right have about (9|10)"));
