@@ -84,7 +84,7 @@ std::string lamp_verdict(const LampComparison& lamps) {
     if (!d.undecided.empty())
         text += " " + d.undecided + ".";
     if (lamps.is_turned_later)
-        text += " This is of the files; in the drives, `aim: auto` turns the beams.";
+        text += " This is of the files; the drives have beams turned by `aim: auto`.";
     return text;
 }
 

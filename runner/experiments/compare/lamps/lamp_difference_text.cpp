@@ -51,7 +51,7 @@ JsonMembers place_change_members(PlaceChange& change) {
 JsonPart traffic_side_part(TrafficSide& side) { return one_of(side, names_of<TrafficSide>(traffic_side_name, 3)); }
 
 JsonPart beam_function_part(BeamFunction& function) {
-    return one_of(function, names_of<BeamFunction>([](BeamFunction one) { return name_of(one); }, 3));
+    return one_of(function, fernlicht::names_of<BeamFunction>([](BeamFunction one) { return name_of(one); }, 3));
 }
 
 void refuse_darkness(const LampFile& lamp) {
