@@ -38,6 +38,8 @@ constexpr double least_peak_cd = 1000.0;
 /// What the weakest class of cars has: 50R of a low beam; of a high beam half the least maximum of UN R112's class A, as several may shine
 /// together.
 constexpr double weak_low_cd = 5100.0, weak_high_cd = 13500.0;
+/// A quarter of the 1000 lm of H4's low beam, the weakest of such light sources: with more a weak maximum is a wide beam's.
+constexpr double weak_lm = 250.0;
 /// Of the flux of their light source, beams have 0.25 to 0.6. What is below this and comes into that range when multiplied by the thousands
 /// of lumens of the source was listed per 1000 lm. Sources below 1200 lm are left alone: such factors do not show.
 constexpr double least_share_of_source = 0.15, least_source_lm = 1200.0;
@@ -226,12 +228,13 @@ struct IntakeCheck {
     }
 
     void units() {
-        if (const double least = low() ? weak_low_cd : weak_high_cd; peak().cd >= least_peak_cd && peak().cd < least) {
-            claim(
-                IntakeFault::units, false,
-                fmt::format("its maximum is {:.4g} cd, and car headlamps have {:.0f} or more: wrong by a factor, a moped's lamp, or one of "
-                            "several modules",
-                            peak().cd, least));
+        if (const double least = low() ? weak_low_cd : weak_high_cd;
+            peak().cd >= least_peak_cd && peak().cd < least && found.flux_lm < weak_lm) {
+            claim(IntakeFault::units, false,
+                  fmt::format(
+                      "its maximum is {:.4g} cd and its flux {:.0f} lm, and car headlamps have {:.0f} cd and {:.0f} lm or more: wrong "
+                      "by a factor, a moped's lamp, or one of several modules",
+                      peak().cd, found.flux_lm, least, weak_lm));
             return;
         }
         const std::optional<double> source = lamp.declared_flux_lm;

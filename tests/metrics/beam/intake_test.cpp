@@ -274,6 +274,10 @@ TEST(Intake, LightTenTimesTooWeakIsDoubtful) {
         EXPECT_FALSE(finding.meaningless) << "a module of several may be so";
         EXPECT_THAT(finding.text, HasSubstr("wrong by a factor"));
     }
+    const LampFile flood = lamp_with(tests::table_of(tests::steps(-60.0, 60.0, 1.0), tests::steps(-60.0, 60.0, 1.0),
+                                                     [](double h, double v) { return 7400.0 * std::exp(-(h * h + v * v) / 200.0); }));
+    EXPECT_EQ(check_intake(flood).function, BeamFunction::high);
+    EXPECT_THAT(faults_of(flood), IsEmpty()) << "a spot of " << told(check_intake(flood)) << " is weak, and no headlamp in wrong units";
 }
 
 TEST(Intake, ARiseOnTheWrongSideIsNamed) {
