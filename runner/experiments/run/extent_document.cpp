@@ -172,8 +172,7 @@ void add_extents(const ComparedDrive& drive, Sections& sections) {
     if (axes.places.empty())
         return;
     if (Cards reaches = reaches_at_a_glance(drive); !reaches.empty())
-        sections.push_back(
-            {"At a glance", {"Own lane, median over the drive; targets are 25 cm high and face the lamps.", std::move(reaches)}, 3});
+        sections.push_back({"At a glance", {"Own lane, median over the drive; targets face the lamps.", std::move(reaches)}, 3});
     Section& section = sections.emplace_back(Section{"Reach and width", {}, 3});
     section.blocks.emplace_back(
         fmt::format("Medians over the drive, from the rendered lux image. Reach runs from the bumper along the "
