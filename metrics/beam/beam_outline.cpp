@@ -178,6 +178,41 @@ std::optional<double> BeamOutline::rise_deg() const {
     return middle_of(right) - middle_of(left);
 }
 
+std::optional<double> BeamOutline::elbow_h_deg() const {
+    const auto level = upper_level_deg();
+    if (!level)
+        return std::nullopt;
+    std::vector<Direction> edge = upper_edge; // in the direction in which it rises
+    const auto mean_of = [&](std::size_t from, std::size_t to) {
+        double sum = 0.0;
+        for (std::size_t i = from; i < to; ++i)
+            sum += edge[i].v_deg / static_cast<double>(to - from);
+        return sum;
+    };
+    const std::size_t third = edge.size() / 3;
+    const bool rises_left = mean_of(edge.size() - third, edge.size()) < mean_of(0, third);
+    if (rises_left) {
+        std::ranges::reverse(edge);
+        for (Direction& one : edge)
+            one.h_deg = -one.h_deg;
+    }
+    constexpr double foot_deg = 0.15, top_deg = 0.45;
+    const auto crossing = [&](double above_deg) -> std::optional<double> {
+        for (std::size_t i = 1; i < edge.size(); ++i)
+            if (const double v = *level + above_deg, from = edge[i - 1].v_deg, to = edge[i].v_deg; from < v && to >= v)
+                return edge[i - 1].h_deg + (edge[i].h_deg - edge[i - 1].h_deg) * (v - from) / (to - from);
+        return std::nullopt;
+    };
+    const auto foot = crossing(foot_deg), top = crossing(top_deg);
+    if (!foot || !top)
+        return std::nullopt;
+    for (const Direction& one : edge)
+        if (one.h_deg < *foot ? std::abs(one.v_deg - *level) > foot_deg : one.h_deg < *top && one.v_deg < *level + 0.5 * foot_deg)
+            return std::nullopt;
+    const double elbow = *foot - (*top - *foot) * foot_deg / (top_deg - foot_deg);
+    return rises_left ? -elbow : elbow;
+}
+
 BeamOutline outline_of(const LampFile& lamp) {
     BeamOutline outline;
     outline.peak = peak_of(lamp.table);

@@ -23,6 +23,9 @@ struct BeamOutline {
     std::optional<double> lower_level_deg() const;
     /// By how much the upper edge lies higher on the right of the middle than on its left; nullopt where a side has fewer than 3 columns.
     std::optional<double> rise_deg() const;
+    /// H where the upper edge leaves its level part, to about 0.3 degrees: by where it has risen by 0.15 and by 0.45 degrees; nullopt where
+    /// it does not rise so far, or not steadily.
+    std::optional<double> elbow_h_deg() const;
 };
 
 /// An edge is a fall from the light on its one side to that on the other, each the mean over half a degree and two tenths apart (over the

@@ -1,3 +1,4 @@
+#include "metrics/beam/intake.h"
 #include "metrics/beam/lamp_difference.h"
 
 #include <algorithm>
@@ -57,6 +58,16 @@ std::string zone_where(const BeamZone& zone) {
     return zone.part_of.empty() ? "" : "part of " + zone.part_of;
 }
 
+bool is_of_other_function(const LampDifference& difference) {
+    return difference.function != BeamFunction::other && difference.function_against != BeamFunction::other &&
+           difference.function != difference.function_against;
+}
+
+std::string other_function_text(const LampDifference& difference) {
+    return fmt::format("a {} beam by its light, the other lamp a {} beam: they do not stand for one another", name_of(difference.function),
+                       name_of(difference.function_against));
+}
+
 bool is_for_other_side(const LampDifference& difference) {
     return difference.side != TrafficSide::unknown && difference.side_against != TrafficSide::unknown &&
            difference.side != difference.side_against;
@@ -75,14 +86,17 @@ std::string place_text(const PlaceChange& change) {
 
 std::vector<std::string> sentences_of(const LampDifference& difference) {
     std::vector<std::string> out;
+    if (is_of_other_function(difference))
+        out.push_back(other_function_text(difference));
     if (is_for_other_side(difference))
         out.push_back(other_side_text(difference));
-    const auto turned = [](double deg, const char* more, const char* less) {
-        return fmt::format("{:.3f} degrees {}", std::abs(deg), deg < 0.0 ? less : more);
+    const auto turned = [](double deg, const char* more, const char* less, const char* not_at_all = "") {
+        return std::abs(deg) < 0.0005 ? std::string(not_at_all) : fmt::format("{:.3f} degrees {}", std::abs(deg), deg < 0.0 ? less : more);
     };
     if (difference.aim_up_deg)
-        out.push_back(fmt::format("aimed {} and {}: the whole beam ({} and {})", turned(difference.aim_up_deg->value, "higher", "lower"),
-                                  turned(difference.aim_right_deg->value, "to the right", "to the left"),
+        out.push_back(fmt::format("aimed {} and {}: the whole beam ({} and {})",
+                                  turned(difference.aim_up_deg->value, "higher", "lower", "neither higher nor lower"),
+                                  turned(difference.aim_right_deg->value, "to the right", "to the left", "not aside"),
                                   error_text(difference.aim_up_deg->uncertainty), error_text(difference.aim_right_deg->uncertainty)));
     if (difference.cut_off_up_deg)
         out.push_back(fmt::format("cut-off {} ({}), over the light below it", turned(difference.cut_off_up_deg->value, "higher", "lower"),
@@ -91,8 +105,8 @@ std::vector<std::string> sentences_of(const LampDifference& difference) {
         out.push_back(fmt::format("{:.2f} % {} all over ({})", 100.0 * std::abs(difference.level->value),
                                   difference.level->value < 0.0 ? "dimmer" : "brighter", uncertainty_text(difference.level->uncertainty)));
     for (const BeamZone& zone : difference.zones)
-        out.push_back(fmt::format("{} ({}; {}, {} directions)", named_text(zone), coordinates_text(zone),
-                                  uncertainty_text(zone.uncertainty), zone.samples));
+        out.push_back(fmt::format("{} ({}; {}, {} direction{})", named_text(zone), coordinates_text(zone),
+                                  uncertainty_text(zone.uncertainty), zone.samples, zone.samples == 1 ? "" : "s"));
     if (!difference.is_explained())
         for (const PlaceChange& change : difference.places)
             if (change.is_beyond_noise)

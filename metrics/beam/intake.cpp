@@ -13,6 +13,12 @@ namespace {
 
 /// Half of 0.23 D, the highest cut-off of any class (E and W of UN R123 and R149): nearer to the horizon none is meant to lie.
 constexpr double highest_cut_off_deg = -0.115;
+/// 2.5 % down: UN R48 (09 series, 6.2.6.1.2) has none lower than 2.1 % for lamps up to 0.9 m over the road.
+constexpr double lowest_cut_off_deg = -1.43;
+/// Of the elbow, which is aimed to V-V. It is found to 0.3 degrees.
+constexpr double elbow_aside_deg = 2.0;
+/// Least G of a cut-off (UN R112, R123, R149, and FMVSS 108 S10.18.9), found in files whose samples are close enough to show it.
+constexpr double least_sharpness = 0.13, sharpness_step_deg = 0.1;
 /// Of the two sides against each other; a rise of 15 degrees is 0.4 degrees high where the right side begins.
 constexpr double clear_rise_deg = 0.3;
 /// Luminous flux of the bare D1S and D2S, the strongest light sources of UN R99; of an LED headlamp's beam no more is known.
@@ -29,6 +35,11 @@ constexpr double dark_ahead = 0.15;  ///< of the peak: UN R149 allows 625 cd on 
 constexpr double bright_ahead = 0.5; ///< of the peak: UN R149 asks for 0.8 of it on HV
 /// UN R149 asks for 5100 cd on 50R of its weakest car class; those of mopeds (UN R113) keep about a fifth of that.
 constexpr double least_peak_cd = 1000.0;
+/// What the weakest class of cars has: 50R of a low beam; of a high beam half the least maximum of UN R112's class A, as several may shine
+/// together.
+constexpr double weak_low_cd = 5100.0, weak_high_cd = 13500.0;
+/// A quarter of the 1000 lm of H4's low beam, the weakest of such light sources: with more a weak maximum is a wide beam's.
+constexpr double weak_lm = 250.0;
 /// Of the flux of their light source, beams have 0.25 to 0.6. What is below this and comes into that range when multiplied by the thousands
 /// of lumens of the source was listed per 1000 lm. Sources below 1200 lm are left alone: such factors do not show.
 constexpr double least_share_of_source = 0.15, least_source_lm = 1200.0;
@@ -81,6 +92,15 @@ BeamFunction recognised(const LampFile& lamp, const BeamOutline& o) {
     return BeamFunction::other;
 }
 
+/// Low by a cut-off below the horizon, high by half the maximum straight ahead and no cut-off.
+BeamFunction clear_function_of(const LampFile& lamp, const BeamOutline& o) {
+    const BeamFunction by_light = recognised(lamp, o);
+    const bool clear = by_light == BeamFunction::low    ? o.upper_level_deg().value_or(0.0) < 0.0
+                       : by_light == BeamFunction::high ? share_ahead(lamp.table, o.peak) >= bright_ahead
+                                                        : false;
+    return clear ? by_light : BeamFunction::other;
+}
+
 struct IntakeCheck {
     const LampFile& lamp;
     const IntakeContext& context;
@@ -90,6 +110,22 @@ struct IntakeCheck {
     bool low() const { return found.function == BeamFunction::low; }
     const Peak& peak() const { return found.peak; }
     void claim(IntakeFault fault, bool meaningless, std::string text) { found.findings.push_back({fault, meaningless, std::move(text)}); }
+
+    /// Of stated functions and of mounts, where the light is clearly that of the other beam.
+    bool function() {
+        const std::optional<BeamFunction> expected = context.function ? context.function : context.mount;
+        const BeamFunction clear = clear_function_of(lamp, outline);
+        if (!expected || *expected == BeamFunction::other || clear == BeamFunction::other || *expected == clear)
+            return false;
+        const bool is_low = clear == BeamFunction::low;
+        claim(IntakeFault::function, true,
+              fmt::format(
+                  "it is {} by its light ({}), {} {}", is_low ? "a low beam" : "a high beam",
+                  is_low ? "its cut-off lies below the horizon"
+                         : fmt::format("no cut-off, and {:.0f} % of its maximum straight ahead", 100.0 * share_ahead(lamp.table, peak())),
+                  context.function ? "and is stated to be" : "on the mount of", is_low ? "a high beam" : "a low beam"));
+        return true;
+    }
 
     bool axis() {
         const double h = peak().h_deg, v = peak().v_deg;
@@ -118,15 +154,41 @@ struct IntakeCheck {
         if (found.cut_off_v_deg) {
             const double step = found.step_deg.value_or(0.0), open = step >= coarse_step_deg ? step / 2.0 : 0.0;
             if (const double v = *found.cut_off_v_deg + *context.turned_up_deg; v - open > highest_cut_off_deg)
-                claim(
-                    IntakeFault::cut_off_high, true,
-                    fmt::format("the cut-off lies at {}{}, on the horizon or above, and 0.57 D is expected: lower it by `percent_down`, or "
-                                "say in a study what the file holds by `file_aim_percent`",
-                                up_or_down(v), mounted));
+                claim(IntakeFault::cut_off_high, true,
+                      fmt::format(
+                          "the cut-off lies at {}{}, on the horizon or above, and 0.57 D is expected: `aim: auto` lowers it to there, "
+                          "or `percent_down` by what you say",
+                          up_or_down(v), mounted));
         } else if (const double ahead = share_ahead(lamp.table, peak()); found.function_stated && ahead >= bright_ahead)
             claim(IntakeFault::cut_off_high, true,
                   fmt::format("no cut-off is found below the horizon, and straight ahead lies {:.0f} % of the maximum: is it a high beam?",
                               100.0 * ahead));
+    }
+
+    /// Too low or aside, by what a mount makes better; where it makes it worse it is meant so.
+    void aim() {
+        if (!context.turned_up_deg || std::abs(peak().h_deg) > low_peak_aside_deg)
+            return;
+        std::string text;
+        if (found.cut_off_v_deg && (found.elbow_h_deg || std::abs(found.rise_deg.value_or(0.0)) >= clear_rise_deg))
+            if (const double v = *found.cut_off_v_deg + *context.turned_up_deg;
+                std::max(v, *found.cut_off_v_deg) < lowest_cut_off_deg - found.step_deg.value_or(0.0) && peak().v_deg >= low_peak_down_deg)
+                text = fmt::format("the cut-off lies at {}, and 0.57 D is expected", up_or_down(v));
+        if (found.elbow_h_deg)
+            if (const double h = *found.elbow_h_deg, mounted = h + context.turned_right_deg;
+                std::min(std::abs(h), std::abs(mounted)) > elbow_aside_deg)
+                text += fmt::format("{}the elbow lies at about {}, and it is aimed to V-V", text.empty() ? "" : "; ",
+                                    fmt::format("{:.1f} {}", std::abs(mounted), mounted < 0.0 ? "L" : "R"));
+        if (!text.empty())
+            claim(IntakeFault::aim, false, text + ": `aim: auto` turns it to where it belongs");
+    }
+
+    void sharpness() {
+        if (found.sharpness && *found.sharpness < least_sharpness)
+            claim(IntakeFault::sharpness, false,
+                  fmt::format("its cut-off is soft: G is {:.2f} where it is sharpest, and regulations ask for {:.2f} at least: averaged or "
+                              "interpolated from coarser samples?",
+                              *found.sharpness, least_sharpness));
     }
 
     void rise() {
@@ -166,6 +228,15 @@ struct IntakeCheck {
     }
 
     void units() {
+        if (const double least = low() ? weak_low_cd : weak_high_cd;
+            peak().cd >= least_peak_cd && peak().cd < least && found.flux_lm < weak_lm) {
+            claim(IntakeFault::units, false,
+                  fmt::format(
+                      "its maximum is {:.4g} cd and its flux {:.0f} lm, and car headlamps have {:.0f} cd and {:.0f} lm or more: wrong "
+                      "by a factor, a moped's lamp, or one of several modules",
+                      peak().cd, found.flux_lm, least, weak_lm));
+            return;
+        }
         const std::optional<double> source = lamp.declared_flux_lm;
         const bool per_klm_format = lamp.format.starts_with("EULUMDAT"); // whose reader multiplies by the source's flux
         if (peak().cd < least_peak_cd) {
@@ -228,7 +299,8 @@ struct IntakeCheck {
 } // namespace
 
 const char* name_of(IntakeFault fault) {
-    static constexpr const char* names[]{"cut-off", "rise", "flux", "peak", "type or axis", "units", "coverage", "steps", "sides"};
+    static constexpr const char* names[]{"function",     "cut-off", "aim",      "rise",  "flux",      "peak",
+                                         "type or axis", "units",   "coverage", "steps", "sharpness", "sides"};
     return names[static_cast<std::size_t>(fault)];
 }
 
@@ -236,6 +308,8 @@ const char* name_of(BeamFunction function) {
     static constexpr const char* names[]{"low", "high", "other"};
     return names[static_cast<std::size_t>(function)];
 }
+
+BeamFunction clear_function(const LampFile& lamp) { return clear_function_of(lamp, outline_of(lamp)); }
 
 Intake check_intake(const LampFile& lamp, const IntakeContext& context) {
     const BeamOutline outline = outline_of(lamp);
@@ -247,17 +321,24 @@ Intake check_intake(const LampFile& lamp, const IntakeContext& context) {
     if (found.function == BeamFunction::other || !(found.peak.cd > 0.0))
         return found;
     IntakeCheck check{lamp, context, outline, found};
-    if (check.axis())
+    if (check.axis() || check.function())
         return found;
     if (check.low()) {
         found.cut_off_v_deg = outline.upper_level_deg();
         found.rise_deg = outline.rise_deg();
+        found.elbow_h_deg = outline.elbow_h_deg();
         found.step_deg = step_in_v(lamp, {outline.middle_h_deg - 2.5, found.cut_off_v_deg.value_or(-0.57)});
         if (found.cut_off_v_deg) { // as `lamp --cut-off` has it, where it can be had
             const double v = *found.cut_off_v_deg, h = outline.middle_h_deg + (found.rise_deg.value_or(0.0) < 0.0 ? 2.5 : -2.5);
             found.cut_off_v_deg = vertical_scan({&lamp.table, {}}, h, v - 0.6, v + 0.6).inflection_deg.value_or(v);
+            if (found.step_deg.value_or(1.0) <= sharpness_step_deg + 1e-6)
+                for (const double aside : {-1.0, 0.0, 1.0})
+                    if (const auto g = vertical_scan({&lamp.table, {}}, h + aside, v - 0.6, v + 0.6).sharpness)
+                        found.sharpness = std::max(found.sharpness.value_or(0.0), *g);
         }
         check.cut_off();
+        check.aim();
+        check.sharpness();
         check.rise();
     }
     check.flux();

@@ -12,8 +12,8 @@
 
 namespace fernlicht {
 
-enum class IntakeFault { cut_off_high, rise_side, flux, peak, axis, units, coverage, steps, sides };
-/// "cut-off", "rise", "flux", "peak", "type or axis", "units", "coverage", "steps", "sides"
+enum class IntakeFault { function, cut_off_high, aim, rise_side, flux, peak, axis, units, coverage, steps, sharpness, sides };
+/// "function", "cut-off", "aim", "rise", "flux", "peak", "type or axis", "units", "coverage", "steps", "sharpness", "sides"
 const char* name_of(IntakeFault fault);
 const char* name_of(BeamFunction function);
 
@@ -29,6 +29,8 @@ struct IntakeContext {
     bool left_hand_traffic = false;
     /// How far its mount turns the beam up, degrees; nullopt where it is aimed by its cut-off, wherever the table has that.
     std::optional<double> turned_up_deg = 0.0;
+    double turned_right_deg = 0.0;          ///< and to the right
+    std::optional<BeamFunction> mount = {}; ///< whose place on the car it has, low or high; nullopt: not known, or for any beam
 };
 
 struct Intake {
@@ -38,14 +40,19 @@ struct Intake {
     double flux_lm = 0.0;
     std::optional<double>
         cut_off_v_deg; ///< V of the cut-off's level part as the table has it, as measure_cut_off finds it or to about 0.1 degrees
+    std::optional<double> elbow_h_deg;   ///< where that rise begins, to about 0.3 degrees
+    std::optional<double> sharpness;     ///< G of the cut-off, the largest of three places beside V-V; of steps up to 0.1 degrees alone
     std::optional<double> rise_deg;      ///< by which it lies higher on the right, between 1.5 and 6 degrees aside; < 0: on the left
     std::optional<double> step_deg;      ///< of the file's own samples in V, across the cut-off; low beams alone
     std::vector<IntakeFinding> findings; ///< at most one of a fault
 };
 
-/// The table must hold its invariants. A beam of another function than low and high has no findings. Where type or axis is wrong nothing
-/// else is claimed: all else follows from it.
+/// The table must hold its invariants. A beam of another function than low and high has no findings. Where type or axis is wrong, or a low
+/// beam stands for a high beam or the other way round, nothing else is claimed: all else follows from it.
 Intake check_intake(const LampFile& lamp, const IntakeContext& context = {});
+
+/// Low or high where the light alone leaves no doubt: a cut-off below the horizon, or none and half the maximum straight ahead; else other.
+BeamFunction clear_function(const LampFile& lamp);
 
 /// Whether the files of a car's left and right lamp of one function stand in each other's place: by "left" and "right" in their names
 /// (`by_names`; false where the lamps were mirrored after reading), or by the wide light, of which a headlamp sends more to its own side of

@@ -39,8 +39,9 @@ struct LampDifference {
     std::optional<FittedFigure> level;                     ///< share: +0.03 is 3 % brighter all over; where claimed
     std::vector<BeamZone> zones;                           ///< clearest first
     std::string undecided;                                 ///< what could not be told apart, if anything: one sentence
-    TrafficSide side = TrafficSide::unknown, side_against = TrafficSide::unknown; ///< of the road that each is for
-    std::vector<PlaceChange> places;                                              ///< as the options name them
+    TrafficSide side = TrafficSide::unknown, side_against = TrafficSide::unknown;        ///< of the road that each is for
+    std::vector<PlaceChange> places;                                                     ///< as the options name them
+    BeamFunction function = BeamFunction::other, function_against = BeamFunction::other; ///< where the light leaves no doubt (intake.h)
 
     /// Claimed by shift, level or zones.
     bool is_explained() const { return aim_up_deg || cut_off_up_deg || level || !zones.empty(); }
@@ -62,10 +63,13 @@ struct SampledBeam {
 /// 0..1, chance above 0 and below 1). The same tables give the same bytes.
 LampDifference compare_lamps(const SampledBeam& tested, const SampledBeam& against, const LampDifferenceOptions& options = {});
 
-/// One sentence each: lamps for different sides of the road, aim, cut-off, level, zones; regions whose mean alone differs. "no difference
-/// beyond noise" when nothing is claimed.
+/// One sentence each: a high against a low beam, lamps for different sides of the road, aim, cut-off, level, zones; regions whose mean
+/// alone differs. "no difference beyond noise" when nothing is claimed.
 std::vector<std::string> sentences_of(const LampDifference& difference);
 
+/// A high beam against a low beam, or the other way round.
+bool is_of_other_function(const LampDifference& difference);
+std::string other_function_text(const LampDifference& difference); ///< where it is
 bool is_for_other_side(const LampDifference& difference);
 std::string other_side_text(const LampDifference& difference); ///< where it is
 /// "75R, 50R and 50V"; "" where nothing named lies there.

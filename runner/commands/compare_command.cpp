@@ -23,7 +23,7 @@ namespace fernlicht {
 namespace {
 
 struct CompareFlags {
-    std::filesystem::path reference, tested, out;
+    std::filesystem::path reference, tested, out, recipe;
     std::string strictness, pictures = "3", regulation, noise;
     bool lamps = false;
     std::optional<double> pixels_per_degree, view_fov_deg;
@@ -139,7 +139,7 @@ int compare_two_runs(const CompareFlags& flags, const std::vector<std::string>& 
 
 int compare_two_lamps(const CompareFlags& flags, const std::vector<std::string>& command) {
     const double noise = flags.noise.empty() ? 0.0 : share_of("--noise", flags.noise);
-    LampPairComparison lamps = compare_lamp_files(flags.reference, flags.tested, {noise, flags.regulation});
+    LampPairComparison lamps = compare_lamp_files(flags.reference, flags.tested, {noise, flags.regulation, flags.recipe});
     lamps.context = command_context(command);
     Results results(flags);
     if (results.are_kept())
@@ -169,6 +169,7 @@ void refuse_foreign_flags(const CompareFlags& flags, ComparedKind kind) {
     if (kind != ComparedKind::lamps) {
         refuse(!flags.regulation.empty(), "--regulation", "two lamps");
         refuse(!flags.noise.empty(), "--noise", "two lamps");
+        refuse(!flags.recipe.empty(), "--recipe", "two lamps");
         refuse(flags.lamps, "--lamps", "two lamps");
         return;
     }
@@ -210,6 +211,7 @@ void add_compare_command(CLI::App& app, const std::vector<std::string>& command,
     sub->add_option("--regulation", flags->regulation, "two lamps: margin of both in each row; exit with 1 if B does not pass")
         ->option_text("ID");
     sub->add_option("--noise", flags->noise, "two lamps: standard deviation of an intensity, e.g. 1%");
+    add_recipe_flag(*sub, flags->recipe);
     sub->add_flag("--lamps", flags->lamps, "read pictures as beam textures");
     sub->add_flag("--json", flags->json, "print JSON");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return compare(*flags, command); }; });

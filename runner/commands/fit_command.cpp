@@ -14,7 +14,7 @@ namespace {
 
 /// The flags as typed.
 struct FitFlags {
-    std::filesystem::path drive, points;
+    std::filesystem::path drive, points, recipe;
     std::string lamp_set, road, out;
     std::vector<std::string> lamps, hold;
     const OutputFormat* tables = nullptr;
@@ -24,6 +24,7 @@ FitRequest request_of(const FitFlags& flags) {
     FitRequest request;
     DriveEdits edits;
     edits.lamps = lamps_of(flags.lamps);
+    edits.lamp_recipe = flags.recipe;
     if (!flags.road.empty())
         edits.road = flags.road;
     request.hold = items_of("--hold", flags.hold);
@@ -69,6 +70,7 @@ void add_fit_command(CLI::App& app, const std::vector<std::string>& command, std
     sub->add_option("--lamp", flags->lamps,
                     "[SIDE=]FILE: use this lamp file for all lamps, or for those whose name contains SIDE (left, right)")
         ->allow_extra_args(false);
+    add_recipe_flag(*sub, flags->recipe);
     sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's");
     sub->add_option("--out", flags->out, "new or empty folder for the results");
     add_tables_flag(*sub, flags->tables);

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fmt/format.h>
 
 namespace fernlicht {
@@ -67,7 +68,7 @@ Document document(const LampFile& lamp, const Intake& intake, const LampRequest&
     fact("flux", fmt::format("{:.0f} lm", intake.flux_lm));
     fact("cut-off", cut_off_fact(intake));
     fact("its steps", intake.step_deg ? fmt::format("{:.2g} degrees between samples in V", *intake.step_deg) : "");
-    fact("measured at", voltage_text(true, request.voltage_v));
+    fact("measured at", voltage_text(true, request.voltage_v) + (request.voltage_v ? "" : "; lamps without a filament keep theirs"));
     Section section{"", {std::move(facts)}};
     if (intake.findings.empty()) {
         section.blocks.emplace_back(intake.function == BeamFunction::other
@@ -75,7 +76,7 @@ Document document(const LampFile& lamp, const Intake& intake, const LampRequest&
                                         : "No finding.");
         return {"Intake check", {std::move(section)}};
     }
-    Table findings{.name = "findings", .caption = "", .columns = columns_of("finding<|so<|found<"), .rows = {}, .prose = true};
+    Table findings{.name = "findings", .caption = "", .columns = columns_of("finding<|meaning<|found<"), .rows = {}, .prose = true};
     for (const IntakeFinding& finding : intake.findings)
         findings.rows.push_back(
             {name_of(finding.fault), finding.meaningless ? "readings with it are meaningless" : "doubtful", finding.text});
@@ -113,10 +114,10 @@ int lamp_check(const LampRequest& request) {
     if (!request.add.empty())
         if (const auto swapped = swapped_sides(lamp, read_lamp(request.add.front(), request.reading), !request.mirror))
             intake.findings.push_back(*swapped);
-    const auto meaningless = std::ranges::find_if(intake.findings, [](const IntakeFinding& finding) { return finding.meaningless; });
-    if (request.strict && meaningless != intake.findings.end())
-        throw InputError({request.file, 0, 0, "--strict"}, meaningless->text, "a sound file, or the check without --strict");
     fmt::print("{}", request.json ? check_json(lamp, intake, request) : document_text(document(lamp, intake, request)));
+    std::fflush(stdout); // the table before the error
+    if (request.strict)
+        refuse_meaningless(request.file, intake.findings, "the check");
     return 0;
 }
 

@@ -28,7 +28,7 @@ struct RunFlags {
     JudgingFlags judging;
     std::vector<std::string> road_folders;
     std::string replay, ego, can_start, can_channel;
-    std::optional<std::string> can_log, shadows;
+    std::optional<std::string> can_log, shadows, aim;
     bool lenient = false, no_accuracy = false;
 };
 
@@ -36,6 +36,10 @@ DriveEdits edits_of(const RunFlags& flags) {
     DriveEdits edits;
     edits.lamps = lamps_of(flags.lamps);
     edits.lamp_recipe = flags.recipe;
+    if (flags.aim)
+        edits.aim = *flags.aim == "auto"    ? BeamAim::automatic
+                    : *flags.aim == "as-is" ? BeamAim::as_is
+                                            : (refuse_flag("--aim", *flags.aim, "as-is or auto"), BeamAim::as_is);
     if (!flags.road.empty())
         edits.road = flags.road;
     if (!flags.technique.empty())
@@ -125,6 +129,9 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
                     "[SIDE=]FILE: use this lamp file for all lamps, or for those whose name contains SIDE (left, right)")
         ->allow_extra_args(false);
     add_recipe_flag(*sub, flags->recipe);
+    sub->add_option("--aim", flags->aim,
+                    "in place of the drive's aim of low and high beams: as-is, or auto, which turns each until its cut-off lies 1 % down")
+        ->option_text("as-is|auto");
     sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's");
     sub->add_option("--road-folder", flags->road_folders, "also look here for the road of a drive's storyboard")->allow_extra_args(false);
     sub->add_flag("--lenient", flags->lenient, "skip what is unsupported in a storyboard, with a note for each");

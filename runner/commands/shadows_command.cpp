@@ -25,7 +25,7 @@ struct ShadowsFlags {
     std::string lamp_set, backend = "auto", out, texels = "1024x512", resolution = "512x384";
     const OutputFormat* tables = nullptr;
     std::vector<std::string> methods, scenes{"*"};
-    std::filesystem::path lamp = default_lamp;
+    std::filesystem::path lamp = default_lamp, recipe;
     double lamp_radius_m = ShadowSettings{}.lamp_radius_m, floor_lx = shadow_floor_lx, vertical_fov_deg = degrees(View{}.vertical_fov_rad);
     int moments = 3, rounds = 7;
     std::uint64_t seed = 1;
@@ -88,6 +88,7 @@ int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) 
         throw InputError({{}, 0, 0, "--lamp"}, fmt::format("found no {} from here", default_lamp),
                          "to be run from the repository's root, or --lamp FILE, the beam of the hard scenes, or --scenes none");
     request.lamp = flags.lamp;
+    request.recipe = flags.recipe;
     for (const std::filesystem::path& file : flags.drives)
         request.drives.push_back(read_drive(file));
     refuse_equal_names(request.drives);
@@ -126,6 +127,7 @@ void add_shadows_command(CLI::App& app, const std::vector<std::string>& command,
     sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drives (default: the first of each)");
     sub->add_option("--lamp", flags->lamp, "lamp file for the hard scenes (default: one in the repository, found from its root)")
         ->capture_default_str();
+    add_recipe_flag(*sub, flags->recipe);
     sub->add_option("--lamp-radius", flags->lamp_radius_m, "radius in m of lamps as discs, for soft shadows; 0: do not measure them")
         ->capture_default_str();
     sub->add_option("--floor", flags->floor_lx, "lx; points that get less than this without shadows do not count")->capture_default_str();

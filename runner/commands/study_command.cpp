@@ -47,8 +47,10 @@ void write_study(const StudyResult& result, const std::filesystem::path& folder)
 
 int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     const Study study = read_study(flags.file);
-    if (flags.list)
+    if (flags.list) {
+        refuse_unaimable(study);
         return list_cells(chosen_cells(study, items_of("--only", flags.only)));
+    }
     if (flags.resume && flags.out.empty())
         throw InputError({{}, 0, 0, "--resume"}, "found no --out beside it", "the folder to go on in");
     StudyOptions options;

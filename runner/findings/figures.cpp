@@ -1,5 +1,6 @@
 #include "runner/findings/figures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -37,6 +38,17 @@ std::string two_digits(double value) {
         return fmt::format("{:.1e}", value);
     const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(size))));
     return fmt::format("{:.{}f}", value, decimals);
+}
+
+std::string open_figure(double open, double of) {
+    if (!(open > 0.0))
+        return "0";
+    const auto fixed = [](double value, int digits) {
+        const int decimals = digits - 1 - static_cast<int>(std::floor(std::log10(value)));
+        return fmt::format("{:.{}f}", value, std::clamp(decimals, 0, 12));
+    };
+    const double least = of != 0.0 ? std::pow(10.0, std::floor(std::log10(1e-3 * std::abs(of)))) : 0.0;
+    return open < least ? "< " + fixed(least, 1) : fixed(open, 2);
 }
 
 std::string claimed_text(const WorkPrecisionRow& row, const std::string& unit) {

@@ -14,6 +14,8 @@ std::string signed_figure(double value, int decimals);
 std::string four_digits(double value);
 /// Two significant digits without an exponent from 0.001 on: "0.053", "12", "1.2e-05"; "0".
 std::string two_digits(double value);
+/// How far a figure of about `of` is open: two digits, without exponents; where it is less than a thousandth of the figure or so, "< 0.01".
+std::string open_figure(double open, double of);
 /// "0.053 %"; "< 0.02 %" for an error below the floor; "not measured".
 std::string claimed_text(const WorkPrecisionRow& row, const std::string& unit);
 /// Of bytes, in MiB: "1.9".

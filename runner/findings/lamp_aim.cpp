@@ -79,6 +79,21 @@ std::string names_in(const std::vector<LampAim>& aims, const std::vector<std::si
     return joined_names(names);
 }
 
+/// With as many digits as tell the percentage from the bound that it lies beyond.
+std::string told_apart(const LampAim& aim) {
+    const auto text = [&](double percent, int decimals) { return fmt::format("{:+.{}f} %", percent, decimals); };
+    std::string warning = aim.warning;
+    const std::string rounded = text(aim.percent.value_or(0.0), 2);
+    const std::size_t at = warning.find(rounded);
+    if (!aim.percent || at == std::string::npos)
+        return warning;
+    std::string shown = rounded;
+    for (const std::optional<double>& bound : {aim.band_lowest_percent, aim.band_highest_percent})
+        for (int decimals = 3; bound && decimals <= 5 && std::stod(shown) == std::stod(text(*bound, 2)); ++decimals)
+            shown = text(*aim.percent, decimals);
+    return warning.replace(at, rounded.size(), shown);
+}
+
 } // namespace
 
 JsonMembers lamp_aim_members(LampAim& aim) {
@@ -134,7 +149,7 @@ std::string aim_legend() {
 std::vector<std::string> aim_warnings(const std::string& lamp_set, const std::vector<LampAim>& aims) {
     std::vector<std::string> warnings;
     for (const std::vector<std::size_t>&group : together(aims, [](const LampAim&a, const LampAim&b) { return a.warning == b.warning; }))
-        if (const std::string& warning = aims[group.front()].warning; !warning.empty())
+        if (const std::string warning = told_apart(aims[group.front()]); !warning.empty())
             warnings.push_back(fmt::format("{}, {}: {}", lamp_set, names_in(aims, group), warning));
     return warnings;
 }

@@ -24,19 +24,25 @@ struct CheckedLampFile {
 class LampFileChecks {
   public:
     /// The lamps of all lamp sets with the files of their changes, and headlamps of other road users. A mount may lower what a file has too
-    /// high; one that raises it is meant so. With `turned_up_deg` all low beams are turned by that instead. Throws InputError with `strict`
-    /// for the first file with which readings say nothing of the lamp.
-    void add(const Drive& drive, bool left_hand_traffic, bool strict, std::optional<double> turned_up_deg = {});
+    /// high; one that raises it is meant so. With `turned_up_deg` all low beams are turned by that instead. Of the own car's lamps left,
+    /// right and low ones are low beams' mounts, high ones high beams', unless a change brings them another file.
+    void add(const Drive& drive, bool left_hand_traffic, std::optional<double> turned_up_deg = {});
 
     const std::vector<CheckedLampFile>& files() const { return files_; }
+    /// For --strict: throws InputError where readings with a file say nothing of the lamp; tells all such findings of all files.
+    void refuse_meaningless() const;
 
   private:
     struct Use;
     CheckedLampFile& checked(const Use& use);
-    void check_pair(const Drive& drive, const LampSet& lamp_set, const std::string& left, const std::string& right, bool strict);
+    void check_pair(const Drive& drive, const LampSet& lamp_set, const std::string& left, const std::string& right);
     std::map<std::string, std::size_t> places_; ///< by file and what is known of it
     std::vector<CheckedLampFile> files_;
+    std::vector<std::filesystem::path> paths_; ///< of `files_`
 };
+
+/// For --strict: throws InputError naming `file` where any of the findings makes readings meaningless; tells all that do.
+void refuse_meaningless(const std::filesystem::path& file, const std::vector<IntakeFinding>& findings, const char* without);
 
 /// One sentence for each finding that makes readings meaningless.
 std::vector<std::string> lamp_warnings(const std::vector<CheckedLampFile>& files);

@@ -4,7 +4,8 @@ namespace fernlicht {
 
 JsonMembers lamp_finding_members(IntakeFinding& finding) {
     const auto name = [](IntakeFault fault) { return name_of(fault); };
-    return {{"fault", one_of(finding.fault, names_of<IntakeFault>(name, 9))}, {"meaningless", finding.meaningless}, {"text", finding.text}};
+    return {
+        {"fault", one_of(finding.fault, names_of<IntakeFault>(name, 12))}, {"meaningless", finding.meaningless}, {"text", finding.text}};
 }
 
 JsonMembers lamp_file_members(CheckedLampFile& file) {

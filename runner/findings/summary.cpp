@@ -150,12 +150,15 @@ std::vector<ExtentSummary> summarise_extents(const PlayedCell& played, const Ext
     return summaries;
 }
 
-Value reach_moved_m(const ExtentSummary& summary, std::optional<double> (*by)(const Sensitivity&)) {
-    const auto nudged = summary.nudged.find(extent_reading(summary.key, Quantity::reach));
-    return Value::of(nudged == summary.nudged.end()
-                         ? std::nullopt
-                         : by(sensitivity_of(nudged->second, moments_of(summary, Quantity::reach).quantile(0.5), 0.5)),
-                     "no reach on both sides of the change");
+Value reach_moved_m(const ExtentSummary& summary, std::optional<double> (*by)(const Sensitivity&), ReadingPlace place) {
+    const ReadingKey reading = extent_reading(summary.key, Quantity::reach, place);
+    const auto nudged = summary.nudged.find(reading);
+    const auto moments = summary.moments.find(reading);
+    return Value::of(
+        nudged == summary.nudged.end()
+            ? std::nullopt
+            : by(sensitivity_of(nudged->second, moments == summary.moments.end() ? Value() : moments->second.quantile(0.5), 0.5)),
+        "no reach on both sides of the change");
 }
 
 Readings extent_readings(const PlayedCell& played) {

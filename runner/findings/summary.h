@@ -9,7 +9,7 @@ namespace fernlicht {
 std::vector<ExtentSummary> summarise_extents(const PlayedCell& played, const ExtentParameters& parameters);
 
 /// What nudges move the median reach by, metres: `by_aim`, `by_flux` ... (sensitivity.h). Not measured where the twin does not tell.
-Value reach_moved_m(const ExtentSummary& summary, std::optional<double> (*by)(const Sensitivity&));
+Value reach_moved_m(const ExtentSummary& summary, std::optional<double> (*by)(const Sensitivity&), ReadingPlace place = ReadingPlace::none);
 
 /// Readings of the whole drive from `extent_summaries`, with the grid's error in each lane from `extents`.
 Readings extent_readings(const PlayedCell& played);

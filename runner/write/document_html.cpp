@@ -86,9 +86,8 @@ data row_of(const std::vector<Cell>& row, const Table& table, bool is_quiet) {
     for (std::size_t i = 0; i < row.size(); ++i) {
         const bool is_code = table.columns[i].code && !row[i].text.empty() && (i + 1 < row.size() || row.size() == table.columns.size());
         data cell;
-        cell.set("html", swatch(row[i].series) + linked_html(row[i], is_code       ? "<code>" + xml_text(row[i].text) + "</code>"
-                                                                     : table.prose ? sentence_html(row[i].text)
-                                                                                   : xml_text(row[i].text)));
+        cell.set("html", swatch(row[i].series) +
+                             linked_html(row[i], is_code ? "<code>" + xml_text(row[i].text) + "</code>" : sentence_html(row[i].text)));
         cell.set("tag", i == 0 ? "th scope=\"row\"" : "td");
         cell.set("end", i == 0 ? "th" : "td");
         cell.set("attributes", attributes_of(row, i, table));

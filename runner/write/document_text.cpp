@@ -12,6 +12,13 @@ std::size_t characters(const std::string& text) {
     return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
+/// What is meant as it is typed stands in quotes there.
+std::string cell_text(const std::string& text) {
+    std::string shown = clean_text(text);
+    std::ranges::replace(shown, '`', '\'');
+    return shown;
+}
+
 /// Of a table of prose: a line for each cell, behind its head, and rows apart.
 std::string entries_of(const Table& table) {
     std::string text;
@@ -20,7 +27,7 @@ std::string entries_of(const Table& table) {
         for (std::size_t i = 0; i < row.size(); ++i)
             if (!row[i].text.empty())
                 lines.push_back(
-                    {head_of(table.columns[i]), clean_text(row[i].text + (row[i].hint.empty() ? "" : " (" + row[i].hint + ")"))});
+                    {head_of(table.columns[i]), cell_text(row[i].text + (row[i].hint.empty() ? "" : " (" + row[i].hint + ")"))});
         text += (text.empty() ? "" : "\n") + aligned_table("<<", lines);
     }
     return text;
@@ -41,13 +48,13 @@ std::string lines_of(const Table& table) {
     for (const std::vector<Cell>& row : table.rows) {
         if (row.size() < table.columns.size()) { // words in place of figures stand below the table
             for (std::size_t i = 0; i + 1 < row.size(); ++i)
-                after += (i == 0 ? "" : ", ") + row[i].text;
-            after += ": " + row.back().text + "\n";
+                after += (i == 0 ? "" : ", ") + cell_text(row[i].text);
+            after += ": " + cell_text(row.back().text) + "\n";
             continue;
         }
         std::vector<std::string>& line = lines.emplace_back();
         for (const Cell& cell : row)
-            line.push_back(clean_text(cell.text.empty() ? "-" : cell.text));
+            line.push_back(cell_text(cell.text.empty() ? "-" : cell.text));
     }
     return aligned_table(alignment, lines) + after;
 }

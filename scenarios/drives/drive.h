@@ -146,6 +146,7 @@ struct DriveEdits {
     /// when the side says so: "high", "high-left".
     std::vector<std::pair<std::string, std::filesystem::path>> lamps;
     std::filesystem::path lamp_recipe; ///< of those that are text grids; "": none
+    std::optional<BeamAim> aim;        ///< in place of what the drive says of the aim of the own car's low and high beams, angles included
     std::optional<std::filesystem::path> road;
     std::optional<std::string> technique;
     std::optional<std::string> shadows; ///< method by name

@@ -54,6 +54,9 @@ inline constexpr double un_voltage_v = 13.2, fmvss_voltage_v = 12.8;
 /// Flux of a filament lamp at `voltage_v` over that at `reference_v`: (U / U_ref)^3.4, the lamp makers' law between 12.0 and 13.8 V.
 double filament_flux_factor(double voltage_v, double reference_v);
 
+/// Where an automatic aim puts a low beam's cut-off: below the horizon, and no lower than any regulation has it.
+inline constexpr double lowest_cut_off_percent = -5.0, highest_cut_off_percent = -0.1;
+
 struct MountedLamp {
     std::string name; ///< "left", "right", "high-left" ...
     std::shared_ptr<const LampFile> file;

@@ -104,6 +104,10 @@ void aim_lamp(const Study& study, const StudyLamp& lamp, double aim_percent, Mou
         throw InputError({study.file, 0, 0, fmt::format("lamps.{}.file_aim_percent", lamp.name)},
                          fmt::format("found {:g} %, and a drive aims its lamps by their cut-off", lamp.file_aim_percent),
                          "aim: as-is beside it, or no file_aim_percent");
+    if (!(aim_percent >= lowest_cut_off_percent && aim_percent <= highest_cut_off_percent))
+        throw InputError({study.file, 0, 0, "conditions.aim_percent"},
+                         fmt::format("found {:g} beside `aim: auto`, which puts the cut-off of {} there", aim_percent, lamp.name),
+                         fmt::format("{} to {}: below the horizon", lowest_cut_off_percent, highest_cut_off_percent));
     mounted.cut_off_percent = aim_percent;
 }
 
@@ -287,6 +291,9 @@ void read_study_lamps(const YamlEntry& entry, Study& study) {
         lamp.colour = read_colour(keys, lamp.source, cache, given);
         read_field(study_lamp_fields(), "aim", keys, &lamp);
         read_field(study_lamp_fields(), "file_aim_percent", keys, &lamp);
+        const YamlValue& place = keys.find("aim") ? keys.find("aim")->value() : given.value();
+        lamp.line = place.line;
+        lamp.column = place.column;
         if (const auto dip = keys.find("file_aim_percent"); dip && lamp.aim == BeamAim::automatic)
             dip->refuse("file_aim_percent beside aim: auto", "one of them: auto finds the cut-off in the file");
         read_field(study_lamp_fields(), "mirrors", keys, &lamp);

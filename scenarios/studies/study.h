@@ -9,6 +9,7 @@ namespace fernlicht {
 /// One lamp set of a study: what the car carries in place of the drive's own lamps.
 struct StudyLamp {
     std::string name;
+    std::size_t line = 0, column = 0;  ///< of its aim in the study's file; of the lamp where it has none of its own
     std::filesystem::path left, right; ///< low beams; the same file twice where the study names one
     std::filesystem::path high;        ///< high beams; "" for none
     std::filesystem::path recipe;      ///< of those of them that are text grids; "" for none

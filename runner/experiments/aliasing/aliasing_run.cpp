@@ -329,8 +329,8 @@ AliasingResult run_aliasing(const AliasingRequest& request) {
     const std::vector<AliasingConfiguration> configurations = aliasing_configurations(request);
     AliasingResult result;
     result.view = checked_view(request);
-    const LampSet& lamp_set = lamp_set_of(request.drive, request.lamp_set);
     Stage stage(request.drive);
+    const LampSet& lamp_set = lamp_set_of(stage.drive, request.lamp_set); // the stage's: simulated, and aimed
     refuse_unfitted_tone_mapper(stage.drive);
     Device device = open_device(request.backend);
     check_sanity(device);

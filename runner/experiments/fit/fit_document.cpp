@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace fernlicht {
 namespace {
@@ -143,6 +144,29 @@ std::string misfit_text(const FitResult& result) {
     return "The residuals are as large as the uncertainties say: " + figures;
 }
 
+/// What fits and yet can hardly be meant: light far from the drive's, and few points for what is fitted.
+std::vector<std::string> doubts_of(const FitResult& result) {
+    constexpr double far_off = 2.0; // as a factor: lamps of one type differ by tenths
+    constexpr std::size_t points_a_value = 10;
+    std::vector<std::string> doubts;
+    std::vector<std::string> lamps;
+    double factor = 1.0;
+    for (const FitValue& value : result.values)
+        if (value.quantity == FitQuantity::flux && value.standard_error && (value.change > far_off || value.change < 1.0 / far_off)) {
+            lamps.push_back(value.lamp);
+            factor = value.change;
+        }
+    if (!lamps.empty())
+        doubts.push_back(fmt::format("Warning: by the points {} {} about {:.3g} times the light of the drive's: are they in lux (a "
+                                     "foot-candle is 10.8 lx), and is the drive's file that of this lamp?",
+                                     fmt::join(lamps, " and "), lamps.size() == 1 ? "has" : "have", factor));
+    if (result.used < points_a_value * result.unknowns)
+        doubts.push_back(fmt::format("Warning: {} for {} are few: one wrong reading bends them, and nothing shows it; at least 200 points "
+                                     "at three distances are asked for",
+                                     counted(result.used, "point"), counted(result.unknowns, "value")));
+    return doubts;
+}
+
 std::vector<Cell> outliers_of(const FitResult& result) {
     std::vector<Cell> items;
     for (const FitPoint& point : result.points)
@@ -162,6 +186,8 @@ std::vector<std::string> fit_verdicts(const FitResult& result) {
     if (!result.failed.empty())
         verdicts.push_back("Not to be used: " + result.failed);
     verdicts.push_back(misfit_text(result));
+    for (std::string& doubt : doubts_of(result))
+        verdicts.push_back(std::move(doubt));
     for (const FitValue& value : result.values) {
         if (!value.held.empty() && value.held != result.failed)
             verdicts.push_back(

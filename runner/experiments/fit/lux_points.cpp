@@ -26,13 +26,19 @@ std::string_view without_empty_end(std::string_view text) {
     return text;
 }
 
+/// Spreadsheets of many countries part columns by semicolons; then decimals may stand behind commas, too.
+void refuse_semicolons(std::string_view text, const std::filesystem::path& path) {
+    const std::string_view first = text.substr(0, text.find('\n'));
+    if (std::ranges::count(first, ';') > std::ranges::count(first, ',') || std::ranges::count(first, '\t') > std::ranges::count(first, ','))
+        throw InputError({path, 1, 0, {}}, fmt::format("found '{}'", printable(std::string(trimmed(first)))),
+                         "columns parted by commas, not by semicolons or tabs, and a point before decimals");
+}
+
 class PointFile {
   public:
     explicit PointFile(CsvFile csv) : csv_(std::move(csv)) {
         for (std::string& head : csv_.heads)
             head = std::string(trimmed(head));
-        if (csv_.heads.size() == 1 && csv_.heads[0].find_first_of(";\t") != std::string::npos)
-            refuse_head("found '" + printable(csv_.heads[0]) + "'", "commas between columns, and points in numbers");
         for (auto head = csv_.heads.begin(); head != csv_.heads.end(); ++head)
             check_head(*head, head - csv_.heads.begin());
         for (const std::string_view needed : {"ahead_m", "left_m", "above_m", "lux"})
@@ -181,6 +187,7 @@ std::vector<std::string> lamps_named(const LuxReading& reading) {
 
 std::vector<LuxReading> read_lux_points(const std::filesystem::path& path, FilesRead& opened) {
     const std::string text = lamp_text(read_file(path, opened), path);
+    refuse_semicolons(text, path);
     return PointFile(csv_in(without_empty_end(text), path)).readings();
 }
 

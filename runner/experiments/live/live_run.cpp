@@ -4,6 +4,7 @@
 #include "runner/files/durable_files.h"
 #include "runner/files/json_text.h"
 #include "runner/files/output_folder.h"
+#include "runner/findings/lamp_checks.h"
 #include "runner/findings/run_context.h"
 #include "runner/judge/input_hashes.h"
 #include "runner/play/aim_lamps.h"
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <thread>
 #include <unistd.h>
 
@@ -245,9 +247,15 @@ Report LiveSession::play() {
                        signals_csv(stage_.drive, *lamp_set().motion->control, 0, tick_count(stage_.drive) - 1));
     }
     report.live = figures;
+    LampFileChecks lamps;
+    lamps.add(stage_.drive, left_hand_traffic(stage_));
+    report.lamp_files = lamps.files();
+    report.warnings = lamp_warnings(report.lamp_files);
     if (stage_.drive.bus)
-        report.warnings = bus_warnings(stage_.drive);
+        std::ranges::copy(bus_warnings(stage_.drive), std::back_inserter(report.warnings));
     report.played.push_back(result(*figures));
+    for (const std::string& warning : aim_warnings(report.played.back().lamp_set, report.played.back().aims))
+        report.warnings.push_back(fmt::format("{}: {}", stage_.drive.name, warning));
     write_file(options_.folder / "live.json", json_text(live_json(*figures)));
     if (interrupted_) {
         report.complete = false;

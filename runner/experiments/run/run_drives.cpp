@@ -393,7 +393,9 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
             throw InputError({stage.drive.file, 0, 0, "views"}, "found only maps", "a perspective view for --contact-sheet");
     LampFileChecks lamps;
     for (const Stage& stage : stages)
-        lamps.add(stage.drive, left_hand_traffic(stage), options.strict);
+        lamps.add(stage.drive, left_hand_traffic(stage));
+    if (options.strict)
+        lamps.refuse_meaningless();
     Device device = open_device(options.backend);
     check_sanity(device);
     const RendererSettings settings = settings_for(device, options.profile);

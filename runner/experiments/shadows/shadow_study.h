@@ -10,6 +10,7 @@ struct ShadowRequest : ExperimentRequest<ShadowResult> {
     std::string lamp_set;                              ///< "": each drive's first
     std::vector<std::string> scenes;                   ///< patterns of stress scenes' names; "none" for none of them
     std::filesystem::path lamp;                        ///< the stress scenes' beam; read where there are any
+    std::filesystem::path recipe;                      ///< of that lamp where it is a text grid; "" for none
     double vertical_fov_rad = View{}.vertical_fov_rad; ///< of the stress scenes' views; 0 < fov < pi
     int moments = 3;                                   ///< of each drive
     SceneStudyOptions options;

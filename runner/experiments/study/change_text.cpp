@@ -24,7 +24,10 @@ Cell change_cell(const Change& change) {
     const Value found = change.change();
     return found.measured() ? cell_of(found, signed_figure(*found.figure(), decimals_of(change))) : Cell("");
 }
-Cell open_cell(const std::optional<double>& value) { return value ? Cell(fmt::format("{:.2g}", *value), *value) : Cell(""); }
+Cell open_cell(const Change& change, const std::optional<double>& value) {
+    const double of = std::max(std::abs(change.old_value.figure().value_or(0.0)), std::abs(change.new_value.figure().value_or(0.0)));
+    return value ? Cell(open_figure(*value, of), *value) : Cell("");
+}
 
 std::string change_words(const Change& change) {
     const std::string changed = change_cell(change).text;

@@ -10,8 +10,8 @@ namespace fernlicht {
 int decimals_of(const Change& change);
 Cell cell_of(const Value& value, const std::string& rounded); ///< "> 200", "not measured"
 Cell value_cell(const Value& value, int decimals);
-Cell change_cell(const Change& change);             ///< "" where the change is not measured
-Cell open_cell(const std::optional<double>& value); ///< two digits; "" without a value
+Cell change_cell(const Change& change);                                   ///< "" where the change is not measured
+Cell open_cell(const Change& change, const std::optional<double>& value); ///< open_figure; "" without a value
 /// "+14.2 m (+21 %)"; "from not measured to 12.0 m" where there is no change to tell.
 std::string change_words(const Change& change);
 

@@ -45,6 +45,8 @@ std::string aim_text(const LampDifference& d) {
 
 std::vector<std::string> findings(const LampDifference& d) {
     std::vector<std::string> found;
+    if (is_of_other_function(d))
+        found.push_back(other_function_text(d));
     if (is_for_other_side(d))
         found.push_back(other_side_text(d));
     if (d.aim_up_deg)
@@ -82,7 +84,7 @@ std::string lamp_verdict(const LampComparison& lamps) {
     if (!d.undecided.empty())
         text += " " + d.undecided + ".";
     if (lamps.is_turned_later)
-        text += " So the files; the drives have beams turned by `aim: auto`.";
+        text += " This is of the files; the drives have beams turned by `aim: auto`.";
     return text;
 }
 

@@ -5,9 +5,11 @@
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <map>
 #include <set>
+#include <string_view>
 #include <tuple>
 
 namespace fernlicht {
@@ -80,7 +82,45 @@ std::string no_such_reading(const std::string& name, const std::set<ReadingKey>&
     return "there is no reading of this name" + (nearest.empty() ? "" : "; the nearest name is " + nearest);
 }
 
+/// What a drive is to measure for readings whose names begin so; "" where it is no affair of `measure:`.
+std::string asked_for_by(std::string_view name) {
+    static constexpr std::array<std::pair<std::string_view, const char*>, 19> rows{{
+        {"glare_", "glare"},           {"mirror_", "glare"},          {"sensor_", "sensors"},
+        {"detection_", "visibility"},  {"undetected_", "visibility"}, {"visibility_", "visibility"},
+        {"background_", "visibility"}, {"mesopic_", "visibility"},    {"uniformity_", "homogeneity"},
+        {"gradient_", "homogeneity"},  {"patch_", "homogeneity"},     {"foreground_", "homogeneity"},
+        {"kerb_", "places"},           {"board_", "places"},          {"marking_", "places"},
+        {"reach_", "extent"},          {"unlit_", "extent"},          {"width_", "extent"},
+        {"area_", "extent"},
+    }};
+    const auto found = std::ranges::find_if(rows, [&](const auto& row) { return name.starts_with(row.first); });
+    return found == rows.end() ? "" : found->second;
+}
+
+/// Where no cell has any reading that its beginning asks for: "; ask for `glare` in `measure:`".
+std::string how_to_ask(const std::string& name, const std::set<ReadingKey>& keys) {
+    const std::string measure = asked_for_by(name);
+    const auto is_asked = [&](const ReadingKey& key) { return asked_for_by(name_of(key)) == measure; };
+    return measure.empty() || std::ranges::any_of(keys, is_asked)
+               ? ""
+               : fmt::format(", as no drive measures {0}: ask for `{0}` in `measure:`", measure);
+}
+
 bool is_in(const std::set<ReadingKey>& keys, const std::optional<ReadingKey>& key) { return key && keys.contains(*key); }
+
+/// The first cell's reason where no cell has a value of what fits; "" where one has.
+template <class Fits> std::string why_unmeasured(const StudyResult& result, Fits fits) {
+    std::string why;
+    for (const CellResult& cell : result.cells)
+        for (const auto& [key, reading] : cell.readings)
+            if (fits(key)) {
+                if (reading.value.measured())
+                    return "";
+                if (why.empty())
+                    why = reading.value.reason();
+            }
+    return why;
+}
 
 /// A reading that the study names and that nothing has decides nothing, and must not look as if it had not changed. Of the usual ones a
 /// drive need not have all.
@@ -94,7 +134,10 @@ void judge_deciding(StudyResult& result) {
         };
         const auto fits = [&](const ReadingKey& key) { return place_among(key, {name}).has_value(); };
         if (std::ranges::none_of(keys, fits))
-            missing(name.find_first_of("*?") == std::string::npos ? no_such_reading(name, keys) : "no reading's name fits");
+            missing((name.find_first_of("*?") == std::string::npos ? no_such_reading(name, keys) : "no reading's name fits") +
+                    how_to_ask(name, keys));
+        else if (const std::string why = why_unmeasured(result, fits); !why.empty())
+            missing("no cell measured it: " + why);
         else if (!result.changes.empty() && std::ranges::none_of(result.changes, fits, &ReadingChange::reading))
             missing("no two cells were compared by it: it is a time, says how exact another is, or one lamp alone has it");
     }

@@ -110,11 +110,14 @@ const StudyComparison& comparison_of(const StudyResult& result, const Decision& 
     return result.study.comparisons[decision.comparison];
 }
 
-/// "reach at 5 lx on a target, own lane +14.2 m (+21 %) in 3 of 4 results"
+/// "reach at 5 lx on a target, own lane +14.2 m (+21 %) in 3 of 4 results, most on country-1"
 std::string told(const StudyResult& result, const DecidedReading& decided) {
     const std::size_t of = decided.changes.size(), by = decided.decided_by.size();
-    return fmt::format("{} {}{}", reading_label(decided.reading), change_words(result.changes[decided.told]),
-                       by < of ? fmt::format(" in {} of {} results", by, of) : "");
+    const std::size_t largest = *std::ranges::max_element(decided.decided_by, {}, [&](std::size_t i) { return result.changes[i].size(); });
+    const std::string& drive = result.cells[result.changes[largest].tested].drive;
+    return fmt::format("{} {}{}{}", reading_label(decided.reading), change_words(result.changes[decided.told]),
+                       by < of ? fmt::format(" in {} of {} results", by, of) : "",
+                       of > 1 ? fmt::format(", {}on {}", by > 1 ? "most " : "", drive) : "");
 }
 
 std::string listed(const StudyResult& result, const Decision& decision, DecisionOutcome outcome, const char* words) {
@@ -126,6 +129,18 @@ std::string listed(const StudyResult& result, const Decision& decision, Decision
     const std::size_t more = items.size() > most ? items.size() - most : 0;
     items.resize(items.size() - more);
     return items.empty() ? "" : fmt::format("{} {}{}", words, fmt::join(items, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
+}
+
+/// By name, without figures: they say nothing.
+std::string within_aim(const Decision& decision) {
+    constexpr std::size_t most = 3;
+    std::vector<std::string> names;
+    for (const DecidedReading& decided : decision.readings)
+        if (decided.outcome == DecisionOutcome::within_aim)
+            names.push_back(reading_label(decided.reading));
+    const std::size_t more = names.size() > most ? names.size() - most : 0;
+    names.resize(names.size() - more);
+    return fmt::format("{}{}", fmt::join(names, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
 }
 
 std::string undecided(const StudyResult& result, const Decision& decision) {
@@ -195,7 +210,7 @@ std::vector<std::string> decision_parts(const StudyResult& result, const Decisio
         parts.push_back(listed(result, decision, outcome, words));
     parts.push_back(undecided(result, decision));
     if (const std::size_t within = decision.count(DecisionOutcome::within_aim))
-        parts.push_back(fmt::format("{} changed by less than 0.1° of aim would do", counted(within, "reading")));
+        parts.push_back(fmt::format("{} changed by less than 0.1° of aim would do: {}", counted(within, "reading"), within_aim(decision)));
     if (const std::size_t same = decision.count(DecisionOutcome::same))
         parts.push_back(fmt::format("{} without a difference", counted(same, "reading")));
     if (decision.aim_alone)

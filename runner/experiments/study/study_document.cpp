@@ -50,12 +50,12 @@ std::string with_unit(const Value& value, const std::string& unit) {
 std::string change_sentence(const StudyResult& result, const Change& change) {
     const Value found = change.change();
     const CellResult& cell = result.cells[change.tested];
-    return fmt::format("{}: {} → {}, {}{}{} ±{:.2g}; {} against {} on {} ({})", reading_label(change.reading),
+    return fmt::format("{}: {} → {}, {}{}{} ±{}; {} against {} on {} ({})", reading_label(change.reading),
                        with_unit(change.old_value, change.unit()), with_unit(change.new_value, change.unit()),
                        with_bound(found, fmt::format("{:+.{}f}", found.figure().value_or(0.0), decimals_of(change))),
                        unit_suffix(change.unit()), change.relative() ? fmt::format(" ({:+.1f} %)", 100.0 * *change.relative()) : "",
-                       change.uncertainty.value_or(0.0), result.lamp_of(change.tested), result.lamp_of(change.against), cell.drive,
-                       cell.cell.condition);
+                       open_cell(change, change.uncertainty.value_or(0.0)).text, result.lamp_of(change.tested),
+                       result.lamp_of(change.against), cell.drive, cell.cell.condition);
 }
 
 Card card_of(const StudyResult& result, const Change& change) {
@@ -63,9 +63,9 @@ Card card_of(const StudyResult& result, const Change& change) {
     const int decimals = decimals_of(change);
     std::string detail = fmt::format("{} {}{} → {} {}{}; ±{}{} numerical", result.lamp_of(change.against),
                                      value_cell(change.old_value, decimals).text, unit, result.lamp_of(change.tested),
-                                     value_cell(change.new_value, decimals).text, unit, open_cell(change.uncertainty).text, unit);
+                                     value_cell(change.new_value, decimals).text, unit, open_cell(change, change.uncertainty).text, unit);
     if (change.noise_effect.value_or(0.0) > 0.0)
-        detail += fmt::format(", ±{}{} by noise", open_cell(change.noise_effect).text, unit);
+        detail += fmt::format(", ±{}{} by noise", open_cell(change, change.noise_effect).text, unit);
     if (change.aim_effect)
         detail += fmt::format(", ±{}{} by 0.1° of aim", figure(*change.aim_effect, decimals), unit);
     const CellResult& cell = result.cells[change.tested];
@@ -106,7 +106,7 @@ Table readings_table(const StudyResult& result) {
         cells.insert(cells.end(), {Cell(reading_label(change.reading)).hinted(name_of(change.reading)),
                                    value_cell(change.old_value, decimals_of(change)), value_cell(change.new_value, decimals_of(change)),
                                    change_cell(change), share ? Cell(signed_figure(100.0 * *share, 1), 100.0 * *share) : Cell(""),
-                                   open_cell(change.uncertainty), open_cell(change.noise_effect), effect(change.aim_effect),
+                                   open_cell(change, change.uncertainty), open_cell(change, change.noise_effect), effect(change.aim_effect),
                                    effect(change.flux_effect), effect(change.height_effect)});
         if (loaded)
             cells.push_back(effect(change.load_effect));
@@ -167,6 +167,11 @@ Section decision_section(const StudyResult& result, const std::vector<Decision>&
         Listing parts(decision_parts(result, decision));
         parts.caption = decisions.size() == 1 ? fmt::format("{} against {}", pair.tested, pair.against) : decision_count(result, decision);
         section.blocks.emplace_back(std::move(parts));
+    }
+    if (!result.warnings.empty()) {
+        Listing warnings(result.warnings);
+        warnings.caption = result.warnings.size() == 1 ? "Warning" : "Warnings";
+        section.blocks.emplace_back(std::move(warnings));
     }
     if (!was_judged(result))
         section.blocks.emplace_back("No limits were set.");
@@ -326,6 +331,8 @@ Document study_summary(const StudyResult& result) {
     say(result.study.title + (was_judged(result) ? std::string(": ") + verdict_name(overall(result)) : ""));
     for (const std::string& warning : lamp_warnings(result.lamp_files))
         say("warning: " + warning);
+    for (const std::string& warning : result.warnings)
+        say("warning: " + warning);
     for (const Decision& decision : decide(result))
         say(decision_count(result, decision));
     say(study_sentence(result));
@@ -336,8 +343,6 @@ Document study_summary(const StudyResult& result) {
     judge("", result.verdicts);
     for (const CellResult& cell : result.cells)
         judge(cell.cell.name + ": ", cell.verdicts);
-    for (const std::string& warning : result.warnings)
-        say("warning: " + warning);
     for (const LampComparison& lamps : result.lamps)
         say(lamp_verdict(lamps));
     for (const std::string& same : same_results(result, decide(result)))

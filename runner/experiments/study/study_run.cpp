@@ -1,5 +1,6 @@
 #include "runner/experiments/study/study_run.h"
 
+#include "metrics/regulation/installed_aim.h"
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/run/run_report.h"
 #include "runner/experiments/study/study_document.h"
@@ -37,13 +38,26 @@ struct Planned {
     bool left_hand_traffic = false;
 };
 
-/// Lamps that an automatic aim finds nothing in, by the first cell of each.
-void refuse_unaimable(const std::vector<Planned>& planned) {
+/// Where the study's file has the lamp.
+[[noreturn]] void refuse_aim(const Study& study, const StudyLamp& lamp, const std::string& found, const char* expected) {
+    throw InputError({study.file, lamp.line, lamp.column, "lamps." + lamp.name + ".aim"}, found, expected);
+}
+
+/// Lamps that the aim of a drive finds nothing in, by the first cell of each; those of other road users are the drive's own affair.
+void refuse_unaimable(const Study& study, const std::vector<Planned>& planned) {
     std::set<std::pair<std::size_t, std::size_t>> seen;
     for (const Planned& one : planned)
         if (seen.emplace(one.cell.lamp, one.cell.drive).second) {
-            Drive drive = one.drive;
-            aim_lamps(drive);
+            Drive traffic = one.drive, own = one.drive;
+            traffic.lamp_sets.clear();
+            aim_lamps(traffic);
+            own.traffic_rows.clear();
+            try {
+                aim_lamps(own);
+            } catch (const InputError& error) {
+                refuse_aim(study, study.lamps[one.cell.lamp], fmt::format("a drive's aim: auto cannot aim it ({})", error.what()),
+                           "aim: as-is, or the file of a beam with a cut-off");
+            }
         }
 }
 
@@ -69,7 +83,7 @@ std::vector<Planned> plan(const Study& study, const std::vector<std::string>& on
         one.left_hand_traffic = left_hand;
         last = &one;
     }
-    refuse_unaimable(planned);
+    refuse_unaimable(study, planned);
     return planned;
 }
 
@@ -80,8 +94,10 @@ std::vector<CheckedLampFile> check_lamp_files(const Study& study, const std::vec
     for (const Planned& one : planned) {
         const StudyLamp& lamp = study.lamps[one.cell.lamp];
         const bool stays = study.conditions.mirror[one.cell.mirror] && !lamp.mirrors;
-        checks.add(one.drive, one.left_hand_traffic != stays, strict, degrees(std::atan(-0.01) - std::atan(lamp.file_aim_percent / 100.0)));
+        checks.add(one.drive, one.left_hand_traffic != stays, degrees(std::atan(-0.01) - std::atan(lamp.file_aim_percent / 100.0)));
     }
+    if (strict)
+        checks.refuse_meaningless();
     return checks.files();
 }
 
@@ -251,7 +267,25 @@ std::vector<StudyCell> chosen_cells(const Study& study, const std::vector<std::s
     return chosen;
 }
 
+void refuse_unaimable(const Study& study) {
+    for (const StudyLamp& lamp : study.lamps) {
+        if (lamp.aim != BeamAim::automatic)
+            continue;
+        std::vector<fs::path> seen{fs::path()}; // where the study names none
+        for (const auto& [file, is_high] : {std::pair(lamp.left, false), {lamp.right, false}, {lamp.high, true}}) {
+            if (std::ranges::find(seen, file) != seen.end())
+                continue;
+            seen.push_back(file);
+            if (const AimMark mark = aim_mark(read_lamp(file, {.recipe = lamp.recipe}).table, is_high); !mark.v_deg)
+                refuse_aim(study, lamp,
+                           fmt::format("found auto, and nothing to aim by in {}: {}", printable(file.string(), 400), mark.why_not),
+                           "as-is, or the file of a beam with a cut-off");
+        }
+    }
+}
+
 StudyResult run_study(const Study& study, const StudyOptions& options) {
+    refuse_unaimable(study);
     StudyResult result;
     result.study = study;
     const std::vector<Planned> planned = plan(study, options.only);

@@ -26,4 +26,8 @@ std::vector<StudyCell> chosen_cells(const Study& study, const std::vector<std::s
 /// played, or where a folder to go on in holds cells of another study.
 StudyResult run_study(const Study& study, const StudyOptions& options);
 
+/// Throws InputError with the lamp's line in the study's file where `aim: auto` stands beside a file that has nothing to aim by. run_study
+/// asks for it, too.
+void refuse_unaimable(const Study& study);
+
 } // namespace fernlicht

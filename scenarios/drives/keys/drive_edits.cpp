@@ -60,6 +60,18 @@ void keep_one_lamp_set(Drive& drive, const DriveEdits& edits, const std::set<std
     drive.lamp_sets.front().name = name_from(edits.lamps.back().second);
 }
 
+/// Fog, cornering and signal lamps have no cut-off to be aimed by, and stay as the drive has them.
+void replace_aim(Drive& drive, BeamAim aim) {
+    for (LampSet& lamp_set : drive.lamp_sets)
+        for (MountedLamp& lamp : lamp_set.lamps) {
+            const auto has = [&](const char* word) { return lamp.name.find(word) != std::string::npos; };
+            if (lamp.name != "left" && lamp.name != "right" && !has("low") && !has("high"))
+                continue;
+            lamp.aim_rule = aim;
+            lamp.yaw_rad = lamp.pitch_rad = lamp.roll_rad = 0.0;
+        }
+}
+
 void replace_road(Drive& drive, const std::filesystem::path& road) {
     drive.road_file = made_absolute(road);
     if (!std::filesystem::is_regular_file(drive.road_file))
@@ -88,6 +100,8 @@ void apply_edits(Drive& drive, const DriveEdits& edits, LampCache& cache) {
         replace_lamps(drive, side, cache.lamp(made_absolute(path), {.recipe = edits.lamp_recipe}), replaced);
     if (!replaced.empty())
         keep_one_lamp_set(drive, edits, replaced);
+    if (edits.aim)
+        replace_aim(drive, *edits.aim);
     if (edits.road)
         replace_road(drive, *edits.road);
     if (edits.technique)

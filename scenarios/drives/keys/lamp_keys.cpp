@@ -81,6 +81,13 @@ void check_lamp_aim(const YamlMap& keys, const MountedLamp& lamp) {
         percent->refuse("cut_off_percent without rule: auto", "rule: auto beside it, which finds the cut-off");
 }
 
+void read_cut_off(const YamlEntry& entry, MountedLamp& lamp) {
+    lamp.cut_off_percent = entry.number(-HUGE_VAL, HUGE_VAL);
+    if (!(lamp.cut_off_percent >= lowest_cut_off_percent && lamp.cut_off_percent <= highest_cut_off_percent))
+        entry.refuse(fmt::format("a number from {} to {}: a low beam's cut-off lies below the horizon, and -1 is 1 cm down in 1 m",
+                                 lowest_cut_off_percent, highest_cut_off_percent));
+}
+
 /// Of an aim that starts from the file's axis nothing is written but its angles.
 std::string cut_off_text(const MountedLamp& lamp) {
     return lamp.aim_rule == BeamAim::automatic ? fmt::format("{}", lamp.cut_off_percent) : "";
@@ -91,8 +98,9 @@ const Fields<MountedLamp>& lamp_aim_fields() {
     static const Fields<Lamp> fields = [] {
         Fields<Lamp> of = aim_angle_fields<Lamp>();
         of.fields.push_back(aim_rule_field(4, &Lamp::aim_rule).written_off_default());
-        of.fields.push_back(field("cut_off_percent", 5, &Lamp::cut_off_percent, range(-10.0, 10.0),
+        of.fields.push_back(field("cut_off_percent", 5, &Lamp::cut_off_percent, range(lowest_cut_off_percent, highest_cut_off_percent),
                                   "where rule auto puts it: -1, the default, is 1 cm down in 1 m; a high beam then points straight ahead")
+                                .read_by(read_cut_off)
                                 .text_by(cut_off_text));
         std::rotate(of.fields.begin(), of.fields.end() - 2, of.fields.end());
         return std::move(of)

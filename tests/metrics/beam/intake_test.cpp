@@ -184,8 +184,100 @@ TEST(Intake, ACutOffOnTheHorizonOrAboveIsNamed) {
                     << "aimed by its cut-off";
             }
     EXPECT_THAT(only_finding(shifted(model("xenon-low"), 0.0, 0.57)).text, HasSubstr("on the horizon or above"));
-    EXPECT_THAT(faults_of(model("halogen-high"), {.function = BeamFunction::low}), testing::Contains(IntakeFault::cut_off_high))
-        << "no cut-off at all";
+}
+
+TEST(Intake, ALowBeamForAHighBeamAndTheOtherWayRoundIsNamed) {
+    for (const std::string& name : all_models) {
+        const bool low = std::ranges::find(low_models, name) != low_models.end();
+        const BeamFunction own = low ? BeamFunction::low : BeamFunction::high, other = low ? BeamFunction::high : BeamFunction::low;
+        for (const bool left : {right_hand, left_hand}) {
+            LampFile lamp = model(name);
+            if (left)
+                mirror(lamp);
+            for (const IntakeContext& wrong : {IntakeContext{.function = other, .left_hand_traffic = left},
+                                               IntakeContext{.function = {}, .left_hand_traffic = left, .mount = other}}) {
+                const IntakeFinding finding = only_finding(lamp, wrong);
+                EXPECT_EQ(finding.fault, IntakeFault::function) << name;
+                EXPECT_TRUE(finding.meaningless);
+                EXPECT_THAT(finding.text, HasSubstr(low ? "it is a low beam by its light" : "it is a high beam by its light"));
+                EXPECT_THAT(finding.text, HasSubstr(wrong.mount ? "on the mount of a" : "and is stated to be a"));
+            }
+            EXPECT_THAT(faults_of(lamp, {.function = {}, .left_hand_traffic = left, .mount = own}), IsEmpty()) << name;
+            EXPECT_THAT(faults_of(lamp, {.function = own, .left_hand_traffic = left, .mount = other}), IsEmpty())
+                << "what is stated is believed: " << name;
+        }
+    }
+    for (const SoundTable& sound :
+         sound_tables) // their own mount is right; the other one is claimed where the light is clear, or not at all
+        EXPECT_THAT(faults_of(lamp_with(generated::Lamp(regulation(sound.regulation)).table), {.function = {}, .mount = sound.function}),
+                    IsEmpty())
+            << sound.regulation;
+    for (unsigned seed = 0; seed < 12; ++seed)
+        EXPECT_THAT(faults_of(drawn_low_beam(seed), {.function = {}, .mount = BeamFunction::high}), ElementsAre(IntakeFault::function));
+    for (const BeamFunction mount : {BeamFunction::low, BeamFunction::high}) { // an adaptive beam's dark tunnel, and a lamp of neither kind
+        const LampFile high = model("xenon-high");
+        const LampFile tunnel = resampled(high, 50.0, 20.0, 0.5, 0.2, [](double h, double v) {
+            return std::abs(h) < 2.0 && v > -0.5 ? TwoAngles{180.0, 0.0} : TwoAngles{h, v};
+        });
+        EXPECT_THAT(faults_of(tunnel, {.function = {}, .mount = mount}), testing::Not(testing::Contains(IntakeFault::function)))
+            << told(check_intake(tunnel, {.function = {}, .mount = mount}));
+        EXPECT_THAT(faults_of(lamp_with(tests::even_table(100.0)), {.function = {}, .mount = mount}), IsEmpty());
+        EXPECT_THAT(faults_of(read_lamp(shipped_library / "lamps/street-6000lm.ies"), {.function = {}, .mount = mount}), IsEmpty());
+    }
+}
+
+TEST(Intake, ALowBeamAimedAsideOrFarDownIsDoubtful) {
+    for (const std::string& name : low_models)
+        for (const bool left : {right_hand, left_hand})
+            for (const auto& [right, up] : {std::pair{3.0, 0.0}, std::pair{-3.0, 0.0}, std::pair{4.0, 0.0}, std::pair{0.0, -1.15},
+                                            std::pair{0.0, -2.5}, std::pair{3.0, -1.5}}) {
+                LampFile lamp = shifted(model(name), right, up);
+                if (left)
+                    mirror(lamp);
+                const double aside = left ? -right : right;
+                const IntakeContext context{.function = {}, .left_hand_traffic = left};
+                const IntakeFinding finding = only_finding(lamp, context);
+                EXPECT_EQ(finding.fault, IntakeFault::aim)
+                    << name << " " << aside << ", " << up << ": " << told(check_intake(lamp, context));
+                EXPECT_FALSE(finding.meaningless);
+                EXPECT_THAT(finding.text, HasSubstr("`aim: auto`"));
+                EXPECT_EQ(finding.text.find("the cut-off lies") != std::string::npos, up < 0.0) << finding.text;
+                EXPECT_EQ(finding.text.find("the elbow lies") != std::string::npos, right != 0.0) << finding.text;
+                EXPECT_NEAR(check_intake(lamp, context).elbow_h_deg.value_or(9.0), aside, 0.3) << name;
+                EXPECT_THAT(faults_of(lamp, {.function = {}, .left_hand_traffic = left, .turned_up_deg = std::nullopt}), IsEmpty())
+                    << "aimed by its cut-off";
+                EXPECT_THAT(faults_of(lamp, {.function = {}, .left_hand_traffic = left, .turned_up_deg = -up, .turned_right_deg = -aside}),
+                            IsEmpty())
+                    << "its mount puts it right";
+            }
+    EXPECT_THAT(faults_of(model("xenon-low"), {.function = {}, .turned_up_deg = -3.0, .turned_right_deg = 5.0}), IsEmpty())
+        << "a sound file that is mounted so is meant so";
+}
+
+TEST(Intake, ACutOffSofterThanAnyRegulationHasItIsDoubtful) {
+    for (const std::size_t which : {0u, 2u}) {
+        LampModel made = lamp_models()[which];
+        made.cut_off->softness_deg = 0.4;
+        const IntakeFinding finding = only_finding(lamp_of_model(made));
+        EXPECT_EQ(finding.fault, IntakeFault::sharpness);
+        EXPECT_FALSE(finding.meaningless);
+        EXPECT_THAT(finding.text, HasSubstr("G is 0.12 where it is sharpest"));
+        made.cut_off->softness_deg = 0.28; // G of 0.16 and 0.17, which regulations allow
+        EXPECT_THAT(faults_of(lamp_of_model(made)), IsEmpty()) << made.name;
+    }
+}
+
+TEST(Intake, LightTenTimesTooWeakIsDoubtful) {
+    for (const std::string& name : all_models) {
+        const IntakeFinding finding = only_finding(scaled_by(model(name), 0.1));
+        EXPECT_EQ(finding.fault, IntakeFault::units) << name;
+        EXPECT_FALSE(finding.meaningless) << "a module of several may be so";
+        EXPECT_THAT(finding.text, HasSubstr("wrong by a factor"));
+    }
+    const LampFile flood = lamp_with(tests::table_of(tests::steps(-60.0, 60.0, 1.0), tests::steps(-60.0, 60.0, 1.0),
+                                                     [](double h, double v) { return 7400.0 * std::exp(-(h * h + v * v) / 200.0); }));
+    EXPECT_EQ(check_intake(flood).function, BeamFunction::high);
+    EXPECT_THAT(faults_of(flood), IsEmpty()) << "a spot of " << told(check_intake(flood)) << " is weak, and no headlamp in wrong units";
 }
 
 TEST(Intake, ARiseOnTheWrongSideIsNamed) {
@@ -206,7 +298,7 @@ TEST(Intake, ARiseOnTheWrongSideIsNamed) {
 
 TEST(Intake, FluxBeyondAnyHeadlampIsNamed) {
     for (const std::string& name : all_models)
-        for (const double factor : {10.0, 625.0}) {
+        for (const double factor : {10.0, 625.0, 1000.0}) {
             const IntakeFinding finding = only_finding(scaled_by(model(name), factor));
             EXPECT_EQ(finding.fault, IntakeFault::flux) << name;
             EXPECT_TRUE(finding.meaningless);

@@ -1,4 +1,5 @@
 // The intake check through the program: of a lamp, and of the lamps of a run.
+#include "scenarios/lamps/lamp_file.h"
 #include "tests/runner/program.h"
 
 #include <gmock/gmock.h>
@@ -28,8 +29,11 @@ TEST(LampCheckCommand, TellsFunctionCutOffAndVoltage) {
 TEST(LampCheckCommand, AFindingIsAnErrorWhereStrict) {
     EXPECT_THAT(checked_lamp("--mirror"), HasSubstr("left-hand traffic, or the table is mirrored"));
     EXPECT_THAT(checked_lamp("--mirror --left-hand-traffic"), HasSubstr("No finding."));
-    const std::string refused = checked_lamp("--mirror --strict", 2);
+    const std::string refused = checked_lamp("--mirror --scale 10 --strict", 2);
     EXPECT_THAT(refused, HasSubstr("xenon-low.ies: --strict: its cut-off rises to the left"));
+    EXPECT_THAT(refused, HasSubstr("; and it has 10")) << "all of them";
+    EXPECT_LT(refused.find("finding  rise"), refused.find("--strict:")) << "and the table before: " << refused;
+    EXPECT_LT(refused.find("finding  flux"), refused.find("--strict:"));
     const json found = json::parse(checked_lamp("--scale 10 --json"));
     ASSERT_EQ(found.at("findings").size(), 1u);
     EXPECT_EQ(found["findings"][0]["fault"], "flux");
@@ -44,6 +48,30 @@ TEST(LampCheckCommand, RefusesWhatItDoesNotDo) {
         checked_lamp(flags, 2);
     for (const char* flags : {"--strict", "--function low", "--voltage 12.8"})
         EXPECT_THAT(printed("lamp " + library_file("lamps/xenon-low.ies") + " " + flags, 2), HasSubstr("without --check"));
+}
+
+TEST(LampCheckCommand, ALowBeamThatIsStatedToBeAHighBeamIsSaidToBeOne) {
+    EXPECT_THAT(checked_lamp("--function high"), HasSubstr("it is a low beam by its light"));
+    const std::string against =
+        printed("lamp " + library_file("lamps/xenon-high.ies") + " --against " + library_file("lamps/xenon-low.ies"));
+    EXPECT_THAT(against,
+                HasSubstr("difference     a high beam by its light, the other lamp a low beam: they do not stand for one another\n"));
+    EXPECT_THAT(printed("lamp " + library_file("lamps/halogen-low.ies") + " --against " + library_file("lamps/xenon-low.ies")),
+                testing::Not(HasSubstr("by its light")));
+    const json told = json::parse(
+        printed("lamp " + library_file("lamps/xenon-high.ies") + " --against " + library_file("lamps/xenon-low.ies") + " --json"));
+    EXPECT_EQ(told.at("function"), "high");
+    EXPECT_EQ(told.at("function_against"), "low");
+}
+
+/// A text grid of our own, one intensity all over, and its recipe.
+TEST(LampCheckCommand, ComparesTextGridsByTheirRecipe) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "grid.txt") << "V;-1;1\n-1;500;500\n1;500;500\n";
+    std::ofstream(folder / "ours.yaml") << "fernlicht_recipe: 1\nlayout: matrix\ndelimiter: semicolon\nunit: cd\n";
+    const std::string two = "compare " + (folder / "grid.txt") + " " + (folder / "grid.txt");
+    EXPECT_THAT(printed(two, 2), HasSubstr("is no lamp file that we know"));
+    EXPECT_THAT(printed(two + " --recipe " + (folder / "ours.yaml")), HasSubstr("no difference beyond noise"));
 }
 
 class LampCheckOfARun : public testing::Test {
@@ -76,8 +104,42 @@ TEST_F(LampCheckOfARun, AMeaninglessFileIsAWarningAndStandsOnThePage) {
 TEST_F(LampCheckOfARun, StrictRefusesItBeforeTheFirstFrame) {
     const Outcome outcome = run("--strict");
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_THAT(outcome.output, HasSubstr("other-side.ies: --strict: its cut-off rises to the left"));
+    EXPECT_THAT(outcome.output,
+                HasSubstr("other-side.ies: --strict: other-side.ies (other-side: left; other-side: right), rise: its cut-off "
+                          "rises to the left"));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
+TEST_F(LampCheckOfARun, AHighBeamOnALowBeamsMountIsAWarningAndStrictTellsOfEveryFile) {
+    const std::string high = library_file("lamps/xenon-high.ies"), on_the_left = "--lamp left=" + high + " --lamp right=" + mirrored_;
+    const std::string start = "run " + library_file("drives/straight.yaml") +
+                              " --quiet --no-accuracy --frames 0:1 --resolution 64x48 --out " + (folder_ / "high") + " ";
+    EXPECT_THAT(
+        run_program(start + "--lamp " + high).output,
+        HasSubstr("warning: lamp file xenon-high.ies (xenon-high: left; xenon-high: right), function: it is a high beam by its light "
+                  "(no cut-off, and 100 % of its maximum straight ahead), on the mount of a low beam; readings with it are "
+                  "meaningless"));
+    std::filesystem::remove_all(folder_ / "high");
+    const Outcome refused = run_program(start + on_the_left + " --strict");
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.output,
+                testing::AllOf(HasSubstr("2 findings that make readings meaningless"), HasSubstr("function: it is a high beam"),
+                               HasSubstr("rise: its cut-off rises to the left"), HasSubstr("without --strict")));
+}
+
+TEST_F(LampCheckOfARun, AnAimOnTheCommandLineTakesTheFindingAway) {
+    const std::string start = "run " + library_file("drives/straight.yaml") + " --lamp " + (folder_ / "hh.ies") +
+                              " --quiet --no-accuracy --frames 0:1 --resolution 64x48 --strict --out " + (folder_ / "hh");
+    LampFile lamp = read_lamp(library_file("lamps/halogen-low.ies"));
+    for (double& v : lamp.table.v_deg)
+        v += 0.57;
+    write_lamp(lamp, folder_ / "hh.ies");
+    const Outcome refused = run_program(start);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.output, HasSubstr("expected a file without such findings, `aim: auto`, or the run without --strict"));
+    EXPECT_EQ(run_program(start + " --aim auto").exit_code, 0);
+    EXPECT_THAT(content_of(folder_ / "hh/straight-1.yaml"), HasSubstr("rule: auto"));
+    EXPECT_THAT(printed(start + " --aim level", 2), HasSubstr("--aim: found 'level', expected as-is or auto"));
 }
 
 TEST_F(LampCheckOfARun, AStudyDoesTheSame) {

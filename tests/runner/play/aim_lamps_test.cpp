@@ -176,6 +176,8 @@ TEST(AimLamps, OutsideTheBandOfR48AreWarnedOf) {
     };
     EXPECT_THAT(warnings(-0.3, 0.65), ElementsAre("halogen, left and right: the cut-off lies at -0.30 %, and UN R48 (09 series, "
                                                   "6.2.6.1.2) has it between -0.50 and -1.85 % for lamps 0.65 m over the road"));
+    EXPECT_THAT(warnings(-0.498, 0.65), ElementsAre(HasSubstr("the cut-off lies at -0.498 %, and UN R48"))) << "not -0.50 above -0.50";
+    EXPECT_THAT(warnings(-1.8512, 0.65), ElementsAre(HasSubstr("the cut-off lies at -1.851 %, and UN R48")));
     EXPECT_THAT(warnings(-1.0, 0.65), ElementsAre());
     EXPECT_THAT(warnings(-2.0, 0.65), ElementsAre(HasSubstr("at -2.00 %")));
     EXPECT_THAT(warnings(-2.0, 0.85), ElementsAre()) << "-2.05 % is allowed there";

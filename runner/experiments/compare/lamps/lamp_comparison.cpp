@@ -13,10 +13,10 @@ namespace {
 /// As `fernlicht lamp FILE --cut-off`: a detector of 30 mm at 25 m.
 CutOffOptions default_cut_off() { return {SharpnessRule::maximum, degrees(std::atan(30.0 / 25000.0))}; }
 
-ComparedLamp read_compared(const std::filesystem::path& path) {
+ComparedLamp read_compared(const std::filesystem::path& path, const std::filesystem::path& recipe) {
     ComparedLamp lamp;
     lamp.path = path;
-    lamp.file = read_lamp(path);
+    lamp.file = read_lamp(path, {.recipe = recipe});
     lamp.description = describe(lamp.file);
     lamp.cut_off = measure_cut_off({&lamp.file.table, {}}, default_cut_off());
     lamp.cut_off_told = cut_off_json({lamp.file, {}, false, lamp.cut_off, fit_elbow({&lamp.file.table, {}})});
@@ -77,8 +77,8 @@ LampPairComparison compare_lamp_files(const std::filesystem::path& before, const
     LampPairComparison lamps;
     if (!options.regulation.empty())
         regulation(options.regulation); // its name first: reading and comparing take longer
-    lamps.before = read_compared(before);
-    lamps.now = read_compared(now);
+    lamps.before = read_compared(before, options.recipe);
+    lamps.now = read_compared(now, options.recipe);
     lamps.difference = difference_of(lamps.now.file, lamps.before.file, options.noise_relative);
     add_facts(lamps);
     if (!options.regulation.empty())

@@ -46,8 +46,9 @@ struct LampPairComparison : Findings {
 };
 
 struct LampCompareOptions {
-    double noise_relative = 0.0; ///< standard deviation of an intensity
-    std::string regulation;      ///< id; "" for none
+    double noise_relative = 0.0;  ///< standard deviation of an intensity
+    std::string regulation;       ///< id; "" for none
+    std::filesystem::path recipe; ///< of those that are text grids; "" for none
 };
 
 /// Throws InputError: files that are no lamps or have no light, a regulation that is not known.

@@ -1,5 +1,6 @@
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 
+#include "metrics/beam/intake.h"
 #include "metrics/regulation/named_places.h"
 #include "runner/findings/figures.h"
 #include "scenarios/values/errors.h"
@@ -48,6 +49,10 @@ JsonMembers place_change_members(PlaceChange& change) {
 }
 
 JsonPart traffic_side_part(TrafficSide& side) { return one_of(side, names_of<TrafficSide>(traffic_side_name, 3)); }
+
+JsonPart beam_function_part(BeamFunction& function) {
+    return one_of(function, fernlicht::names_of<BeamFunction>([](BeamFunction one) { return name_of(one); }, 3));
+}
 
 void refuse_darkness(const LampFile& lamp) {
     if (!(peak_of(lamp.table).cd > 0.0))
@@ -126,7 +131,10 @@ plots::Axis ratio_axis(const Image<float>& values) {
 LampDifference difference_of(const LampFile& tested, const LampFile& against, double noise_relative) {
     refuse_darkness(tested);
     refuse_darkness(against);
-    return compare_by_name(tested, against, {.noise_relative = noise_relative});
+    LampDifference difference = compare_by_name(tested, against, {.noise_relative = noise_relative});
+    difference.function = clear_function(tested);
+    difference.function_against = clear_function(against);
+    return difference;
 }
 
 std::vector<std::pair<std::string, std::string>> difference_lines(const LampFile& tested, const LampFile& against,
@@ -142,7 +150,8 @@ std::vector<std::pair<std::string, std::string>> difference_lines(const LampFile
     lines.emplace_back("noise",
                        fmt::format("{:.3g} % where there is more than a tenth of the peak; claimed is what lies beyond {:.2f} of it",
                                    100.0 * difference.noise_relative, difference.z_limit));
-    lines.emplace_back("compared", fmt::format("{} directions with at least {:.3g} cd", difference.directions, difference.floor_cd));
+    lines.emplace_back("compared",
+                       fmt::format("{} with at least {:.3g} cd", counted(difference.directions, "direction"), difference.floor_cd));
     return lines;
 }
 
@@ -180,6 +189,8 @@ JsonPart difference_part(LampDifference& difference) {
                               {"places", difference.places, place_change_members},
                               {"traffic_side", difference.side, traffic_side_part},
                               {"traffic_side_against", difference.side_against, traffic_side_part},
+                              {"function", difference.function, beam_function_part},
+                              {"function_against", difference.function_against, beam_function_part},
                               {"directions", difference.directions},
                               {"noise_relative", difference.noise_relative},
                               {"z_limit", difference.z_limit},

@@ -74,7 +74,8 @@ std::string change_text(const ReadingChange& c) {
     if (c.relative())
         text += fmt::format(" ({:+.1f} %)", 100.0 * *c.relative());
     if (c.uncertainty)
-        text += fmt::format(", ±{:.2g}", *c.uncertainty);
+        text += ", ±" + open_figure(*c.uncertainty,
+                                    std::max(std::abs(c.old_value.figure().value_or(0.0)), std::abs(c.new_value.figure().value_or(0.0))));
     return text;
 }
 

@@ -29,6 +29,13 @@ const json& row_with(const json& found, const std::string& beams, const std::str
 double seen(const json& row) { return row.at("aliasing").at("thresholds"); }
 double contrast(const json& row) { return row.at("aliasing").at("contrast_percent"); }
 
+TEST(AliasingCommand, ACarOnSpringsIsSimulatedAsInRun) {
+    const TemporaryFolder folder;
+    printed("aliasing --quiet --moment 1 --resolution 64x48 --beams float --samples 1 --filter trilinear --out " + (folder / "out") + " " +
+            library_file("drives/braking.yaml"));
+    EXPECT_EQ(checked_aliasing(folder / "out/aliasing.json").at("rows").size(), 1U);
+}
+
 TEST(AliasingCommand, RanksWhatIsKnown) {
     const TemporaryFolder folder;
     const std::string said =

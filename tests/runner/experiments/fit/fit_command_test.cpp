@@ -143,6 +143,44 @@ TEST(FitCommand, NamesOutliersAndWhatOneDistanceCannotTell) {
     EXPECT_EQ(std::ranges::count_if(found.at("points"), [](const json& point) { return point.at("outlier").get<bool>(); }), 1);
 }
 
+TEST(FitCommand, WarnsOfLuxInAnotherUnitAndOfFewPoints) {
+    const TemporaryFolder folder;
+    std::string wrong_unit = heads, few = heads;
+    int number = 0;
+    for (const auto& row : csv_rows(Tunnel{}.csv(7)))
+        if (row.at(0) != "name") {
+            const auto line = [&](double factor) {
+                return fmt::format("{},{},{},{},{},{},{},{},{}\n", row[0], row[1], row[2], row[3], row[4], row[5],
+                                   factor * std::stod(row[6]), row[7], factor * std::stod(row[8]));
+            };
+            wrong_unit += line(10.0);
+            if (++number % 40 == 1)
+                few += line(1.0);
+        }
+    const auto said = [&](const std::string& text, const char* out) {
+        return run_program("fit " + straight + " --points " + tests::written("points.csv", text).string() + " --out " + (folder / out))
+            .output;
+    };
+    const std::string tenfold = said(wrong_unit, "ten");
+    EXPECT_THAT(tenfold, testing::ContainsRegex("Warning: by the points left and right have about (9|10)"));
+    EXPECT_THAT(tenfold, HasSubstr("are they in lux (a foot-candle is 10.8 lx)"));
+    EXPECT_THAT(tenfold, testing::Not(HasSubstr("are few")));
+    const std::string six = said(few, "six");
+    EXPECT_THAT(six, HasSubstr("Warning: 6 points for"));
+    EXPECT_THAT(six, HasSubstr("at least 200 points at three distances are asked for"));
+}
+
+TEST(FitCommand, NamesSemicolonsBetweenColumns) {
+    for (const char* text : {"name;ahead_m;left_m;above_m;facing;lux;uncertainty_percent\nA1;25;-1,5;0,31;car;4,62;3\n",
+                             "name;ahead_m;left_m;above_m;facing;lux;uncertainty_percent\nA1;25;-1.5;0.31;car;4.62;3\n",
+                             "name\tahead_m\tleft_m\nA1\t25\t-1.5\n"})
+        EXPECT_THAT(printed("fit " + straight + " --points " + tests::written("points.csv", text).string(), 2),
+                    HasSubstr("points.csv:1: found 'name"))
+            << text;
+    EXPECT_THAT(printed("fit " + straight + " --points " + tests::written("points.csv", "name;ahead_m\nA;1,5\n").string(), 2),
+                HasSubstr("expected columns parted by commas, not by semicolons or tabs, and a point before decimals"));
+}
+
 TEST(FitCommand, RefusesWrongFilesByLineAndColumn) {
     const auto refused = [](const std::string& text, const std::string& flags = "") {
         return printed("fit " + straight + flags + " --points " + tests::written("points.csv", text).string(), 2);
@@ -154,7 +192,7 @@ TEST(FitCommand, RefusesWrongFilesByLineAndColumn) {
     EXPECT_THAT(refused("ahead_m,left_m,above_m,facing,lux\n1,1,1,car,1\n"),
                 HasSubstr("neither 'uncertainty_percent' nor 'uncertainty_lx'"));
     EXPECT_THAT(refused("ahead_m,left_m,above_m,lux,uncertainty_lx\n1,1,1,1,1\n"), HasSubstr("where the luxmeter looked"));
-    EXPECT_THAT(refused("ahead_m;left_m;above_m;lux\n1;1;1;1\n"), HasSubstr("commas between columns, and points in numbers"));
+    EXPECT_THAT(refused("ahead_m;left_m;above_m;lux\n1;1;1;1\n"), HasSubstr("columns parted by commas"));
     EXPECT_THAT(refused(heads + good + "P,25,0,0.3,car,,bright,3,0.01\n"),
                 HasSubstr("points.csv:3: lux: found 'bright', expected a number from 0 to 1e+06"));
     EXPECT_THAT(refused(heads + "P,25,0,0.3,down,,2.5,3,0.01\n"),

@@ -115,7 +115,9 @@ TEST_F(AimedRun, AStudySaysHowItAimedAndFindsNoDifference) {
     std::ofstream(file) << text;
     const Outcome refused = run_program("study " + file + flags + (folder_ / "refused"));
     EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_THAT(refused.output, HasSubstr("lamp_sets.even_aim-1.lamps.left.aim: found auto, and nothing to aim by in"));
+    const std::string why = ": lamps.even.aim: found auto, and nothing to aim by in " + library_file("lamps/even-0.33lx.csv");
+    EXPECT_THAT(refused.output, AllOf(HasSubstr("aims.yaml:5:"), HasSubstr(why)));
+    EXPECT_THAT(printed("study " + file + " --list", 2), AllOf(HasSubstr("aims.yaml:5:"), HasSubstr(why)));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "refused")) << "before the first frame";
 }
 

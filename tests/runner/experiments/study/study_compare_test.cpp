@@ -264,6 +264,29 @@ TEST(StudyCompare, ADecidingReadingThatNothingHasIsNotMeasured) {
     EXPECT_THAT(text, Not(HasSubstr("no deciding reading changed")));
 }
 
+TEST(StudyCompare, ADecidingReadingThatNoCellMeasuredIsRedAndSaysWhy) {
+    const auto verdicts = [](const char* decide, bool measured_in_one) {
+        StudyResult result = two_cells(40.0, 50.0);
+        const ReadingKey mirror = key_of("mirror_left_at_15m_lx").value();
+        for (CellResult& cell : result.cells)
+            cell.readings[mirror] = {.key = mirror, .value = Value::not_measured("no mirror was met")};
+        if (measured_in_one)
+            result.cells[0].readings[mirror].value = 1.0;
+        result.study.decide = {"reach_5lx_target_own_m", decide};
+        compare_cells(result);
+        return std::pair(overall(result), document_text(study_summary(result)));
+    };
+    const auto [kind, text] = verdicts("mirror_*", false);
+    EXPECT_EQ(kind, VerdictKind::not_measured) << "exit code 1";
+    EXPECT_THAT(text, HasSubstr("NOT MEASURED deciding reading mirror_*: no cell measured it: no mirror was met"));
+    EXPECT_EQ(verdicts("mirror_*", true).first, VerdictKind::pass);
+    const auto [no_glare, why] = verdicts("detection_*", false);
+    EXPECT_EQ(no_glare, VerdictKind::not_measured);
+    EXPECT_THAT(why, HasSubstr("deciding reading detection_*: no reading's name fits, as no drive measures visibility: ask for "
+                               "`visibility` in `measure:`"));
+    EXPECT_THAT(verdicts("reach_7lx_*", false).second, HasSubstr("deciding reading reach_7lx_*: no reading's name fits\n"));
+}
+
 TEST(StudyCompare, WhereNothingWasPlayedNothingIsSaidToBeUnchanged) {
     StudyResult result = two_cells(40.0, 40.0);
     for (CellResult& cell : result.cells) {

@@ -86,8 +86,30 @@ TEST(Decision, TwoPlacesWithOneResultCountOnce) {
     EXPECT_EQ(decided.decided_by.size(), 1U);
     EXPECT_THAT(same_results(study.result, decisions),
                 ElementsAre("drive-0 and drive-1 give one result in 1 deciding reading; it counts once"));
-    EXPECT_THAT(decision_sentence(study.result, decisions.front()), HasSubstr("own lane +10.00 m (+25 %) in 1 of 2 results"));
+    EXPECT_THAT(decision_sentence(study.result, decisions.front()), HasSubstr("own lane +10.00 m (+25 %) in 1 of 2 results, on drive-0"));
+    EXPECT_THAT(decision_sentence(study.result, decisions.front()), Not(HasSubstr("most on")));
     EXPECT_THAT(same_results(study.result, MadeStudy().on(0, reach, 40.0, 50.0).on(1, reach, 41.0, 51.0).decided()), IsEmpty());
+}
+
+TEST(Decision, TheSentenceNamesWhereMostChangedAndWhatIsWithinAim) {
+    MadeStudy study;
+    study.on(0, reach, 40.0, 42.0).on(1, reach, 50.0, 60.0).on(2, reach, 60.0, 64.0);
+    study.on(0, glare, 1.0, 1.1, 0.12).on(0, neutral, 2.0, 2.1, 0.2);
+    const std::string sentence = decision_sentence(study.result, study.decided().front());
+    EXPECT_THAT(sentence, HasSubstr("own lane +4.00 m (+6.7 %), most on drive-1."));
+    EXPECT_THAT(sentence, HasSubstr("2 readings changed by less than 0.1° of aim would do: largest illuminance on the mirror left of a car "
+                                    "15 m ahead; foreground: mean light on the road from 5 to 15 m, own lane."));
+}
+
+TEST(Decision, WarningsOfTheAimStandOnTheFirstScreen) {
+    MadeStudy study;
+    study.result.study.decide = {reach};
+    study.on(0, reach, 40.0, 50.0).decided();
+    study.result.warnings = {"new, left and right: the cut-off lies at -0.30 %"};
+    EXPECT_THAT(document_text(study_summary(study.result)),
+                testing::StartsWith("by hand\nwarning: new, left and right: the cut-off lies at -0.30 %\nnew is better"));
+    const std::string page = document_html(document(study.result), study.result);
+    EXPECT_LT(page.find("the cut-off lies at -0.30 %"), page.find("The largest changes"));
 }
 
 TEST(Decision, PlacesThatDrawOneFlatLineHaveItOnce) {

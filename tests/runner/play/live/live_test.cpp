@@ -126,6 +126,22 @@ TEST_F(Live, APolicyThatFailsEndsTheDriveWithItsReport) {
     EXPECT_LT(report["live"]["ticks"], 40);
 }
 
+TEST_F(Live, WarnsOfLampFilesAsRunDoes) {
+    std::string text = content_of(drive);
+    const std::string source = FERNLICHT_SOURCE_DIR;
+    for (std::size_t at = 0; (at = text.find("../../scenarios", at)) != std::string::npos; at += source.size())
+        text.replace(at, 5, source);
+    text.replace(text.find("live.dbc"), 8, source + "/tests/can/live.dbc");
+    text.replace(text.find("xenon-low.ies"), 13, "xenon-high.ies");
+    std::ofstream(folder / "high.yaml") << text;
+    const Outcome outcome = run_program(
+        fmt::format("live {} --can-log {} --duration 0.5 --no-wait --out {}", folder / "high.yaml", folder / "bus.log", folder / "high"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output,
+                HasSubstr("warning: lamp file xenon-high.ies (bend-light: left; bend-light: right), function: it is a high beam"));
+    EXPECT_THAT(content("high/report.html"), HasSubstr("on the mount of a low beam"));
+}
+
 TEST_F(Live, RefusesInOneSentence) {
     const auto refused = [&](const std::string& flags, int code, const std::string& text) {
         const Outcome outcome = run_program("live " + flags);

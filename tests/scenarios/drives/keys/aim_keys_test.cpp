@@ -4,6 +4,7 @@
 #include "tests/scenarios/drives/drive_fixture.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -64,7 +65,12 @@ TEST_F(AimKeys, RefuseInOneSentence) {
     EXPECT_EQ(refused("atuo"),
               "drive.yaml:6:44: lamp_sets.one.lamps.left.aim: found 'atuo', expected one of as-is, auto (nearest: 'auto')");
     EXPECT_THAT(refused("{cut_off_percent: -1.2}"), HasSubstr("aim.cut_off_percent: cut_off_percent without rule: auto"));
-    EXPECT_THAT(refused("{rule: auto, cut_off_percent: -12}"), HasSubstr("-10"));
+    for (const char* const outside : {"1.3", "0", "-5.1", "-12"})
+        EXPECT_THAT(
+            refused(fmt::format("{{rule: auto, cut_off_percent: {}}}", outside)),
+            HasSubstr(fmt::format("aim.cut_off_percent: found '{}', expected a number from -5 to -0.1: a low beam's cut-off lies below "
+                                  "the horizon",
+                                  outside)));
     EXPECT_THAT(refused("{percent_down: 1, pitch_deg: 1}"), HasSubstr("percent_down beside a pitch"));
     EXPECT_THAT(refusal(start + "  one: {file: low.ies, changes: [{at_s: 1, aim: {rule: auto}}]}\n"), HasSubstr("rule"))
         << "a change turns the lamp, its rule stays";

@@ -63,6 +63,24 @@ TEST_F(DriveEditsTest, ALampThatIsATextGridComesWithItsRecipe) {
     EXPECT_THAT(refusal(pair, edits), HasSubstr("grid.txt: is no lamp file that we know"));
 }
 
+TEST_F(DriveEditsTest, AnAimStandsInPlaceOfTheDrives) {
+    const std::string turned = "fernlicht: 1\nroad: road.xodr\nspeed_kmh: 72\nduration_s: 3\n"
+                               "car: {mounts: {left: [3, 1, 1], high-left: [3, 0, 1], fog-left: [3, 1, 0.4]}}\nlamp_sets:\n"
+                               "  a: {lamps: {left: {file: low.ies, aim: {pitch_deg: 0.4, yaw_deg: 1}}, high-left: {file: low.ies}, "
+                               "fog-left: {file: low.ies, aim: {pitch_deg: 0.4}}}}\n";
+    for (const BeamAim aim : {BeamAim::automatic, BeamAim::as_is}) {
+        DriveEdits edits;
+        edits.aim = aim;
+        for (const MountedLamp& lamp : read(turned, edits).lamp_sets.at(0).lamps) {
+            const bool fog = lamp.name == "fog-left";
+            EXPECT_EQ(lamp.aim_rule, fog ? BeamAim::as_is : aim) << lamp.name;
+            EXPECT_EQ(lamp.pitch_rad != 0.0, fog) << lamp.name;
+            EXPECT_EQ(lamp.yaw_rad, 0.0) << lamp.name;
+        }
+    }
+    EXPECT_NE(read(turned, {}).lamp_sets.at(0).lamps.at(0).pitch_rad, 0.0);
+}
+
 TEST_F(DriveEditsTest, HighBeamsAreMeantByName) {
     const Drive drive = read(pair, with_lamp("high-left"));
     EXPECT_EQ(drive.lamp_sets.size(), 2U);
