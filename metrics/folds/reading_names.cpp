@@ -48,8 +48,7 @@ void check_names(const Drive& drive, const Readings& others) {
     if (drive.seeing.tolerances)
         for (const Limit& limit : drive.seeing.tolerances->limits)
             if (const auto key = key_of(limit.reading); !key || key->aspect != Aspect::value || !can_be_read(drive, others, *key))
-                throw InputError({drive.file, 0, 0, "measure.tolerances.limits"},
-                                 "found reading '" + printable(limit.reading) + "'",
+                throw InputError({drive.file, 0, 0, "measure.tolerances.limits"}, "found reading '" + printable(limit.reading) + "'",
                                  "a reading of this drive, as reach_5lx_target_own_right_edge_m");
     for (const Limit& limit : drive.limits)
         if (const auto key = key_of(limit.reading); !key || !can_be_read(drive, others, *key))

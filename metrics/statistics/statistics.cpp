@@ -144,6 +144,8 @@ double student_bound(int freedom, double false_alarm, std::size_t comparisons) {
     return boost::math::quantile(boost::math::complement(boost::math::students_t(freedom), tail(false_alarm, comparisons)));
 }
 
+double normal_quantile(double share) { return boost::math::quantile(boost::math::normal(), share); }
+
 double normal_bound(double false_alarm, std::size_t comparisons) {
     return boost::math::quantile(boost::math::complement(boost::math::normal(), tail(false_alarm, comparisons)));
 }

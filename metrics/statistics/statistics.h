@@ -106,6 +106,9 @@ double student_bound(int freedom, double false_alarm, std::size_t comparisons);
 /// probability of `false_alarm` at most. Errors as spread_test.
 double normal_bound(double false_alarm, std::size_t comparisons);
 
+/// What a standard normal value lies below with this probability, 0 < share < 1. Throws std::domain_error outside.
+double normal_quantile(double share);
+
 /// What a sum of `freedom` squares of standard normal values exceeds with a probability of `false_alarm`. Throws std::invalid_argument for
 /// freedom below 1 and false_alarm outside 0..1.
 double chi_squared_bound(int freedom, double false_alarm);

@@ -1,7 +1,8 @@
 #include "metrics/tolerances/cars.h"
 
+#include "metrics/statistics/statistics.h"
+
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <fmt/format.h>
 #include <random>
@@ -15,7 +16,7 @@ constexpr double slope_deviations = 1.5;
 double inverse(const Tolerance& tolerance, double share) {
     if (tolerance.from)
         return std::lerp(*tolerance.from, *tolerance.to, share);
-    return tolerance.mean + tolerance.sigma * boost::math::quantile(boost::math::normal(), share);
+    return tolerance.mean + tolerance.sigma * normal_quantile(share);
 }
 
 LampNudge& nudge_of_lamp(Nudge& nudge, const std::string& lamp) {

@@ -309,7 +309,8 @@ Document document(const StudyResult& result, const std::vector<std::string>& pap
     if (was_judged(result))
         document.sections.push_back(verdict_section(result));
     document.sections.push_back(largest_section(result));
-    for (const Section& section : {lamps, aims_section(result), reach, glare, readings, cars_section(result), views_section(result), maps, cells})
+    for (const Section& section :
+         {lamps, aims_section(result), reach, glare, readings, cars_section(result), views_section(result), maps, cells})
         if (!section.blocks.empty())
             document.sections.push_back(section);
     add_lamp_files(result, document);

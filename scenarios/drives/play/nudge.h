@@ -19,7 +19,7 @@ struct Nudge {
     double flux_factor = 1.0;                            ///< of all lamps
     double lift_m = 0.0;                                 ///< of all lamps
     double body_pitch_rad = 0.0, body_rear_lift_m = 0.0; ///< of the car about its rear axle, nose up positive; of its rear axle
-    std::vector<LampNudge> lamps = {};                      ///< of single lamps by name, beside all that
+    std::vector<LampNudge> lamps = {};                   ///< of single lamps by name, beside all that
 };
 
 /// The moment with the own lamps nudged; nothing else of it changes, the car's own place neither.

@@ -28,7 +28,7 @@ struct PlayedResult : ReadingsOfCell {
     std::vector<GlareOverDrive> glares;
     std::vector<StoredFrame> frames; ///< paths below what the folder is named by
     std::vector<LampAim> aims;
-    std::shared_ptr<const SeriesFindings> series; ///< as PlayedCell
+    std::shared_ptr<const SeriesFindings> series;         ///< as PlayedCell
     std::vector<Verdict> verdicts;                        ///< limits of the drive, baselines
     std::optional<double> error_share, error_floor_share; ///< 95 % of the road's illuminance against the reference lies within
     std::optional<double> frame_s;                        ///< a driver's view
