@@ -227,16 +227,20 @@ struct IntakeCheck {
                                   : fmt::format("within {:.0f} degrees of V-V and {:.0f} of H-H", high_peak_aside_deg, high_peak_up_deg)));
     }
 
-    void units() {
+    /// Where no other unit explains it.
+    void weak() {
+        const bool told = std::ranges::find(found.findings, IntakeFault::units, &IntakeFinding::fault) != found.findings.end();
         if (const double least = low() ? weak_low_cd : weak_high_cd;
-            peak().cd >= least_peak_cd && peak().cd < least && found.flux_lm < weak_lm) {
+            !told && peak().cd >= least_peak_cd && peak().cd < least && found.flux_lm < weak_lm) {
             claim(IntakeFault::units, false,
                   fmt::format(
                       "its maximum is {:.4g} cd and its flux {:.0f} lm, and car headlamps have {:.0f} cd and {:.0f} lm or more: wrong "
                       "by a factor, a moped's lamp, or one of several modules",
                       peak().cd, found.flux_lm, least, weak_lm));
-            return;
         }
+    }
+
+    void units() {
         const std::optional<double> source = lamp.declared_flux_lm;
         const bool per_klm_format = lamp.format.starts_with("EULUMDAT"); // whose reader multiplies by the source's flux
         if (peak().cd < least_peak_cd) {
@@ -344,6 +348,7 @@ Intake check_intake(const LampFile& lamp, const IntakeContext& context) {
     check.flux();
     check.peak_place();
     check.units();
+    check.weak();
     check.coverage();
     check.steps();
     return found;

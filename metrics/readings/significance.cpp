@@ -51,7 +51,7 @@ std::optional<double> of_drawing(const ReadingsOfCell& played, const Reading& re
 
 /// To either side, in the reading's unit; nullopt when nothing tells.
 std::optional<double> numerical_uncertainty(const ReadingsOfCell& played, const Reading& reading) {
-    if (!reading.value.measured())
+    if (!reading.value.measured() || is_of_cars(reading.key)) // of drawn cars: chance, too, which nothing here tells
         return std::nullopt;
     if (ReadingKey key = reading.key; key.aspect == Aspect::value) {
         key.aspect = Aspect::standard_error;

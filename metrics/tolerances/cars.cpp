@@ -35,7 +35,7 @@ std::vector<CarPart> varying_parts(const ToleranceParameters& tolerances, const 
     const auto add = [&](const std::string& lamp) {
         for (std::size_t i = 0; i < tolerance_kinds; ++i)
             if (const auto kind = static_cast<ToleranceKind>(i); is_of_each_lamp(kind) != lamp.empty() &&
-                                                                 tolerance_of(tolerances, kind).varies() &&
+                                                                 tolerance_of(tolerances, kind).counts() &&
                                                                  (kind != ToleranceKind::load || has_vehicle))
                 parts.push_back({kind, lamp, tolerance_of(tolerances, kind)});
     };

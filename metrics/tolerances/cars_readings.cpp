@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -49,20 +50,23 @@ SlopeCars slope_cars(const std::vector<CarPart>& parts) {
 std::optional<ReadingSlopes> slopes_of(const ReadingKey& key, const std::vector<ValuesByKey>& evaluated, const SlopeCars& cars,
                                        std::size_t parts) {
     ReadingSlopes slopes{std::vector<double>(parts), std::vector<double>(parts)};
-    std::vector<bool> has_up(parts), has_down(parts);
+    std::vector<double> up_at(parts), down_at(parts);
     const std::optional<double> designed = number_in(evaluated.front(), key);
     for (std::size_t i = 0; i < cars.at.size(); ++i) {
         const std::optional<double> there = number_in(evaluated[1 + i], key);
         if (!designed || !there)
             return std::nullopt;
         const auto& [part, end] = cars.at[i];
-        (end > 0.0 ? slopes.up : slopes.down)[part] = (*there - *designed) / end; // of two ends on one side, the farther
-        (end > 0.0 ? has_up : has_down)[part] = true;
+        double& taken = (end > 0.0 ? up_at : down_at)[part];
+        if (std::abs(end) <= taken) // of two ends on one side, the farther
+            continue;
+        taken = std::abs(end);
+        (end > 0.0 ? slopes.up : slopes.down)[part] = (*there - *designed) / end;
     }
     for (std::size_t part = 0; part < parts; ++part) {
-        if (!has_up[part])
+        if (up_at[part] == 0.0)
             slopes.up[part] = slopes.down[part];
-        if (!has_down[part])
+        if (down_at[part] == 0.0)
             slopes.down[part] = slopes.up[part];
     }
     return slopes;
@@ -82,15 +86,16 @@ struct Cars {
     std::vector<double> followed; ///< by slopes; empty where these do not hold
 };
 
-void take_quantiles(ReadingOfCars& reading, Cars cars) {
+void take_quantiles(ReadingOfCars& reading, const Cars& cars) {
     const auto take = [&](const auto& quantile) {
         reading.p05 = quantile(0.05);
         reading.median = quantile(0.5);
         reading.p95 = quantile(0.95);
     };
     if (reading.by_slopes) {
-        std::ranges::sort(cars.followed);
-        take([&](double share) { return Value(quantile_of(cars.followed, share)); });
+        std::vector<double> ascending = cars.followed;
+        std::ranges::sort(ascending);
+        take([&](double share) { return Value(quantile_of(ascending, share)); });
         return;
     }
     CensoredSamples samples("no car gave this reading");
@@ -127,11 +132,14 @@ std::vector<double> variance_shares(const ReadingSlopes& slopes, const std::vect
     std::vector<double> shares;
     double sum = 0.0;
     for (std::size_t part = 0; part < slopes.up.size(); ++part) {
-        std::vector<double> moves;
-        for (const CarValues& car : drawn)
-            moves.push_back((car[part] >= 0.0 ? slopes.up : slopes.down)[part] * car[part]);
-        const double deviation = spread_of(std::move(moves))->standard_deviation;
-        sum += shares.emplace_back(deviation * deviation);
+        double moved = 0.0, squares = 0.0;
+        for (const CarValues& car : drawn) {
+            const double move = (car[part] >= 0.0 ? slopes.up : slopes.down)[part] * car[part];
+            moved += move;
+            squares += move * move;
+        }
+        const double count = static_cast<double>(drawn.size());
+        sum += shares.emplace_back(std::max(0.0, squares / count - moved / count * (moved / count)));
     }
     for (double& share : shares)
         share = sum > 0.0 ? share / sum : 0.0;
@@ -140,38 +148,50 @@ std::vector<double> variance_shares(const ReadingSlopes& slopes, const std::vect
 
 Value percent(std::size_t within, std::size_t of) { return 100.0 * static_cast<double>(within) / static_cast<double>(of); }
 
-/// Whether each car keeps a limit, of those that follow slopes and of those in full; a bound that leaves it open keeps none.
+/// Whether each car keeps a limit, of those that follow slopes and of those in full; nullopt: open.
+using Kept = std::vector<std::optional<bool>>;
+bool is_open(const std::optional<bool>& car) { return !car; }
 struct Keeps {
-    std::vector<bool> followed, in_full;
+    Kept followed, in_full;
 };
 
 Keeps keeps(const Limit& limit, const Cars& cars) {
     Keeps kept;
-    const auto holds_it = [&](const Value& value) { return holds(value, limit.at_least, limit.at_most).value_or(false); };
     for (const double figure : cars.followed)
-        kept.followed.push_back(holds_it(figure));
+        kept.followed.push_back(holds(figure, limit.at_least, limit.at_most));
     for (const Value& value : cars.in_full)
-        kept.in_full.push_back(holds_it(value));
+        kept.in_full.push_back(holds(value, limit.at_least, limit.at_most));
     return kept;
 }
 
+/// The share of those that keep a limit, at least so much where some are open, and its interval.
+std::tuple<Value, double, double> share_of(const Kept& cars) {
+    const auto kept = static_cast<std::size_t>(std::ranges::count(cars, std::optional(true))),
+               open = static_cast<std::size_t>(std::ranges::count_if(cars, is_open));
+    const Value share = percent(kept, cars.size());
+    return {open == 0             ? share
+            : open == cars.size() ? Value::not_measured("every car's reading leaves the limit open")
+                                  : Value::at_least(*share.number()),
+            share_interval_percent(kept, cars.size()).first, share_interval_percent(kept + open, cars.size()).second};
+}
+
 void count_cars(CarsWithin& within, const Keeps& kept) {
-    const auto number = [](const std::vector<bool>& cars) { return static_cast<std::size_t>(std::ranges::count(cars, true)); };
-    const std::vector<bool>& told = kept.followed.empty() ? kept.in_full : kept.followed;
+    const Kept& told = kept.followed.empty() ? kept.in_full : kept.followed;
     if (told.empty()) {
         within.share_percent = Value::not_measured("no car was evaluated");
         return;
     }
     within.of = told.size();
-    within.share_percent = percent(number(told), told.size());
-    std::tie(within.low_percent, within.high_percent) = share_interval_percent(number(told), told.size());
+    within.open = static_cast<std::size_t>(std::ranges::count_if(told, is_open));
+    std::tie(within.share_percent, within.low_percent, within.high_percent) = share_of(told);
     if (!kept.followed.empty() && !kept.in_full.empty())
-        within.in_full_percent = percent(number(kept.in_full), kept.in_full.size());
+        std::tie(within.in_full_percent, within.in_full_low_percent, within.in_full_high_percent) = share_of(kept.in_full);
 }
 
-void both(std::vector<bool>& all, const std::vector<bool>& kept) {
+/// Both limits: false where either is, open where neither is false and one is open.
+void both(Kept& all, const Kept& kept) {
     for (std::size_t i = 0; i < all.size() && i < kept.size(); ++i)
-        all[i] = all[i] && kept[i];
+        all[i] = all[i] == false || kept[i] == false ? std::optional(false) : all[i] && kept[i] ? std::optional(true) : std::nullopt;
 }
 
 std::vector<CarsWithin> shares_within(const std::vector<Limit>& limits, const std::map<ReadingKey, Cars>& cars) {
@@ -179,12 +199,12 @@ std::vector<CarsWithin> shares_within(const std::vector<Limit>& limits, const st
     std::optional<Keeps> all;
     bool all_known = true, all_follow = true;
     for (const Limit& limit : limits) {
-        CarsWithin& within = shares.emplace_back(CarsWithin{limit, {}, {}, {}, {}, {}});
+        CarsWithin& within = shares.emplace_back(CarsWithin{.limit = limit});
         const auto key = key_of(limit.reading);
         const auto found = key ? cars.find(*key) : cars.end();
         if (found == cars.end() || std::ranges::none_of(found->second.in_full, &Value::measured)) {
-            within.share_percent =
-                Value::not_measured(found == cars.end() ? "there is no reading of this name" : found->second.in_full.front().reason());
+            within.share_percent = Value::not_measured(found == cars.end() ? "the car as designed has no such reading"
+                                                                           : found->second.in_full.front().reason());
             all_known = false;
             continue;
         }
@@ -197,7 +217,7 @@ std::vector<CarsWithin> shares_within(const std::vector<Limit>& limits, const st
         both(all->followed, kept.followed);
     }
     if (limits.size() > 1) {
-        CarsWithin& within = shares.emplace_back(CarsWithin{{.reading = "all", .at_least = {}, .at_most = {}}, {}, {}, {}, {}, {}});
+        CarsWithin& within = shares.emplace_back(CarsWithin{.limit = {.reading = "all", .at_least = {}, .at_most = {}}});
         if (all_known && !all_follow)
             all->followed.clear();
         if (all_known)
@@ -255,13 +275,17 @@ SeriesFindings measure_cars(const ToleranceParameters& tolerances, std::vector<C
         Cars& its = cars[reading.key];
         for (std::size_t i = 1; i < of_cars.size(); ++i) {
             const auto car = of_cars[i].find(reading.key);
-            its.in_full.push_back(car == of_cars[i].end() ? Value() : counted_from(reading.value, car->second, designed->second));
+            its.in_full.push_back(!reading.value.measured() ? reading.value
+                                  : car == of_cars[i].end() ? Value::not_measured("this car has no such reading")
+                                                            : counted_from(reading.value, car->second, designed->second));
         }
         if (const auto its_slopes = slopes_of(reading.key, at_ends, ends, found.parts.size()); its_slopes && of.as_designed.number()) {
             hold_slopes(of, *its_slopes, drawn, its);
             of.variance_shares = variance_shares(*its_slopes, drawn);
         }
         take_quantiles(of, its);
+        if (std::ranges::find(tolerances.limits, name_of(of.key), &Limit::reading) == tolerances.limits.end())
+            its = {}; // no limit asks for its cars
     }
     found.within = shares_within(tolerances.limits, cars);
     return found;
@@ -300,7 +324,8 @@ Readings readings_of(const SeriesFindings& found) {
             where +=
                 fmt::format("; {:.1f} to {:.1f} % with 95 % confidence, by {} cars", within.low_percent, within.high_percent, within.of);
         if (within.in_full_percent.number())
-            where += fmt::format("; {:.1f} % of {} in full", *within.in_full_percent.number(), found.cars);
+            where += fmt::format("; {:.1f} % of {} in full ({:.1f} to {:.1f} %)", *within.in_full_percent.number(), found.cars,
+                                 within.in_full_low_percent, within.in_full_high_percent);
         readings.push_back({{.quantity = Quantity::cars_within, .subject = within.limit.reading}, within.share_percent, where});
     }
     return readings;

@@ -29,13 +29,14 @@ struct ReadingOfCars {
     Sensitivity sensitivity = {};                        ///< of the reading as designed
 };
 
-/// Cars within a limit; of `all`, within every one.
+/// Cars within a limit; of `all`, within every one. A car whose reading is a bound that leaves the limit open, or that has none, is open.
 struct CarsWithin {
     Limit limit;                                  ///< reading "all" for all of them
-    Value share_percent;                          ///< not measured, with its reason, where the reading is not
-    double low_percent = 0.0, high_percent = 0.0; ///< interval of 95 % (Wilson 1927)
-    std::size_t of = 0;                           ///< cars
-    Value in_full_percent;                        ///< of the cars in full, where the others follow slopes
+    Value share_percent = {};                     ///< at least so much where cars are open; not measured, with its reason, where all are
+    double low_percent = 0.0, high_percent = 0.0; ///< of chance among the cars counted, 95 % (Wilson 1927), open ones either way
+    std::size_t of = 0, open = 0;                 ///< cars
+    Value in_full_percent = {};                   ///< of the cars in full, where the others follow slopes; with its interval
+    double in_full_low_percent = 0.0, in_full_high_percent = 0.0;
 };
 
 struct SeriesFindings {

@@ -15,7 +15,7 @@ Table tolerances_table(const SeriesFindings& series, const std::string& name);
 Table cars_table(const SeriesFindings& series, const std::string& name, const std::vector<std::string>* names);
 /// Shares of cars within limits.
 Table within_table(const SeriesFindings& series, const std::string& name);
-/// "93.5 (89.2 … 96.2)", as within_table and a study have it; or that it is not measured.
+/// "93.5 (89.2 … 96.2)", as within_table and a study have it; "> 93.5" where cars are open; or that it is not measured.
 Cell within_cell(const CarsWithin& within);
 /// "at least 50 and at most 60 m"
 std::string limit_words(const Limit& limit);

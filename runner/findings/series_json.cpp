@@ -3,6 +3,10 @@
 namespace fernlicht {
 namespace {
 
+JsonPart count_part(std::size_t& count) {
+    return through([&count] { return std::uint64_t{count}; }, [&count](std::uint64_t given) { count = given; });
+}
+
 JsonMembers tolerance_members(Tolerance& tolerance) {
     return {{"sigma", tolerance.sigma},
             {"mean", tolerance.mean},
@@ -34,10 +38,6 @@ JsonMembers within_members(CarsWithin& within) {
     return {{"reading", within.limit.reading},       {"at_least", within.limit.at_least},        {"at_most", within.limit.at_most},
             {"share_percent", within.share_percent}, {"low_percent", within.low_percent},        {"high_percent", within.high_percent},
             {"of", std::uint64_t{within.of}},        {"in_full_percent", within.in_full_percent}};
-}
-
-JsonPart count_part(std::size_t& count) {
-    return through([&count] { return std::uint64_t{count}; }, [&count](std::uint64_t given) { count = given; });
 }
 
 } // namespace

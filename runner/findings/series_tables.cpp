@@ -51,13 +51,18 @@ std::string limit_words(const Limit& limit) {
     return words + unit;
 }
 
-Cell within_cell(const CarsWithin& within) {
-    if (!within.share_percent.number())
-        return "not measured: " + within.share_percent.reason();
-    return {fmt::format("{} ({} … {})", figure(*within.share_percent.number(), 1), figure(within.low_percent, 1),
-                        figure(within.high_percent, 1)),
-            *within.share_percent.number()};
+namespace {
+
+Cell share_cell(const Value& share, double low_percent, double high_percent) {
+    if (!share.measured())
+        return share.reason().empty() ? "" : "not measured: " + share.reason();
+    return {fmt::format("{} ({} … {})", with_bound(share, figure(*share.figure(), 1)), figure(low_percent, 1), figure(high_percent, 1)),
+            *share.figure()};
 }
+
+} // namespace
+
+Cell within_cell(const CarsWithin& within) { return share_cell(within.share_percent, within.low_percent, within.high_percent); }
 
 Cell cars_cell(const ReadingOfCars& of) {
     return fmt::format("{} ({} … {})", cars_value_cell(of.as_designed).text, cars_value_cell(of.p05).text, cars_value_cell(of.p95).text);
@@ -80,8 +85,8 @@ Table cars_table(const SeriesFindings& series, const std::string& name, const st
                 fmt::format("{} drawn cars, by slopes where these miss {} cars in full by at most {:g} % of their spread (r.m.s.), else "
                             "those in full alone",
                             series.draws, series.cars, 100.0 * most_slope_error),
-                columns_of("reading`|unit<|as designed|cars: 5 % below|cars: median|cars: 95 % below|told by<|slopes miss [% of the "
-                           "spread]|moved most by<"),
+                columns_of("reading`|unit<|as designed|5th percentile|median|95th percentile|from<|slopes miss [% of the spread]|moved "
+                           "most by<"),
                 {}};
     for (const ReadingOfCars& of : series.readings)
         if (!names || place_among(of.key, *names))
@@ -93,14 +98,14 @@ Table cars_table(const SeriesFindings& series, const std::string& name, const st
 
 Table within_table(const SeriesFindings& series, const std::string& name) {
     Table table{name,
-                "Cars within each limit, with the interval that holds with 95 % confidence",
+                "Cars within each limit. Intervals are those of chance among the cars counted, 95 %; what slopes miss shows beside it, in "
+                "the cars in full",
                 columns_of("reading`|limit<|share of cars [%]|cars|in full [%]"),
                 {}};
     for (const CarsWithin& within : series.within)
-        table.rows.push_back({within.limit.reading, limit_words(within.limit), within_cell(within), fmt::format("{}", within.of),
-                              within.in_full_percent.number()
-                                  ? Cell(figure(*within.in_full_percent.number(), 1), *within.in_full_percent.number())
-                                  : Cell("")});
+        table.rows.push_back({within.limit.reading, limit_words(within.limit), within_cell(within),
+                              within.open > 0 ? fmt::format("{}, {} open", within.of, within.open) : fmt::format("{}", within.of),
+                              share_cell(within.in_full_percent, within.in_full_low_percent, within.in_full_high_percent)});
     return table;
 }
 

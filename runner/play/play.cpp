@@ -119,11 +119,14 @@ class Measuring {
     std::deque<std::future<ExtentRow>> waiting_; ///< each waits for its thread when it is destroyed
 };
 
-CarRow car_row(const Drive& drive, const Motion& motion, double time_s) {
+CarRow car_row(const Drive& drive, const LampSet& lamp_set, double time_s) {
+    const Motion& motion = *lamp_set.motion;
     const CarPlace place = motion.car->at(time_s);
     CarRow row{time_s, degrees(place.pitch_rad), 1e3 * place.rear_lift_m, std::nullopt, std::nullopt};
     if (motion.levelling)
         row.levelling_deg = degrees(motion.levelling->angle_rad(time_s));
+    else if (motion.control && !motion.control->lamps.empty() && lamp_set.control && lamp_set.control->levelling)
+        row.levelling_deg = degrees(motion.control->pitch_rad(0, time_s));
     if (drive.vehicle && drive.vehicle->roll)
         row.roll_deg = degrees(place.roll_rad);
     if (motion.swivel)
@@ -205,7 +208,7 @@ PlayedCell play(const Drive& drive, const Route& route, const LampSet& lamp_set,
             measuring.add(std::move(*drawn));
         played.speed_mps.emplace_back(moment.time_s, moment.speed_mps);
         if (lamp_set.motion && lamp_set.motion->car)
-            played.car.push_back(car_row(drive, *lamp_set.motion, moment.time_s));
+            played.car.push_back(car_row(drive, lamp_set, moment.time_s));
         ++played.ticks_done;
         if (!options.go_on(played.ticks_done))
             break;

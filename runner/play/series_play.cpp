@@ -22,6 +22,15 @@ struct SampledMoment {
     ExtentGrid grid; ///< of no points where the drive asks for no extent
 };
 
+/// Few moments tell what a median moves by, and nothing of what is smallest or largest of all.
+Readings without_extremes(Readings readings) {
+    std::erase_if(readings, [](const Reading& reading) {
+        return reading.key.statistic != Statistic::none && reading.key.statistic != Statistic::median &&
+               reading.key.statistic != Statistic::mean;
+    });
+    return readings;
+}
+
 class Cars {
   public:
     Cars(const Drive& drive, const Route& route, const LampSet& lamp_set, const TickRange& ticks)
@@ -76,7 +85,7 @@ class Cars {
         for (const SampledMoment& sampled : sampled_)
             medians.add(*sampled.moment, lamp_set_);
         Readings readings = every_moment.readings();
-        std::ranges::move(medians.readings(), std::back_inserter(readings));
+        std::ranges::move(without_extremes(medians.readings()), std::back_inserter(readings));
         return readings;
     }
 
@@ -103,7 +112,7 @@ class Cars {
         else
             oneapi::tbb::parallel_for(std::size_t{0}, sampled_.size(), measure);
         played.extent_summaries = summarise_extents(played, p);
-        return extent_readings(played);
+        return without_extremes(extent_readings(played));
     }
 
     const Drive& drive_;

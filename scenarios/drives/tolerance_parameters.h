@@ -18,7 +18,8 @@ struct Tolerance {
     std::optional<double> from, to; ///< both or neither
     std::string source;             ///< who states it; "": assumed
 
-    bool varies() const { return from ? *from < *to : sigma > 0.0; }
+    /// Not all cars are as the drive has it.
+    bool counts() const { return from ? *from != 0.0 || *to != 0.0 : sigma > 0.0 || mean != 0.0; }
     bool operator==(const Tolerance&) const = default;
 };
 

@@ -67,7 +67,7 @@ struct Study {
 template <class Struct> struct Fields;
 const Fields<Study>& study_fields(); ///< the keys of its file
 
-/// Every drive is read before the first frame and kept until its turn: 0.43 MB each with two lamp files, 4.3 GB of this many.
+/// Every drive is read before the first frame and kept to the end: 0.43 MB each with two lamp files, 4.3 GB of this many.
 inline constexpr std::size_t max_study_cells = 10'000;
 
 /// One thing that is played: a drive with one lamp set in one technique under one condition.

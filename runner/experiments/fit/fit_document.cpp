@@ -149,17 +149,12 @@ std::vector<std::string> doubts_of(const FitResult& result) {
     constexpr double far_off = 2.0; // as a factor: lamps of one type differ by tenths
     constexpr std::size_t points_a_value = 10;
     std::vector<std::string> doubts;
-    std::vector<std::string> lamps;
-    double factor = 1.0;
     for (const FitValue& value : result.values)
-        if (value.quantity == FitQuantity::flux && value.standard_error && (value.change > far_off || value.change < 1.0 / far_off)) {
-            lamps.push_back(value.lamp);
-            factor = value.change;
-        }
-    if (!lamps.empty())
-        doubts.push_back(fmt::format("Warning: by the points {} {} about {:.3g} times the light of the drive's: are they in lux (a "
-                                     "foot-candle is 10.8 lx), and is the drive's file that of this lamp?",
-                                     fmt::join(lamps, " and "), lamps.size() == 1 ? "has" : "have", factor));
+        if (value.quantity == FitQuantity::flux && value.standard_error && (value.change > far_off || value.change < 1.0 / far_off))
+            doubts.push_back(
+                fmt::format("Warning: by the points {} has about {:.3g} times the light of the drive's: are the points in lux (a "
+                            "foot-candle is 10.8 lx), and is the drive's file that of this lamp?",
+                            value.lamp, value.change));
     if (result.used < points_a_value * result.unknowns)
         doubts.push_back(fmt::format("Warning: {} for {} are few: one wrong reading bends them, and nothing shows it; at least 200 points "
                                      "at three distances are asked for",

@@ -15,12 +15,13 @@ void add_cars(const ComparedDrive& drive, Sections& sections) {
         const SeriesFindings& series = *played->series;
         const std::string name = drive.name + "-" + played->lamp_set;
         if (!std::exchange(introduced, true))
-            sections.push_back({"Cars of a series",
-                                {std::string("What cars read whose lamps, height and load differ by the drive’s tolerances. Each counts "
-                                             "from the car as designed, whose figures are those of this page.") +
-                                     (series.rendered ? "" : " Calculated from the candela tables, without shadows."),
-                                 tolerances_table(series, drive.name + "-tolerances")},
-                                3});
+            sections.push_back(
+                {"Cars of a series",
+                 {std::string("Readings of cars whose lamps, height and load differ by the drive’s tolerances. Each car counts "
+                              "from the car as designed, whose figures are those of this page.") +
+                      (series.rendered ? "" : " Calculated from the candela tables, without shadows."),
+                  tolerances_table(series, drive.name + "-tolerances")},
+                 3});
         Section& section = sections.emplace_back(Section{played->lamp_set, {}, 4});
         if (!series.within.empty())
             section.blocks.emplace_back(within_table(series, name + "-within"));

@@ -131,6 +131,10 @@ PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& 
                 return !Interruption::requested();
             }));
         std::ranges::move(readings_of(*played.series), std::back_inserter(played.readings));
+        if (played.series->readings.empty())
+            played.series = nullptr; // interrupted
+        if (!stage.drive.vehicle && tolerance_of(*stage.drive.seeing.tolerances, ToleranceKind::load).counts())
+            played.notes.push_back("tolerances: load_kg is left out: nobody knows the springs of a car without `vehicle:`");
     }
     Readings judged = played.readings;
     std::ranges::copy(times(played), std::back_inserter(judged)); // a limit may be set on them; rows of the report they are not

@@ -56,15 +56,52 @@ Cell limited_cell(const Limit& limit) {
     return key ? Cell(reading_label(*key)).hinted(limit.reading) : Cell("every limit");
 }
 
-Table car_shares_table(const StudyResult& result, const SeriesFindings& first) {
-    Table table = table_by_lamp(result, "cars-within",
-                                "Share of cars within each limit, %, with the interval that holds with 95 % confidence", "reading`|limit<");
-    for (std::size_t i = 0; i < first.within.size(); ++i)
-        add_place_rows(result, table, {limited_cell(first.within[i].limit), limit_words(first.within[i].limit)},
-                       [&](const SeriesFindings& series) {
-                           return i < series.within.size() ? std::optional(within_cell(series.within[i])) : std::nullopt;
-                       });
+/// Drives may have limits of their own: each once.
+Table car_shares_table(const StudyResult& result) {
+    Table table =
+        table_by_lamp(result, "cars-within",
+                      "Share of cars within each limit, %, with what chance among the cars counted leaves open (95 %)", "reading<|limit<");
+    std::vector<Limit> limits;
+    for (const CellResult& cell : result.cells)
+        if (const SeriesFindings* const series = series_in(cell))
+            for (const CarsWithin& within : series->within)
+                if (std::ranges::find(limits, within.limit) == limits.end())
+                    limits.push_back(within.limit);
+    for (const Limit& limit : limits)
+        add_place_rows(result, table, {limited_cell(limit), limit_words(limit)}, [&](const SeriesFindings& series) {
+            const auto found = std::ranges::find(series.within, limit, &CarsWithin::limit);
+            return found == series.within.end() ? std::nullopt : std::optional(within_cell(*found));
+        });
     return table;
+}
+
+std::string texts_of(const Table& table) {
+    std::string all;
+    for (const std::vector<Cell>& row : table.rows)
+        for (const Cell& one : row)
+            all += one.text + "|";
+    return all;
+}
+
+/// One for all drives that have the same.
+void add_tolerances(const StudyResult& result, Section& section) {
+    std::vector<std::pair<Table, std::string>> known; // a table, and the drives that have it
+    for (const CellResult& cell : result.cells) {
+        const SeriesFindings* const series = series_in(cell);
+        if (!series)
+            continue;
+        Table table = tolerances_table(*series, "tolerances-" + std::to_string(known.size()));
+        const auto same = std::ranges::find_if(known, [&](const auto& one) { return texts_of(one.first) == texts_of(table); });
+        if (same == known.end())
+            known.emplace_back(std::move(table), cell.drive);
+        else if (same->second.find(cell.drive) == std::string::npos)
+            same->second += ", " + cell.drive;
+    }
+    for (auto& [table, drives] : known) {
+        if (known.size() > 1)
+            table.caption += ": " + drives;
+        section.blocks.emplace_back(std::move(table));
+    }
 }
 
 Table car_quantiles_table(const StudyResult& result) {
@@ -90,14 +127,13 @@ Table car_quantiles_table(const StudyResult& result) {
 
 Section cars_section(const StudyResult& result) {
     Section section{"Cars of a series", {}};
-    const auto first = std::ranges::find_if(result.cells, [](const CellResult& cell) { return series_in(cell) != nullptr; });
-    if (first == result.cells.end())
+    if (std::ranges::none_of(result.cells, [](const CellResult& cell) { return series_in(cell) != nullptr; }))
         return section;
     section.blocks.emplace_back(
-        "What cars read whose lamps, height and load differ by the tolerances, each counted from the car as designed.");
-    section.blocks.emplace_back(tolerances_table(*first->series, "tolerances"));
-    if (!first->series->within.empty())
-        section.blocks.emplace_back(car_shares_table(result, *first->series));
+        "Readings of cars whose lamps, height and load differ by the tolerances, each counted from the car as designed.");
+    add_tolerances(result, section);
+    if (Table shares = car_shares_table(result); !shares.rows.empty())
+        section.blocks.emplace_back(std::move(shares));
     section.blocks.emplace_back(car_quantiles_table(result));
     return section;
 }

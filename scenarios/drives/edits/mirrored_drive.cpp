@@ -25,7 +25,23 @@ void mirror(ActuatorParameters& actuator) {
     change_sign(actuator.max_rad);
 }
 
+void mirror(std::optional<Tolerance>& sideways) {
+    if (!sideways)
+        return;
+    change_sign(sideways->mean);
+    std::swap(sideways->from, sideways->to);
+    for (std::optional<double>* end : {&sideways->from, &sideways->to})
+        if (*end)
+            change_sign(**end);
+}
+
 void mirror(SeeingParameters& seeing) {
+    if (seeing.tolerances) {
+        mirror(seeing.tolerances->yaw_deg);
+        mirror(seeing.tolerances->roll_deg);
+        for (Limit& limit : seeing.tolerances->limits)
+            limit.reading = other_side(limit.reading);
+    }
     if (seeing.sensors)
         for (Sensor& sensor : seeing.sensors->points) {
             sensor.name = other_side(sensor.name);

@@ -20,6 +20,8 @@ void check_tolerance(const YamlMap& keys, const Tolerance& tolerance) {
         keys.refuse_missing(from ? "to" : "from", "both ends of an even distribution");
     if (from && (keys.find("sigma") || keys.find("mean")))
         from->refuse("from beside sigma or mean", "an even distribution from .. to, or a normal one");
+    if (keys.find("mean") && !keys.find("sigma"))
+        keys.refuse_missing("sigma", "beside mean: 0 where all cars are alike");
     if (from && *tolerance.from > *tolerance.to)
         from->refuse(fmt::format("from {} above to {}", *tolerance.from, *tolerance.to), "ends that ascend");
 }
@@ -80,8 +82,8 @@ const Fields<ToleranceParameters>& tolerances_fields() {
                   "over the rear axle since the lamps were aimed, in a drive with a vehicle; none assumed")
                 .short_for("sigma"),
             list("limits", 7, &Given::limits, 0, 100, limit_fields(), "whose share of cars within is told, each and all together"),
-            field("draws", 8, &Given::draws, range(100, 1'000'000), "cars drawn; each reading follows its slopes where these hold"),
-            field("cars", 9, &Given::cars, range(20, 10'000), "of these played in full: what slopes are held against"),
+            field("draws", 8, &Given::draws, range(100, 100'000), "cars drawn; each reading follows its slopes where these hold"),
+            field("cars", 9, &Given::cars, range(20, 2000), "of these played in full: what slopes are held against"),
             field("rendered", 10, &Given::rendered, any(), "true: reach and width of the cars in full are drawn, which takes long")
                 .written_off_default(),
             field("seed", 11, &Given::seed, range(0, 1'000'000'000), "of the draws").written_off_default(),

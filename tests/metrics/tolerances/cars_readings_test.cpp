@@ -79,6 +79,15 @@ TEST(CarsReadings, WhoseSlopesFailComeFromCarsInFull) {
     EXPECT_GT(stepped.within.at(0).high_percent, 88.5);
     EXPECT_FALSE(stepped.within.at(0).in_full_percent.measured()) << "it is of these";
 
+    Planted far{.read = [](double pitch, double) { return pitch > 0.0 ? Value::at_least(200.0) : Value(150.0 + pitch); }};
+    far.tolerances.limits = {{"reach_5lx_target_own_m", 149.9, {}}, {"reach_5lx_target_own_m", 210.0, {}}};
+    const std::vector<CarsWithin> open = far.measure().within;
+    EXPECT_EQ(open.at(0).open, 0U);
+    EXPECT_TRUE(open.at(1).share_percent.censored()) << "those that go on beyond 200 m may reach 210 m";
+    EXPECT_EQ(open.at(1).share_percent.figure(), 0.0);
+    EXPECT_GT(open.at(1).open, 60U);
+    EXPECT_GT(open.at(1).high_percent, 40.0);
+
     Planted bound{.read = [](double pitch, double) { return pitch > 0.05 ? Value::at_least(200.0) : Value(150.0 + pitch); }};
     const ReadingOfCars bounded = bound.measure().readings.at(0);
     EXPECT_FALSE(bounded.by_slopes);
@@ -117,6 +126,20 @@ TEST(CarsReadings, IntervalsOfSharesAreWilsons) {
         EXPECT_NEAR(interval.first, low, 0.01);
         EXPECT_NEAR(interval.second, high, 0.01);
     }
+}
+
+TEST(CarsReadings, CountFromDistributionsBesideTheDrivesOwnValue) {
+    // All cars 0.1 to 0.3 degrees low: 40 m a degree, by the farther end's slope of what bends at 0.2 degrees.
+    Planted low{.read = [](double pitch, double) { return Value(60.0 + 40.0 * std::max(pitch, -0.2)); }};
+    low.parts = {{ToleranceKind::pitch, "left", {.from = -0.3, .to = -0.1, .source = {}}}, low.parts[1]};
+    const ReadingOfCars bent = low.measure().readings.at(0);
+    EXPECT_FALSE(bent.by_slopes);
+    EXPECT_NEAR(bent.p05.number().value(), 52.0, 1e-9);
+    Planted shifted{.read = [](double pitch, double) { return Value(60.0 + 40.0 * pitch); }};
+    shifted.parts = {{ToleranceKind::pitch, "left", {.sigma = 0.0, .mean = -0.25, .from = {}, .to = {}, .source = {}}}, shifted.parts[1]};
+    const ReadingOfCars all_low = shifted.measure().readings.at(0);
+    EXPECT_NEAR(all_low.p05.number().value(), 50.0, 1e-9);
+    EXPECT_NEAR(all_low.p95.number().value(), 50.0, 1e-9);
 }
 
 TEST(Cars, AreDrawnFromTheirTolerances) {

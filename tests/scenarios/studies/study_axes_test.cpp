@@ -7,7 +7,6 @@
 #include "tests/shipped.h"
 #include "tests/trial.h"
 
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -193,8 +192,7 @@ TEST_F(StudyAxes, RefusesInOneSentenceWithItsAxis) {
                 HasSubstr("10200 cells (drives x lamps x techniques x conditions x points of axes), expected at most 10000"));
 }
 
-TEST_F(StudyAxes, ThousandsOfCellsAreListedAtOnce) {
-    const auto start = std::chrono::steady_clock::now();
+TEST_F(StudyAxes, ThousandsOfCellsHaveNamesOfTheirOwn) {
     const Study study = read("axes: {weather.wetness: {from: 0, to: 1, count: 25}, mount_height_m: {from: 0.5, to: 1, step: 0.01}, "
                              "yaw_deg: [-0.1, 0, 0.1]}\n");
     const std::vector<StudyCell> cells = cells_of(study);
@@ -204,8 +202,6 @@ TEST_F(StudyAxes, ThousandsOfCellsAreListedAtOnce) {
         names.insert(cell.name);
     EXPECT_EQ(names.size(), cells.size());
     EXPECT_EQ(cells.back().name, "straight_b_p3825");
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    EXPECT_LT(took.count(), 2.0) << "seconds";
 }
 
 } // namespace

@@ -35,6 +35,22 @@ TEST(MirroredDrive, TwiceIsTheDriveAsItWas) {
     EXPECT_EQ(write_drive(drive), before);
 }
 
+TEST(MirroredDrive, TolerancesAsideChangeSides) {
+    Drive drive;
+    ToleranceParameters& tolerances = drive.seeing.tolerances.emplace();
+    tolerances.yaw_deg = Tolerance{.from = -0.3, .to = 0.1, .source = {}};
+    tolerances.roll_deg = Tolerance{.sigma = 0.1, .mean = 0.05, .from = {}, .to = {}, .source = {}};
+    tolerances.pitch_deg = Tolerance{.sigma = 0.1, .mean = 0.05, .from = {}, .to = {}, .source = {}};
+    tolerances.limits = {{"reach_5lx_target_own_right_edge_m", 58.0, {}}};
+    mirror_traffic(drive, true);
+    const ToleranceParameters& turned = *drive.seeing.tolerances;
+    EXPECT_EQ(turned.yaw_deg->from, -0.1);
+    EXPECT_EQ(turned.yaw_deg->to, 0.3);
+    EXPECT_EQ(turned.roll_deg->mean, -0.05);
+    EXPECT_EQ(turned.pitch_deg->mean, 0.05);
+    EXPECT_EQ(turned.limits.front().reading, "reach_5lx_target_own_left_edge_m");
+}
+
 TEST(MirroredDrive, IsWrittenAndReadBack) {
     Drive drive = example_drive();
     mirror_traffic(drive, true);

@@ -58,7 +58,7 @@ TEST_F(SeeingKeys, TolerancesAreStatedOrAssumed) {
     EXPECT_EQ(tolerance_of(assumed, ToleranceKind::pitch).sigma, 0.1);
     EXPECT_EQ(tolerance_of(assumed, ToleranceKind::flux).sigma, 5.0);
     EXPECT_EQ(tolerance_of(assumed, ToleranceKind::height).sigma, 10.0);
-    EXPECT_FALSE(tolerance_of(assumed, ToleranceKind::load).varies());
+    EXPECT_FALSE(tolerance_of(assumed, ToleranceKind::load).counts());
     const ToleranceParameters given =
         seeing("tolerances: {pitch_deg: 0.05, yaw_deg: {from: -1, to: 0.5, source: line 3}, roll_deg: {sigma: 0}, flux_percent: {mean: -2, "
                "sigma: 3}, limits: [{reading: reach_1lx_road_own_m, at_least: 20}], draws: 500, cars: 50, rendered: true, seed: 9}")
@@ -67,7 +67,7 @@ TEST_F(SeeingKeys, TolerancesAreStatedOrAssumed) {
     EXPECT_TRUE(given.pitch_deg->source.empty());
     EXPECT_EQ(std::tie(given.yaw_deg->from, given.yaw_deg->to, given.yaw_deg->source),
               std::tuple(std::optional(-1.0), std::optional(0.5), "line 3"));
-    EXPECT_FALSE(given.roll_deg->varies());
+    EXPECT_FALSE(given.roll_deg->counts());
     EXPECT_EQ(given.flux_percent->mean, -2.0);
     EXPECT_EQ(std::tuple(given.limits.size(), given.draws, given.cars, given.rendered, given.seed), std::tuple(1U, 500, 50, true, 9));
     const Drive drive = read(minimal + "measure: {tolerances: {yaw_deg: {from: -1, to: 0.5, source: line 3}, height_mm: 4}}\n");
@@ -77,6 +77,8 @@ TEST_F(SeeingKeys, TolerancesAreStatedOrAssumed) {
     EXPECT_THAT(refused("tolerances: {yaw_deg: {from: -1, to: 1, sigma: 0.1}}"), HasSubstr("from beside sigma or mean"));
     EXPECT_THAT(refused("tolerances: {yaw_deg: {from: 1, to: -1}}"), HasSubstr("from 1 above to -1"));
     EXPECT_THAT(refused("tolerances: {pitch_deg: -0.1}"), HasSubstr("pitch_deg"));
+    EXPECT_THAT(refused("tolerances: {load_kg: {mean: 60}}"), HasSubstr("sigma"));
+    EXPECT_TRUE(seeing("tolerances: {load_kg: {mean: 60, sigma: 0}}").tolerances->load_kg->counts()) << "all cars, by as much";
     EXPECT_THAT(refused("tolerances: {draws: 100, cars: 200}"), HasSubstr("200 cars in full of 100 drawn"));
     EXPECT_THAT(refused("tolerances: {limits: [{reading: a, at_least: 1}, {reading: a, at_most: 2}]}"), HasSubstr("second limit on a"));
 }
