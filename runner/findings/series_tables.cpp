@@ -3,6 +3,7 @@
 #include "runner/findings/series.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace fernlicht {
@@ -14,9 +15,9 @@ std::string distribution_words(const CarPart& part) {
     const Tolerance& t = part.tolerance;
     const std::string unit = degrees_or(unit_of(part.kind));
     if (t.from)
-        return fmt::format("evenly from {:g} to {:g}{}", *t.from, *t.to, unit);
+        return fmt::format("evenly from {} to {}{}", four_digits(*t.from), four_digits(*t.to), unit);
     return fmt::format("normal, standard deviation {:g}{}{}", t.sigma, unit,
-                       t.mean != 0.0 ? fmt::format(", mean {:g}{}", t.mean, unit) : std::string());
+                       t.mean != 0.0 ? fmt::format(", mean {}{}", four_digits(t.mean), unit) : std::string());
 }
 
 Cell cars_value_cell(const Value& value) {
@@ -65,7 +66,12 @@ Cell share_cell(const Value& share, double low_percent, double high_percent) {
 Cell within_cell(const CarsWithin& within) { return share_cell(within.share_percent, within.low_percent, within.high_percent); }
 
 Cell cars_cell(const ReadingOfCars& of) {
-    return fmt::format("{} ({} … {})", cars_value_cell(of.as_designed).text, cars_value_cell(of.p05).text, cars_value_cell(of.p95).text);
+    const double size = std::abs(of.as_designed.figure().value_or(0.0));
+    const int decimals = size > 0.0 ? std::clamp(3 - static_cast<int>(std::floor(std::log10(size))), 0, 6) : 2; // four digits of it
+    const auto text = [&](const Value& value) {
+        return value.measured() ? with_bound(value, figure(*value.figure(), decimals)) : std::string("not measured");
+    };
+    return {fmt::format("{} ({} … {})", text(of.as_designed), text(of.p05), text(of.p95)), of.as_designed.figure().value_or(0.0)};
 }
 
 Table tolerances_table(const SeriesFindings& series, const std::string& name) {

@@ -319,7 +319,7 @@ class CandumpParser : private CandumpCursor {
             if (i > 0) {
                 const bool swap = peek() == '`';
                 if ((peek() != ' ' && !swap) || (i > 1 && swap != style_.swapped))
-                    refuse(at_, fmt::format("{} bytes, parted by blanks or all by '`'", length));
+                    refuse(at_, fmt::format("{} bytes, separated by blanks or all by '`'", length));
                 style_.swapped = swap;
                 ++at_;
             }

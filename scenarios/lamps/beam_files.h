@@ -21,7 +21,7 @@ bool looks_like_beam_matrix(std::string_view text);
 ///     -1, 3.5, 20, 4             vertical angle, then one cell per horizontal angle
 ///
 /// Also `# name:`, `# flux_lm:` (declared), `# gaps_deg:` (as our writer puts it) and `# label KEY: text`. Lines that begin with # and are
-/// none of these are comments; `# word:` with an unknown word is refused. Cells are parted by ; (then 1,5 is a number), tab, comma or
+/// none of these are comments; `# word:` with an unknown word is refused. Cells are separated by ; (then 1,5 is a number), tab, comma or
 /// blanks.
 ///
 /// Facing the lamp, I = E d^2. On a wall square to the axis at distance d, theta off it, I = E (d / cos theta)^2 / cos theta.

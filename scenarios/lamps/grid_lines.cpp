@@ -111,7 +111,7 @@ double GridLines::number_of(const HeaderNumber& number, const char* name) const 
 }
 
 std::string GridLines::doubt() const {
-    return recipe_.delimiter == CellDelimiter::comma && !saw_point_ ? "; numbers with decimal commas cannot be parted by commas" : "";
+    return recipe_.delimiter == CellDelimiter::comma && !saw_point_ ? "; numbers with decimal commas cannot be separated by commas" : "";
 }
 
 std::string_view GridLines::delimiter_name() const { return delimiter_text(recipe_.delimiter); }

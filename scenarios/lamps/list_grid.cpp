@@ -21,14 +21,14 @@ std::size_t column_of(const std::string& column, const std::vector<std::string_v
         const auto found = std::ranges::find(heading, column);
         if (found == heading.end())
             throw InputError(in.where(), fmt::format("no column is called '{}'", printable(column)),
-                             fmt::format("names of columns, parted by {}, with those of the recipe among them", in.delimiter_name()));
+                             fmt::format("names of columns, separated by {}, with those of the recipe among them", in.delimiter_name()));
         return static_cast<std::size_t>(found - heading.begin());
     }
     std::size_t number = 0;
     const auto [end, error] = std::from_chars(column.data(), column.data() + column.size(), number);
     if (error != std::errc{} || end != column.data() + column.size() || number < 1 || number > width)
         throw InputError(in.where(), fmt::format("found {} cells", width),
-                         fmt::format("column {}, which the recipe names, parted by {}", printable(column), in.delimiter_name()));
+                         fmt::format("column {}, which the recipe names, separated by {}", printable(column), in.delimiter_name()));
     return number - 1;
 }
 
@@ -49,7 +49,7 @@ std::vector<ListedValue> read_listed(const GridRecipe& recipe, GridLines& in) {
         }
         if (cells.size() != width)
             throw InputError(in.where(), fmt::format("found {} cells", cells.size()),
-                             fmt::format("{} parted by {}, as in the lines before{}", width, in.delimiter_name(), in.doubt()));
+                             fmt::format("{} separated by {}, as in the lines before{}", width, in.delimiter_name(), in.doubt()));
         refuse_too_many(values.size() + 1, in);
         values.push_back({in.number_of(cells, *h, "horizontal angle"), in.number_of(cells, *v, "vertical angle"),
                           in.number_of(cells, *value, "value"), static_cast<std::uint32_t>(in.number())});

@@ -70,7 +70,7 @@ class MatrixReading {
             begin(cells);
         if (cells.size() != leading_ + across_.size())
             throw InputError(in_.where(), fmt::format("found {} cells", cells.size()),
-                             fmt::format("{}{}, parted by {}{}", leading_ + across_.size(),
+                             fmt::format("{}{}, separated by {}{}", leading_ + across_.size(),
                                          leading_ > 0
                                              ? fmt::format(": one of the {} and a value for each of the {}", down_name_, across_name_)
                                              : fmt::format(": a value for each of the {}", across_name_),
@@ -99,7 +99,7 @@ class MatrixReading {
         if (!fits)
             throw InputError(
                 where, fmt::format("found {} cells, and {} in line {}", heading_.size(), cells.size(), first_line_),
-                fmt::format("{} parted by {}, then as many values in each line{}", across_name_, in_.delimiter_name(), in_.doubt()));
+                fmt::format("{} separated by {}, then as many values in each line{}", across_name_, in_.delimiter_name(), in_.doubt()));
         for (std::size_t i = corner; i < heading_.size(); ++i)
             across_.push_back(in_.number_of(heading_[i], where));
         const bool steady = std::ranges::adjacent_find(across_, std::ranges::greater_equal{}) == across_.end() ||

@@ -31,7 +31,7 @@ void refuse_semicolons(std::string_view text, const std::filesystem::path& path)
     const std::string_view first = text.substr(0, text.find('\n'));
     if (std::ranges::count(first, ';') > std::ranges::count(first, ',') || std::ranges::count(first, '\t') > std::ranges::count(first, ','))
         throw InputError({path, 1, 0, {}}, fmt::format("found '{}'", printable(std::string(trimmed(first)))),
-                         "columns parted by commas, not by semicolons or tabs, and a point before decimals");
+                         "columns separated by commas, not by semicolons or tabs, and a point before decimals");
 }
 
 class PointFile {

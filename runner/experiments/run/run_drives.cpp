@@ -130,11 +130,12 @@ PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& 
                 cars->done(static_cast<int>(done));
                 return !Interruption::requested();
             }));
-        std::ranges::move(readings_of(*played.series), std::back_inserter(played.readings));
-        if (played.series->readings.empty())
-            played.series = nullptr; // interrupted
-        if (!stage.drive.vehicle && tolerance_of(*stage.drive.seeing.tolerances, ToleranceKind::load).counts())
-            played.notes.push_back("tolerances: load_kg is left out: nobody knows the springs of a car without `vehicle:`");
+        if (!played.series->parts.empty())
+            std::ranges::move(readings_of(*played.series), std::back_inserter(played.readings));
+        if (played.series->parts.empty())
+            played.notes.emplace_back("tolerances: nothing varies from car to car: all are 0");
+        if (played.series->parts.empty() || played.series->readings.empty()) // or interrupted
+            played.series = nullptr;
     }
     Readings judged = played.readings;
     std::ranges::copy(times(played), std::back_inserter(judged)); // a limit may be set on them; rows of the report they are not
@@ -338,6 +339,11 @@ void add_warnings(const std::deque<Stage>& stages, const std::vector<Drive>& dri
         if (const int asked = ticks_to_play(stage.drive, ticks), all = tick_count(stage.drive); asked < all)
             report.warnings.push_back(fmt::format("{}: {} of {} moments were to be played (--frames), and readings are of these alone",
                                                   stage.drive.name, asked, all));
+    for (const Stage& stage : stages)
+        if (const auto& tolerances = stage.drive.seeing.tolerances;
+            tolerances && !stage.drive.vehicle && tolerance_of(*tolerances, ToleranceKind::load).counts())
+            report.warnings.push_back(stage.drive.name +
+                                      ": tolerances: load_kg is left out: nobody knows the springs of a car without vehicle:");
     for (const Stage& stage : stages)
         std::ranges::copy(bus_warnings(stage.drive), std::back_inserter(report.warnings));
     for (const Drive& drive : drives) {

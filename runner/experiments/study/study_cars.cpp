@@ -3,6 +3,7 @@
 #include "runner/findings/series.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <functional>
 
 namespace fernlicht {
@@ -129,8 +130,13 @@ Section cars_section(const StudyResult& result) {
     Section section{"Cars of a series", {}};
     if (std::ranges::none_of(result.cells, [](const CellResult& cell) { return series_in(cell) != nullptr; }))
         return section;
+    const SeriesFindings& first =
+        *series_in(*std::ranges::find_if(result.cells, [](const CellResult& cell) { return series_in(cell) != nullptr; }));
     section.blocks.emplace_back(
-        "Readings of cars whose lamps, height and load differ by the tolerances, each counted from the car as designed.");
+        fmt::format("Readings of cars whose lamps, height and load differ by the tolerances, each counted from the car "
+                    "as designed: {} drawn, {} of them in full. The reports of the cells say what told each reading "
+                    "and what moves it most.",
+                    first.draws, first.cars));
     add_tolerances(result, section);
     if (Table shares = car_shares_table(result); !shares.rows.empty())
         section.blocks.emplace_back(std::move(shares));

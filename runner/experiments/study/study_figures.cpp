@@ -94,7 +94,7 @@ struct GroupLines {
     }
     void add(std::size_t cell, const std::vector<double>& x, const std::vector<double>& y) {
         plots::Series line{
-            short_text(result.lamp_of(cell), 24), {}, plots::series_colour(result.cells[cell].cell.lamp), 1.6, "", y.size() == 1};
+            short_text(result.lamp_of(cell), 24), {}, plots::lamp_colour(result.cells[cell].cell.lamp), 1.6, "", y.size() == 1};
         for (std::size_t i = 0; i < y.size(); ++i)
             line.points.push_back({x[i], y[i]});
         xs.insert(xs.end(), x.begin(), x.end());

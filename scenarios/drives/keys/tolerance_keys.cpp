@@ -20,8 +20,8 @@ void check_tolerance(const YamlMap& keys, const Tolerance& tolerance) {
         keys.refuse_missing(from ? "to" : "from", "both ends of an even distribution");
     if (from && (keys.find("sigma") || keys.find("mean")))
         from->refuse("from beside sigma or mean", "an even distribution from .. to, or a normal one");
-    if (keys.find("mean") && !keys.find("sigma"))
-        keys.refuse_missing("sigma", "beside mean: 0 where all cars are alike");
+    if (!from && !keys.find("sigma"))
+        keys.refuse_missing("sigma", "it, 0 where all cars are alike, or from and to");
     if (from && *tolerance.from > *tolerance.to)
         from->refuse(fmt::format("from {} above to {}", *tolerance.from, *tolerance.to), "ends that ascend");
 }

@@ -207,7 +207,7 @@ TEST(CandumpLine, SaysWhatIsWrongAndWhere) {
              {"  can0  123   8  11", "expected the length, as [8], or of CAN FD [08]"},
              {"  can0  123   [9]  11", "expected a length from 0 to 8, or of CAN FD with two digits"},
              {"  can0  123  [09]  11", "expected a length of CAN FD: 00 to 08, 12"},
-             {"  can0  123   [2]  11", "found the end of the line, expected 2 bytes, parted by blanks or all by '`'"},
+             {"  can0  123   [2]  11", "found the end of the line, expected 2 bytes, separated by blanks or all by '`'"},
              {"  can0  123   [2]  11 2", "expected 2 bytes of two hexadecimal digits each"},
              {"  can0  123   [2]  11 22 33", "expected the end of the line"},
              {"  can0  123   [2]  11 22                     'ab'", "expected the bytes' text"},

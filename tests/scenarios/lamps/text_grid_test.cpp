@@ -251,7 +251,8 @@ TEST_F(TextGrid, WhatIsNotAsTheRecipeSaysIsRefused) {
     const struct {
         std::string keys, text, said;
     } cases[] = {
-        {csv, ",0,1\n0,1\n", "lamp.txt:1: horizontal angles: found 3 cells, and 2 in line 2, expected horizontal angles parted by commas"},
+        {csv, ",0,1\n0,1\n",
+         "lamp.txt:1: horizontal angles: found 3 cells, and 2 in line 2, expected horizontal angles separated by commas"},
         {csv, ",0,1\n0,1,2\n1,3\n",
          "lamp.txt:3: found 2 cells, expected 3: one of the vertical angles and a value for each of the horizontal"},
         {csv, ",0,1\n0,1.5,2\n1,3,4,5\n", "lamp.txt:3: found 4 cells, expected 3"},
@@ -271,18 +272,18 @@ TEST_F(TextGrid, WhatIsNotAsTheRecipeSaysIsRefused) {
         {csv, "\n\n", "the grid ends after 0 lines of values, expected a line of horizontal angles"},
         {csv, ",0,1\n", "lamp.txt:1: the grid ends after 0 lines of values, expected lines of values"},
         {csv, "V;0;1\n0;1;2\n1;3;4\n",
-         "lamp.txt:1: horizontal angles: found 1 cells, and 1 in line 2, expected horizontal angles parted by commas"},
+         "lamp.txt:1: horizontal angles: found 1 cells, and 1 in line 2, expected horizontal angles separated by commas"},
         // decimal signs
-        {csv, ",-1,5,0,0,1,5\n-1,0,7,5,8,0\n1,5,2,5,3,5\n", "numbers with decimal commas cannot be parted by commas"},
+        {csv, ",-1,5,0,0,1,5\n-1,0,7,5,8,0\n1,5,2,5,3,5\n", "numbers with decimal commas cannot be separated by commas"},
         {csv, ",-10,0,0,0,10,0\n-1,3,5,20,1,4,0\n1,3,5,21,1,4,0\n",
          "lamp.txt:1: horizontal angles: the angles neither rise nor fall, expected angles in order; numbers with decimal commas cannot "
          "be"},
         {csv, ",0,1\n0,1,2\n1,3,5,4\n",
          "lamp.txt:3: found 4 cells, expected 3: one of the vertical angles and a value for each of the "
-         "horizontal angles, parted by commas; numbers with decimal commas cannot be parted by commas"},
+         "horizontal angles, separated by commas; numbers with decimal commas cannot be separated by commas"},
         {list, "0,5,1,5,100,0\n0,5,2,5,110,0\n", "is given twice with different values, expected each direction once; first in line"},
         {list, "0,5,1,100\n0,2,100\n",
-         "lamp.txt:2: found 3 cells, expected 4 parted by commas, as in the lines before; numbers with decimal"},
+         "lamp.txt:2: found 3 cells, expected 4 separated by commas, as in the lines before; numbers with decimal"},
         {semicolon, "V;0;1\n0;1;2\n1;3,5;4\n",
          "lamp.txt:3: value in column 2: found '3,5', expected a number with a decimal point, as the recipe"},
         {german, "V;0;1\n0;1;2\n1;3.5;4\n",
@@ -291,7 +292,7 @@ TEST_F(TextGrid, WhatIsNotAsTheRecipeSaysIsRefused) {
         // lists
         {list, "0,0,1\n0,1,2\n1,0,3\n", "lamp.txt:3: 1 of 4 directions are missing, the first of them 1, 1, expected a grid"},
         {list, "0,0,1\n0,1,2\n1,0,3\n1,1,4\n0,0,1.5\n", "lamp.txt:5: the direction 0, 0 is given twice with different values"},
-        {list, "0,0\n0,1\n", "lamp.txt:1: found 2 cells, expected column 3, which the recipe names, parted by commas"},
+        {list, "0,0\n0,1\n", "lamp.txt:1: found 2 cells, expected column 3, which the recipe names, separated by commas"},
         {list + "columns: {h: H, v: V, value: I}", "H,V,E\n0,0,1\n", "no column is called 'I'"},
         {list, "", "lamp.txt"},
         {list, "# nothing\n", "column 2, which the recipe names"},

@@ -180,7 +180,7 @@ TEST(FitCommand, NamesSemicolonsBetweenColumns) {
                     HasSubstr("points.csv:1: found 'name"))
             << text;
     EXPECT_THAT(printed("fit " + straight + " --points " + tests::written("points.csv", "name;ahead_m\nA;1,5\n").string(), 2),
-                HasSubstr("expected columns parted by commas, not by semicolons or tabs, and a point before decimals"));
+                HasSubstr("expected columns separated by commas, not by semicolons or tabs, and a point before decimals"));
 }
 
 TEST(FitCommand, RefusesWrongFilesByLineAndColumn) {
@@ -194,7 +194,7 @@ TEST(FitCommand, RefusesWrongFilesByLineAndColumn) {
     EXPECT_THAT(refused("ahead_m,left_m,above_m,facing,lux\n1,1,1,car,1\n"),
                 HasSubstr("neither 'uncertainty_percent' nor 'uncertainty_lx'"));
     EXPECT_THAT(refused("ahead_m,left_m,above_m,lux,uncertainty_lx\n1,1,1,1,1\n"), HasSubstr("where the luxmeter looked"));
-    EXPECT_THAT(refused("ahead_m;left_m;above_m;lux\n1;1;1;1\n"), HasSubstr("columns parted by commas"));
+    EXPECT_THAT(refused("ahead_m;left_m;above_m;lux\n1;1;1;1\n"), HasSubstr("columns separated by commas"));
     EXPECT_THAT(refused(heads + good + "P,25,0,0.3,car,,bright,3,0.01\n"),
                 HasSubstr("points.csv:3: lux: found 'bright', expected a number from 0 to 1e+06"));
     EXPECT_THAT(refused(heads + "P,25,0,0.3,down,,2.5,3,0.01\n"),

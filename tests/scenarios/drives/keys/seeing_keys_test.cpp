@@ -78,6 +78,7 @@ TEST_F(SeeingKeys, TolerancesAreStatedOrAssumed) {
     EXPECT_THAT(refused("tolerances: {yaw_deg: {from: 1, to: -1}}"), HasSubstr("from 1 above to -1"));
     EXPECT_THAT(refused("tolerances: {pitch_deg: -0.1}"), HasSubstr("pitch_deg"));
     EXPECT_THAT(refused("tolerances: {load_kg: {mean: 60}}"), HasSubstr("sigma"));
+    EXPECT_THAT(refused("tolerances: {flux_percent: {source: supplier}}"), HasSubstr("sigma"));
     EXPECT_TRUE(seeing("tolerances: {load_kg: {mean: 60, sigma: 0}}").tolerances->load_kg->counts()) << "all cars, by as much";
     EXPECT_THAT(refused("tolerances: {draws: 100, cars: 200}"), HasSubstr("200 cars in full of 100 drawn"));
     EXPECT_THAT(refused("tolerances: {limits: [{reading: a, at_least: 1}, {reading: a, at_most: 2}]}"), HasSubstr("second limit on a"));
