@@ -239,9 +239,10 @@ std::string decision_count(const StudyResult& result, const Decision& decision) 
             parts.push_back(fmt::format("{} {}", words, count));
     if (!parts.empty())
         return fmt::format("{} is {} of {}", pair.tested, fmt::join(parts, ", "), counted(decision.readings.size(), "deciding reading"));
-    return decision.count(DecisionOutcome::within_aim) > 0  ? fmt::format("{} is within 0.1° of aim of {}", pair.tested, pair.against)
-           : decision.count(DecisionOutcome::undecided) > 0 ? fmt::format("{} and {}: undecided", pair.tested, pair.against)
-                                                            : fmt::format("{} and {} do not differ", pair.tested, pair.against);
+    return decision.count(DecisionOutcome::within_aim) > 0 ? fmt::format("{} is within 0.1° of aim of {}", pair.tested, pair.against)
+           : decision.count(DecisionOutcome::undecided) > 0
+               ? fmt::format("{} and {}: undecided", pair.tested, pair.against)
+               : fmt::format("{} and {} differ in no deciding reading", pair.tested, pair.against);
 }
 
 std::string decision_heading(const StudyResult& result, const std::vector<Decision>& decisions) {
