@@ -90,6 +90,10 @@ TEST_F(StudyAxes, SobolsPointsAreThePublishedOnes) {
                 ElementsAre(ElementsAre(0, 0, 0), ElementsAre(0.5, 0.5, 0.5), ElementsAre(0.75, 0.25, 0.25), ElementsAre(0.25, 0.75, 0.75),
                             ElementsAre(0.375, 0.375, 0.625), ElementsAre(0.875, 0.875, 0.125), ElementsAre(0.625, 0.125, 0.875),
                             ElementsAre(0.125, 0.625, 0.375), ElementsAre(0.1875, 0.3125, 0.9375), ElementsAre(0.6875, 0.8125, 0.4375)));
+    // Point 63 of SciPy's qmc.Sobol(16, scramble=False).
+    EXPECT_THAT(sobol_points(64, max_sobol_dimensions).back(),
+                ElementsAre(0.015625, 0.796875, 0.359375, 0.453125, 0.859375, 0.140625, 0.578125, 0.140625, 0.828125, 0.578125, 0.421875,
+                            0.671875, 0.546875, 0.765625, 0.328125, 0.765625));
     EXPECT_THROW(sobol_points(1, 0), std::invalid_argument);
     EXPECT_THROW(sobol_points(1, max_sobol_dimensions + 1), std::invalid_argument);
 }
