@@ -321,8 +321,7 @@ Readings readings_of(const SeriesFindings& found) {
         if (within.limit.at_most)
             where += fmt::format(", at most {}", *within.limit.at_most);
         if (within.share_percent.measured())
-            where +=
-                fmt::format("; {:.1f} to {:.1f} % with 95 % confidence, by {} cars", within.low_percent, within.high_percent, within.of);
+            where += fmt::format("; {:.1f} to {:.1f} % by chance among {} cars (95 %)", within.low_percent, within.high_percent, within.of);
         if (within.in_full_percent.number())
             where += fmt::format("; {:.1f} % of {} in full ({:.1f} to {:.1f} %)", *within.in_full_percent.number(), found.cars,
                                  within.in_full_low_percent, within.in_full_high_percent);

@@ -31,7 +31,7 @@ Fields<Tolerance> tolerance_fields(double most) {
     return Fields<Tolerance>{
         field("sigma", 1, &Tolerance::sigma, range(0.0, most),
               "standard deviation of a normal distribution; 0: all are as the drive has it")
-            .written_off_default(),
+            .text_by([](const Tolerance& of) { return of.from ? std::string() : fmt::format("{}", of.sigma); }),
         field("mean", 2, &Tolerance::mean, range(-most, most), "its mean, from what the drive has").written_off_default(),
         field("from", 3, &Tolerance::from, range(-most, most), "an even distribution instead: between this,"),
         field("to", 4, &Tolerance::to, range(-most, most), "and this"),

@@ -70,7 +70,8 @@ TEST_F(SeeingKeys, TolerancesAreStatedOrAssumed) {
     EXPECT_FALSE(given.roll_deg->counts());
     EXPECT_EQ(given.flux_percent->mean, -2.0);
     EXPECT_EQ(std::tuple(given.limits.size(), given.draws, given.cars, given.rendered, given.seed), std::tuple(1U, 500, 50, true, 9));
-    const Drive drive = read(minimal + "measure: {tolerances: {yaw_deg: {from: -1, to: 0.5, source: line 3}, height_mm: 4}}\n");
+    const Drive drive = read(minimal + "measure: {tolerances: {yaw_deg: {from: -1, to: 0.5, source: line 3}, height_mm: 4, roll_deg: 0, "
+                                       "load_kg: {mean: 60, sigma: 0}}}\n");
     EXPECT_EQ(read(write_drive(drive)).seeing, drive.seeing);
 
     EXPECT_THAT(refused("tolerances: {yaw_deg: {from: -1}}"), HasSubstr("yaw_deg"));
