@@ -71,7 +71,8 @@ TEST_F(DriveEditsTest, AnAimStandsInPlaceOfTheDrives) {
     for (const BeamAim aim : {BeamAim::automatic, BeamAim::as_is}) {
         DriveEdits edits;
         edits.aim = aim;
-        for (const MountedLamp& lamp : read(turned, edits).lamp_sets.at(0).lamps) {
+        const Drive drive = read(turned, edits);
+        for (const MountedLamp& lamp : drive.lamp_sets.at(0).lamps) {
             const bool fog = lamp.name == "fog-left";
             EXPECT_EQ(lamp.aim_rule, fog ? BeamAim::as_is : aim) << lamp.name;
             EXPECT_EQ(lamp.pitch_rad != 0.0, fog) << lamp.name;
