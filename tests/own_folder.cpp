@@ -19,6 +19,7 @@ class OwnFolder {
             std::abort();
         ::setenv("TMPDIR", path_.c_str(), 1);
         ::setenv("TEST_TMPDIR", path_.c_str(), 1);
+        ::setenv("XDG_CACHE_HOME", path_.c_str(), 1); // the store of cells
     }
     ~OwnFolder() {
         std::error_code ignored;

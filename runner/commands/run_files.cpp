@@ -25,4 +25,12 @@ void write_report(const Report& report, const std::filesystem::path& folder, con
     write_file(folder / "report.html", report_html(report, folder));
 }
 
+void write_judgement(const Report& report, const std::filesystem::path& folder) {
+    const std::filesystem::path page = folder / "report.html", json = folder / "report.json";
+    FilesRead kept;
+    write_file(folder / "junit.xml", report_junit(report));
+    write_file(page, rejudged_page_html(report, verdict_page(report), read_file(page, kept), page));
+    write_file(json, rejudged_json(read_file(json, kept), report));
+}
+
 } // namespace fernlicht

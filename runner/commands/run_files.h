@@ -13,4 +13,8 @@ std::string report_html(const Report& report, const std::filesystem::path& folde
 /// `folder` (frames are there already). Each file atomically.
 void write_report(const Report& report, const std::filesystem::path& folder, const OutputFormat* tables = nullptr);
 
+/// Results that were kept, judged anew: verdicts, warnings of them, title, command and inputs of report.json, junit.xml and report.html in
+/// `folder` become those of `report`, which was read from it. Throws InputError where it was not.
+void write_judgement(const Report& report, const std::filesystem::path& folder);
+
 } // namespace fernlicht

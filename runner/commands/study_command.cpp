@@ -5,12 +5,14 @@
 #include "runner/commands/run_files.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/experiments/study/study_run.h"
+#include "runner/findings/run_context.h"
 #include "runner/write/document.h"
 #include "runner/write/report_texts.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 
 namespace fernlicht {
@@ -23,6 +25,11 @@ struct StudyFlags {
     std::vector<std::string> only;
     JudgingFlags judging;
     bool strict = false, resume = false, quiet = false, no_accuracy = false, list = false;
+    std::string store;
+    int jobs = 0, per = 1;
+    double cell_minutes = 60.0;
+    std::uint64_t cell_memory_mib = CellLimits{}.memory_mib;
+    bool timed = false, explain = false, plan = false, play = false, collect = false;
 };
 
 int list_cells(const std::vector<StudyCell>& cells) {
@@ -45,7 +52,53 @@ void write_study(const StudyResult& result, const std::filesystem::path& folder)
     write_document(document(result, papers), result, folder, "report");
 }
 
+/// Why each cell that the store lacks must be played.
+int explain_cells(const Study& study, const StudyOptions& options) {
+    const StudyPlan plan = plan_study(study, options);
+    const auto reasons = reasons_to_play(study, plan, CellStore(options.store));
+    for (const auto& [cell, why] : reasons)
+        fmt::print("{:<40} {}\n", cell, fmt::join(why, "; "));
+    fmt::print("{} of {} cells would be played; store {}\n", reasons.size(), plan.cells.size(), options.store.string());
+    return 0;
+}
+
+/// A line of JSON for each command that plays some of the cells that the store lacks.
+int print_plan(const Study& study, const StudyOptions& options, std::size_t per) {
+    const StudyPlan plan = plan_study(study, options);
+    const CellStore store(options.store);
+    std::vector<std::string> cells, keys;
+    const auto print = [&] {
+        if (cells.empty())
+            return;
+        const std::vector<std::string> words = playing_command(study, options, cells);
+        fmt::print("{}\n",
+                   nlohmann::ordered_json{{"cells", cells}, {"keys", keys}, {"words", words}, {"command", shell_quoted(words)}}.dump());
+        cells.clear();
+        keys.clear();
+    };
+    for (const PlannedCell& one : plan.cells) {
+        if (one.moments == 0 || store.find(one.key))
+            continue;
+        cells.push_back(one.cell.name);
+        keys.push_back(one.key);
+        if (cells.size() == per)
+            print();
+    }
+    print();
+    return 0;
+}
+
+void refuse_contradictions(const StudyFlags& flags) {
+    const int ways = flags.explain + flags.plan + flags.play + flags.collect + flags.list;
+    if (ways > 1)
+        throw InputError({{}, 0, 0, "study"}, "found several of --list, --explain, --plan, --play and --collect", "one of them");
+    if (flags.timed && (ways > 0 || flags.jobs > 1))
+        throw InputError({{}, 0, 0, "--timed"}, "found beside what plays several cells at a time or none",
+                         "--timed by itself: cells are played one after another");
+}
+
 int study(const StudyFlags& flags, const std::vector<std::string>& command) {
+    refuse_contradictions(flags);
     const Study study = read_study(flags.file);
     if (flags.list) {
         refuse_unaimable(study);
@@ -55,6 +108,10 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
         throw InputError({{}, 0, 0, "--resume"}, "found no --out beside it", "the folder to go on in");
     StudyOptions options;
     options.folder = result_folder(flags.out, study.name);
+    options.store = flags.store.empty() && !flags.timed ? default_store() : std::filesystem::path(flags.store);
+    options.timed = flags.timed;
+    options.jobs = flags.jobs;
+    options.limits = {60.0 * flags.cell_minutes, flags.cell_memory_mib};
     options.only = items_of("--only", flags.only);
     options.strict = flags.strict;
     options.resume = flags.resume;
@@ -66,7 +123,14 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     options.run.command = command;
     options.run.write = [](const Report& report, const std::filesystem::path& cell) { write_report(report, cell); };
     options.write = [&](const StudyResult& result) { write_study(result, options.folder); };
-    const StudyResult result = run_study(study, options);
+    options.judge_cell = [](const Report& report, const std::filesystem::path& cell) { write_judgement(report, cell); };
+    if (flags.explain)
+        return explain_cells(study, options);
+    if (flags.plan)
+        return print_plan(study, options, static_cast<std::size_t>(flags.per));
+    if (flags.play)
+        return play_into_store(study, options) ? 0 : 1;
+    const StudyResult result = flags.collect ? collect_study(study, options) : run_study(study, options);
     fmt::print("{}{}\n", document_text(study_summary(result)), (options.folder / "report.html").string());
     return overall(result) == VerdictKind::pass ? 0 : 1;
 }
@@ -87,6 +151,16 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_flag("--no-accuracy", flags->no_accuracy, "do not compare moments of each cell with the reference");
     sub->add_option("--only", flags->only, "comma-separated names of cells, * and ? allowed: 'straight*,*xenon'")->allow_extra_args(false);
     sub->add_flag("--list", flags->list, "list the cells and play none");
+    sub->add_option("--store", flags->store, "folder where played cells are kept (default: $XDG_CACHE_HOME/fernlicht/store)");
+    sub->add_option("--jobs", flags->jobs, "cells to play at a time (default: one for each core that draws)")->check(CLI::Range(1, 1024));
+    sub->add_flag("--timed", flags->timed, "play cells one after another by themselves and take times; take none from the store");
+    sub->add_option("--cell-minutes", flags->cell_minutes, "stop a cell that takes longer (default: 60)")->check(CLI::Range(0.01, 1e5));
+    sub->add_option("--cell-memory-mib", flags->cell_memory_mib, "memory that a cell may take; 0: no limit (default: 4096)");
+    sub->add_flag("--explain", flags->explain, "say why each cell must be played that the store lacks, and play none");
+    sub->add_flag("--plan", flags->plan, "print a command for each cell that the store lacks, a line of JSON each, and play none");
+    sub->add_option("--per", flags->per, "with --plan: cells for each command (default: 1)")->check(CLI::Range(1, 100'000));
+    sub->add_flag("--play", flags->play, "play into the store what it lacks, in this process, and write no report");
+    sub->add_flag("--collect", flags->collect, "write the report of what lies in the store, and play none");
     sub->add_flag("--quiet", flags->quiet, "show no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return study(*flags, command); }; });
 }

@@ -3,8 +3,11 @@
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <system_error>
 #include <unistd.h>
@@ -30,8 +33,18 @@ void sync(const std::filesystem::path& path) {
 } // namespace
 
 void write_durably(const std::filesystem::path& path, const std::string& content) {
-    write_file(path, content);
-    sync(path);
+    static std::atomic<unsigned> written{0};
+    std::array<char, 64> host{};
+    ::gethostname(host.data(), host.size() - 1);
+    const std::filesystem::path part = path.string() + fmt::format(".part-{}-{}-{}", host.data(), ::getpid(), ++written);
+    write_file(part, content);
+    try {
+        sync(part);
+        rename_durably(part, path);
+    } catch (const DeviceError&) {
+        ::unlink(part.c_str());
+        throw;
+    }
 }
 
 void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to) {

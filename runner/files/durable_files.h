@@ -6,7 +6,9 @@
 
 namespace fernlicht {
 
-/// Writes a new file and waits until it is on the disk. Throws DeviceError with the path and the reason.
+/// Writes beside the file, waits until it is on the disk, then names it, and waits for that: after a power cut there is the file from
+/// before or the new one, whole. Any number of processes, on any machines, may do so at once. Throws DeviceError with the path and the
+/// reason.
 void write_durably(const std::filesystem::path& path, const std::string& content);
 
 /// Renames within one file system, over a file that may be there, and waits until the folder is on the disk. Throws DeviceError.

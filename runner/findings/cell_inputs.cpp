@@ -36,6 +36,11 @@ std::string phrase_of_change(InputKind kind, const std::string& name, const std:
 
 const char* input_kind_name(InputKind kind) { return input_kind_names[static_cast<std::size_t>(kind)]; }
 
+JsonMembers cell_input_members(CellInput& input) {
+    const auto names = [] { return std::vector<std::string>(input_kind_names.begin(), input_kind_names.end()); };
+    return {{"kind", one_of(input.kind, names)}, {"name", input.name}, {"hash", input.hash}};
+}
+
 std::vector<std::string> input_changes(const CellInputs& before, const CellInputs& now) {
     const InputsByName old_inputs = by_kind_and_name(before), new_inputs = by_kind_and_name(now);
     std::vector<std::string> phrases;

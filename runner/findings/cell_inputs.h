@@ -1,6 +1,8 @@
 // What decides the figures of a cell, each with the hash of its content: why it was played, and what changed between two nights.
 #pragma once
 
+#include "runner/files/described_json.h"
+
 #include <compare>
 #include <string>
 #include <vector>
@@ -20,6 +22,8 @@ using CellInputs = std::vector<CellInput>;
 
 /// "drive", "road", ...
 const char* input_kind_name(InputKind kind);
+
+JsonMembers cell_input_members(CellInput& input);
 
 /// What differs, one phrase each: "lamp low-beam.ies changed", "program changed: renderer", "device changed: renderer llvmpipe
 /// (LLVM 15.0.6, 256 bits) -> llvmpipe (LLVM 19.1.7, 256 bits)", "lamp high-beam.ies is new". Empty where nothing does.

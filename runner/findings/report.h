@@ -178,6 +178,7 @@ struct PlayedCell {
     BusReport bus;                                    ///< signals from and to a bus; empty without
     std::string no_road_lx, no_target_lx;             ///< why there are no rendered extents of that plane; "" where there are
     std::vector<PassTime> passes;                     ///< raw samples of frames drawn alone, warm-up dropped: "frame", "shadow", ...
+    std::string no_times;                             ///< why there are no times; "" where there are
     Throughput throughput;
     int warm_up_dropped = 0;
     PruningSavings savings;

@@ -1,6 +1,7 @@
 #include "runner/judge/baseline_store.h"
 
 #include "runner/files/durable_files.h"
+#include "runner/files/object_store.h"
 #include "runner/judge/baseline_json.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -21,36 +22,6 @@ using Json = nlohmann::ordered_json;
 constexpr const char* index_schema = "fernlicht baselines";
 constexpr int index_version = 2;
 constexpr std::size_t max_object_bytes = std::size_t{1} << 30;
-
-bool is_whole(const fs::path& object, const std::string& hash) {
-    try {
-        FilesRead opened;
-        read_file(object, opened, max_object_bytes);
-        return opened.front().xxh128 == hash;
-    } catch (const InputError&) {
-        return false;
-    }
-}
-
-/// Writes an object beside the others; nothing refers to it yet. One that is there and whole stays as it is.
-std::string write_object(const fs::path& store, const std::string& content) {
-    const std::string hash = content_hash(content.data(), content.size());
-    const fs::path path = object_path(store, hash);
-    if (!is_whole(path, hash)) {
-        make_folder(path.parent_path());
-        write_durably(path, content);
-        sync_folder(path.parent_path());
-    }
-    return hash;
-}
-
-void check_object(const fs::path& path, const std::string& hash, const std::string& what) {
-    FilesRead opened;
-    read_file(path, opened, max_object_bytes);
-    if (opened.front().xxh128 != hash)
-        throw InputError({path, 0, 0, {}}, fmt::format("is not the {} that was accepted: its hash is {}", what, opened.front().xxh128),
-                         hash);
-}
 
 /// A version 1 store knew neither inputs nor producers, so nothing of it can be put under today's keys.
 void check_version(const CheckedJson& index, const fs::path& store) {
@@ -94,7 +65,7 @@ std::set<std::string> needed(const fs::path& store, const std::vector<StoredBase
     std::set<std::string> hashes;
     for (const StoredBaseline& entry : entries) {
         hashes.insert(entry.id);
-        check_object(object_path(store, entry.id), entry.id, "result");
+        get_object(store, entry.id, "result that was accepted");
         for (const BaselineFrame& frame : read_baseline_object(object_path(store, entry.id)).frames)
             hashes.insert(frame.xxh128);
     }
@@ -138,10 +109,10 @@ StoredBaseline name_baseline(Baseline& baseline) {
 void write_baseline(const fs::path& store, const Baseline& baseline) {
     for (const BaselineFrame& frame : baseline.frames) {
         FilesRead opened;
-        if (write_object(store, read_file(frame.exr, opened, max_object_bytes)) != frame.xxh128)
+        if (put_object(store, read_file(frame.exr, opened, max_object_bytes)) != frame.xxh128)
             throw InputError({frame.exr, 0, 0, {}}, "changed while it was read", "a run that has ended");
     }
-    write_object(store, baseline_object(baseline));
+    put_object(store, baseline_object(baseline));
 }
 
 /// Whether an entry holds the very results; one that is damaged does not.
@@ -196,8 +167,6 @@ JsonMembers stored_members(StoredBaseline& entry) {
     return {{"id", hash_part(entry.id)}, {"key", entry.key, key_members}, {"note", entry.note}, {"played_utc", entry.played_utc}};
 }
 
-fs::path object_path(const fs::path& store, const std::string& hash) { return store / "objects" / hash.substr(0, 2) / hash.substr(2); }
-
 std::string short_id(const std::string& id) { return id.substr(0, 12); }
 
 std::vector<StoredBaseline> list_baselines(const fs::path& store) {
@@ -210,11 +179,11 @@ std::vector<StoredBaseline> list_baselines(const fs::path& store) {
 }
 
 Baseline load_baseline(const fs::path& store, const StoredBaseline& entry) {
-    check_object(object_path(store, entry.id), entry.id, "result");
+    get_object(store, entry.id, "result that was accepted");
     Baseline baseline = read_baseline_object(object_path(store, entry.id));
     for (BaselineFrame& frame : baseline.frames) {
         frame.exr = object_path(store, frame.xxh128);
-        check_object(frame.exr, frame.xxh128, "frame");
+        get_object(store, frame.xxh128, "frame that was accepted");
     }
     return baseline;
 }

@@ -17,9 +17,6 @@ struct StoredBaseline {
 /// How an id is shown: its first 12 digits.
 std::string short_id(const std::string& id);
 
-/// Where a store has the bytes of this hash.
-std::filesystem::path object_path(const std::filesystem::path& store, const std::string& hash);
-
 /// All that is accepted, ordered by key and id; empty where there is no store. Throws InputError for a damaged index, or one that another
 /// version wrote, with what to do.
 std::vector<StoredBaseline> list_baselines(const std::filesystem::path& store);

@@ -1,6 +1,7 @@
 #include "runner/judge/old_baselines.h"
 
 #include "runner/files/durable_files.h"
+#include "runner/files/object_store.h"
 #include "runner/judge/baseline_json.h"
 #include "runner/judge/input_hashes.h"
 #include "scenarios/drives/play/advance.h"

@@ -25,6 +25,8 @@ bool FrameTimes::begin_moment(const std::string& kind) {
     moment_s_ = 0.0;
     alone_ = false;
     kind_ = nullptr;
+    if (!no_times_.empty())
+        return false;
     if (moment_ < warm_up_)
         return always_alone_;
     if (moment_ == warm_up_)
@@ -59,6 +61,10 @@ void FrameTimes::end_moment() {
 }
 
 void FrameTimes::finish(PlayedCell& played) const {
+    if (played.no_times = no_times_; !no_times_.empty()) {
+        played.throughput.peak_memory_mib = peak_memory_mib();
+        return;
+    }
     played.passes = passes_;
     played.warm_up_dropped = std::min(warm_up_, moment_ + 1);
     Throughput& result = played.throughput;

@@ -13,7 +13,9 @@ namespace fernlicht {
 class FrameTimes {
   public:
     /// Kinds of moment ("frame", "frame, stored") draw different things. `always_alone`: every moment is drawn with nothing beside it.
-    FrameTimes(int warm_up, bool always_alone) : warm_up_(warm_up), always_alone_(always_alone) {}
+    /// `no_times`: why none are taken; then nothing is drawn alone.
+    FrameTimes(int warm_up, bool always_alone, std::string no_times = "")
+        : warm_up_(warm_up), always_alone_(always_alone), no_times_(std::move(no_times)) {}
 
     /// Before each moment: whether it is to be drawn alone.
     bool begin_moment(const std::string& kind);
@@ -38,6 +40,7 @@ class FrameTimes {
 
     int warm_up_;
     bool always_alone_;
+    std::string no_times_;
     int moment_ = -1; ///< from 0
     bool alone_ = false;
     double moment_s_ = 0.0;

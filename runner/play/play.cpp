@@ -57,7 +57,8 @@ class Pictures {
 
     void finish(bool all_played) {
         played_.maps = maps_.finish(all_played);
-        std::ranges::copy(display_.times(), std::back_inserter(played_.passes));
+        if (options_.no_times.empty())
+            std::ranges::copy(display_.times(), std::back_inserter(played_.passes));
         played_.display = display_.seen();
     }
 
@@ -165,7 +166,7 @@ PlayedCell play(const Drive& drive, const Route& route, const LampSet& lamp_set,
         played.lamps.emplace_back(lamp.name, lamp.file->name);
     played.first_tick = std::max(0, options.ticks.first);
     played.ticks_planned = ticks_to_play(drive, options.ticks);
-    FrameTimes times(options.warm_up, options.profile);
+    FrameTimes times(options.warm_up, options.profile, options.no_times);
     Pictures pictures(drive, route, options, played, writers, times);
     const Nudges nudges = usual_nudges(drive, lamp_set);
     const ExtentFold extent(drive, route, nudges);

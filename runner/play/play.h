@@ -19,9 +19,10 @@ struct TickRange {
 struct PlayOptions {
     std::ostream* log = nullptr; ///< takes the rows of every moment (drive_log.h)
     TickRange ticks;
-    std::filesystem::path folder;                                   ///< of the report; frames go below it
-    int warm_up = 3;                                                ///< moments whose times are dropped
-    bool profile = false;                                           ///< nothing goes on beside the drawing, so that every time is its own
+    std::filesystem::path folder; ///< of the report; frames go below it
+    std::string no_times;         ///< why none are taken, and nothing waits for one another to be timed; "": they are
+    int warm_up = 3;              ///< moments whose times are dropped
+    bool profile = false;         ///< nothing goes on beside the drawing, so that every time is its own
     std::function<bool(int done)> go_on = [](int) { return true; }; ///< called after each moment; false stops with what was done
 };
 

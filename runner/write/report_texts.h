@@ -23,4 +23,8 @@ std::string times_csv(const Report& report);
 /// One self-contained page. Frames are read from `folder`; one that is missing or unreadable is linked and said to be missing.
 std::string run_page_html(const Report& report, const RunPage& page, const std::filesystem::path& folder);
 
+/// The page of results that were kept, judged anew: verdict, title and what it was made with are the report's, all else is that of `kept`,
+/// which run_page_html made. Throws InputError where it did not.
+std::string rejudged_page_html(const Report& report, const RunPage& page, const std::string& kept, const std::filesystem::path& file);
+
 } // namespace fernlicht

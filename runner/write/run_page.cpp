@@ -262,21 +262,37 @@ data verdict_part(const Report& report, Section section) {
     return part;
 }
 
-} // namespace
+constexpr std::string_view found_begins = "<!-- found -->\n", found_ends = "<!-- /found -->";
 
-std::string run_page_html(const Report& report, const RunPage& run, const std::filesystem::path& folder) {
-    std::size_t budget_bytes = run_pictures_bytes;
-    data page, parts{List::list};
-    for (const RunPage::OfDrive& drive : run.drives)
-        parts.push_back(drive_part(drive, folder, budget_bytes, run.drives.size() > 1));
+std::string page_html(const Report& report, const RunPage& run, const data& drives, const data& live, const std::string& kept) {
+    data page;
     page.set("title", title_of(run));
     page.set("subtitle", subtitle_of(report));
     page.set("script", std::string(report_file("report.js")));
     page.set("verdict", verdict_part(report, run.verdict));
-    page.set("drives", parts);
-    page.set("live", sections_part(run.live));
+    page.set("drives", drives);
+    page.set("live", live);
+    page.set("kept", kept);
     page.set("context", context_part(report.context));
     return page_of("report.html.mustache", page);
+}
+
+} // namespace
+
+std::string run_page_html(const Report& report, const RunPage& run, const std::filesystem::path& folder) {
+    std::size_t budget_bytes = run_pictures_bytes;
+    data parts{List::list};
+    for (const RunPage::OfDrive& drive : run.drives)
+        parts.push_back(drive_part(drive, folder, budget_bytes, run.drives.size() > 1));
+    return page_html(report, run, parts, sections_part(run.live), "");
+}
+
+std::string rejudged_page_html(const Report& report, const RunPage& page, const std::string& kept, const std::filesystem::path& file) {
+    const std::size_t begin = kept.find(found_begins), end = kept.rfind(found_ends);
+    if (begin == std::string::npos || end == std::string::npos || end < begin)
+        throw InputError({file, 0, 0, {}}, "is no page of a run", "one that this version wrote");
+    const std::size_t from = begin + found_begins.size();
+    return page_html(report, page, data{List::list}, data{List::list}, kept.substr(from, end - from));
 }
 
 } // namespace fernlicht

@@ -53,8 +53,9 @@ std::string compared_words(const PlayedCell& played) {
     return fmt::format("{} against {} at {} × {} pixels{}{}, which took {} s; {}", played.technique, counted(error.ticks.size(), "moment"),
                        error.width_px, error.height_px, error.ticks.size() > 1 ? ", targets and luminance in the middle one" : "", discs,
                        figure(error.seconds, 1),
-                       played.throughput.view_s ? fmt::format("a frame of the run takes {}", time_text(*played.throughput.view_s))
-                                                : "too few moments were played to time a frame");
+                       played.throughput.view_s  ? fmt::format("a frame of the run takes {}", time_text(*played.throughput.view_s))
+                       : played.no_times.empty() ? "too few moments were played to time a frame"
+                                                 : "times are not measured: " + played.no_times);
 }
 
 } // namespace

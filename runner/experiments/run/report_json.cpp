@@ -341,13 +341,14 @@ JsonMembers savings_members(PruningSavings& savings) {
 
 /// What no two runs agree on.
 JsonMembers times_members(PlayedCell& played) {
-    return {{"drive", played.drive},
-            {"lamp_set", played.lamp_set},
-            {"warm_up_dropped", played.warm_up_dropped},
-            {"passes", played.passes, pass_time_members},
-            {"throughput", throughput_members(played.throughput)},
-            {"comparing_s", or_null(played.error.seconds)},
-            {"savings", savings_members(played.savings)}};
+    return joined({{"drive", played.drive},
+                   {"lamp_set", played.lamp_set},
+                   {"warm_up_dropped", played.warm_up_dropped},
+                   {"passes", played.passes, pass_time_members},
+                   {"throughput", throughput_members(played.throughput)},
+                   {"comparing_s", or_null(played.error.seconds)},
+                   {"savings", savings_members(played.savings)}},
+                  when(!played.no_times.empty(), {{"not_measured", played.no_times}}));
 }
 
 JsonMembers report_members(Report& report) {
@@ -408,6 +409,18 @@ nlohmann::ordered_json played_json(const PlayedCell& played) { return as_json(pl
 std::string report_json(const Report& report) {
     const Json whole = as_json(report, report_members);
     refuse_no_numbers(whole, "");
+    return json_text(whole);
+}
+
+std::string rejudged_json(const std::string& kept, const Report& report) {
+    Json whole = Json::parse(kept);
+    const Json judged = as_json(report, report_members);
+    for (const char* const key : {"verdict", "verdict_counts", "known_failures", "warnings"})
+        whole.at(key) = judged.at(key);
+    for (const char* const key : {"command", "inputs"})
+        whole.at("context").at(key) = judged.at("context").at(key);
+    for (std::size_t i = 0; i < report.played.size(); ++i)
+        whole.at("drives").at(i).at("verdicts") = judged.at("drives").at(i).at("verdicts");
     return json_text(whole);
 }
 

@@ -102,9 +102,14 @@ void add_if_plotted(Sections& sections, const std::string& title, const std::str
 void add_costs(const ComparedDrive& drive, Sections& sections) {
     std::optional<plots::Figure> plot = timing_figure(drive);
     Table passes = passes_table(drive);
-    if (!plot && passes.rows.empty())
+    const std::string& no_times = drive.lamp_sets.front()->no_times;
+    if (!plot && passes.rows.empty() && no_times.empty())
         return;
     Section& section = sections.emplace_back(Section{"What it cost", {}, 3});
+    if (!no_times.empty()) {
+        section.blocks.emplace_back("Times are not measured: " + no_times + ".");
+        return;
+    }
     add_plot(section, drive.name + "-times", std::move(plot));
     section.blocks.emplace_back(std::move(passes));
     section.blocks.emplace_back(
@@ -188,6 +193,13 @@ RunPage run_page(const Report& report) {
         for (const auto add : {add_aims, add_course, add_cars, add_accuracy, add_details, add_drawing})
             add(part.drive, part.others);
     }
+    return page;
+}
+
+RunPage verdict_page(const Report& report) {
+    RunPage page{verdict_section(report), {}, {}};
+    for (ComparedDrive& drive : compared_drives(report))
+        page.drives.push_back({std::move(drive), {}, {}});
     return page;
 }
 

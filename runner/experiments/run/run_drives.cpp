@@ -5,14 +5,13 @@
 #include "runner/experiments/accuracy/drive_error.h"
 #include "runner/experiments/bench/contact_sheet.h"
 #include "runner/experiments/run/display_sheet.h"
+#include "runner/experiments/run/run_judging.h"
 #include "runner/experiments/run/savings.h"
 #include "runner/experiments/shadows/moment_sheet.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
 #include "runner/findings/summary.h"
-#include "runner/judge/baselines.h"
 #include "runner/judge/input_hashes.h"
-#include "runner/judge/limits.h"
 #include "runner/judge/repeats.h"
 #include "runner/play/aim_lamps.h"
 #include "runner/play/display_pipeline.h"
@@ -80,6 +79,7 @@ PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& 
     play_options.ticks = options.ticks;
     play_options.folder = options.folder;
     play_options.profile = options.profile;
+    play_options.no_times = options.no_times;
     play_options.go_on = [&](int done) {
         progress.done(done);
         return !Interruption::requested();
@@ -137,13 +137,10 @@ PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& 
         if (played.series->parts.empty() || played.series->readings.empty()) // or interrupted
             played.series = nullptr;
     }
-    Readings judged = played.readings;
-    std::ranges::copy(times(played), std::back_inserter(judged)); // a limit may be set on them; rows of the report they are not
-    played.verdicts = judge_limits(stage.drive, judged);
+    if (options.judged)
+        played.verdicts = limit_verdicts(stage.drive, played);
     if (const Technique& technique = renderer.technique(); technique.kind != TechniqueKind::ours) {
-        played.title += fmt::format(", lit by technique {}", technique.name);
-        for (Verdict& verdict : played.verdicts)
-            verdict.text += fmt::format(" (as technique {} lights it)", technique.name);
+        played.title = lit_title(played.title, stage.drive.technique);
         played.notes.push_back(
             fmt::format("lit by technique {}, which ignores: {}. Rendered figures are that technique's; those of the twin, their "
                         "sensitivity to aim and flux, and the grid's error are computed from the candela tables",
@@ -361,19 +358,6 @@ void add_warnings(const std::deque<Stage>& stages, const std::vector<Drive>& dri
                 report.warnings.push_back(fmt::format("{}: {}", drive.name, warning));
 }
 
-/// Verdicts that need all of the run.
-void judge(const RunOptions& options, Report& report) {
-    if (!options.baselines.empty())
-        for (PlayedCell& played : report.played)
-            std::ranges::copy(judge_against_baselines(played, report.context, options.folder, options.baselines, played.technique,
-                                                      options.across_devices),
-                              std::back_inserter(played.verdicts));
-    if (options.known) {
-        add_inputs(report.context.inputs, options.known->opened);
-        apply_known_failures(report, *options.known, options.today);
-    }
-}
-
 /// Of each verdict how it is repeated: with its own drive alone.
 void add_reruns(const std::vector<Drive>& drives, const RunOptions& options, Report& report) {
     for (PlayedCell& played : report.played) {
@@ -424,7 +408,8 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
                 run_drive(stage, device, settings, options, report);
         if (options.repeats > 1 && report.complete)
             repeat(stages, device, settings, options, report);
-        judge(options, report);
+        if (options.judged)
+            judge_whole(report, options);
     } catch (const std::exception& error) {
         report.complete = false;
         report.interrupted = error.what();

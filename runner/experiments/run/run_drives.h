@@ -21,6 +21,8 @@ struct RunOptions {
     std::optional<KnownFailures> known;
     std::string today;          ///< 2026-12-31: by which known failures expire
     bool strict = false;        ///< refuse lamp files with which readings are meaningless
+    std::string no_times;       ///< why no times are taken; "": they are
+    bool judged = true;         ///< false: verdicts are left to who reads the results, but for those of repeats
     bool accuracy = true;       ///< hold a few moments of each lamp set against the reference
     bool contact_sheet = false; ///< add one moment of each lamp set, drawn in every technique
     std::vector<std::string> command;

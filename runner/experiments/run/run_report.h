@@ -13,6 +13,8 @@ namespace fernlicht {
 /// whoever measured it owed a not_measured.
 std::string report_json(const Report& report);
 std::string report_json_schema();
+/// The text of a report.json with the verdicts, and the command and inputs, of `report`, which was read from it.
+std::string rejudged_json(const std::string& kept, const Report& report);
 /// An entry of the report's `drives`: all results of one drive with one lamp set, no readings, moments and times.
 nlohmann::ordered_json played_json(const PlayedCell& played);
 
@@ -25,5 +27,6 @@ CsvFile read_moments(const std::filesystem::path& folder, const Report& report, 
 /// All of the page but what a document cannot hold: figures at a glance, the chooser of moments with its pictures and maps.
 Document document(const Report& report);
 RunPage run_page(const Report& report);
+RunPage verdict_page(const Report& report); ///< without what was found
 
 } // namespace fernlicht

@@ -33,6 +33,8 @@ int affordable_moments(double frame_s) {
 }
 
 std::string no_savings(const Drive& drive, const PlayedCell& played) {
+    if (!played.no_times.empty())
+        return played.no_times;
     if (drive.technique != pruned_technique)
         return fmt::format("it is measured for the technique photometric only, this is {}", drive.technique);
     if (!driver_view(drive))

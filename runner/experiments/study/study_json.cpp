@@ -145,7 +145,8 @@ JsonMembers study_cell_members(CellResult& cell, Study& study) {
                         {"error_floor_share_p95", cell.error_floor_share},
                         {"readings", readings}};
     const auto point = through([&at] { return std::uint64_t{at.point} + 1; }, [&at](std::uint64_t number) { at.point = number - 1; });
-    return joined(std::move(members), when(!cell.aims.empty(), {{"aims", cell.aims, lamp_aim_members}}),
+    return joined(std::move(members), when(!cell.inputs.empty(), {{"key", cell.key}, {"inputs", cell.inputs, cell_input_members}}),
+                  when(!cell.aims.empty(), {{"aims", cell.aims, lamp_aim_members}}),
                   when(!at.axes.empty(), {{"point", point}, {"axes", at.axes, axis_value_members}}));
 }
 

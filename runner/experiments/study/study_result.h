@@ -4,6 +4,7 @@
 #include "metrics/beam/lamp_difference.h"
 #include "metrics/readings/significance.h"
 #include "runner/experiments/compare/runs/played_report.h"
+#include "runner/findings/cell_inputs.h"
 #include "runner/findings/document.h"
 #include "runner/findings/lamp_checks.h"
 #include "runner/judge/known_failures.h"
@@ -17,7 +18,9 @@ struct CellResult : PlayedResult {
     std::vector<View> maps;                  ///< the drive's views from above
     std::vector<LuxMap::Polyline> map_edges; ///< lanes and car on the map that is shown
     std::string failed;                      ///< why there is no report; "" when there is one
-    bool reused = false;                     ///< played by an earlier call
+    CellInputs inputs;                       ///< what decides its figures
+    std::string key;                         ///< under which the store has it
+    bool reused = false;                     ///< taken from the store as an earlier call left it there
     std::string command;                     ///< that repeats it
     int moments = 0, moments_of_drive = 0;   ///< that were to be played, and that the whole drive has
 };

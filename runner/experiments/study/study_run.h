@@ -1,30 +1,52 @@
-// Plays a study: each cell by the same door as `fernlicht run`, into a run's folder of its own below the study's.
+// Plays a study: each cell by the same door as `fernlicht run`, in a process of its own, into the store; then collects what lies there into
+// a folder, and tells of it.
 #pragma once
 
-#include "runner/experiments/run/run_drives.h"
+#include "runner/experiments/study/study_plan.h"
 #include "runner/experiments/study/study_result.h"
 
 #include <functional>
 
 namespace fernlicht {
 
+/// Of one worker, that is, of one cell.
+struct CellLimits {
+    double time_s = 3600.0;
+    std::uint64_t memory_mib = 4096; ///< 0: none
+};
+
 struct StudyOptions {
     std::filesystem::path folder;
+    std::filesystem::path store;        ///< where cells are kept
     std::vector<std::string> only;      ///< cells whose name fits one of these, * and ? allowed; empty: all
     std::optional<KnownFailures> known; ///< over all cells
     bool strict = false;                ///< refuse lamp files with which readings are meaningless
-    bool resume = false;                ///< go on in the study's folder; finished cells are kept, the report is written anew
+    bool resume = false;                ///< go on in the study's folder
+    bool timed = false;                 ///< play cells one after another by themselves, and time them; none is taken from the store
+    int jobs = 0;                       ///< cells at a time; 0: as jobs_for() says
+    CellLimits limits;
     RunOptions run; ///< backend, moments, baselines, repeats, day, quiet, accuracy, command; the folder is each cell's own
-    std::function<void(const StudyResult&)> write; ///< into the folder, before it is marked as complete
+    std::function<void(const Report&, const std::filesystem::path&)> judge_cell; ///< a cell's files become those of what it was judged
+    std::function<void(const StudyResult&)> write;                               ///< into the folder, before it is marked as complete
 };
 
 /// Those of a study's cells whose names fit one of the patterns, all where there is none. Throws InputError for one that fits no cell.
 std::vector<StudyCell> chosen_cells(const Study& study, const std::vector<std::string>& only);
 
-/// Reads all drives and lamps first, plays the cells in the order of cells_of, reads their reports back, compares. A cell that fails is
-/// noted and the next one played; SIGINT ends the study after the moment at hand. Throws InputError and DeviceError where nothing can be
-/// played, or where a folder to go on in holds cells of another study.
+/// Reads all drives and lamps first, plays the cells that the store lacks, collects all, compares. A cell that fails, hangs, runs out of
+/// memory or crashes is noted and the others go on; SIGINT and SIGTERM end the study. Throws InputError and DeviceError where nothing can
+/// be played, or where a folder to go on in holds another study.
 StudyResult run_study(const Study& study, const StudyOptions& options);
+
+/// Collects what lies in the store, and plays nothing: a cell that it lacks is red, with its command.
+StudyResult collect_study(const Study& study, const StudyOptions& options);
+
+/// In this process, one after another, into the store, those of the chosen cells that it lacks. What fails is told on standard error and
+/// kept in the store as the reason. True where all are there.
+bool play_into_store(const Study& study, const StudyOptions& options);
+
+/// The command that does so for one cell or for several, on any machine that sees the files and the store.
+std::vector<std::string> playing_command(const Study& study, const StudyOptions& options, const std::vector<std::string>& cells);
 
 /// Throws InputError with the lamp's line in the study's file where `aim: auto` stands beside a file that has nothing to aim by. run_study
 /// asks for it, too.

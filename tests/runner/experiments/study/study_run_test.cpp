@@ -1,5 +1,6 @@
 // Whole studies through the program.
 #include "runner/experiments/study/study_document.h"
+#include "runner/files/object_store.h"
 #include "runner/write/formats.h"
 #include "tests/runner/opened_page.h"
 #include "tests/runner/run_readings.h"
@@ -17,7 +18,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-constexpr const char* quick = " --frames 0:5 --quiet --no-accuracy ";
+constexpr const char* moments = " --frames 0:5 --quiet --no-accuracy ";
 
 std::string write_study_file(const TemporaryFolder& folder, const std::string& second_lamp, const std::string& more = "") {
     const std::string file = folder / "study.yaml";
@@ -44,6 +45,10 @@ json without_times(json study) {
 
 struct StudyProgram : testing::Test {
     TemporaryFolder folder;
+    const std::string store = " --store " + (folder / "store"), quick = moments + store + " ";
+    std::filesystem::path entry_of(const std::string& key) const {
+        return folder / ("store/cells/" + key.substr(0, 2) + "/" + key.substr(2) + ".json");
+    }
     std::string xenon = "{low: " + library_file("lamps/xenon-low.ies") + ", source: arc}";
 };
 
@@ -107,16 +112,16 @@ TEST_F(StudyProgram, TheSameLampUnderAnotherNameDiffersInNothing) {
 
 TEST_F(StudyProgram, GoesOnWhereItWasStoppedAndGivesTheSameBytes) {
     const std::string file = write_study_file(folder, xenon);
-    const std::string arguments = "study " + file + " --frames 0:5 --no-accuracy --out ";
-    ASSERT_EQ(run_program(arguments + (folder / "whole")).exit_code, 0);
-    const Outcome stopped = run_interrupted(arguments + (folder / "out"), "cell 2 of 2");
+    const std::string begins = "study " + file + " --frames 0:5 --no-accuracy --jobs 1", arguments = begins + store + " --out ";
+    ASSERT_EQ(run_program(begins + " --store " + (folder / "other-store") + " --out " + (folder / "whole")).exit_code, 0);
+    const Outcome stopped = run_interrupted(arguments + (folder / "out"), "1 of 2 cells done");
     EXPECT_EQ(stopped.exit_code, 1) << stopped.output;
     EXPECT_THAT(stopped.output, HasSubstr("incomplete: interrupted by the user"));
     EXPECT_THAT(content_of(folder / "out/report.html"), HasSubstr("The study did not end"));
     const Outcome anew = run_program(arguments + (folder / "out"));
     EXPECT_EQ(anew.exit_code, 2);
     EXPECT_THAT(anew.output, HasSubstr("holds a study that did not end, expected --resume to go on with it, or a new or an empty folder"));
-    const Outcome other = run_program("study " + file + " --frames 0:4 --no-accuracy --resume --out " + (folder / "out"));
+    const Outcome other = run_program("study " + file + " --frames 0:4 --no-accuracy --resume" + store + " --out " + (folder / "out"));
     EXPECT_EQ(other.exit_code, 2) << "other moments are another study";
     EXPECT_THAT(other.output, HasSubstr("found a cell that was played with other files or settings"));
     const Outcome resumed = run_program(arguments + (folder / "out") + " --resume");
@@ -131,22 +136,20 @@ TEST_F(StudyProgram, GoesOnWhereItWasStoppedAndGivesTheSameBytes) {
     }
 }
 
-/// One cell's report is damaged when a study that did not end goes on: that cell is missing and named, all of the other is there.
+/// One cell has no results: it is missing and named, all of the other is there.
 TEST_F(StudyProgram, ACellThatFailsLosesNothingOfTheOthers) {
     const std::string file = write_study_file(folder, xenon), arguments = "study " + file + quick + "--out " + (folder / "out");
     ASSERT_EQ(run_program(arguments).exit_code, 0);
     const json whole = json::parse(content_of(folder / "out/study.json"));
-    std::ofstream(folder / "out/INCOMPLETE") << "as after a power failure\n";
-    std::ofstream(folder / "out/cells/straight_new/report.json") << "{\"schema\": ";
-    const Outcome run = run_program(arguments + " --resume");
+    std::filesystem::remove(entry_of(whole.at("cells").at(1).at("key")));
+    const Outcome run = run_program(arguments + " --resume --collect");
     EXPECT_EQ(run.exit_code, 1) << run.output;
-    EXPECT_THAT(run.output, HasSubstr("NOT PLAYED straight_new: "));
+    EXPECT_THAT(run.output, HasSubstr("NOT PLAYED straight_new: it is not in the store"));
     const json study = tests::checked(content_of(folder / "out/study.json"), study_members);
     EXPECT_EQ(study.at("verdict"), "not_measured");
     EXPECT_EQ(study.at("complete"), false);
     ASSERT_EQ(study.at("cells").size(), 2U);
     EXPECT_EQ(study.at("cells").at(0), whole.at("cells").at(0)) << "what was played stays, to the last digit";
-    EXPECT_THAT(study.at("cells").at(1).at("failed").get<std::string>(), HasSubstr("report.json"));
     EXPECT_THAT(study.at("cells").at(1).at("readings"), IsEmpty());
     EXPECT_THAT(study.at("changes"), IsEmpty());
     EXPECT_EQ(study.at("lamps"), whole.at("lamps")) << "the lamps' tables are compared all the same";
@@ -154,6 +157,134 @@ TEST_F(StudyProgram, ACellThatFailsLosesNothingOfTheOthers) {
     EXPECT_THAT(content_of(folder / "out/junit.xml"), HasSubstr("straight_new"));
     EXPECT_TRUE(std::filesystem::exists(folder / "out/figures/lux_straight_old.svg"));
     EXPECT_TRUE(std::filesystem::exists(folder / "out/INCOMPLETE"));
+    EXPECT_EQ(run_program(arguments + " --resume").exit_code, 0);
+    EXPECT_EQ(without_times(json::parse(content_of(folder / "out/study.json"))), without_times(whole)) << "played again";
+}
+
+TEST_F(StudyProgram, WhatIsInTheStoreIsNotPlayedAgain) {
+    const std::string file = write_study_file(folder, xenon), arguments = "study " + file + quick;
+    const auto studied = [&](const std::string& out) {
+        EXPECT_EQ(run_program(arguments + "--out " + (folder / out)).exit_code, 0);
+        return json::parse(content_of(folder / (out + "/study.json")));
+    };
+    const auto reused = [](const json& study) {
+        std::vector<bool> all;
+        for (const json& cell : study.at("context").at("cells"))
+            all.push_back(cell.at("reused"));
+        return all;
+    };
+    EXPECT_EQ(printed(arguments + "--explain").substr(0, 12), "straight_old");
+    const json first = studied("first"), second = studied("second");
+    EXPECT_EQ(reused(first), std::vector<bool>({false, false}));
+    EXPECT_EQ(reused(second), std::vector<bool>({true, true}));
+    EXPECT_EQ(without_times(first), without_times(second));
+    for (const char* const cell : {"straight_old", "straight_new"})
+        EXPECT_EQ(
+            run_shell("diff -r -I 'code>\\|\"command\"' " + (folder / "first/cells/") + cell + " " + (folder / "second/cells/") + cell)
+                .output,
+            "");
+    // A flipped bit in what is kept: found, and played again.
+    const std::filesystem::path object =
+        object_path(folder / "store", json::parse(content_of(entry_of(first.at("cells").at(0).at("key")))).at("object"));
+    std::string bytes = content_of(object);
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    std::ofstream(object, std::ios::binary) << bytes;
+    const json third = studied("third");
+    EXPECT_EQ(reused(third), std::vector<bool>({false, true}));
+    EXPECT_EQ(without_times(first), without_times(third));
+    // One lamp changed: only its cell, and why.
+    std::filesystem::copy_file(library_file("lamps/xenon-low.ies"), folder / "new.ies");
+    write_study_file(folder, "{low: new.ies, source: arc}");
+    EXPECT_THAT(printed(arguments + "--explain"), HasSubstr("0 of 2 cells would be played")) << "the same light by another name";
+    std::string lamp = content_of(folder / "new.ies");
+    lamp.replace(lamp.rfind("2"), 1, "3");
+    std::ofstream(folder / "new.ies") << lamp;
+    EXPECT_EQ(printed(arguments + "--explain"),
+              "straight_new                             lamp new.ies is new; lamp xenon-low.ies is gone\n1 of 2 cells would be "
+              "played; store " +
+                  (folder / "store") + "\n");
+    EXPECT_EQ(reused(studied("fourth")), std::vector<bool>({true, false}));
+}
+
+TEST_F(StudyProgram, VerdictsAreThoseOfNowOverCellsOfThen) {
+    const std::string drive = folder / "own.yaml", study = folder / "study.yaml";
+    std::ofstream(study) << "fernlicht_study: 1\nname: own\nlamps:\n  old: {low: " << library_file("lamps/halogen-low.ies")
+                         << "}\ndrives: [own.yaml]\n";
+    const auto limited = [&](const std::string& title, double metres, const std::string& out) {
+        std::ofstream(drive) << "fernlicht: 1\nname: own\ntitle: " << title << "\nroad: " << library_file("roads/straight.xodr")
+                             << "\nspeed_kmh: 72\nduration_s: 1\nlamp_sets:\n  a: {file: " << library_file("lamps/halogen-low.ies")
+                             << "}\nlimits:\n  - {reading: reach_1lx_road_own_m, at_least: " << metres << "}\n";
+        return run_program("study " + study + quick + "--out " + (folder / out)).exit_code;
+    };
+    EXPECT_EQ(limited("First title", 5.0, "kept"), 0);
+    EXPECT_EQ(limited("Second title", 5000.0, "exceeded"), 1);
+    const json exceeded = json::parse(content_of(folder / "exceeded/study.json"));
+    EXPECT_EQ(exceeded.at("context").at("cells").at(0).at("reused"), true);
+    EXPECT_EQ(exceeded.at("verdict"), "fail");
+    const json report = json::parse(content_of(folder / "exceeded/cells/own_old/report.json"));
+    EXPECT_EQ(report.at("verdict"), "fail");
+    EXPECT_EQ(report.at("drives").at(0).at("verdicts").at(0).at("name"), "reach_1lx_road_own_m");
+    const std::string page = content_of(folder / "exceeded/cells/own_old/report.html");
+    EXPECT_THAT(page, HasSubstr("<h1>Second title</h1>"));
+    EXPECT_THAT(page, HasSubstr("Limits exceeded"));
+    EXPECT_THAT(page, Not(HasSubstr("First title")));
+    EXPECT_THAT(content_of(folder / "exceeded/cells/own_old/own.yaml"), HasSubstr("at_least: 5000"));
+    EXPECT_THAT(content_of(folder / "kept/cells/own_old/report.html"), HasSubstr("Within limits"));
+}
+
+TEST_F(StudyProgram, CellsThatHangOrTakeTooMuchAreRedRows) {
+    const std::string arguments = "study " + write_study_file(folder, xenon) + quick + "--out ";
+    const auto why = [&](const std::string& limit, const std::string& out) {
+        EXPECT_EQ(run_program(arguments + (folder / out) + limit).exit_code, 1);
+        const json study = tests::checked(content_of(folder / (out + "/study.json")), study_members);
+        EXPECT_THAT(study.at("context").at("cells").at(0).at("command").get<std::string>(), HasSubstr(" run "));
+        EXPECT_TRUE(std::filesystem::exists(folder / (out + "/logs/straight_old.log")));
+        return study.at("cells").at(0).at("failed").get<std::string>();
+    };
+    EXPECT_THAT(why(" --cell-minutes 0.01", "slow"), HasSubstr("s, its limit of time"));
+    EXPECT_THAT(why(" --cell-memory-mib 40", "large"),
+                testing::AnyOf(HasSubstr("was killed by"), HasSubstr("bad_alloc"), HasSubstr("memory"), HasSubstr("exit code")));
+    EXPECT_EQ(run_program(arguments + (folder / "whole")).exit_code, 0) << "nothing of it stays";
+}
+
+/// As any cluster does it: commands by themselves, in any order, then one that gathers.
+TEST_F(StudyProgram, PlannedCommandsAndACollectionGiveTheSameStudy) {
+    const std::string file = write_study_file(folder, xenon), arguments = "study " + file + quick;
+    ASSERT_EQ(run_program("study " + file + moments + "--store " + (folder / "other") + " --out " + (folder / "whole")).exit_code, 0);
+    std::istringstream lines(printed(arguments + "--plan"));
+    std::vector<json> plan;
+    for (std::string line; std::getline(lines, line);)
+        plan.push_back(json::parse(line));
+    ASSERT_EQ(plan.size(), 2U);
+    EXPECT_EQ(plan[1].at("cells"), json({"straight_new"}));
+    for (std::size_t i = 2; i-- > 0;)
+        EXPECT_EQ(run_shell("cd / && " + plan[i].at("command").get<std::string>()).exit_code, 0);
+    EXPECT_EQ(printed(arguments + "--plan"), "") << "nothing is lacking";
+    ASSERT_EQ(run_program(arguments + "--collect --out " + (folder / "out")).exit_code, 0);
+    EXPECT_EQ(without_times(json::parse(content_of(folder / "out/study.json"))),
+              without_times(json::parse(content_of(folder / "whole/study.json"))));
+    EXPECT_EQ(json::parse(printed(arguments + "--plan --frames 0:4 --per 2")).at("cells").size(), 2U);
+}
+
+TEST_F(StudyProgram, TimesAreOfCellsByThemselves) {
+    const std::string file = write_study_file(folder, xenon),
+                      arguments = "study " + file + " --frames 0:5 --quiet --no-accuracy --only '*old' --out ";
+    ASSERT_EQ(run_program(arguments + (folder / "timed") + " --timed").exit_code, 0);
+    ASSERT_EQ(run_program(arguments + (folder / "beside") + store).exit_code, 0);
+    const auto frame_s = [&](const std::string& out) {
+        return json::parse(content_of(folder / (out + "/study.json"))).at("context").at("cells").at(0);
+    };
+    EXPECT_EQ(json::parse(content_of(folder / "beside/cells/straight_old/report.json")).at("times").at(0).at("not_measured"),
+              "cells beside it");
+    EXPECT_TRUE(frame_s("beside").at("frame_s").is_null());
+    EXPECT_THAT(content_of(folder / "beside/cells/straight_old/report.html"), HasSubstr("Times are not measured: cells beside it."));
+    EXPECT_THAT(content_of(folder / "timed/cells/straight_old/times.csv"), HasSubstr("frame, median"));
+    EXPECT_EQ(without_times(json::parse(content_of(folder / "timed/study.json"))),
+              without_times(json::parse(content_of(folder / "beside/study.json"))));
+    const Outcome limited =
+        run_program("study " + write_study_file(folder, xenon, "limits:\n  - {reading: frame_median_ms, at_most: 1000}\n") + quick);
+    EXPECT_EQ(limited.exit_code, 2);
+    EXPECT_THAT(limited.output, HasSubstr("--timed, which plays cells by themselves"));
 }
 
 TEST_F(StudyProgram, AFinishedStudyIsReportedAgainFromItsCells) {
@@ -174,7 +305,7 @@ TEST_F(StudyProgram, AFinishedStudyIsReportedAgainFromItsCells) {
     EXPECT_THAT(red.output, HasSubstr("NOT MEASURED deciding reading reach_1lx_tarket_own_m: there is no reading of this name; the "
                                       "nearest name is reach_1lx_target_own_m"));
     EXPECT_EQ(content_of(folder / "out/cells/straight_old/report.json"), cell) << "played again";
-    const Outcome other = run_program("study " + misspelt + " --frames 0:4 --quiet --no-accuracy --resume" + out);
+    const Outcome other = run_program("study " + misspelt + " --frames 0:4 --quiet --no-accuracy --resume" + store + out);
     EXPECT_EQ(other.exit_code, 2) << "other moments are another study";
     EXPECT_FALSE(std::filesystem::exists(folder / "out/INCOMPLETE")) << "nothing was begun";
 }

@@ -1,0 +1,115 @@
+#include "runner/commands/commands.h"
+
+#include "runner/commands/flag_values.h"
+#include "runner/store/store_upkeep.h"
+#include "scenarios/values/errors.h"
+#include "scenarios/values/glob.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+struct StoreFlags {
+    std::string store, study, older_than, at_most;
+    bool dry = false;
+};
+
+CellStore store_of(const StoreFlags& flags) {
+    const std::filesystem::path folder = flags.store.empty() ? default_store() : std::filesystem::path(flags.store);
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(folder, ignored))
+        throw InputError({folder, 0, 0, "--store"}, "is no folder", "a store of cells that `fernlicht study` made");
+    return CellStore(folder);
+}
+
+/// A number and one of the units; throws InputError naming the flag.
+double number_with_unit(const char* flag, const std::string& text, const std::vector<std::pair<std::string, double>>& units,
+                        const char* expected) {
+    for (const auto& [unit, factor] : units)
+        if (text.size() > unit.size() && text.ends_with(unit)) {
+            std::size_t used = 0;
+            try {
+                const double number = std::stod(text, &used);
+                if (used == text.size() - unit.size() && std::isfinite(number) && number >= 0.0)
+                    return number * factor;
+            } catch (const std::logic_error&) { // no number
+            }
+        }
+    refuse_flag(flag, text, expected);
+}
+
+std::string size_text(std::uint64_t bytes) {
+    const double mib = static_cast<double>(bytes) / 1048576.0;
+    return mib >= 1024.0 ? fmt::format("{:.1f} GiB", mib / 1024.0) : fmt::format("{:.1f} MiB", mib);
+}
+
+int list_store(const StoreFlags& flags) {
+    std::uint64_t bytes = 0;
+    std::size_t count = 0;
+    for (const StoredCell& cell : store_of(flags).list()) {
+        if (!flags.study.empty() && !matches(flags.study, cell.study))
+            continue;
+        fmt::print("{}  {}  {:>9}  {:<24} {}\n", cell.key.substr(0, 12), printable(cell.played_utc), size_text(cell.bytes),
+                   printable(cell.study), printable(cell.cell));
+        bytes += cell.bytes;
+        ++count;
+    }
+    fmt::print("{} cells, {}\n", count, size_text(bytes));
+    return 0;
+}
+
+int verify(const StoreFlags& flags) {
+    const std::vector<StoreDamage> damage = verify_store(store_of(flags));
+    for (const StoreDamage& one : damage)
+        fmt::print("taken out: {}: {}\n", one.what, one.why);
+    fmt::print("{}\n", damage.empty() ? "all is whole" : fmt::format("{} of it was damaged", damage.size()));
+    return damage.empty() ? 0 : 1;
+}
+
+int prune(const StoreFlags& flags) {
+    if (flags.study.empty() && flags.older_than.empty() && flags.at_most.empty())
+        throw InputError({{}, 0, 0, "store prune"}, "found nothing to prune by", "--older-than, --at-most or --study");
+    Pruning pruning{{}, {}, flags.study, flags.dry};
+    if (!flags.older_than.empty())
+        pruning.older_than_s = number_with_unit("--older-than", flags.older_than, {{"d", 86400.0}, {"h", 3600.0}, {"min", 60.0}},
+                                                "a number of d, h or min: 30d");
+    if (!flags.at_most.empty())
+        pruning.at_most_bytes = static_cast<std::uint64_t>(
+            number_with_unit("--at-most", flags.at_most, {{"MiB", 1048576.0}, {"GiB", 1073741824.0}, {"TiB", 1099511627776.0}},
+                             "a number of MiB, GiB or TiB: 20GiB"));
+    const double now_s = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+    const Pruned pruned = prune_store(store_of(flags), pruning, now_s);
+    fmt::print("{}{} cells and {} files, {}; {} cells stay, {}\n", flags.dry ? "would remove " : "removed ", pruned.cells, pruned.files,
+               size_text(pruned.bytes), pruned.cells_left, size_text(pruned.bytes_left));
+    return 0;
+}
+
+} // namespace
+
+void add_store_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<StoreFlags>();
+    CLI::App* store = app.add_subcommand("store", "list, verify and prune the cells that studies keep");
+    store->require_subcommand(1);
+    const auto add = [&](const char* name, const char* text, int (*does)(const StoreFlags&)) {
+        CLI::App* sub = store->add_subcommand(name, text);
+        sub->add_option("--store", flags->store, "the store (default: $XDG_CACHE_HOME/fernlicht/store)");
+        sub->callback([flags, does, &chosen] { chosen = [flags, does] { return does(*flags); }; });
+        return sub;
+    };
+    CLI::App* list = add("ls", "list cells, the oldest first", list_store);
+    add("verify", "read everything; take out what is damaged, so that it is played again; 1 when anything was", verify);
+    CLI::App* pruned = add("prune", "remove cells, then files that no cell needs", prune);
+    for (CLI::App* sub : {list, pruned})
+        sub->add_option("--study", flags->study, "only of studies of this name, * and ? allowed");
+    pruned->add_option("--older-than", flags->older_than, "cells that were played before: 30d, 12h");
+    pruned->add_option("--at-most", flags->at_most, "the oldest until so much is left: 20GiB");
+    pruned->add_flag("--dry-run", flags->dry, "only say what would go");
+}
+
+} // namespace fernlicht

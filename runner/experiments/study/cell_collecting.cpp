@@ -1,0 +1,104 @@
+#include "runner/experiments/study/cell_collecting.h"
+
+#include "runner/experiments/run/run_judging.h"
+#include "runner/experiments/run/run_report.h"
+#include "runner/findings/run_context.h"
+#include "runner/play/stage.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fernlicht {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string folder_name_of(const PlannedCell& planned) { return "cells/" + planned.cell.name; }
+
+std::string repeating(const StudyOptions& options, const PlannedCell& planned) {
+    std::vector<std::string> words{options.run.command.empty() ? "fernlicht" : options.run.command.front(), "run",
+                                   (options.folder / folder_name_of(planned) / planned.resolved_file).string()};
+    if (const std::string frames = frames_text(options.run.ticks); !frames.empty()) {
+        words.emplace_back("--frames");
+        words.push_back(frames);
+    }
+    if (!options.run.accuracy)
+        words.emplace_back("--no-accuracy");
+    return shell_quoted(words);
+}
+
+/// Throws InputError for what is no complete report of one drive with one lamp set.
+Report report_of_cell(const fs::path& folder) {
+    Report report = read_report(folder);
+    if (report.played.size() != 1)
+        throw InputError({folder / "report.json", 0, 0, "drives"}, fmt::format("found {}", report.played.size()),
+                         "one drive with one lamp set");
+    return report;
+}
+
+/// Limits first, as a run has them; what is said of repeats was found when it was played.
+void judge(const Drive& drive, const PlannedCell& planned, const StudyOptions& options, const fs::path& folder, Report& report) {
+    PlayedCell& played = report.played.front();
+    played.title = lit_title(drive.title, drive.technique);
+    std::vector<Verdict> verdicts = limit_verdicts(drive, played);
+    std::ranges::move(played.verdicts, std::back_inserter(verdicts));
+    played.verdicts = std::move(verdicts);
+    RunOptions run = options.run;
+    run.folder = folder;
+    run.known.reset(); // of the whole study
+    report.context.command = shell_quoted(options.run.command);
+    report.context.inputs = drive.opened;
+    add_inputs(report.context.inputs, *planned.road);
+    add_inputs(report.context.inputs, *planned.others);
+    judge_whole(report, run);
+    const std::string rerun = repeat_command(options.run.command, {"--only", planned.cell.name});
+    for (Verdict& verdict : played.verdicts)
+        verdict.rerun = rerun;
+}
+
+} // namespace
+
+CellResult unplayed_cell(const Study& study, const PlannedCell& planned, const StudyOptions& options) {
+    CellResult cell;
+    const Drive drive = cell_drive(study, planned.cell);
+    cell.cell = planned.cell;
+    cell.inputs = planned.inputs;
+    cell.key = planned.key;
+    cell.title = planned.title;
+    cell.step_s = drive.step_s;
+    cell.moments = planned.moments;
+    cell.moments_of_drive = planned.moments_of_drive;
+    for (const SpeedPoint& point : drive.speed)
+        cell.step_m = std::max(cell.step_m, point.speed_mps * cell.step_s);
+    cell.look_step_m = drive.seeing.visibility ? drive.seeing.visibility->step_m : 0.0;
+    cell.grid_cell_m = drive.extent ? drive.extent->cell_m : cell.grid_cell_m;
+    std::ranges::copy_if(drive.views, std::back_inserter(cell.maps), [](const View& view) { return view.projection == Projection::map; });
+    cell.command = repeating(options, planned);
+    return cell;
+}
+
+void judge_cell(const Study& study, const PlannedCell& planned, const StudyOptions& options, CellResult& result) {
+    const fs::path folder = options.folder / folder_name_of(planned);
+    const Drive drive = cell_drive(study, planned.cell);
+    Report report = report_of_cell(folder);
+    judge(drive, planned, options, folder, report);
+    write_file(folder / planned.resolved_file, write_drive(drive));
+    options.judge_cell(report, folder);
+    PlayedResult played = played_result(report.played.front(), read_moments(folder, report, 0), folder_name_of(planned));
+    static_cast<Steps&>(played) = result; // the drive's, not the report's
+    static_cast<PlayedResult&>(result) = std::move(played);
+}
+
+void collect_cell(const CellStore& store, const Study& study, const PlannedCell& planned, const StudyOptions& options, CellResult& result) {
+    const std::optional<StoredCell> stored = store.find(planned.key);
+    if (!stored)
+        throw InputError({store.folder(), 0, 0, {}}, "found nothing of cell " + planned.cell.name, "what playing it gives");
+    const PackedFiles files = store.load(*stored);
+    const fs::path folder = options.folder / folder_name_of(planned);
+    fs::remove_all(folder);
+    write_files(files, folder);
+    judge_cell(study, planned, options, result);
+}
+
+} // namespace fernlicht

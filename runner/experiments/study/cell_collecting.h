@@ -1,0 +1,18 @@
+// From what was played to what a study's folder holds: a cell's files, judged by its drive of now.
+#pragma once
+
+#include "runner/experiments/study/study_run.h"
+
+namespace fernlicht {
+
+/// Of a cell that was planned, before anything of it is there.
+CellResult unplayed_cell(const Study& study, const PlannedCell& planned, const StudyOptions& options);
+
+/// Puts the cell's files from the store into the study's folder in place of what is there, judges them, and fills in `result`. Throws
+/// InputError where the store lacks them or holds them damaged, DeviceError where the disk refuses.
+void collect_cell(const CellStore& store, const Study& study, const PlannedCell& planned, const StudyOptions& options, CellResult& result);
+
+/// The same with files that lie in the folder and are not judged.
+void judge_cell(const Study& study, const PlannedCell& planned, const StudyOptions& options, CellResult& result);
+
+} // namespace fernlicht

@@ -1,0 +1,182 @@
+#include "runner/experiments/study/cell_playing.h"
+
+#include "runner/experiments/study/study_progress.h"
+#include "runner/files/durable_files.h"
+#include "runner/findings/run_context.h"
+#include "runner/play/progress.h"
+#include "runner/play/stage.h"
+#include "runner/workers/worker_pool.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <csignal>
+#include <fmt/format.h>
+#include <thread>
+#include <unistd.h>
+
+namespace fernlicht {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A drive whose results are judged later, by its limits of then.
+Drive unjudged_drive(const Study& study, const StudyCell& cell) {
+    Drive drive = cell_drive(study, cell);
+    drive.title.clear();
+    drive.limits.clear();
+    return drive;
+}
+
+RunOptions run_options(const StudyOptions& options, const fs::path& folder) {
+    RunOptions run = options.run;
+    run.folder = folder;
+    run.judged = false;
+    run.baselines.clear();
+    run.known.reset();
+    return run;
+}
+
+/// Whatever happens, nothing of it stays.
+struct Workplace {
+    fs::path folder;
+    explicit Workplace(fs::path at) : folder(std::move(at)) {}
+    Workplace(const Workplace&) = delete;
+    Workplace& operator=(const Workplace&) = delete;
+    ~Workplace() {
+        std::error_code ignored;
+        fs::remove_all(folder, ignored);
+    }
+};
+
+FilesRead inputs_of(const Report& report, const PlannedCell& planned) {
+    FilesRead inputs = report.context.inputs;
+    add_inputs(inputs, *planned.road);
+    add_inputs(inputs, *planned.others);
+    return inputs;
+}
+
+/// "fernlicht: " and what a worker said last.
+std::string last_word(const fs::path& log) {
+    try {
+        FilesRead opened;
+        std::string text = read_file(log, opened, std::size_t{64} << 20, true);
+        while (text.ends_with('\n'))
+            text.pop_back();
+        text = text.substr(text.rfind('\n') + 1);
+        constexpr std::string_view program = "fernlicht: ";
+        return printable(text.starts_with(program) ? text.substr(program.size()) : text, 400);
+    } catch (const InputError&) { // it said nothing
+        return {};
+    }
+}
+
+/// What is killed from outside, as by the kernel where memory is short, passes where nothing is beside it.
+bool may_pass_alone(const WorkerEnd& end) { return end.ending == WorkerEnding::killed && (end.code == SIGKILL || end.code == SIGTERM); }
+
+double physical_memory_mib() {
+    return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1048576.0;
+}
+
+} // namespace
+
+bool play_into(const CellStore& store, const Study& study, const PlannedCell& planned, const StudyOptions& options) {
+    const Workplace place(store.new_workplace(planned.key));
+    RunOptions run = run_options(options, place.folder);
+    run.no_times = no_times_beside_others;
+    const Report report = run_drives({unjudged_drive(study, planned.cell)}, run);
+    if (!report.complete)
+        return false;
+    store.keep({planned.key, study.name, planned.cell.name, report.context.started_utc, planned.inputs, {}, 0, {}},
+               files_below(place.folder), inputs_of(report, planned));
+    return true;
+}
+
+bool play_timed(const Study& study, const PlannedCell& planned, const StudyOptions& options, const fs::path& folder) {
+    return run_drives({unjudged_drive(study, planned.cell)}, run_options(options, folder)).complete;
+}
+
+Jobs jobs_for(int asked, const RunContext& context, const CellLimits& limits) {
+    const bool is_software = context.gl_renderer.starts_with("llvmpipe") || context.gl_renderer.starts_with("softpipe");
+    const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    int usual = is_software ? cores : std::min(4, cores);
+    if (limits.memory_mib > 0)
+        usual = std::clamp(usual, 1, std::max(1, static_cast<int>(physical_memory_mib() / static_cast<double>(limits.memory_mib))));
+    return {asked > 0 ? asked : usual, asked == 1 || cores == 1 ? cores : 1};
+}
+
+std::vector<std::string> playing_command(const Study& study, const StudyOptions& options, const std::vector<std::string>& cells) {
+    std::vector<std::string> words{options.run.command.empty() ? "fernlicht" : options.run.command.front(), "study",
+                                   fs::absolute(study.file).string(), "--play"};
+    const auto add = [&](const char* flag, const std::string& value) {
+        if (!value.empty())
+            words.insert(words.end(), {flag, value});
+    };
+    for (const std::string& cell : cells)
+        add("--only", cell);
+    add("--store", fs::absolute(options.store).string());
+    add("--backend", options.run.backend);
+    add("--frames", frames_text(options.run.ticks));
+    add("--repeats", options.run.repeats > 1 ? fmt::format("{}", options.run.repeats) : "");
+    if (!options.run.accuracy)
+        words.emplace_back("--no-accuracy");
+    words.emplace_back("--quiet");
+    return words;
+}
+
+std::map<std::size_t, PlayedInWorker> play_in_workers(const CellStore& store, const Study& study, const StudyPlan& plan,
+                                                      const std::vector<std::size_t>& cells, const Jobs& jobs,
+                                                      const StudyOptions& options) {
+    const fs::path logs = options.folder / "logs";
+    make_folder(logs);
+    std::vector<std::size_t> order = cells;
+    std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return plan.cells[i].moments; });
+    const auto log_of = [&](std::size_t i) { return logs / (plan.cells[i].cell.name + ".log"); };
+    StudyProgress progress(order.size(), options.run.quiet);
+    std::map<std::size_t, PlayedInWorker> outcome;
+    std::vector<std::size_t> again;
+    WorkerPool pool{static_cast<std::size_t>(jobs.at_once),
+                    {options.limits.time_s, options.limits.memory_mib},
+                    [] { return !Interruption::requested(); },
+                    [&](std::size_t running) { progress.beat(running); }};
+    const auto command = [&](std::size_t i) {
+        WorkerCommand one{
+            playing_command(study, options, {plan.cells[i].cell.name}), {fmt::format("LP_NUM_THREADS={}", jobs.threads)}, log_of(i)};
+        one.words.front() = fmt::format("/proc/{}/exe", ::getpid()); // this very program, whatever is built meanwhile
+        store.note_failure(plan.cells[i].key, "");
+        return one;
+    };
+    const auto ended = [&](std::size_t i, const WorkerEnd& end, bool alone) {
+        if (end.ending == WorkerEnding::ended_by_us)
+            return; // not reached
+        if (may_pass_alone(end) && !alone && jobs.at_once > 1) {
+            again.push_back(i);
+            return;
+        }
+        PlayedInWorker& played = outcome[i] = {"", end.seconds, end.cpu_s, end.peak_memory_mib};
+        if (end.ending != WorkerEnding::exited || end.code != 0) {
+            played.failed = store.failure(plan.cells[i].key);
+            if (played.failed.empty())
+                played.failed = fmt::format("its process {}{}", ending_text(end, pool.limits),
+                                            last_word(log_of(i)).empty() ? "" : ": " + last_word(log_of(i)));
+            played.failed += fmt::format(" (log: logs/{}.log)", plan.cells[i].cell.name);
+        } else if (!store.find(plan.cells[i].key))
+            played.failed = "its inputs changed while the study was played";
+        std::error_code ignored;
+        if (played.failed.empty())
+            fs::remove(log_of(i), ignored);
+        progress.ended(plan.cells[i].cell.name, played.seconds, played.failed);
+    };
+    run_workers(
+        order.size(), pool, [&](std::size_t k) { return command(order[k]); },
+        [&](std::size_t k, const WorkerEnd& end) { ended(order[k], end, false); });
+    pool.at_once = 1;
+    const std::vector<std::size_t> alone = again;
+    run_workers(
+        alone.size(), pool, [&](std::size_t k) { return command(alone[k]); },
+        [&](std::size_t k, const WorkerEnd& end) { ended(alone[k], end, true); });
+    std::error_code ignored;
+    fs::remove(logs, ignored); // where it is empty
+    return outcome;
+}
+
+} // namespace fernlicht

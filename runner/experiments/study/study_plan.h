@@ -1,0 +1,43 @@
+// What a study is about to play: every cell with all that decides its figures, read and checked before the first frame, and its key.
+#pragma once
+
+#include "runner/experiments/run/run_drives.h"
+#include "runner/findings/lamp_checks.h"
+#include "runner/store/cell_store.h"
+#include "scenarios/studies/study.h"
+
+namespace fernlicht {
+
+struct StudyOptions;
+
+/// A cell without its drive, which is read again when it is played and when it is collected: a study may have thousands.
+struct PlannedCell {
+    StudyCell cell;
+    std::string drive, title;  ///< of the drive: its name, and for people
+    std::string resolved_file; ///< its name in the cell's folder
+    bool left_hand_traffic = false, limits_times = false;
+    int moments = 0, moments_of_drive = 0; ///< to be played, and that the whole drive has
+    CellInputs inputs;
+    std::string key;
+    std::shared_ptr<const FilesRead> road, others; ///< opened for its road, and beside road and lamps
+};
+
+struct StudyPlan {
+    std::vector<PlannedCell> cells;
+    std::vector<CheckedLampFile> lamp_files;
+    RunContext context; ///< of this machine
+};
+
+/// Reads everything that the chosen cells need, and opens the device once. Throws InputError and DeviceError where anything could not be
+/// played.
+StudyPlan plan_study(const Study& study, const StudyOptions& options);
+
+/// As `--frames` takes it; "" for all moments.
+std::string frames_text(const TickRange& ticks);
+
+/// The cells that one of `plan` differs from what the store has of the same study and cell: why each must be played, "new" where it never
+/// was. Only of cells that the store lacks.
+std::vector<std::pair<std::string, std::vector<std::string>>> reasons_to_play(const Study& study, const StudyPlan& plan,
+                                                                              const CellStore& store);
+
+} // namespace fernlicht

@@ -1,0 +1,166 @@
+#include "runner/store/cell_store.h"
+
+#include "runner/files/object_store.h"
+#include "runner/store/store_upkeep.h"
+#include "tests/runner/program.h"
+#include "tests/trial.h"
+
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+namespace fs = std::filesystem;
+
+constexpr double noon_s = 1'800'014'400.0; // 2027-01-15T12:00:00Z
+
+struct CellStoreTest : testing::Test {
+    TemporaryFolder folder;
+    CellStore store{folder / "store"};
+    const PackedFiles files{{"report.json", "{}"}, {"frames/a.png", std::string("\0\n\xff", 3)}, {"empty", ""}};
+
+    static std::string key_of_cell(int number) { return std::string(31, 'a') + static_cast<char>('0' + number); }
+    StoredCell keep(int number, const std::string& played = "2027-01-15T10:00:00Z", const std::string& study = "s") {
+        const std::string key = key_of_cell(number);
+        PackedFiles own = files;
+        own["number"] = std::string(1000, static_cast<char>('0' + number));
+        const fs::path lamp = folder / (study + "/lamp.ies");
+        fs::create_directories(lamp.parent_path());
+        if (!fs::exists(lamp))
+            write_file(lamp, "lamp of " + study);
+        FilesRead opened;
+        read_file(lamp, opened);
+        store.keep({key, study, "cell " + key.substr(31), played, {{InputKind::lamp, "lamp.ies", opened.front().xxh128}}, {}, 0, {}}, own,
+                   opened);
+        return *store.find(key);
+    }
+    static void flip_bit(const fs::path& file) {
+        std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+        stream.seekg(20);
+        const char byte = static_cast<char>(stream.get() ^ 4);
+        stream.seekp(20);
+        stream.put(byte);
+    }
+};
+
+TEST_F(CellStoreTest, GivesBackWhatItKeeps) {
+    EXPECT_FALSE(store.find(key_of_cell(1)));
+    const StoredCell kept = keep(1);
+    EXPECT_EQ(kept.cell, "cell 1");
+    PackedFiles expected = files;
+    expected["number"] = std::string(1000, '1');
+    EXPECT_EQ(store.load(kept), expected);
+    ASSERT_THAT(kept.files, SizeIs(1));
+    EXPECT_EQ(get_object(store.folder(), kept.files[0].second, "lamp"), "lamp of s");
+    EXPECT_THAT(store.list(), SizeIs(1));
+    write_files(store.load(kept), folder / "out");
+    EXPECT_EQ(files_below(folder / "out"), expected);
+}
+
+TEST_F(CellStoreTest, WhatIsDamagedIsFoundAndTakenOut) {
+    const StoredCell flipped = keep(1), gone = keep(2), halved = keep(3), whole = keep(4);
+    flip_bit(object_path(store.folder(), flipped.object));
+    fs::remove(object_path(store.folder(), gone.object));
+    const fs::path entry = store.folder() / "cells/aa" / (halved.key.substr(2) + ".json");
+    fs::resize_file(entry, fs::file_size(entry) / 2);
+    EXPECT_THAT(tests::refusal_of([&] { store.load(flipped); }), HasSubstr("is not the cell that was kept: its hash is "));
+    EXPECT_FALSE(store.find(gone.key));
+    EXPECT_FALSE(store.find(halved.key));
+    EXPECT_THAT(verify_store(store), SizeIs(4)) << "object and cell of the first, the second's cell, the third's entry";
+    EXPECT_FALSE(store.find(flipped.key));
+    EXPECT_TRUE(store.find(whole.key));
+    EXPECT_THAT(verify_store(store), IsEmpty());
+    EXPECT_EQ(keep(1).object, flipped.object) << "computed anew";
+}
+
+TEST_F(CellStoreTest, PrunesByAgeSizeAndStudy) {
+    keep(1, "2027-01-01T12:00:00Z", "old");
+    keep(2, "2027-01-10T12:00:00Z");
+    keep(3, "2027-01-14T12:00:00Z");
+    keep(4, "2099-01-01T00:00:00Z"); // by a clock that was wrong: it has no age
+    const auto left = [&] {
+        std::vector<std::string> cells;
+        for (const StoredCell& cell : store.list())
+            cells.push_back(cell.cell);
+        return cells;
+    };
+    const Pruned dry = prune_store(store, {.older_than_s = 86400.0 * 3, .dry = true}, noon_s);
+    EXPECT_EQ(dry.cells, 2U);
+    EXPECT_THAT(left(), SizeIs(4));
+    EXPECT_EQ(prune_store(store, {.study = "o*"}, noon_s).files, 2U) << "its results, and the lamp that no other had";
+    EXPECT_THAT(left(), ElementsAre("cell 2", "cell 3", "cell 4"));
+    const Pruned old = prune_store(store, {.older_than_s = 86400.0 * 3}, noon_s);
+    EXPECT_EQ(old.cells, 1U);
+    EXPECT_EQ(old.files, 1U) << "others have its lamp, too";
+    const std::uint64_t one = store.list().front().bytes;
+    EXPECT_EQ(prune_store(store, {.at_most_bytes = one + 10}, noon_s).cells, 1U);
+    EXPECT_THAT(left(), ElementsAre("cell 4"));
+    EXPECT_THAT(verify_store(store), IsEmpty());
+}
+
+TEST_F(CellStoreTest, ManyWritersAtOnceLeaveWholeCells) {
+    std::vector<::pid_t> writers;
+    for (int w = 0; w < 6; ++w)
+        if (const ::pid_t pid = ::fork(); pid == 0) {
+            try {
+                for (int round = 0; round < 20; ++round)
+                    for (int cell = 0; cell < 5; ++cell)
+                        keep(cell);
+            } catch (const std::exception& error) {
+                std::fprintf(stderr, "%s\n", error.what());
+                ::_exit(1);
+            }
+            ::_exit(0);
+        } else
+            writers.push_back(pid);
+    std::size_t read = 0;
+    for (int round = 0; round < 50; ++round) {
+        for (int cell = 0; cell < 5; ++cell)
+            if (const auto found = store.find(key_of_cell(cell))) {
+                EXPECT_EQ(store.load(*found).at("number"), std::string(1000, static_cast<char>('0' + cell)));
+                ++read;
+            }
+        if (round % 10 == 0)
+            prune_store(store, {.study = "other"}, noon_s);
+    }
+    for (const ::pid_t pid : writers) {
+        int status = 0;
+        ::waitpid(pid, &status, 0);
+        EXPECT_EQ(status, 0);
+    }
+    EXPECT_THAT(store.list(), SizeIs(5));
+    EXPECT_THAT(verify_store(store), IsEmpty());
+}
+
+TEST_F(CellStoreTest, AFailureIsKeptUntilTheCellIs) {
+    fs::create_directories(store.folder());
+    store.note_failure(key_of_cell(1), "no road");
+    EXPECT_EQ(store.failure(key_of_cell(1)), "no road");
+    keep(1);
+    EXPECT_EQ(store.failure(key_of_cell(1)), "");
+}
+
+TEST_F(CellStoreTest, SaysThatItCannotBeWritten) {
+    EXPECT_EQ(store.refuses_writing(), "");
+    const CellStore none(tests::written("a file", "") / "store");
+    EXPECT_THAT(none.refuses_writing(), HasSubstr("cannot be created"));
+}
+
+TEST(PackedFolder, RefusesWhatItDidNotMake) {
+    const std::string text = packed({{"a", "one"}, {"b/c", "two"}});
+    EXPECT_EQ(unpacked(text, "x").at("b/c"), "two");
+    for (std::size_t length = 0; length < text.size(); ++length)
+        EXPECT_THROW(unpacked(text.substr(0, length), "x"), InputError) << length;
+    EXPECT_THAT(tests::refusal_of([&] { unpacked(text + "!", "x"); }), HasSubstr("found 1 bytes behind the last file"));
+    std::string outside = text;
+    outside.replace(outside.find("b/c"), 3, "../");
+    EXPECT_THAT(tests::refusal_of([&] { unpacked(outside, "x"); }), HasSubstr("a name below the folder"));
+}
+
+} // namespace
+} // namespace fernlicht
