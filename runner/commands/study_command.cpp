@@ -27,8 +27,10 @@ struct StudyFlags {
     bool strict = false, resume = false, quiet = false, no_accuracy = false, list = false;
     std::string store;
     int jobs = 0, per = 1;
-    double cell_minutes = 60.0;
-    std::uint64_t cell_memory_mib = CellLimits{}.memory_mib;
+    std::vector<std::string> expect;
+    std::optional<double> cell_minutes, cell_memory_mib;
+    std::optional<int> cell_cores;
+    std::string executor = "local", partition, gpus;
     bool timed = false, explain = false, plan = false, play = false, collect = false;
 };
 
@@ -63,29 +65,37 @@ int explain_cells(const Study& study, const StudyOptions& options) {
 }
 
 /// A line of JSON for each command that plays some of the cells that the store lacks.
-int print_plan(const Study& study, const StudyOptions& options, std::size_t per) {
+int print_plan(const Study& study, const StudyOptions& options) {
     const StudyPlan plan = plan_study(study, options);
     const CellStore store(options.store);
-    std::vector<std::string> cells, keys;
-    const auto print = [&] {
-        if (cells.empty())
-            return;
-        const std::vector<std::string> words = playing_command(study, options, cells);
-        fmt::print("{}\n",
-                   nlohmann::ordered_json{{"cells", cells}, {"keys", keys}, {"words", words}, {"command", shell_quoted(words)}}.dump());
-        cells.clear();
-        keys.clear();
-    };
-    for (const PlannedCell& one : plan.cells) {
-        if (one.moments == 0 || store.find(one.key))
-            continue;
-        cells.push_back(one.cell.name);
-        keys.push_back(one.key);
-        if (cells.size() == per)
-            print();
+    std::vector<std::size_t> lacking;
+    for (std::size_t i = 0; i < plan.cells.size(); ++i)
+        if (plan.cells[i].moments > 0 && !store.find(plan.cells[i].key))
+            lacking.push_back(i);
+    const std::size_t per = static_cast<std::size_t>(options.per);
+    for (std::size_t from = 0; from < lacking.size(); from += per) {
+        const std::vector<std::size_t> some(lacking.begin() + static_cast<std::ptrdiff_t>(from),
+                                            lacking.begin() + static_cast<std::ptrdiff_t>(std::min(lacking.size(), from + per)));
+        nlohmann::ordered_json cells = nlohmann::ordered_json::array();
+        for (const std::size_t i : some)
+            cells.push_back(plan.cells[i].cell.name);
+        const std::vector<std::string> words = playing_command(study, plan, some, options);
+        fmt::print("{}\n", nlohmann::ordered_json{{"cells", cells}, {"words", words}, {"command", shell_quoted(words)}}.dump());
     }
-    print();
     return 0;
+}
+
+/// The study's own, but for what flags say.
+StudyResources resources_of(const StudyFlags& flags, const Study& study) {
+    StudyResources resources = study.resources;
+    resources.minutes = flags.cell_minutes.value_or(resources.minutes);
+    resources.memory_mib = flags.cell_memory_mib.value_or(resources.memory_mib);
+    resources.cores = flags.cell_cores.value_or(resources.cores);
+    if (!flags.partition.empty())
+        resources.partition = flags.partition;
+    if (!flags.gpus.empty())
+        resources.gpus = flags.gpus;
+    return resources;
 }
 
 void refuse_contradictions(const StudyFlags& flags) {
@@ -111,7 +121,13 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     options.store = flags.store.empty() && !flags.timed ? default_store() : std::filesystem::path(flags.store);
     options.timed = flags.timed;
     options.jobs = flags.jobs;
-    options.limits = {60.0 * flags.cell_minutes, flags.cell_memory_mib};
+    options.resources = resources_of(flags, study);
+    options.executor = flags.executor == "slurm" ? StudyExecutor::slurm : StudyExecutor::local;
+    options.per = flags.per;
+    for (const std::string& text : flags.expect) {
+        options.expected.emplace_back(text.substr(0, text.find('=')), text.substr(std::min(text.size(), text.find('=') + 1)));
+        options.only.push_back(options.expected.back().first);
+    }
     options.only = items_of("--only", flags.only);
     options.strict = flags.strict;
     options.resume = flags.resume;
@@ -127,7 +143,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     if (flags.explain)
         return explain_cells(study, options);
     if (flags.plan)
-        return print_plan(study, options, static_cast<std::size_t>(flags.per));
+        return print_plan(study, options);
     if (flags.play)
         return play_into_store(study, options) ? 0 : 1;
     const StudyResult result = flags.collect ? collect_study(study, options) : run_study(study, options);
@@ -154,12 +170,20 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_option("--store", flags->store, "folder where played cells are kept (default: $XDG_CACHE_HOME/fernlicht/store)");
     sub->add_option("--jobs", flags->jobs, "cells to play at a time (default: one for each core that draws)")->check(CLI::Range(1, 1024));
     sub->add_flag("--timed", flags->timed, "play cells one after another by themselves and take times; take none from the store");
-    sub->add_option("--cell-minutes", flags->cell_minutes, "stop a cell that takes longer (default: 60)")->check(CLI::Range(0.01, 1e5));
-    sub->add_option("--cell-memory-mib", flags->cell_memory_mib, "memory that a cell may take; 0: no limit (default: 4096)");
+    sub->add_option("--cell-minutes", flags->cell_minutes, "stop a cell that takes longer (default: the study's resources)")
+        ->check(CLI::Range(0.001, 1e5));
+    sub->add_option("--cell-memory-mib", flags->cell_memory_mib, "memory that a cell may take; 0: no limit")->check(CLI::Range(0.0, 1e7));
+    sub->add_option("--cell-cores", flags->cell_cores, "threads of the software renderer in each cell")->check(CLI::Range(1, 1024));
+    sub->add_option("--executor", flags->executor, "local, or slurm: play cells as job arrays of a cluster")
+        ->check(CLI::IsMember({"local", "slurm"}));
+    sub->add_option("--partition", flags->partition, "of the cluster");
+    sub->add_option("--gpus", flags->gpus, "of the cluster for each cell, as --gres has it: gpu:1");
     sub->add_flag("--explain", flags->explain, "say why each cell must be played that the store lacks, and play none");
     sub->add_flag("--plan", flags->plan, "print a command for each cell that the store lacks, a line of JSON each, and play none");
-    sub->add_option("--per", flags->per, "with --plan: cells for each command (default: 1)")->check(CLI::Range(1, 100'000));
+    sub->add_option("--per", flags->per, "cells for each command of --plan, and for each task of a cluster (default: 1)")
+        ->check(CLI::Range(1, 100'000));
     sub->add_flag("--play", flags->play, "play into the store what it lacks, in this process, and write no report");
+    sub->add_option("--expect", flags->expect, "with --play: CELL=KEY, a cell and the key that --plan gave it")->allow_extra_args(false);
     sub->add_flag("--collect", flags->collect, "write the report of what lies in the store, and play none");
     sub->add_flag("--quiet", flags->quiet, "show no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return study(*flags, command); }; });

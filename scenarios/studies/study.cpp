@@ -477,6 +477,7 @@ const Fields<Study>& study_fields() {
                     read_study_resolution)
             .schema_by(R"({"type": "array", "minItems": 2, "maxItems": 2,
                 "items": {"type": "integer", "minimum": 1, "maximum": 16384}})"),
+        field("resources", 8, &Study::resources, study_resources_fields(), "what each cell may take of the machine that plays it"),
         form<Study>("lamp_noise_percent", FieldKind::number, range(0.0, 100.0), "standard deviation of the lamps' intensities",
                     [](const YamlEntry& entry, Study& study) { study.noise_relative = entry.number(0.0, 100.0) / 100.0; }),
     };

@@ -3,6 +3,7 @@
 
 #include "scenarios/drives/drive.h"
 #include "scenarios/studies/study_axes.h"
+#include "scenarios/studies/study_resources.h"
 
 namespace fernlicht {
 
@@ -60,6 +61,7 @@ struct Study {
     std::vector<StudyLimit> limits;
     int pictured_moments = 4;                         ///< stored moments of each cell
     std::optional<std::pair<int, int>> resolution_px; ///< of the camera views; nullopt: the drives' own
+    StudyResources resources;                         ///< of each cell
     double noise_relative = 0.0;                      ///< standard deviation of the lamps' intensities, for the comparison of their tables
     FilesRead opened;
 };

@@ -95,28 +95,31 @@ bool play_timed(const Study& study, const PlannedCell& planned, const StudyOptio
     return run_drives({unjudged_drive(study, planned.cell)}, run_options(options, folder)).complete;
 }
 
-Jobs jobs_for(int asked, const RunContext& context, const CellLimits& limits) {
+Jobs jobs_for(int asked, const RunContext& context, const StudyResources& resources) {
     const bool is_software = context.gl_renderer.starts_with("llvmpipe") || context.gl_renderer.starts_with("softpipe");
     const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     int usual = is_software ? cores : std::min(4, cores);
-    if (limits.memory_mib > 0)
-        usual = std::clamp(usual, 1, std::max(1, static_cast<int>(physical_memory_mib() / static_cast<double>(limits.memory_mib))));
-    return {asked > 0 ? asked : usual, asked == 1 || cores == 1 ? cores : 1};
+    if (resources.memory_mib > 0.0)
+        usual = std::clamp(usual, 1, std::max(1, static_cast<int>(physical_memory_mib() / resources.memory_mib)));
+    return {asked > 0 ? asked : usual, std::max(resources.cores, asked == 1 ? cores : 1)};
 }
 
-std::vector<std::string> playing_command(const Study& study, const StudyOptions& options, const std::vector<std::string>& cells) {
-    std::vector<std::string> words{options.run.command.empty() ? "fernlicht" : options.run.command.front(), "study",
-                                   fs::absolute(study.file).string(), "--play"};
+std::vector<std::string> playing_command(const Study& study, const StudyPlan& plan, const std::vector<std::size_t>& cells,
+                                         const StudyOptions& options) {
+    std::error_code ignored;
+    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    std::vector<std::string> words{program.empty() ? "fernlicht" : program.string(), "study", fs::absolute(study.file).string(), "--play"};
     const auto add = [&](const char* flag, const std::string& value) {
         if (!value.empty())
             words.insert(words.end(), {flag, value});
     };
-    for (const std::string& cell : cells)
-        add("--only", cell);
+    for (const std::size_t i : cells)
+        add("--expect", plan.cells[i].cell.name + "=" + plan.cells[i].key);
     add("--store", fs::absolute(options.store).string());
     add("--backend", options.run.backend);
     add("--frames", frames_text(options.run.ticks));
-    add("--repeats", options.run.repeats > 1 ? fmt::format("{}", options.run.repeats) : "");
+    add("--repeat", options.run.repeats > 1 ? fmt::format("{}", options.run.repeats) : "");
+    add("--cell-cores", fmt::format("{}", options.resources.cores));
     if (!options.run.accuracy)
         words.emplace_back("--no-accuracy");
     words.emplace_back("--quiet");
@@ -135,12 +138,13 @@ std::map<std::size_t, PlayedInWorker> play_in_workers(const CellStore& store, co
     std::map<std::size_t, PlayedInWorker> outcome;
     std::vector<std::size_t> again;
     WorkerPool pool{static_cast<std::size_t>(jobs.at_once),
-                    {options.limits.time_s, options.limits.memory_mib},
+                    {60.0 * options.resources.minutes, static_cast<std::uint64_t>(options.resources.memory_mib)},
                     [] { return !Interruption::requested(); },
                     [&](std::size_t running) { progress.beat(running); }};
+    StudyOptions of_worker = options;
+    of_worker.resources.cores = jobs.threads;
     const auto command = [&](std::size_t i) {
-        WorkerCommand one{
-            playing_command(study, options, {plan.cells[i].cell.name}), {fmt::format("LP_NUM_THREADS={}", jobs.threads)}, log_of(i)};
+        WorkerCommand one{playing_command(study, plan, {i}, of_worker), {}, log_of(i)};
         one.words.front() = fmt::format("/proc/{}/exe", ::getpid()); // this very program, whatever is built meanwhile
         store.note_failure(plan.cells[i].key, "");
         return one;

@@ -21,7 +21,7 @@ struct Jobs {
     int at_once = 1;
     int threads = 1; ///< of llvmpipe; 0: the cell's own thread draws
 };
-Jobs jobs_for(int asked, const RunContext& context, const CellLimits& limits);
+Jobs jobs_for(int asked, const RunContext& context, const StudyResources& resources);
 
 /// What became of one cell that was to be played.
 struct PlayedInWorker {

@@ -101,7 +101,7 @@ void check_lamps(const Study& study, const StudyCell& cell, const Drive& drive, 
 
 bool limits_times(const std::string& reading) {
     const std::optional<ReadingKey> key = key_of(reading);
-    return key && key->quantity == Quantity::pass_time;
+    return key && is_time(*key);
 }
 
 void refuse_limits_on_times(const Study& study, const std::vector<PlannedCell>& cells) {

@@ -3,6 +3,7 @@
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/study/cell_collecting.h"
 #include "runner/experiments/study/cell_playing.h"
+#include "runner/experiments/study/slurm_playing.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/files/checked_json.h"
 #include "runner/files/output_folder.h"
@@ -14,6 +15,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <map>
+#include <oneapi/tbb/global_control.h>
 
 namespace fernlicht {
 namespace {
@@ -204,6 +206,19 @@ void play_all_timed(const Study& study, const StudyPlan& plan, const StudyOption
     }
 }
 
+/// Where a plan was made with other files, another program or on another class of machine, what is played here is not what it waits for.
+void refuse_others(const StudyPlan& plan, const CellStore& store, const StudyOptions& options) {
+    for (const auto& [cell, key] : options.expected)
+        if (const auto one = std::ranges::find(plan.cells, cell, [](const PlannedCell& planned) { return planned.cell.name; });
+            one != plan.cells.end() && one->key != key) {
+            const std::string here = fmt::format("{}, {}", plan.context.gl_renderer, plan.context.cpu);
+            const std::string why =
+                fmt::format("cell {}: files, program or class of machine are not those of the plan (here: {})", cell, here);
+            store.note_failure(key, why);
+            throw InputError({{}, 0, 0, "--expect"}, "found " + why, "a plan that was made with these");
+        }
+}
+
 } // namespace
 
 StudyResult run_study(const Study& study, const StudyOptions& options) {
@@ -220,8 +235,9 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
     if (options.timed)
         play_all_timed(study, plan, options, result);
     else {
-        const Jobs jobs = jobs_for(options.jobs, plan.context, options.limits);
-        const auto played = play_in_workers(store, study, plan, to_play, jobs, options);
+        const Jobs jobs = jobs_for(options.jobs, plan.context, options.resources);
+        const auto played = options.executor == StudyExecutor::slurm ? play_on_slurm(store, study, plan, to_play, options)
+                                                                     : play_in_workers(store, study, plan, to_play, jobs, options);
         if (Interruption::requested())
             result.interrupted = "interrupted by the user";
         collect_all(store, study, plan, options, played, jobs, result);
@@ -253,8 +269,12 @@ StudyResult collect_study(const Study& study, const StudyOptions& options) {
 }
 
 bool play_into_store(const Study& study, const StudyOptions& options) {
+    ::setenv("LP_NUM_THREADS", fmt::format("{}", options.resources.cores).c_str(), 0);
+    const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism,
+                                              static_cast<std::size_t>(options.resources.cores));
     const StudyPlan plan = plan_study(study, options);
     const CellStore store(options.store);
+    refuse_others(plan, store, options);
     const Interruption listening;
     bool all_there = true;
     for (const PlannedCell& one : plan.cells) {

@@ -9,11 +9,7 @@
 
 namespace fernlicht {
 
-/// Of one worker, that is, of one cell.
-struct CellLimits {
-    double time_s = 3600.0;
-    std::uint64_t memory_mib = 4096; ///< 0: none
-};
+enum class StudyExecutor { local, slurm };
 
 struct StudyOptions {
     std::filesystem::path folder;
@@ -23,8 +19,11 @@ struct StudyOptions {
     bool strict = false;                ///< refuse lamp files with which readings are meaningless
     bool resume = false;                ///< go on in the study's folder
     bool timed = false;                 ///< play cells one after another by themselves, and time them; none is taken from the store
-    int jobs = 0;                       ///< cells at a time; 0: as jobs_for() says
-    CellLimits limits;
+    int jobs = 0;                       ///< cells at a time on this machine; 0: as jobs_for() says
+    std::vector<std::pair<std::string, std::string>> expected; ///< with play_into_store: cells and the keys that a plan gave them
+    StudyResources resources;                                  ///< of each cell: the study's, but for what flags say
+    StudyExecutor executor = StudyExecutor::local;
+    int per = 1;    ///< cells for each command of a plan, and for each task of a cluster
     RunOptions run; ///< backend, moments, baselines, repeats, day, quiet, accuracy, command; the folder is each cell's own
     std::function<void(const Report&, const std::filesystem::path&)> judge_cell; ///< a cell's files become those of what it was judged
     std::function<void(const StudyResult&)> write;                               ///< into the folder, before it is marked as complete
@@ -45,8 +44,9 @@ StudyResult collect_study(const Study& study, const StudyOptions& options);
 /// kept in the store as the reason. True where all are there.
 bool play_into_store(const Study& study, const StudyOptions& options);
 
-/// The command that does so for one cell or for several, on any machine that sees the files and the store.
-std::vector<std::string> playing_command(const Study& study, const StudyOptions& options, const std::vector<std::string>& cells);
+/// The command that does so for one cell or for several (places in the plan), on any machine that sees the files and the store.
+std::vector<std::string> playing_command(const Study& study, const StudyPlan& plan, const std::vector<std::size_t>& cells,
+                                         const StudyOptions& options);
 
 /// Throws InputError with the lamp's line in the study's file where `aim: auto` stands beside a file that has nothing to aim by. run_study
 /// asks for it, too.

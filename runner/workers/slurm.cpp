@@ -1,0 +1,178 @@
+#include "runner/workers/slurm.h"
+
+#include "runner/files/durable_files.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spawn.h>
+#include <sstream>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+
+extern char** environ; // NOLINT: POSIX's
+
+namespace fernlicht {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Answer {
+    int code = -1;
+    std::string said, complained;
+};
+
+std::string all_of(int file) {
+    std::string text;
+    std::array<char, 4096> buffer{};
+    while (true) {
+        const ssize_t got = ::read(file, buffer.data(), buffer.size());
+        if (got > 0)
+            text.append(buffer.data(), static_cast<std::size_t>(got));
+        else if (got == 0 || errno != EINTR)
+            return text;
+    }
+}
+
+/// No shell is between: words stay words. What it complains goes to a file without a name, so that neither can fill up.
+Answer ask(std::vector<std::string> words) {
+    std::vector<char*> pointers;
+    for (std::string& word : words)
+        pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    int said[2] = {-1, -1};
+    std::FILE* const complained = std::tmpfile();
+    if (!complained || ::pipe2(said, O_CLOEXEC) != 0)
+        throw DeviceError(fmt::format("{} cannot be started: {}", words.front(), std::generic_category().message(errno)));
+    posix_spawn_file_actions_t actions;
+    ::posix_spawn_file_actions_init(&actions);
+    ::posix_spawn_file_actions_adddup2(&actions, said[1], STDOUT_FILENO);
+    ::posix_spawn_file_actions_adddup2(&actions, ::fileno(complained), STDERR_FILENO);
+    ::pid_t pid = -1;
+    const int error = ::posix_spawnp(&pid, pointers.front(), &actions, nullptr, pointers.data(), environ);
+    ::posix_spawn_file_actions_destroy(&actions);
+    ::close(said[1]);
+    Answer answer;
+    if (error == 0) {
+        answer.said = all_of(said[0]);
+        int status = 0;
+        while (::waitpid(pid, &status, 0) < 0 && errno == EINTR)
+            ;
+        answer.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+        ::lseek(::fileno(complained), 0, SEEK_SET);
+        answer.complained = all_of(::fileno(complained));
+    }
+    ::close(said[0]);
+    std::fclose(complained);
+    if (error != 0)
+        throw DeviceError(fmt::format("{} cannot be started: {}; Slurm's programs must be on the PATH", words.front(),
+                                      std::generic_category().message(error)));
+    return answer;
+}
+
+std::string quoted_for_shell(const std::string& word) {
+    std::string quoted = "'";
+    for (const char c : word)
+        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+/// "KEY=value" of scontrol's answers; "" where there is none.
+std::string value_in(const std::string& text, const std::string& key) {
+    for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1))
+        if (at == 0 || std::isspace(static_cast<unsigned char>(text[at - 1]))) {
+            std::size_t from = text.find('=', at);
+            if (from == std::string::npos)
+                break;
+            from = text.find_first_not_of(" ", from + 1);
+            return text.substr(from, text.find_first_of(" \n", from) - from);
+        }
+    return {};
+}
+
+} // namespace
+
+std::string submit_array(const std::string& name, const std::vector<std::string>& commands, const SlurmResources& resources,
+                         const fs::path& folder) {
+    const fs::path list = fs::absolute(folder) / (name + ".commands"), script = fs::absolute(folder) / (name + ".sh");
+    write_durably(list, fmt::format("{}\n", fmt::join(commands, "\n")));
+    write_durably(script, fmt::format("#!/bin/sh\n# Line SLURM_ARRAY_TASK_ID + 1 of the list is this task's command, quoted for a shell.\n"
+                                      "command=$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" {})\neval \"exec $command\"\n",
+                                      quoted_for_shell(list.string())));
+    std::vector<std::string> words{
+        "sbatch",
+        "--parsable",
+        "--requeue",
+        "--job-name=" + name,
+        fmt::format("--array=0-{}{}", commands.size() - 1, resources.at_once > 0 ? fmt::format("%{}", resources.at_once) : ""),
+        fmt::format("--output={}", (fs::absolute(folder) / (name + "-%a.log")).string()),
+        "--open-mode=append",
+        fmt::format("--time={}", static_cast<int>(resources.minutes + 0.999)),
+        fmt::format("--cpus-per-task={}", resources.cores),
+        "--export=ALL"};
+    if (resources.memory_mib > 0)
+        words.push_back(fmt::format("--mem={}M", resources.memory_mib));
+    if (!resources.partition.empty())
+        words.push_back("--partition=" + resources.partition);
+    if (!resources.gpus.empty())
+        words.push_back("--gres=" + resources.gpus);
+    words.push_back(script.string());
+    const Answer answer = ask(words);
+    const std::string id = answer.said.substr(0, answer.said.find_first_of(";\n"));
+    if (answer.code != 0 || id.empty())
+        throw DeviceError(fmt::format("sbatch refused the job array: {}", first_line(answer.complained)));
+    return id;
+}
+
+std::optional<std::map<std::pair<std::string, std::size_t>, std::string>> active_tasks(const std::vector<SlurmArray>& arrays) {
+    std::map<std::pair<std::string, std::size_t>, std::string> tasks;
+    std::vector<std::string> names;
+    for (const SlurmArray& array : arrays)
+        names.push_back(array.name);
+    if (names.empty())
+        return tasks;
+    const Answer answer = ask({"squeue", "--noheader", "--array",
+                               "--states=PENDING,RUNNING,SUSPENDED,COMPLETING,CONFIGURING,REQUEUED,REQUEUE_HOLD,REQUEUE_FED,RESIZING,"
+                               "SIGNALING,STAGE_OUT,STOPPED,SPECIAL_EXIT,RESV_DEL_HOLD",
+                               fmt::format("--name={}", fmt::join(names, ",")), "--format=%F %K %T"});
+    if (answer.code != 0)
+        return std::nullopt;
+    std::istringstream lines(answer.said);
+    for (std::string id, task, state; lines >> id >> task >> state;)
+        if (!task.empty() && task.find_first_not_of("0123456789") == std::string::npos)
+            tasks[{id, std::stoul(task)}] = state;
+    return tasks;
+}
+
+std::optional<std::string> array_id(const std::string& name) {
+    const Answer answer = ask({"squeue", "--noheader", "--array", "--name=" + name, "--format=%F"});
+    return answer.code == 0 ? std::optional(first_line(answer.said)) : std::nullopt;
+}
+
+std::string ended_state(const std::string& array_id, std::size_t task) {
+    const Answer answer = ask({"scontrol", "show", "job", fmt::format("{}_{}", array_id, task)});
+    return answer.code == 0 ? value_in(answer.said, "JobState") : "";
+}
+
+std::size_t most_tasks() {
+    const Answer answer = ask({"scontrol", "show", "config"});
+    const std::string most = value_in(answer.said, "MaxArraySize");
+    if (answer.code != 0 || most.empty() || most.find_first_not_of("0123456789") != std::string::npos)
+        throw DeviceError(fmt::format("no Slurm controller answers: {}", first_line(answer.complained)));
+    return std::max<std::size_t>(2, std::stoul(most)) - 1;
+}
+
+void cancel_arrays(const std::vector<SlurmArray>& arrays) {
+    for (const SlurmArray& array : arrays)
+        ask({"scancel", "--name=" + array.name});
+}
+
+} // namespace fernlicht
