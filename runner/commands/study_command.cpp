@@ -147,7 +147,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     if (flags.play)
         return play_into_store(study, options) ? 0 : 1;
     const StudyResult result = flags.collect ? collect_study(study, options) : run_study(study, options);
-    fmt::print("{}{}\n", document_text(study_summary(result)), (options.folder / "report.html").string());
+    fmt::print("{}{}\n{}\n", document_text(study_summary(result)), result.played_by, (options.folder / "report.html").string());
     return overall(result) == VerdictKind::pass ? 0 : 1;
 }
 

@@ -292,6 +292,8 @@ Document document(const StudyResult& result, const std::vector<std::string>& pap
     if (!result.study.axes.empty() && result.cells.size() > max_pictured_places * result.study.lamps.size())
         cells.blocks.emplace_back(
             fmt::format("Pictures are of the first {} places; the others' are in the reports of their cells.", max_pictured_places));
+    if (!result.played_by.empty())
+        cells.blocks.emplace_back(result.played_by + ".");
     cells.blocks.emplace_back(cells_table(result));
     Listing files({Cell("study.json").linked("study.json"), Cell("study.csv").linked("study.csv")});
     for (const std::string& paper : papers)

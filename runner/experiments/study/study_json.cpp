@@ -157,8 +157,9 @@ JsonMembers cell_time_members(CellResult& cell) {
 JsonMembers study_context_members(StudyResult& result) {
     JsonMembers members = context_members(result.context);
     std::erase_if(members, [](const JsonMember& member) { return member.key == "seed" || member.key == "inputs"; });
-    return joined(std::move(members),
-                  JsonMembers{{"study_file", result.study.file}, {"cells", one_for_each(result.cells, cell_time_members, "cells")}});
+    return joined(std::move(members), JsonMembers{{"study_file", result.study.file},
+                                                  {"played_by", result.played_by},
+                                                  {"cells", one_for_each(result.cells, cell_time_members, "cells")}});
 }
 
 } // namespace

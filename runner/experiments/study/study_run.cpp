@@ -121,6 +121,15 @@ void try_cell(CellResult& cell, const std::function<void()>& collect) {
     }
 }
 
+std::string played_words(const StudyResult& result, const std::string& how) {
+    const auto reused = static_cast<std::size_t>(
+        std::ranges::count_if(result.cells, [](const CellResult& cell) { return cell.reused && cell.failed.empty(); }));
+    const auto played = static_cast<std::size_t>(
+        std::ranges::count_if(result.cells, [](const CellResult& cell) { return !cell.reused && cell.failed.empty(); }));
+    return fmt::format("{} of {} cells came from the store", reused, result.cells.size()) +
+           (played > 0 ? fmt::format("; {} {} played, {}", played, played == 1 ? "was" : "were", how) : "");
+}
+
 void finish(StudyResult& result, const StudyOptions& options, OutputFolder& folder) {
     add_lanes(result.study, result);
     compare_cells(result);
@@ -232,15 +241,20 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
     OutputFolder folder = folder_for(plan, options);
     write_file(options.folder / "plan.json", plan_text(plan));
     const Interruption listening;
-    if (options.timed)
+    if (options.timed) {
         play_all_timed(study, plan, options, result);
-    else {
+        result.played_by = played_words(result, "one after another by themselves");
+    } else {
         const Jobs jobs = jobs_for(options.jobs, plan.context, options.resources);
         const auto played = options.executor == StudyExecutor::slurm ? play_on_slurm(store, study, plan, to_play, options)
                                                                      : play_in_workers(store, study, plan, to_play, jobs, options);
         if (Interruption::requested())
             result.interrupted = "interrupted by the user";
         collect_all(store, study, plan, options, played, jobs, result);
+        result.played_by =
+            played_words(result, options.executor == StudyExecutor::slurm
+                                     ? "by Slurm"
+                                     : fmt::format("{} at a time, {} of the renderer's threads each", jobs.at_once, jobs.threads));
     }
     finish(result, options, folder);
     return result;
@@ -264,6 +278,7 @@ StudyResult collect_study(const Study& study, const StudyOptions& options) {
         } else
             try_cell(cell, [&] { collect_cell(store, study, one, options, cell); });
     }
+    result.played_by = played_words(result, "");
     finish(result, options, folder);
     return result;
 }
