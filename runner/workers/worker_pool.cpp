@@ -57,7 +57,8 @@ std::vector<std::string> environment_with(const std::vector<std::string>& more) 
 }
 
 /// In the child, between fork and exec: only what needs no lock. Does not return.
-[[noreturn]] void become(char* const* words, char* const* environment, int log, const WorkerLimits& limits, ::pid_t parent) {
+[[noreturn]] void become(const char* program, char* const* words, char* const* environment, int log, const WorkerLimits& limits,
+                         ::pid_t parent) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (::getppid() != parent) // it died meanwhile
@@ -74,7 +75,7 @@ std::vector<std::string> environment_with(const std::vector<std::string>& more) 
         ::dup2(nothing, STDIN_FILENO);
     ::dup2(log, STDOUT_FILENO);
     ::dup2(log, STDERR_FILENO);
-    ::execve(words[0], words, environment);
+    ::execve(program, words, environment);
     const char said[] = "this program cannot be started again\n";
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, said, sizeof said - 1);
     ::_exit(126);
@@ -86,10 +87,11 @@ Worker start_worker(std::size_t index, WorkerCommand command, const WorkerLimits
         throw DeviceError(command.log.string() + ": cannot be written: " + std::generic_category().message(errno));
     std::vector<std::string> environment = environment_with(command.environment);
     const std::vector<char*> words = pointers_of(command.words), variables = pointers_of(environment);
+    const std::string program = command.program.empty() ? command.words.front() : command.program.string();
     const ::pid_t parent = ::getpid();
     Worker worker{index, ::fork(), Clock::now(), {}, false, false};
     if (worker.pid == 0)
-        become(words.data(), variables.data(), log, limits, parent);
+        become(program.c_str(), words.data(), variables.data(), log, limits, parent);
     const int error = errno;
     ::close(log);
     if (worker.pid < 0)

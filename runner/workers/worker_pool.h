@@ -10,7 +10,8 @@
 namespace fernlicht {
 
 struct WorkerCommand {
-    std::vector<std::string> words;       ///< the first is a path, of a program
+    std::vector<std::string> words;       ///< the first is what it is called by
+    std::filesystem::path program;        ///< what is started; "": the first word, a path
     std::vector<std::string> environment; ///< "NAME=value", beside that of this process
     std::filesystem::path log;            ///< takes what it prints, of a run before too
 };

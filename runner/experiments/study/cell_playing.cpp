@@ -144,8 +144,8 @@ std::map<std::size_t, PlayedInWorker> play_in_workers(const CellStore& store, co
     StudyOptions of_worker = options;
     of_worker.resources.cores = jobs.threads;
     const auto command = [&](std::size_t i) {
-        WorkerCommand one{playing_command(study, plan, {i}, of_worker), {}, log_of(i)};
-        one.words.front() = fmt::format("/proc/{}/exe", ::getpid()); // this very program, whatever is built meanwhile
+        // This very program, whatever is built meanwhile.
+        WorkerCommand one{playing_command(study, plan, {i}, of_worker), fmt::format("/proc/{}/exe", ::getpid()), {}, log_of(i)};
         store.note_failure(plan.cells[i].key, "");
         return one;
     };

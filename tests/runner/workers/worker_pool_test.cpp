@@ -24,7 +24,7 @@ struct WorkerPoolTest : testing::Test {
         run_workers(
             scripts.size(), pool,
             [&](std::size_t i) {
-                return WorkerCommand{{"/bin/sh", "-c", scripts[i]}, {"GIVEN=yes"}, folder / (std::to_string(i) + ".log")};
+                return WorkerCommand{{"sh", "-c", scripts[i]}, "/bin/sh", {"GIVEN=yes"}, folder / (std::to_string(i) + ".log")};
             },
             [&](std::size_t i, const WorkerEnd& end) { ends[i] = end; });
     }
@@ -107,7 +107,7 @@ TEST_F(WorkerPoolTest, AProgramThatIsNotThere) {
     run_workers(
         1, pool,
         [&](std::size_t) {
-            return WorkerCommand{{"/nonexistent/program"}, {}, folder / "0.log"};
+            return WorkerCommand{{"/nonexistent/program"}, {}, {}, folder / "0.log"};
         },
         [&](std::size_t i, const WorkerEnd& end) { ends[i] = end; });
     EXPECT_EQ(ends.at(0).code, 126);
