@@ -37,13 +37,16 @@ void write_durably(const std::filesystem::path& path, const std::string& content
     std::array<char, 64> host{};
     ::gethostname(host.data(), host.size() - 1);
     const std::filesystem::path part = path.string() + fmt::format(".part-{}-{}-{}", host.data(), ::getpid(), ++written);
-    write_file(part, content);
     try {
+        write_file(part, content);
         sync(part);
         rename_durably(part, path);
-    } catch (const DeviceError&) {
+    } catch (const DeviceError& error) {
         ::unlink(part.c_str());
-        throw;
+        std::string text = error.what(); // nobody knows the file by that name
+        if (text.starts_with(part.native()))
+            text.replace(0, part.native().size(), path.native());
+        throw DeviceError(text);
     }
 }
 

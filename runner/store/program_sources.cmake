@@ -21,8 +21,14 @@ string(APPEND rows "        {\"compiler flags\", \"${hash}\"},\n")
 file(CONFIGURE OUTPUT ${OUT} CONTENT "#include \"runner/store/cell_key.h\"
 
 const std::vector<std::pair<std::string, std::string>>& fernlicht::program_sources() {
-    static const std::vector<std::pair<std::string, std::string>> sources{
+    static const char* const rows[][2] = {
 ${rows}    };
+    static const std::vector<std::pair<std::string, std::string>> sources = [] {
+        std::vector<std::pair<std::string, std::string>> all;
+        for (const auto& row : rows)
+            all.emplace_back(row[0], row[1]);
+        return all;
+    }();
     return sources;
 }
 " @ONLY)

@@ -69,8 +69,8 @@ struct Study {
 template <class Struct> struct Fields;
 const Fields<Study>& study_fields(); ///< the keys of its file
 
-/// Every drive is read before the first frame and kept to the end: 0.43 MB each with two lamp files, 4.3 GB of this many.
-inline constexpr std::size_t max_study_cells = 10'000;
+/// docs/cluster.md says what so many need.
+inline constexpr std::size_t max_study_cells = 100'000;
 
 /// One thing that is played: a drive with one lamp set in one technique under one condition.
 struct StudyCell {

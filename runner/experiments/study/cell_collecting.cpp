@@ -1,5 +1,6 @@
 #include "runner/experiments/study/cell_collecting.h"
 
+#include "metrics/readings/reading_key.h"
 #include "runner/experiments/run/run_judging.h"
 #include "runner/experiments/run/run_report.h"
 #include "runner/findings/run_context.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace fernlicht {
 namespace {
@@ -59,11 +61,11 @@ void judge(const Drive& drive, const PlannedCell& planned, const StudyOptions& o
 
 } // namespace
 
-CellResult unplayed_cell(const Study& study, const PlannedCell& planned, const StudyOptions& options) {
+CellResult unplayed_cell(const Study& study, const StudyPlan& plan, const PlannedCell& planned, const StudyOptions& options) {
     CellResult cell;
     const Drive drive = cell_drive(study, planned.cell);
     cell.cell = planned.cell;
-    cell.inputs = planned.inputs;
+    cell.inputs = plan.inputs(planned);
     cell.key = planned.key;
     cell.title = planned.title;
     cell.step_s = drive.step_s;
@@ -88,6 +90,33 @@ void judge_cell(const Study& study, const PlannedCell& planned, const StudyOptio
     PlayedResult played = played_result(report.played.front(), read_moments(folder, report, 0), folder_name_of(planned));
     static_cast<Steps&>(played) = result; // the drive's, not the report's
     static_cast<PlayedResult&>(result) = std::move(played);
+}
+
+void keep_what_is_told(const Study& study, const fs::path& study_folder, bool is_pictured, CellResult& cell) {
+    std::set<ReadingKey> told;
+    for (const auto& [key, reading] : cell.readings)
+        if (place_among(key, study.decide) ||
+            std::ranges::any_of(study.limits, [&](const StudyLimit& limit) { return limit.reading == name_of(key); }))
+            told.insert(key);
+    const auto is_told = [&](const ReadingKey& key) {
+        return told.contains(key) || (is_uncertainty(key) && std::ranges::any_of(told, [&](const ReadingKey& of) {
+                                          return of.quantity == key.quantity && of.lane == key.lane && of.threshold == key.threshold &&
+                                                 of.surface == key.surface && of.subject == key.subject;
+                                      }));
+    };
+    std::erase_if(cell.readings, [&](const auto& reading) { return !is_told(reading.first); });
+    cell.inputs.clear();
+    cell.inputs.shrink_to_fit();
+    if (is_pictured || std::ranges::any_of(cell.verdicts, is_red))
+        return;
+    cell.is_kept = false;
+    cell.frames = {};
+    cell.reaches = {};
+    cell.glares = {};
+    cell.maps = {};
+    cell.series = nullptr;
+    std::error_code ignored;
+    fs::remove_all(study_folder / "cells" / cell.cell.name, ignored);
 }
 
 void collect_cell(const CellStore& store, const Study& study, const PlannedCell& planned, const StudyOptions& options, CellResult& result) {

@@ -79,14 +79,14 @@ double physical_memory_mib() {
 
 } // namespace
 
-bool play_into(const CellStore& store, const Study& study, const PlannedCell& planned, const StudyOptions& options) {
+bool play_into(const CellStore& store, const Study& study, const StudyPlan& plan, const PlannedCell& planned, const StudyOptions& options) {
     const Workplace place(store.new_workplace(planned.key));
     RunOptions run = run_options(options, place.folder);
     run.no_times = no_times_beside_others;
     const Report report = run_drives({unjudged_drive(study, planned.cell)}, run);
     if (!report.complete)
         return false;
-    store.keep({planned.key, study.name, planned.cell.name, report.context.started_utc, planned.inputs, {}, 0, {}},
+    store.keep({planned.key, study.name, planned.cell.name, report.context.started_utc, plan.inputs(planned), {}, 0, {}},
                files_below(place.folder), inputs_of(report, planned));
     return true;
 }

@@ -11,7 +11,7 @@ namespace fernlicht {
 inline constexpr const char* no_times_beside_others = "cells beside it";
 
 /// Plays the cell and keeps it; false where it was interrupted. Throws InputError and DeviceError.
-bool play_into(const CellStore& store, const Study& study, const PlannedCell& planned, const StudyOptions& options);
+bool play_into(const CellStore& store, const Study& study, const StudyPlan& plan, const PlannedCell& planned, const StudyOptions& options);
 
 /// Plays the cell by itself into its folder, and takes its times; false where it was interrupted.
 bool play_timed(const Study& study, const PlannedCell& planned, const StudyOptions& options, const std::filesystem::path& folder);

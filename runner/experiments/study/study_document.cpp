@@ -237,7 +237,7 @@ Section views_section(const StudyResult& result) {
     Section section{"What the driver sees", {}};
     for (const StudyComparison& pair : result.study.comparisons) {
         std::vector<std::pair<std::size_t, std::size_t>> pairs = result.pairs_of(pair);
-        if (!result.study.axes.empty())
+        if (!result.study.axes.empty() || result.cells.size() > most_told_cells)
             pairs.resize(std::min(pairs.size(), max_pictured_places));
         for (const auto& [tested, against] : pairs)
             for (const StoredFrame& now : result.cells[tested].frames)
@@ -258,8 +258,9 @@ Table cells_table(const StudyResult& result) {
     };
     for (const CellResult& cell : result.cells)
         if (cell.failed.empty())
-            table.rows.push_back({Cell(cell.cell.name).linked("cells/" + cell.cell.name + "/report.html"), cell.cell.condition,
-                                  figure_of(cell.error_share, 100.0, 2), figure_of(cell.frame_s, 1e3, 1), cell.command});
+            table.rows.push_back(
+                {cell.is_kept ? Cell(cell.cell.name).linked("cells/" + cell.cell.name + "/report.html") : Cell(cell.cell.name),
+                 cell.cell.condition, figure_of(cell.error_share, 100.0, 2), figure_of(cell.frame_s, 1e3, 1), cell.command});
         else
             table.rows.push_back({cell.cell.name, cell.cell.condition, "", "not played: " + cell.failed, cell.command});
     return table;
@@ -289,7 +290,13 @@ Document document(const StudyResult& result, const std::vector<std::string>& pap
                                                  {"figures/work-precision", &cells}})
             if (figure.plot.name.starts_with(beginning))
                 section->blocks.emplace_back(figure.plot);
-    if (!result.study.axes.empty() && result.cells.size() > max_pictured_places * result.study.lamps.size())
+    if (result.cells.size() > most_told_cells)
+        cells.blocks.emplace_back(
+            fmt::format("Of so many cells ({}) only readings that decide or have limits are told, and the reports are "
+                        "kept of those that are pictured or red: `fernlicht study --only NAME` collects any other from the store.",
+                        result.cells.size()));
+    if ((!result.study.axes.empty() || result.cells.size() > most_told_cells) &&
+        result.cells.size() > max_pictured_places * result.study.lamps.size())
         cells.blocks.emplace_back(
             fmt::format("Pictures are of the first {} places; the others' are in the reports of their cells.", max_pictured_places));
     if (!result.played_by.empty())

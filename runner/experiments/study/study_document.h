@@ -23,6 +23,8 @@ Report suites_of(const StudyResult& result);
 
 /// Of studies with axes, pictures are of the first so many places.
 inline constexpr std::size_t max_pictured_places = 48;
+/// Of more cells only what decides or has limits is told, and the folders are kept of those that are pictured or red.
+inline constexpr std::size_t most_told_cells = 500;
 
 /// Reach over each drive, lux from above and its difference, error over time, the lamps' difference. EXR files are read below `folder`.
 std::vector<StudyFigure> study_figures(const StudyResult& result, const std::filesystem::path& folder);

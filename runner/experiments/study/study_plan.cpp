@@ -152,12 +152,18 @@ std::vector<std::pair<std::string, std::vector<std::string>>> reasons_to_play(co
         if (one.moments == 0 || store.find(one.key))
             continue;
         const auto before = latest.find(one.cell.name);
-        reasons.emplace_back(one.cell.name,
-                             before == latest.end() ? std::vector<std::string>{"new"} : input_changes(before->second.inputs, one.inputs));
+        reasons.emplace_back(one.cell.name, before == latest.end() ? std::vector<std::string>{"new"}
+                                                                   : input_changes(before->second.inputs, plan.inputs(one)));
         if (reasons.back().second.empty())
             reasons.back().second.emplace_back("what was kept is damaged");
     }
     return reasons;
+}
+
+CellInputs StudyPlan::inputs(const PlannedCell& cell) const {
+    CellInputs all = cell.own_inputs;
+    all.insert(all.end(), of_machine.begin(), of_machine.end());
+    return all;
 }
 
 StudyPlan plan_study(const Study& study, const StudyOptions& options) {
@@ -189,7 +195,7 @@ StudyPlan plan_study(const Study& study, const StudyOptions& options) {
                stage.others};
         const CellSettings settings{std::max(0, ticks.first), std::min(ticks.last, one.moments_of_drive - 1), options.run.accuracy,
                                     options.run.repeats};
-        one.inputs = cell_inputs(drive, *stage.road, *stage.others, settings);
+        one.own_inputs = cell_inputs(drive, *stage.road, *stage.others, settings);
     }
     if (!options.timed)
         refuse_limits_on_times(study, plan.cells);
@@ -199,10 +205,9 @@ StudyPlan plan_study(const Study& study, const StudyOptions& options) {
     refuse_no_moments(study, plan.cells, ticks);
     plan.context =
         make_context(open_device(options.run.backend).info(), options.run.command, cell_drive(study, plan.cells.front().cell).seed);
-    for (PlannedCell& one : plan.cells) {
-        std::ranges::copy(machine_inputs(plan.context, options.run.accuracy), std::back_inserter(one.inputs));
-        one.key = cell_key(one.inputs);
-    }
+    plan.of_machine = machine_inputs(plan.context, options.run.accuracy);
+    for (PlannedCell& one : plan.cells)
+        one.key = cell_key(plan.inputs(one));
     return plan;
 }
 

@@ -17,7 +17,7 @@ struct PlannedCell {
     std::string resolved_file; ///< its name in the cell's folder
     bool left_hand_traffic = false, limits_times = false;
     int moments = 0, moments_of_drive = 0; ///< to be played, and that the whole drive has
-    CellInputs inputs;
+    CellInputs own_inputs;                 ///< but for those of the machine
     std::string key;
     std::shared_ptr<const FilesRead> road, others; ///< opened for its road, and beside road and lamps
 };
@@ -25,7 +25,10 @@ struct PlannedCell {
 struct StudyPlan {
     std::vector<PlannedCell> cells;
     std::vector<CheckedLampFile> lamp_files;
-    RunContext context; ///< of this machine
+    RunContext context;    ///< of this machine
+    CellInputs of_machine; ///< inputs of every cell: program, libraries, device
+
+    CellInputs inputs(const PlannedCell& cell) const;
 };
 
 /// Reads everything that the chosen cells need, and opens the device once. Throws InputError and DeviceError where anything could not be

@@ -20,6 +20,7 @@ struct CellResult : PlayedResult {
     std::string failed;                      ///< why there is no report; "" when there is one
     CellInputs inputs;                       ///< what decides its figures
     std::string key;                         ///< under which the store has it
+    bool is_kept = true;                     ///< its folder is below the study's
     bool reused = false;                     ///< taken from the store as an earlier call left it there
     std::string command;                     ///< that repeats it
     int moments = 0, moments_of_drive = 0;   ///< that were to be played, and that the whole drive has

@@ -95,6 +95,27 @@ void add_lanes(const Study& study, StudyResult& result) {
     }
 }
 
+/// Keeps of a large study what is told of it, cell by cell as they are collected.
+class Telling {
+  public:
+    Telling(const Study& study, const StudyPlan& plan, const StudyOptions& options)
+        : study_(study), options_(options), is_large_(plan.cells.size() > most_told_cells) {}
+    void add(StudyResult& result) {
+        CellResult& cell = result.cells.back();
+        if (!is_large_)
+            return;
+        if (result.cells.size() == 1 || !is_same_place(result.cells[result.cells.size() - 2].cell, cell.cell))
+            ++places_;
+        keep_what_is_told(study_, options_.folder, places_ <= max_pictured_places, cell);
+    }
+
+  private:
+    const Study& study_;
+    const StudyOptions& options_;
+    bool is_large_;
+    std::size_t places_ = 0;
+};
+
 /// Everything that is known before a cell is played.
 StudyResult begun_study(const Study& study, const StudyPlan& plan, const StudyOptions& options) {
     StudyResult result;
@@ -160,9 +181,10 @@ void refuse_unwritable(const CellStore& store) {
 /// From the store, in the order of the plan. What turns out to be damaged there is played once more.
 void collect_all(const CellStore& store, const Study& study, const StudyPlan& plan, const StudyOptions& options,
                  const std::map<std::size_t, PlayedInWorker>& played, const Jobs& jobs, StudyResult& result) {
+    Telling telling(study, plan, options);
     for (std::size_t i = 0; i < plan.cells.size(); ++i) {
         const PlannedCell& one = plan.cells[i];
-        CellResult& cell = result.cells.emplace_back(unplayed_cell(study, one, options));
+        CellResult& cell = result.cells.emplace_back(unplayed_cell(study, plan, one, options));
         const auto found = played.find(i);
         cell.reused = found == played.end();
         if (one.moments == 0)
@@ -187,6 +209,7 @@ void collect_all(const CellStore& store, const Study& study, const StudyPlan& pl
                     collect_cell(store, study, one, options, cell);
                 }
             });
+        telling.add(result);
     }
 }
 
@@ -195,7 +218,7 @@ void play_all_timed(const Study& study, const StudyPlan& plan, const StudyOption
     for (std::size_t i = 0; i < plan.cells.size(); ++i) {
         const PlannedCell& one = plan.cells[i];
         const fs::path folder = options.folder / "cells" / one.cell.name;
-        CellResult& cell = result.cells.emplace_back(unplayed_cell(study, one, options));
+        CellResult& cell = result.cells.emplace_back(unplayed_cell(study, plan, one, options));
         if (result.interrupted.empty() && !options.run.quiet)
             fmt::print(stderr, "cell {} of {}: {}\n", i + 1, plan.cells.size(), one.cell.name);
         if (one.moments == 0)
@@ -267,8 +290,9 @@ StudyResult collect_study(const Study& study, const StudyOptions& options) {
     const CellStore store(options.store);
     OutputFolder folder = folder_for(plan, options);
     write_file(options.folder / "plan.json", plan_text(plan));
+    Telling telling(study, plan, options);
     for (const PlannedCell& one : plan.cells) {
-        CellResult& cell = result.cells.emplace_back(unplayed_cell(study, one, options));
+        CellResult& cell = result.cells.emplace_back(unplayed_cell(study, plan, one, options));
         cell.reused = true;
         if (one.moments == 0)
             cell.failed = no_moments(options);
@@ -277,6 +301,7 @@ StudyResult collect_study(const Study& study, const StudyOptions& options) {
             cell.failed = why.empty() ? "it is not in the store: not played yet, or killed before it could say why" : why;
         } else
             try_cell(cell, [&] { collect_cell(store, study, one, options, cell); });
+        telling.add(result);
     }
     result.played_by = played_words(result, "");
     finish(result, options, folder);
@@ -296,7 +321,7 @@ bool play_into_store(const Study& study, const StudyOptions& options) {
         if (one.moments == 0 || store.find(one.key))
             continue;
         try {
-            if (!play_into(store, study, one, options) || Interruption::requested())
+            if (!play_into(store, study, plan, one, options) || Interruption::requested())
                 return false;
         } catch (const std::exception& error) {
             all_there = false;

@@ -191,9 +191,9 @@ TEST_F(StudyAxes, RefusesInOneSentenceWithItsAxis) {
     EXPECT_THAT(refusal("axes: {'traffic.*.oncoming.gap_m': [50]}\n"), HasSubstr("found nothing there"));
     EXPECT_THAT(refusal("axes: {mount_height_m: [0.6], car.mounts: [{left: [3, 0.6, 0.6]}]}\n"), HasSubstr("both move the lamps"));
     EXPECT_THAT(refusal("sample: one_at_a_time\n"), HasSubstr("a sample without axes"));
-    EXPECT_THAT(refusal("axes: {weather.wetness: [0]}\nsample: {low_discrepancy: 10001}\n"), HasSubstr("1 to 10000"));
-    EXPECT_THAT(refusal("axes: {weather.wetness: {from: 0, to: 1, count: 100}, mount_height_m: {from: 0.5, to: 1, count: 51}}\n"),
-                HasSubstr("10200 cells (drives x lamps x techniques x conditions x points of axes), expected at most 10000"));
+    EXPECT_THAT(refusal("axes: {weather.wetness: [0]}\nsample: {low_discrepancy: 100001}\n"), HasSubstr("1 to 100000"));
+    EXPECT_THAT(refusal("axes: {weather.wetness: {from: 0, to: 1, count: 100}, mount_height_m: {from: 0.5, to: 1, count: 501}}\n"),
+                HasSubstr("100200 cells (drives x lamps x techniques x conditions x points of axes), expected at most 100000"));
 }
 
 TEST_F(StudyAxes, ThousandsOfCellsHaveNamesOfTheirOwn) {
