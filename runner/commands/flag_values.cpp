@@ -1,5 +1,6 @@
 #include "runner/commands/flag_values.h"
 
+#include "runner/files/log.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
 #include "runner/judge/baseline_store.h"
@@ -261,13 +262,14 @@ CandumpStream::What LenientStream::next() {
         try {
             const CandumpStream::What what = log_.next();
             if (what == CandumpStream::What::end && skipped_ > 1)
-                fmt::print(stderr, "fernlicht: {}: {} lines skipped that are no frames\n", printable(log_.path().string(), 400), skipped_);
+                tell(LogLevel::warning,
+                     fmt::format("{}: {} lines skipped that are no frames", printable(log_.path().string(), 400), skipped_));
             return what;
         } catch (const InputError& error) {
             if (!lenient_ || error.where().line == 0)
                 throw;
             if (skipped_++ == 0)
-                fmt::print(stderr, "fernlicht: skipped: {}\n", error.what());
+                tell(LogLevel::warning, fmt::format("skipped: {}", error.what()));
         }
     }
 }

@@ -4,6 +4,7 @@
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/experiments/run/run_report.h"
 #include "runner/experiments/study/study_document.h"
+#include "runner/files/log.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/moment_columns.h"
 #include "runner/findings/run_context.h"
@@ -314,7 +315,7 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
                              [](const View& view) { return view.projection == Projection::map; });
         cell.command = repeating(options, options.folder / "cells" / cell.cell.name, planned[i]);
         if (result.interrupted.empty() && !options.run.quiet)
-            fmt::print(stderr, "cell {} of {}: {}\n", i + 1, planned.size(), cell.cell.name);
+            tell(LogLevel::info, fmt::format("cell {} of {}: {}", i + 1, planned.size(), cell.cell.name));
         try {
             if (!result.interrupted.empty()) {
                 cell.failed = "not reached";
