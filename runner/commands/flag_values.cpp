@@ -177,6 +177,10 @@ std::vector<std::optional<BeamTexels>> beams_of(const std::vector<std::string>& 
     return beams;
 }
 
+void add_trace_flag(CLI::App& command, std::filesystem::path& trace) {
+    command.add_option("--trace", trace, "new file for a timeline of what takes how long, for Perfetto and chrome://tracing (docs/ci.md)");
+}
+
 TickRange tick_range(const std::string& frames) {
     TickRange range;
     if (frames.empty())

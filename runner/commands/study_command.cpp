@@ -5,6 +5,9 @@
 #include "runner/commands/run_files.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/experiments/study/study_run.h"
+#include "runner/files/log.h"
+#include "runner/files/trace_file.h"
+#include "runner/judge/verdict_line.h"
 #include "runner/write/document.h"
 #include "runner/write/report_texts.h"
 #include "scenarios/values/errors.h"
@@ -18,7 +21,7 @@ namespace {
 
 /// The flags as typed.
 struct StudyFlags {
-    std::filesystem::path file;
+    std::filesystem::path file, trace;
     std::string backend = "auto", frames, out;
     std::vector<std::string> only;
     JudgingFlags judging;
@@ -45,6 +48,16 @@ void write_study(const StudyResult& result, const std::filesystem::path& folder)
     write_document(document(result, papers), result, folder, "report");
 }
 
+/// All by the study's file, which is the user's own; its drives may be shipped ones.
+void annotate_study(const StudyResult& result) {
+    const Report suites = suites_of(result);
+    for (const PlayedCell& suite : suites.played)
+        for (const Verdict& verdict : suite.verdicts)
+            annotate_red(verdict, suite.drive + ": ", {result.study.file, 0, 0, {}});
+    if (!result.interrupted.empty())
+        annotate({result.study.file, 0, 0, {}}, "incomplete", result.interrupted);
+}
+
 int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     const Study study = read_study(flags.file);
     if (flags.list) {
@@ -66,8 +79,11 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     options.run.command = command;
     options.run.write = [](const Report& report, const std::filesystem::path& cell) { write_report(report, cell); };
     options.write = [&](const StudyResult& result) { write_study(result, options.folder); };
+    TraceFile trace(flags.trace, "fernlicht study " + study.name, options.folder);
     const StudyResult result = run_study(study, options);
+    trace.finish();
     fmt::print("{}{}\n", document_text(study_summary(result)), (options.folder / "report.html").string());
+    annotate_study(result);
     return overall(result) == VerdictKind::pass ? 0 : 1;
 }
 
@@ -86,6 +102,7 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_flag("--strict", flags->strict, strict_text);
     sub->add_flag("--no-accuracy", flags->no_accuracy, "do not compare moments of each cell with the reference");
     sub->add_option("--only", flags->only, "comma-separated names of cells, * and ? allowed: 'straight*,*xenon'")->allow_extra_args(false);
+    add_trace_flag(*sub, flags->trace);
     sub->add_flag("--list", flags->list, "list the cells and play none");
     sub->add_flag("--quiet", flags->quiet, "show no progress");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return study(*flags, command); }; });

@@ -71,8 +71,8 @@ std::string trace_json(const Trace& trace, const std::string& process, int pid) 
         events.push_back(name_event("thread_name", pid, lane + 1, trace.lanes[lane]));
     for (const TracedSpan& span : trace.spans)
         events.push_back(span_event(span, pid));
-    return file_of(fmt::format(R"("program":"fernlicht {}","clock":"CLOCK_MONOTONIC","spans_left_out":{})", program_version, trace.left_out),
-                   events);
+    return file_of(
+        fmt::format(R"("program":"fernlicht {}","clock":"CLOCK_MONOTONIC","spans_left_out":{})", program_version, trace.left_out), events);
 }
 
 std::vector<std::string> merge_traces(const std::vector<std::filesystem::path>& files, const std::filesystem::path& out) {

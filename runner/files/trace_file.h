@@ -9,8 +9,8 @@
 
 namespace fernlicht {
 
-/// `{"traceEvents": [...]}`, an event a line: complete events (ph X, ts and dur in microseconds of CLOCK_MONOTONIC) and the names of process
-/// and threads (ph M).
+/// `{"traceEvents": [...]}`, an event a line: complete events (ph X, ts and dur in microseconds of CLOCK_MONOTONIC) and the names of
+/// process and threads (ph M).
 std::string trace_json(const Trace& trace, const std::string& process, int pid);
 
 /// One file of those that trace_json() made in several processes of one machine; `out` may be among them, and is written durably. A file

@@ -13,7 +13,7 @@ namespace fernlicht {
 
 /// One piece of work of one thread.
 struct TracedSpan {
-    const char *name, *category; ///< literals
+    const char *name, *category;           ///< literals
     std::int64_t begin_ns = 0, end_ns = 0; ///< CLOCK_MONOTONIC, which all processes of a machine share
     std::size_t lane = 0;                  ///< of Trace::lanes
     std::vector<std::pair<const char*, std::variant<std::int64_t, std::string>>> details = {};

@@ -17,6 +17,7 @@
 #include "scenarios/values/errors.h"
 #include "scenarios/values/glob.h"
 #include "scenarios/values/pose.h"
+#include "scenarios/values/trace.h"
 
 #include <algorithm>
 #include <array>
@@ -24,6 +25,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -71,6 +73,7 @@ bool is_same_road(const Planned& a, const Planned& b) {
 }
 
 std::vector<Planned> plan(const Study& study, const std::vector<std::string>& only) {
+    const TraceSpan span("plan", "study");
     std::vector<Planned> planned;
     for (const StudyCell& cell : chosen_cells(study, only)) {
         planned.push_back({cell, cell_drive(study, cell), false});
@@ -223,6 +226,9 @@ void read_cell_report(const fs::path& study_folder, CellResult& cell) {
 
 /// Plays the cell or takes it as it lies there; false when the user stopped it.
 bool play_cell(const Planned& planned, const StudyOptions& options, CellResult& result, RunContext& context) {
+    TraceSpan span("cell", "study");
+    if (span)
+        span.tell("cell", planned.cell.name);
     const fs::path folder = options.folder / "cells" / planned.cell.name;
     result.reused = is_finished(folder, planned, options);
     if (!result.reused) {
@@ -331,13 +337,17 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
         }
         result.cells.push_back(std::move(cell));
     }
+    std::optional<TraceSpan> comparing(std::in_place, "compare cells", "study");
     add_lanes(planned, result);
     compare_cells(result);
+    comparing.reset();
     if (options.known)
         apply_known_failures(result, *options.known, options.run.today);
     add_aim_warnings(result);
+    std::optional<TraceSpan> writing(std::in_place, "write figures and report", "write");
     result.figures = study_figures(result, options.folder);
     options.write(result);
+    writing.reset();
     if (result.complete())
         folder.finish();
     return result;
