@@ -112,6 +112,21 @@ TEST(Messages, OfARunAndItsTrace) {
     EXPECT_FALSE(std::filesystem::exists(folder / "again"));
 }
 
+TEST(Messages, ATraceOutlivesCtrlC) {
+    const TemporaryFolder folder;
+    const Outcome run = run_interrupted("run " + straight(folder) + " --resolution 96x72 --no-accuracy --backend software --trace " +
+                                            (folder / "t.json") + " --out " + (folder / "out"),
+                                        "10/100 moments");
+    EXPECT_EQ(run.exit_code, 1) << run.output;
+    const json events = json::parse(content_of(folder / "t.json")).at("traceEvents");
+    const auto count = [&](const char* name) {
+        return std::ranges::count_if(events, [&](const json& event) { return event.at("name") == name; });
+    };
+    EXPECT_GE(count("moment"), 10);
+    EXPECT_LT(count("moment"), 100);
+    EXPECT_EQ(count("write report"), 1);
+}
+
 TEST(Messages, QuietAndWarningSayNothingOfARunThatIsWell) {
     const TemporaryFolder folder;
     const std::string drive = straight(folder);
