@@ -127,7 +127,6 @@ int run(const RunFlags& flags, const std::vector<std::string>& command) {
     options.folder = result_folder(flags.out, drives.front().name);
     TraceFile trace(flags.trace, "fernlicht run " + drives.front().name, options.folder);
     const Report report = run_drives(drives, options);
-    trace.finish();
     const VerdictKind verdict = overall(report);
     print_verdicts(report, drives);
     if (!report.complete) {
@@ -135,6 +134,7 @@ int run(const RunFlags& flags, const std::vector<std::string>& command) {
         annotate({}, "incomplete", report.interrupted);
     }
     fmt::print("{}\n", (options.folder / "report.html").string());
+    trace.finish();
     return report.complete && verdict == VerdictKind::pass ? 0 : 1;
 }
 

@@ -81,9 +81,9 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     options.write = [&](const StudyResult& result) { write_study(result, options.folder); };
     TraceFile trace(flags.trace, "fernlicht study " + study.name, options.folder);
     const StudyResult result = run_study(study, options);
-    trace.finish();
     fmt::print("{}{}\n", document_text(study_summary(result)), (options.folder / "report.html").string());
     annotate_study(result);
+    trace.finish();
     return overall(result) == VerdictKind::pass ? 0 : 1;
 }
 

@@ -35,7 +35,7 @@ std::string straight(const TemporaryFolder& folder, const std::string& more = ""
     return folder / "d.yaml";
 }
 
-constexpr const char* few_moments = " --frames 0:2 --resolution 96x72 --no-accuracy --backend software ";
+constexpr const char* three_moments = " --frames 0:2 --resolution 96x72 --no-accuracy --backend software ";
 
 TEST(Messages, AsJsonWhateverEndsTheProgram) {
     for (const auto& [line, code, message] : {std::tuple("run nothing.yaml --log-json", 2, "nothing.yaml"),
@@ -57,7 +57,7 @@ TEST(Messages, OfARunAndItsTrace) {
     const TemporaryFolder folder;
     const std::string drive = straight(folder), trace_file = folder / "out/trace.json";
     const std::string said =
-        printed("run " + drive + few_moments + "--log-json --log-level debug --trace " + trace_file + " --out " + (folder / "out"));
+        printed("run " + drive + three_moments + "--log-json --log-level debug --trace " + trace_file + " --out " + (folder / "out"));
     std::vector<json> progress;
     bool renders = false, compiles = false;
     for (const json& object : objects_of(said))
@@ -108,7 +108,7 @@ TEST(Messages, OfARunAndItsTrace) {
             open.push_back(end);
         }
     }
-    EXPECT_THAT(printed("run " + drive + few_moments + "--trace " + trace_file + " --out " + (folder / "again"), 2), HasSubstr("--trace"));
+    EXPECT_THAT(printed("run " + drive + three_moments + "--trace " + trace_file + " --out " + (folder / "again"), 2), HasSubstr("--trace"));
     EXPECT_FALSE(std::filesystem::exists(folder / "again"));
 }
 
@@ -131,7 +131,7 @@ TEST(Messages, QuietAndWarningSayNothingOfARunThatIsWell) {
     const TemporaryFolder folder;
     const std::string drive = straight(folder);
     for (const char* flag : {"--quiet", "--log-level warning"})
-        EXPECT_THAT(printed("run " + drive + few_moments + flag + " --out " + (folder / std::string(flag, 6)) + " 3>&1 1>/dev/null 2>&3"),
+        EXPECT_THAT(printed("run " + drive + three_moments + flag + " --out " + (folder / std::string(flag, 6)) + " 3>&1 1>/dev/null 2>&3"),
                     testing::IsEmpty());
 }
 
@@ -140,7 +140,7 @@ TEST(Messages, AnnotationsNameFileAndLineOfALimit) {
     const std::string drive = straight(folder, "\nlimits:\n  - {reading: reach_1lx_road_own_m, at_least: 900}\n");
     const std::string text = content_of(drive);
     const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("  - {reading:")), '\n') + 1;
-    const std::string said = run_shell("cd " + folder.path().string() + " && '" FERNLICHT_BINARY "' run d.yaml" + few_moments +
+    const std::string said = run_shell("cd " + folder.path().string() + " && '" FERNLICHT_BINARY "' run d.yaml" + three_moments +
                                        "--quiet --annotate github --out out")
                                  .output;
     EXPECT_THAT(said, AllOf(HasSubstr(fmt::format("::error file=d.yaml,line={},title=FAIL ", line)),
