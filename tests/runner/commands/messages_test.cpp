@@ -26,7 +26,7 @@ std::vector<json> objects_of(const std::string& lines) {
 }
 
 /// A straight drive in small pictures, with more keys.
-std::string straight(const TemporaryFolder& folder, const std::string& more = "") {
+std::string straight_drive(const TemporaryFolder& folder, const std::string& more = "") {
     std::string text = content_of(library_file("drives/straight.yaml"));
     for (const char* below : {"../roads/", "../lamps/"})
         for (std::size_t at = text.find(below); at != std::string::npos; at = text.find(below, at + 1))
@@ -55,7 +55,7 @@ TEST(Messages, AsJsonWhateverEndsTheProgram) {
 
 TEST(Messages, OfARunAndItsTrace) {
     const TemporaryFolder folder;
-    const std::string drive = straight(folder), trace_file = folder / "out/trace.json";
+    const std::string drive = straight_drive(folder), trace_file = folder / "out/trace.json";
     const std::string said =
         printed("run " + drive + three_moments + "--log-json --log-level debug --trace " + trace_file + " --out " + (folder / "out"));
     std::vector<json> progress;
@@ -108,13 +108,14 @@ TEST(Messages, OfARunAndItsTrace) {
             open.push_back(end);
         }
     }
-    EXPECT_THAT(printed("run " + drive + three_moments + "--trace " + trace_file + " --out " + (folder / "again"), 2), HasSubstr("--trace"));
+    EXPECT_THAT(printed("run " + drive + three_moments + "--trace " + trace_file + " --out " + (folder / "again"), 2),
+                HasSubstr("--trace"));
     EXPECT_FALSE(std::filesystem::exists(folder / "again"));
 }
 
 TEST(Messages, ATraceOutlivesCtrlC) {
     const TemporaryFolder folder;
-    const Outcome run = run_interrupted("run " + straight(folder) + " --resolution 96x72 --no-accuracy --backend software --trace " +
+    const Outcome run = run_interrupted("run " + straight_drive(folder) + " --resolution 96x72 --no-accuracy --backend software --trace " +
                                             (folder / "t.json") + " --out " + (folder / "out"),
                                         "10/100 moments");
     EXPECT_EQ(run.exit_code, 1) << run.output;
@@ -129,7 +130,7 @@ TEST(Messages, ATraceOutlivesCtrlC) {
 
 TEST(Messages, QuietAndWarningSayNothingOfARunThatIsWell) {
     const TemporaryFolder folder;
-    const std::string drive = straight(folder);
+    const std::string drive = straight_drive(folder);
     for (const char* flag : {"--quiet", "--log-level warning"})
         EXPECT_THAT(printed("run " + drive + three_moments + flag + " --out " + (folder / std::string(flag, 6)) + " 3>&1 1>/dev/null 2>&3"),
                     testing::IsEmpty());
@@ -137,7 +138,7 @@ TEST(Messages, QuietAndWarningSayNothingOfARunThatIsWell) {
 
 TEST(Messages, AnnotationsNameFileAndLineOfALimit) {
     const TemporaryFolder folder;
-    const std::string drive = straight(folder, "\nlimits:\n  - {reading: reach_1lx_road_own_m, at_least: 900}\n");
+    const std::string drive = straight_drive(folder, "\nlimits:\n  - {reading: reach_1lx_road_own_m, at_least: 900}\n");
     const std::string text = content_of(drive);
     const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("  - {reading:")), '\n') + 1;
     const std::string said = run_shell("cd " + folder.path().string() + " && '" FERNLICHT_BINARY "' run d.yaml" + three_moments +
