@@ -106,7 +106,7 @@ TEST(TraceFile, OfSeveralProcessesMergesIntoOne) {
     tests::written("other.json", "{\"traceEvents\":[]}\n", folder);
     const std::vector<std::string> left_out = merge_traces(
         {folder / "a.json", folder / "b.json", folder / "killed.json", folder / "none.json", folder / "other.json"}, folder / "a.json");
-    EXPECT_THAT(left_out, ElementsAre(HasSubstr("killed.json:4: found the end of the file"), HasSubstr("none.json"),
+    EXPECT_THAT(left_out, ElementsAre(HasSubstr("killed.json:5: found the end of the file"), HasSubstr("none.json"),
                                       HasSubstr("no trace of fernlicht")));
     const json events = json::parse(content_of(folder / "a.json")).at("traceEvents");
     ASSERT_EQ(events.size(), 6U);
