@@ -60,7 +60,31 @@ std::vector<std::string> events_of(const std::filesystem::path& file) {
     return events;
 }
 
+/// Of processes that this one started.
+std::vector<std::filesystem::path>& other_traces() {
+    static std::vector<std::filesystem::path> files;
+    return files;
+}
+
+/// Into the trace of this process.
+void take_other_traces(const std::filesystem::path& path) {
+    const std::vector<std::filesystem::path> others = std::exchange(other_traces(), {});
+    if (others.empty())
+        return;
+    std::vector<std::filesystem::path> all{path};
+    all.insert(all.end(), others.begin(), others.end());
+    for (const std::string& sentence : merge_traces(all, path))
+        tell(LogLevel::warning, sentence);
+    std::error_code ignored;
+    for (const std::filesystem::path& file : others) {
+        std::filesystem::remove(file, ignored);
+        std::filesystem::remove(file.parent_path(), ignored);
+    }
+}
+
 } // namespace
+
+void join_trace_of_process(const std::filesystem::path& file) { other_traces().push_back(file); }
 
 std::string trace_json(const Trace& trace, const std::string& process, int pid) {
     std::vector<std::string> events{name_event("process_name", pid, 0, process)};
@@ -93,6 +117,7 @@ TraceFile::TraceFile(std::filesystem::path path, std::string process, const std:
     if (path_.empty())
         return;
     refuse_unwritable("--trace", path_, folder);
+    other_traces().clear();
     start_tracing();
 }
 
@@ -113,6 +138,7 @@ void TraceFile::finish() {
     if (const std::filesystem::path folder = path.parent_path(); !folder.empty() && !std::filesystem::is_directory(folder, ignored))
         return; // the run made none
     write_durably(path, trace_json(trace, process_, ::getpid()));
+    take_other_traces(path);
     if (trace.left_out > 0)
         tell(LogLevel::warning, fmt::format("the trace has the first {} spans; {} more are left out", trace.spans.size(), trace.left_out));
 }

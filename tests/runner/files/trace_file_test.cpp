@@ -11,6 +11,7 @@ namespace fernlicht {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -114,6 +115,29 @@ TEST(TraceFile, OfSeveralProcessesMergesIntoOne) {
     EXPECT_EQ(events[5].at("pid"), 2);
     EXPECT_THAT(merge_traces({folder / "a.json"}, folder / "again.json"), IsEmpty());
     EXPECT_EQ(json::parse(content_of(folder / "again.json")).at("traceEvents"), events);
+}
+
+TEST(TraceFile, TakesWhatProcessesOfItsOwnLeft) {
+    const std::filesystem::path folder = tests::new_folder(), logs = folder / "logs";
+    std::filesystem::create_directory(logs);
+    {
+        TraceFile trace(folder / "t.json", "parent", folder);
+        const TraceSpan span("late", "test"); // open when the trace ends: lost
+        { const TraceSpan work("work", "test"); }
+        tests::written("a.json", trace_json(one_span(), "child", 77), logs);
+        join_trace_of_process(logs / "a.json");
+        join_trace_of_process(logs / "killed.json");
+        testing::internal::CaptureStderr();
+        trace.finish();
+        EXPECT_THAT(testing::internal::GetCapturedStderr(),
+                    AllOf(HasSubstr("fernlicht: left out of the trace: "), HasSubstr("killed.json")));
+    }
+    const json events = json::parse(content_of(folder / "t.json")).at("traceEvents");
+    ASSERT_EQ(events.size(), 6U);
+    EXPECT_EQ(events[2].at("name"), "work");
+    EXPECT_EQ(events[2].at("pid"), ::getpid());
+    EXPECT_EQ(events[5].at("pid"), 77);
+    EXPECT_FALSE(std::filesystem::exists(logs));
 }
 
 TEST(TraceFile, IsANewFileInAFolderThatIsThereOrWillBe) {
