@@ -8,6 +8,7 @@
 #include "scenarios/values/files.h"
 #include "scenarios/values/version.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
 #include <set>
@@ -84,7 +85,10 @@ void take_other_traces(const std::filesystem::path& path) {
 
 } // namespace
 
-void join_trace_of_process(const std::filesystem::path& file) { other_traces().push_back(file); }
+void join_trace_of_process(const std::filesystem::path& file) {
+    if (std::ranges::find(other_traces(), file) == other_traces().end())
+        other_traces().push_back(file);
+}
 
 std::string trace_json(const Trace& trace, const std::string& process, int pid) {
     std::vector<std::string> events{name_event("process_name", pid, 0, process)};
