@@ -18,7 +18,7 @@ std::string trace_json(const Trace& trace, const std::string& process, int pid);
 std::vector<std::string> merge_traces(const std::vector<std::filesystem::path>& files, const std::filesystem::path& out);
 
 /// A file that another process writes with a TraceFile of its own: what it says goes into this process's, which removes it in the end, and
-/// its folder where nothing else is in it. Only while this one is traced.
+/// its folder where nothing else is in it. Named twice it is one file. Only while this one is traced.
 void join_trace_of_process(const std::filesystem::path& file);
 
 /// Records from its construction to its end, and writes then, durably, also when an error comes by.

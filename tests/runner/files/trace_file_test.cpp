@@ -126,6 +126,7 @@ TEST(TraceFile, TakesWhatProcessesOfItsOwnLeft) {
         { const TraceSpan work("work", "test"); }
         tests::written("a.json", trace_json(one_span(), "child", 77), logs);
         join_trace_of_process(logs / "a.json");
+        join_trace_of_process(logs / "a.json"); // started once more
         join_trace_of_process(logs / "killed.json");
         testing::internal::CaptureStderr();
         trace.finish();
