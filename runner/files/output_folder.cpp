@@ -102,7 +102,7 @@ void OutputFolder::finish() {
 }
 
 void refuse_unwritable(const char* flag, const fs::path& given, const fs::path& made) {
-    const fs::path file = fs::absolute(given).lexically_normal(), run = fs::absolute(made).lexically_normal();
+    const fs::path file = fs::absolute(given).lexically_normal(), run = made.empty() ? made : fs::absolute(made).lexically_normal();
     const auto refuse = [&](const std::string& found, const char* expected) { throw InputError({{}, 0, 0, flag}, found, expected); };
     std::error_code ignored;
     if (fs::exists(fs::symlink_status(file, ignored)))

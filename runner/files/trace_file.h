@@ -24,8 +24,8 @@ void join_trace_of_process(const std::filesystem::path& file);
 /// Records from its construction to its end, and writes then, durably, also when an error comes by.
 class TraceFile {
   public:
-    /// Records nothing for "". `process` names it on the timeline. `folder` is one that the run will make. Throws InputError naming --trace
-    /// for a file that is there already, or in a folder that is neither there nor below `folder`.
+    /// Records nothing for "". `process` names it on the timeline. `folder` is one that the run will make, "" for none. Throws InputError
+    /// naming --trace for a file that is there already, or in a folder that is neither there nor below `folder`.
     TraceFile(std::filesystem::path path, std::string process, const std::filesystem::path& folder);
     /// As finish(), but what keeps it from being written is a warning. An error of the run says enough where there is no folder.
     ~TraceFile();

@@ -158,6 +158,9 @@ TEST(TraceFile, IsANewFileInAFolderThatIsThereOrWillBe) {
     }
     EXPECT_THAT(content_of(folder / "t.json"), HasSubstr("\"name\":\"work\""));
     { const TraceFile none("", "x", folder); }
+    { const TraceFile of_worker(folder / "worker.json", "x", ""); }
+    EXPECT_TRUE(std::filesystem::exists(folder / "worker.json"));
+    EXPECT_THAT(tests::refusal_of([&] { TraceFile(folder / "none/a.json", "x", ""); }), HasSubstr("there is no folder"));
 }
 
 } // namespace
