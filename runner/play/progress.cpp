@@ -46,8 +46,7 @@ extern "C" void on_signal(int signal) {
 
 Progress::Progress(std::string label, int total, bool quiet, std::string counted)
     : label_(std::move(label)), counted_(std::move(counted)), total_(total), quiet_(quiet || !is_told(LogLevel::info)),
-      terminal_(::isatty(STDERR_FILENO) == 1 && !log_settings().json),
-      start_(std::chrono::steady_clock::now()), shown_(start_) {}
+      terminal_(::isatty(STDERR_FILENO) == 1 && !log_settings().json), start_(std::chrono::steady_clock::now()), shown_(start_) {}
 
 Progress::~Progress() { show(true); }
 
@@ -77,11 +76,7 @@ void Progress::show(bool last) {
         return;
     tenth_shown_ = last ? 10 : tenth;
     tell(LogLevel::info, fmt::format("{}: {}/{} {}, {:.1f}/s, {} left", label_, count_, total_, counted_, rate, clock_text(left)),
-         {{"progress", label_},
-          {"done", std::int64_t{count_}},
-          {"total", std::int64_t{total_}},
-          {"per_s", rate},
-          {"left_s", left}});
+         {{"progress", label_}, {"done", std::int64_t{count_}}, {"total", std::int64_t{total_}}, {"per_s", rate}, {"left_s", left}});
 }
 
 Interruption::Interruption() {

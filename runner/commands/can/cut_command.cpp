@@ -68,8 +68,8 @@ class Cut {
     void tell_absent(const CandumpStream& log) const {
         for (std::size_t i = 0; i < channels_.size(); ++i)
             if (!seen_[i])
-                tell(LogLevel::warning, fmt::format("{}: no frame of channel {}", printable(log.path().string(), 400),
-                                                    printable(channels_[i].channel)));
+                tell(LogLevel::warning,
+                     fmt::format("{}: no frame of channel {}", printable(log.path().string(), 400), printable(channels_[i].channel)));
     }
 
     bool keeps(const CanFrame& frame) {

@@ -104,8 +104,8 @@ class MergeSource {
             line_.style = style;
         }
         if (!told_ && started_ && line_.frame.time_ns < before) {
-            tell(LogLevel::warning, fmt::format("{}:{}: its stamps fall; its own order is kept", printable(log().path().string(), 400),
-                                                log().line_number()));
+            tell(LogLevel::warning,
+                 fmt::format("{}:{}: its stamps fall; its own order is kept", printable(log().path().string(), 400), log().line_number()));
             told_ = true;
         }
         started_ = true;

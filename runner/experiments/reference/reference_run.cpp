@@ -108,7 +108,8 @@ void draw(ReferenceResult& result, const Stage& stage, const ReferenceRequest& r
     const Reference reference(stage.scene);
     result.triangles = reference.geometry(result.moment)->triangles();
     if (!request.quiet && (result.settings.integrator == Integrator::radiosity || result.settings.integrator == Integrator::photon_map))
-        tell(LogLevel::info, fmt::format("solving the light before the picture is computed ({})", integrator_name(result.settings.integrator)));
+        tell(LogLevel::info,
+             fmt::format("solving the light before the picture is computed ({})", integrator_name(result.settings.integrator)));
     Progress progress("reference", result.view.width_px * result.view.height_px, request.quiet, "pixels");
     auto stored = std::chrono::steady_clock::now();
     result.image = reference.render(
