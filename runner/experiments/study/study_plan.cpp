@@ -15,6 +15,7 @@
 #include "scenarios/values/errors.h"
 #include "scenarios/values/glob.h"
 #include "scenarios/values/pose.h"
+#include "scenarios/values/trace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -161,6 +162,7 @@ std::vector<std::pair<std::string, std::vector<std::string>>> reasons_to_play(co
 }
 
 StudyPlan plan_study(const Study& study, const StudyOptions& options) {
+    const TraceSpan span("plan", "study");
     StudyPlan plan;
     KnownStage stage;
     LampFileChecks checks;
