@@ -1,6 +1,7 @@
 #include "metrics/folds/seeing_fold.h"
 
 #include "scenarios/values/errors.h"
+#include "scenarios/values/trace.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -55,8 +56,20 @@ SeeingFold::SeeingFold(const Drive& drive, const Route& route, const Nudge& nudg
 
 void SeeingFold::add(const Moment& as_is, const LampSet& lamp_set) {
     const Moment moment = nudged(as_is, nudge_);
-    each_asked([&](auto& fold) { fold.add(moment); }, sensors_, traffic_, visibility_, homogeneity_, places_);
-    each_asked([&](auto& fold) { fold.add(moment, lamp_set); }, oncoming_, mirrors_, control_);
+    const auto add = [&](const char* name, auto& fold, const auto&... more) {
+        if (!fold)
+            return;
+        const TraceSpan span(name, "measure");
+        fold->add(moment, more...);
+    };
+    add("sensors", sensors_);
+    add("glare of traffic", traffic_);
+    add("visibility", visibility_);
+    add("homogeneity", homogeneity_);
+    add("places", places_);
+    add("glare of oncoming drivers", oncoming_, lamp_set);
+    add("glare in mirrors", mirrors_, lamp_set);
+    add("control", control_, lamp_set);
 }
 
 Readings SeeingFold::readings() const {

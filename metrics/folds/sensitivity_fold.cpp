@@ -1,6 +1,7 @@
 #include "metrics/folds/sensitivity_fold.h"
 
 #include "scenarios/drives/play/nudge.h"
+#include "scenarios/values/trace.h"
 
 #include <map>
 #include <oneapi/tbb/parallel_for.h>
@@ -34,6 +35,7 @@ SensitivityFold::SensitivityFold(const Drive& drive, const Route& route, const L
 }
 
 void SensitivityFold::add(const Moment& moment, bool sampled) {
+    const TraceSpan span("sensitivity", "measure");
     if (sampled)
         medians_.add(moment, lamp_set_);
     oneapi::tbb::parallel_for(std::size_t{0}, nudged_.size(), [&](std::size_t kind) {

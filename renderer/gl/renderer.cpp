@@ -6,6 +6,7 @@
 #include "renderer/gl/scene/lighting.h"
 #include "scenarios/display/tone_mapper.h"
 #include "scenarios/photometry.h"
+#include "scenarios/values/trace.h"
 
 #include <algorithm>
 #include <chrono>
@@ -135,6 +136,9 @@ FrameOutputs Renderer::available(FrameOutputs outputs) const {
 }
 
 Pending Renderer::submit(const Moment& moment, const View& view, const FrameOutputs& asked) {
+    TraceSpan span("submit", "renderer");
+    if (span)
+        span.tell("view", view.name);
     State& s = *state_;
     const FrameOutputs outputs = available(asked);
     const Clock::time_point start = Clock::now();
@@ -145,6 +149,7 @@ Pending Renderer::submit(const Moment& moment, const View& view, const FrameOutp
         const auto reading = std::make_shared<gl::Targets::Reading>(targets->start_read());
         const auto times = std::make_shared<PassClock>(std::move(passes));
         return [targets, reading, times, start] {
+            const TraceSpan collecting("read back", "pass");
             Frame frame = targets->finish_read(std::move(*reading));
             frame.pass_s = times->seconds();
             frame.cpu_s = seconds_since(start);
@@ -168,6 +173,9 @@ void Renderer::render(const Moment& moment, const View& view, const FrameOutputs
 void Renderer::finish() { state_->context.gl.Finish(); }
 
 void Renderer::prepare(const std::vector<Moment>& moments, const View& view, const FrameOutputs& outputs) {
+    TraceSpan span("compile", "renderer");
+    if (span)
+        span.tell("view", view.name);
     PassClock passes(state_->context, false, false);
     for (const Moment& moment : moments)
         state_->shoot(moment, view, available(outputs), passes, &gl::Lighting::prepare);

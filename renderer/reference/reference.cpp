@@ -2,6 +2,7 @@
 
 #include "renderer/reference/pixel_estimate.h"
 #include "renderer/reference/solved_light.h"
+#include "scenarios/values/trace.h"
 
 #include <algorithm>
 #include <atomic>
@@ -174,6 +175,9 @@ std::shared_ptr<const reference::EmbreeScene> Reference::geometry(const Moment& 
 
 ReferenceImage Reference::render(const Moment& moment, const View& view, const FrameOutputs& outputs, const ReferenceSettings& settings,
                                  const GoOn& go_on, ReferenceImage from, const StopAsked& stop_asked) const {
+    TraceSpan span("reference", "reference");
+    if (span)
+        span.tell("view", view.name);
     check(settings);
     if (!knows_weather(settings.integrator) && (moment.weather.extinction_per_m > 0.0 || moment.weather.wetness > 0.0))
         throw std::invalid_argument("reference: fog or water for radiosity or photon map; direct, whitted and path know them");

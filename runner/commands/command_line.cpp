@@ -1,12 +1,15 @@
 // The command line: options end here; below are plain values.
 #include "runner/commands/commands.h"
 #include "runner/commands/old_flags.h"
+#include "runner/files/log.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/version.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <fmt/format.h>
+#include <map>
 
 namespace {
 
@@ -22,8 +25,43 @@ fernlicht::AddCommand* const commands[] = {
     fernlicht::add_store_command,   fernlicht::add_migrate_command};
 
 int complain(ExitCode code, const std::exception& error) {
-    fmt::print(stderr, "fernlicht: {}\n", error.what());
+    fernlicht::tell_end(error, code);
     return code;
+}
+
+/// Of every command, and of the commands below it: how it says what it says while it works.
+void add_message_flags(CLI::App& command) {
+    static const std::map<std::string, fernlicht::LogLevel> levels{{"error", fernlicht::LogLevel::error},
+                                                                   {"warning", fernlicht::LogLevel::warning},
+                                                                   {"info", fernlicht::LogLevel::info},
+                                                                   {"debug", fernlicht::LogLevel::debug}};
+    const auto below = command.get_subcommands([](const CLI::App*) { return true; });
+    for (CLI::App* one : below)
+        add_message_flags(*one);
+    if (!below.empty())
+        return;
+    const auto take = [](const std::string& found) {
+        const auto level = levels.find(found);
+        if (level == levels.end())
+            throw fernlicht::InputError({{}, 0, 0, "--log-level"}, "found '" + fernlicht::printable(found) + "'",
+                                        "error, warning, info or debug");
+        fernlicht::log_settings().level = level->second;
+    };
+    command.add_option_function<std::string>("--log-level", take, "messages on standard error: this and what weighs more (default: info)")
+        ->option_text("error|warning|info|debug")
+        ->group("Messages");
+    command.add_flag("--log-json", fernlicht::log_settings().json, "messages as JSON, an object a line")->group("Messages");
+    command
+        .add_option_function<std::string>(
+            "--annotate",
+            [](const std::string& found) {
+                if (found != "github")
+                    throw fernlicht::InputError({{}, 0, 0, "--annotate"}, "found '" + fernlicht::printable(found) + "'", "github");
+                fernlicht::log_settings().github = true;
+            },
+            "also print what is red as annotations for the pages of a CI server (docs/ci.md)")
+        ->option_text("github")
+        ->group("Messages");
 }
 
 void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& line) {
@@ -50,6 +88,8 @@ int fernlicht::command_line(int argc, char** argv) {
     const std::vector<std::string> command(argv, argv + argc);
     for (fernlicht::AddCommand* add : commands)
         add(app, command, chosen);
+    add_message_flags(app);
+    log_settings().json = std::ranges::find(command, "--log-json") != command.end(); // a line that cannot be parsed is told so, too
     try {
         if (argc > 1)
             refuse_unknown_command(app, command);
@@ -64,7 +104,7 @@ int fernlicht::command_line(int argc, char** argv) {
         if (const std::string old = is_flag ? fernlicht::old_word_in(command) : ""; !old.empty())
             return complain(users_input, fernlicht::InputError({}, old));
         complain(users_input, error);
-        fmt::print(stderr, "Run with --help for more information.\n");
+        tell(LogLevel::info, "Run with --help for more information.");
         return users_input;
     } catch (const fernlicht::InputError& error) {
         return complain(users_input, error);

@@ -1,5 +1,6 @@
 #include "runner/commands/flag_values.h"
 
+#include "runner/files/log.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
 #include "runner/judge/baseline_store.h"
@@ -176,6 +177,10 @@ std::vector<std::optional<BeamTexels>> beams_of(const std::vector<std::string>& 
     return beams;
 }
 
+void add_trace_flag(CLI::App& command, std::filesystem::path& trace) {
+    command.add_option("--trace", trace, "new file for a timeline of what takes how long, for Perfetto and chrome://tracing (docs/ci.md)");
+}
+
 TickRange tick_range(const std::string& frames) {
     TickRange range;
     if (frames.empty())
@@ -261,13 +266,14 @@ CandumpStream::What LenientStream::next() {
         try {
             const CandumpStream::What what = log_.next();
             if (what == CandumpStream::What::end && skipped_ > 1)
-                fmt::print(stderr, "fernlicht: {}: {} lines skipped that are no frames\n", printable(log_.path().string(), 400), skipped_);
+                tell(LogLevel::warning,
+                     fmt::format("{}: {} lines skipped that are no frames", printable(log_.path().string(), 400), skipped_));
             return what;
         } catch (const InputError& error) {
             if (!lenient_ || error.where().line == 0)
                 throw;
             if (skipped_++ == 0)
-                fmt::print(stderr, "fernlicht: skipped: {}\n", error.what());
+                tell(LogLevel::warning, fmt::format("skipped: {}", error.what()));
         }
     }
 }

@@ -57,6 +57,9 @@ void add_tables_flag(CLI::App& command, const OutputFormat*& tables);
 /// them and of `others` may be given.
 void add_print_flags(CLI::App& command, const OutputFormat*& format, std::vector<CLI::Option*> others = {});
 
+/// --trace, of commands that play drives (runner/files/trace_file.h).
+void add_trace_flag(CLI::App& command, std::filesystem::path& trace);
+
 /// "FIRST:LAST", "FIRST:" or ":LAST" of --frames; all for "". Throws InputError naming the flag.
 TickRange tick_range(const std::string& frames);
 

@@ -2,6 +2,7 @@
 
 #include "metrics/readings/reading_key.h"
 #include "runner/files/durable_files.h"
+#include "runner/files/log.h"
 #include "runner/judge/old_baselines.h"
 #include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
@@ -183,7 +184,7 @@ int migrate(const MigrateFlags& flags) {
             fmt::print("{}: {}\n", file.string(), read_file(index, opened) == before ? unchanged : "changed");
         }
     for (const std::string& one : unmatched)
-        fmt::print(stderr, "fernlicht: {}\n", one);
+        tell(LogLevel::warning, one);
     return unmatched.empty() ? 0 : 1;
 }
 

@@ -5,11 +5,14 @@
 #include "runner/commands/flag_values.h"
 #include "runner/commands/run_files.h"
 #include "runner/experiments/run/run_drives.h"
+#include "runner/files/log.h"
+#include "runner/files/trace_file.h"
 #include "runner/judge/verdict_line.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
@@ -21,7 +24,7 @@ namespace {
 struct RunFlags {
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> lamps;
-    std::filesystem::path recipe;
+    std::filesystem::path recipe, trace;
     RunOptions options;
     std::string road, technique, resolution, frames, capture, out;
     const OutputFormat* tables = nullptr;
@@ -68,13 +71,27 @@ DriveEdits edits_of(const RunFlags& flags) {
     return edits;
 }
 
+/// Where the user's files say what a verdict is about: the limit's line, or the drive.
+InputError::Where place_of(const Verdict& verdict, const std::string& name, const std::vector<Drive>& drives) {
+    const auto drive = std::ranges::find(drives, name, &Drive::name);
+    if (drive == drives.end())
+        return {};
+    const auto limit = std::ranges::find(drive->limits, verdict.name, &Limit::reading);
+    return {drive->file, limit == drive->limits.end() ? 0 : limit->line, 0, {}};
+}
+
 /// What is not plainly green, one line each, and how many there are of each kind.
-void print_verdicts(const Report& report) {
+void print_verdicts(const Report& report, const std::vector<Drive>& drives) {
     for (const PlayedCell& played : report.played)
-        for (const Verdict& verdict : played.verdicts)
-            fmt::print("{}", verdict_line(verdict, fmt::format("{}, {}: ", played.drive, played.lamp_set)));
-    for (const Verdict& verdict : report.listed)
+        for (const Verdict& verdict : played.verdicts) {
+            const std::string subject = fmt::format("{}, {}: ", played.drive, played.lamp_set);
+            fmt::print("{}", verdict_line(verdict, subject));
+            annotate_red(verdict, subject, place_of(verdict, played.drive, drives));
+        }
+    for (const Verdict& verdict : report.listed) {
         fmt::print("{}", verdict_line(verdict, "known failures: "));
+        annotate_red(verdict, "known failures: ", {});
+    }
     for (const std::string& warning : report.warnings)
         fmt::print("warning: {}\n", warning);
     const VerdictCounts counts = count_verdicts(report);
@@ -108,12 +125,16 @@ int run(const RunFlags& flags, const std::vector<std::string>& command) {
         drives.push_back(read_drive(file, edits));
     refuse_equal_names(drives);
     options.folder = result_folder(flags.out, drives.front().name);
+    TraceFile trace(flags.trace, "fernlicht run " + drives.front().name, options.folder);
     const Report report = run_drives(drives, options);
     const VerdictKind verdict = overall(report);
-    print_verdicts(report);
-    if (!report.complete)
+    print_verdicts(report, drives);
+    if (!report.complete) {
         fmt::print("incomplete: {}\n", report.interrupted);
+        annotate({}, "incomplete", report.interrupted);
+    }
     fmt::print("{}\n", (options.folder / "report.html").string());
+    trace.finish();
     return report.complete && verdict == VerdictKind::pass ? 0 : 1;
 }
 
@@ -153,6 +174,7 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     sub->add_flag("--strict", flags->options.strict, strict_text);
     sub->add_option("--out", flags->out, "new or empty folder for the report");
     add_tables_flag(*sub, flags->tables);
+    add_trace_flag(*sub, flags->trace);
     sub->add_flag("--profile", flags->options.profile, "time each pass (slows rendering)");
     sub->add_flag("--contact-sheet", flags->options.contact_sheet,
                   "add a sheet of one moment in every technique, tone mapper and shadow method");

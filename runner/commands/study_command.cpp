@@ -5,7 +5,10 @@
 #include "runner/commands/run_files.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/experiments/study/study_run.h"
+#include "runner/files/log.h"
+#include "runner/files/trace_file.h"
 #include "runner/findings/run_context.h"
+#include "runner/judge/verdict_line.h"
 #include "runner/write/document.h"
 #include "runner/write/report_texts.h"
 #include "scenarios/values/errors.h"
@@ -20,7 +23,7 @@ namespace {
 
 /// The flags as typed.
 struct StudyFlags {
-    std::filesystem::path file;
+    std::filesystem::path file, trace;
     std::string backend = "auto", frames, out;
     std::vector<std::string> only;
     JudgingFlags judging;
@@ -107,6 +110,16 @@ void refuse_contradictions(const StudyFlags& flags) {
                          "--timed by itself: cells are played one after another");
 }
 
+/// All by the study's file, which is the user's own; its drives may be shipped ones.
+void annotate_study(const StudyResult& result) {
+    const Report suites = suites_of(result);
+    for (const PlayedCell& suite : suites.played)
+        for (const Verdict& verdict : suite.verdicts)
+            annotate_red(verdict, suite.drive + ": ", {result.study.file, 0, 0, {}});
+    if (!result.interrupted.empty())
+        annotate({result.study.file, 0, 0, {}}, "incomplete", result.interrupted);
+}
+
 int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     refuse_contradictions(flags);
     const Study study = read_study(flags.file);
@@ -124,11 +137,11 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     options.resources = resources_of(flags, study);
     options.executor = flags.executor == "slurm" ? StudyExecutor::slurm : StudyExecutor::local;
     options.per = flags.per;
+    options.only = items_of("--only", flags.only);
     for (const std::string& text : flags.expect) {
         options.expected.emplace_back(text.substr(0, text.find('=')), text.substr(std::min(text.size(), text.find('=') + 1)));
         options.only.push_back(options.expected.back().first);
     }
-    options.only = items_of("--only", flags.only);
     options.strict = flags.strict;
     options.resume = flags.resume;
     options.run.backend = flags.backend;
@@ -144,10 +157,19 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
         return explain_cells(study, options);
     if (flags.plan)
         return print_plan(study, options);
-    if (flags.play)
-        return play_into_store(study, options) ? 0 : 1;
+    TraceFile trace(
+        flags.trace,
+        fmt::format("fernlicht study {}{}", study.name, flags.play ? ": " + fmt::format("{}", fmt::join(options.only, ", ")) : ""),
+        flags.play ? std::filesystem::path() : options.folder);
+    if (flags.play) {
+        const bool all_there = play_into_store(study, options);
+        trace.finish();
+        return all_there ? 0 : 1;
+    }
     const StudyResult result = flags.collect ? collect_study(study, options) : run_study(study, options);
     fmt::print("{}{}\n{}\n", document_text(study_summary(result)), result.played_by, (options.folder / "report.html").string());
+    annotate_study(result);
+    trace.finish();
     return overall(result) == VerdictKind::pass ? 0 : 1;
 }
 
@@ -166,6 +188,7 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_flag("--strict", flags->strict, strict_text);
     sub->add_flag("--no-accuracy", flags->no_accuracy, "do not compare moments of each cell with the reference");
     sub->add_option("--only", flags->only, "comma-separated names of cells, * and ? allowed: 'straight*,*xenon'")->allow_extra_args(false);
+    add_trace_flag(*sub, flags->trace);
     sub->add_flag("--list", flags->list, "list the cells and play none");
     sub->add_option("--store", flags->store, "folder where played cells are kept (default: $XDG_CACHE_HOME/fernlicht/store)");
     sub->add_option("--jobs", flags->jobs, "cells to play at a time (default: one for each core that draws)")->check(CLI::Range(1, 1024));

@@ -51,6 +51,8 @@ void append(std::string& out, const Json& value, std::size_t depth) {
 
 } // namespace
 
+std::string json_quoted(const std::string& text) { return compact(Json(text)); }
+
 std::string json_text(const Json& value) {
     std::string out;
     append(out, value, 0);

@@ -10,4 +10,7 @@ namespace fernlicht {
 /// indented by two. Invalid UTF-8 becomes U+FFFD. Ends with a newline.
 std::string json_text(const nlohmann::ordered_json& value);
 
+/// A text as JSON has it, in quotes; invalid UTF-8 as above.
+std::string json_quoted(const std::string& text);
+
 } // namespace fernlicht

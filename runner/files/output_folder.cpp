@@ -101,6 +101,21 @@ void OutputFolder::finish() {
         throw DeviceError(printable((folder_ / mark_name).string(), 400) + ": cannot be removed: " + error.message());
 }
 
+void refuse_unwritable(const char* flag, const fs::path& given, const fs::path& made) {
+    const fs::path file = fs::absolute(given).lexically_normal(), run = made.empty() ? made : fs::absolute(made).lexically_normal();
+    const auto refuse = [&](const std::string& found, const char* expected) { throw InputError({{}, 0, 0, flag}, found, expected); };
+    std::error_code ignored;
+    if (fs::exists(fs::symlink_status(file, ignored)))
+        refuse(printable(given.string(), 400) + " is there already", "a new file");
+    if (!file.has_filename() || file == run)
+        refuse(printable(given.string(), 400) + " is a folder", "a new file");
+    const fs::path folder = file.parent_path();
+    if (folder != run && !fs::is_directory(folder, ignored))
+        refuse("there is no folder " + printable(folder.string(), 400), "a new file in a folder that is there");
+    if (folder != run && ::access(folder.c_str(), W_OK | X_OK) != 0)
+        refuse(printable(folder.string(), 400) + " cannot be written to", "a new file in a folder that can");
+}
+
 bool is_marked_incomplete(const fs::path& folder) {
     std::error_code ignored;
     return fs::exists(folder / mark_name, ignored);

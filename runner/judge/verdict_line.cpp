@@ -1,5 +1,6 @@
 #include "runner/judge/verdict_line.h"
 
+#include "runner/files/log.h"
 #include "runner/judge/baselines.h"
 
 #include <fmt/format.h>
@@ -32,6 +33,13 @@ std::string verdict_line(const Verdict& verdict, const std::string& subject) {
     return word.empty() ? ""
                         : fmt::format("{} {}{}: {}{}{}\n", word, subject, verdict.name, verdict.text, verdict.known.empty() ? "" : "; ",
                                       verdict.known);
+}
+
+void annotate_red(const Verdict& verdict, const std::string& subject, const InputError::Where& where) {
+    if (is_red(verdict))
+        annotate(where, fmt::format("{} {}{}", word_for(verdict), subject, verdict.name),
+                 verdict.text + (verdict.known.empty() ? "" : "; " + verdict.known) +
+                     (verdict.rerun.empty() ? "" : "\nrepeat with: " + verdict.rerun));
 }
 
 } // namespace fernlicht

@@ -3,10 +3,12 @@
 #include "runner/files/output_folder.h"
 #include "runner/files/picture_file.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/trace.h"
 
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 namespace fernlicht {
 
@@ -26,6 +28,7 @@ Writers::~Writers() {
 }
 
 void Writers::work() {
+    name_traced_thread("writer");
     std::unique_lock lock(mutex_);
     while (true) {
         changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
@@ -51,6 +54,9 @@ void Writers::work() {
 
 void Writers::submit(std::function<void()> job) {
     std::unique_lock lock(mutex_);
+    std::optional<TraceSpan> waiting;
+    if (waiting_.size() >= max_waiting_)
+        waiting.emplace("wait for a writer", "write");
     changed_.wait(lock, [this] { return waiting_.size() < max_waiting_ || failure_; });
     if (failure_)
         std::rethrow_exception(std::exchange(failure_, nullptr));
@@ -59,6 +65,7 @@ void Writers::submit(std::function<void()> job) {
 }
 
 void Writers::finish() {
+    const TraceSpan span("wait for all writers", "write");
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return waiting_.empty() && running_ == 0; });
     if (failure_)
@@ -90,11 +97,17 @@ StoredFrame store_frame(Writers& writers, const std::filesystem::path& folder, c
     const auto shared = std::make_shared<const Frame>(std::move(frame));
     if (png) {
         stored.png = (place / (stem + ".png")).generic_string();
-        writers.submit([shared, view, write_picture, path = folder / stored.png] { write_picture(*shared, view, path); });
+        writers.submit([shared, view, write_picture, path = folder / stored.png] {
+            const TraceSpan span("write PNG", "write");
+            write_picture(*shared, view, path);
+        });
     }
     if (exr) {
         stored.exr = (place / (stem + ".exr")).generic_string();
-        writers.submit([shared, moment, view, path = folder / stored.exr] { write_exr(*shared, moment, view, path); });
+        writers.submit([shared, moment, view, path = folder / stored.exr] {
+            const TraceSpan span("write EXR", "write");
+            write_exr(*shared, moment, view, path);
+        });
     }
     return stored;
 }

@@ -3,6 +3,7 @@
 #include "metrics/road/lux_near_thresholds.h"
 #include "scenarios/drives/play/camera.h"
 #include "scenarios/light/light.h"
+#include "scenarios/values/trace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -116,6 +117,9 @@ std::vector<LaneExtent> ExtentFold::rendered(const ExtentDrawing& drawing) const
 }
 
 ExtentRow ExtentFold::measure(const ExtentDrawing& drawing) const {
+    TraceSpan span("extent", "measure");
+    if (span)
+        span.tell("tick", drawing.moment.tick);
     const auto& [moment, grid, view, frame, nudged] = drawing;
     const ExtentParameters& p = *drive_.extent;
     ExtentRow row;
@@ -124,13 +128,16 @@ ExtentRow ExtentFold::measure(const ExtentDrawing& drawing) const {
     row.distance_m = moment.distance_m;
     row.rendered = rendered(drawing);
     for (const Surface surface : {Surface::road, Surface::target}) {
+        const TraceSpan twin("extent of the twin", "measure");
         const std::vector<double> truth = twin_lux_near_thresholds(grid, moment, surface, p.thresholds_lx);
         const std::vector<LaneExtent> measured = measure_extent(grid, truth, surface, p.thresholds_lx, p.width_at_m);
         std::ranges::copy(measured, std::back_inserter(row.twin));
         std::ranges::copy(grid_errors(grid, truth, surface, p.thresholds_lx, measured), std::back_inserter(row.grid_errors));
     }
-    if (nudged)
+    if (nudged) {
+        const TraceSpan sensitivity("extent's sensitivity", "measure");
         row.nudged = nudged_extents(grid, moment, p.thresholds_lx, p.width_at_m, nudges_);
+    }
     return row;
 }
 
@@ -160,6 +167,9 @@ View map_around(const glm::dvec3& point_m, const Moment& moment) {
 }
 
 void ProbeFold::add(const Moment& moment, const Draw& draw) {
+    if (found_.empty())
+        return;
+    const TraceSpan span("probes", "measure");
     for (std::size_t i = 0; i < found_.size(); ++i) {
         const Probe& probe = drive_.probes[i];
         const Pose pose = route_.pose(moment.distance_m + probe.ahead_m, probe.left_m);

@@ -8,6 +8,7 @@
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/drive_log.h"
 #include "scenarios/drives/play/motion.h"
+#include "scenarios/values/trace.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -44,6 +45,9 @@ class Pictures {
     }
 
     void store(const Moment& moment) {
+        if (drawn_.empty())
+            return;
+        const TraceSpan span("store", "play");
         for (auto& [view, frame] : drawn_) {
             if (view->projection == Projection::map)
                 keep_map(frame, moment, *view);
@@ -51,7 +55,7 @@ class Pictures {
                                              std::move(frame), moment, *view, display_.writer());
             played_.frames.push_back(std::move(stored));
         }
-        captured_ += drawn_.empty() ? 0U : 1U;
+        ++captured_;
         drawn_.clear();
     }
 
@@ -100,7 +104,10 @@ class Measuring {
     void add(ExtentDrawing drawing) {
         if (waiting_.size() == max_waiting_)
             join_first();
-        waiting_.push_back(std::async(std::launch::async, [this, drawing = std::move(drawing)] { return fold_.measure(drawing); }));
+        waiting_.push_back(std::async(std::launch::async, [this, drawing = std::move(drawing)] {
+            name_traced_thread("measuring");
+            return fold_.measure(drawing);
+        }));
     }
     void finish() {
         while (!waiting_.empty())
@@ -109,6 +116,7 @@ class Measuring {
 
   private:
     void join_first() {
+        const TraceSpan span("wait for extents", "play");
         std::future<ExtentRow> first = std::move(waiting_.front());
         waiting_.pop_front();
         rows_.push_back(first.get());
@@ -179,6 +187,9 @@ PlayedCell play(const Drive& drive, const Route& route, const LampSet& lamp_set,
     while (state.tick < std::max(0, options.ticks.first) && state.tick + 1 < tick_count(drive))
         state = advance(state, drive);
     for (int k = 0; k < played.ticks_planned; ++k, state = advance(state, drive)) {
+        TraceSpan span("moment", "play");
+        if (span)
+            span.tell("tick", state.tick);
         const Moment moment = moment_at(state, drive, route, lamp_set);
         if (options.log)
             *options.log << logged_moment(lamp_set.name, moment);
@@ -202,7 +213,10 @@ PlayedCell play(const Drive& drive, const Route& route, const LampSet& lamp_set,
         }
         probes.add(moment, draw);
         times.end_moment();
-        seeing.add(moment, lamp_set);
+        {
+            const TraceSpan seen("seeing", "measure");
+            seeing.add(moment, lamp_set);
+        }
         sensitivity.add(moment, tells_sensitivity(k, played.ticks_planned));
         pictures.store(moment);
         if (drawn)

@@ -2,13 +2,17 @@
 
 #include "metrics/display/display_colour.h"
 #include "renderer/gpu_timer.h"
+#include "runner/files/log.h"
 #include "runner/play/display_step.h"
 #include "runner/play/lux_map.h"
 #include "scenarios/display/tone_mapper.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/trace.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <fmt/format.h>
 #include <set>
 #include <tuple>
@@ -124,9 +128,16 @@ std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, con
 }
 
 void prepare(Renderer& renderer, const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks) {
+    const TraceSpan span("prepare", "play");
+    const int before = renderer.compiled_programs();
+    const auto start = std::chrono::steady_clock::now();
     const std::vector<Moment> moments = distinct_moments(drive, route, lamp_set, ticks);
     for (const auto& [view, outputs] : pictures_of(drive))
         renderer.prepare(moments, view, outputs);
+    const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const int compiled = renderer.compiled_programs() - before;
+    tell(LogLevel::debug, fmt::format("{}, {}: {} shader variants compiled in {:.1f} s", drive.name, lamp_set.name, compiled, took_s),
+         {{"drive", drive.name}, {"lamp_set", lamp_set.name}, {"compiled", std::int64_t{compiled}}, {"seconds", took_s}});
 }
 
 void fit_tone_mapper(Stage& stage, Device& device, const RendererSettings& settings) {

@@ -1,5 +1,7 @@
 #include "runner/play/progress.h"
 
+#include "runner/files/log.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -43,8 +45,8 @@ extern "C" void on_signal(int signal) {
 } // namespace
 
 Progress::Progress(std::string label, int total, bool quiet, std::string counted)
-    : label_(std::move(label)), counted_(std::move(counted)), total_(total), quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1),
-      start_(std::chrono::steady_clock::now()), shown_(start_) {}
+    : label_(std::move(label)), counted_(std::move(counted)), total_(total), quiet_(quiet || !is_told(LogLevel::info)),
+      terminal_(::isatty(STDERR_FILENO) == 1 && !log_settings().json), start_(std::chrono::steady_clock::now()), shown_(start_) {}
 
 Progress::~Progress() { show(true); }
 
@@ -73,7 +75,8 @@ void Progress::show(bool last) {
     if (last ? tenth_shown_ == 10 : tenth == tenth_shown_)
         return;
     tenth_shown_ = last ? 10 : tenth;
-    fmt::print(stderr, "{}: {}/{} {}, {:.1f}/s, {} left\n", label_, count_, total_, counted_, rate, clock_text(left));
+    tell(LogLevel::info, fmt::format("{}: {}/{} {}, {:.1f}/s, {} left", label_, count_, total_, counted_, rate, clock_text(left)),
+         {{"progress", label_}, {"done", std::int64_t{count_}}, {"total", std::int64_t{total_}}, {"per_s", rate}, {"left_s", left}});
 }
 
 Interruption::Interruption() {

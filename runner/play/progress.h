@@ -1,5 +1,5 @@
 // How far a run is, and whether it was asked to end. Progress: a bar with rate and remaining time on a terminal, plain lines elsewhere,
-// nothing when quiet. On stderr.
+// nothing when quiet. By files/log.h.
 #pragma once
 
 #include <chrono>

@@ -15,6 +15,8 @@ PassClock::~PassClock() {
 }
 
 void PassClock::begin(const char* name) {
+    if (is_tracing())
+        traced_.emplace(name, "pass");
     if (!finish_ && !query_)
         return;
     passes_.push_back({name, 0, 0.0});
@@ -30,10 +32,11 @@ void PassClock::begin(const char* name) {
 void PassClock::end() {
     if (query_)
         context_->gl.EndQuery(GL_TIME_ELAPSED);
-    if (!finish_)
-        return;
-    context_->gl.Finish();
-    passes_.back().seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - since_).count();
+    if (finish_) {
+        context_->gl.Finish();
+        passes_.back().seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - since_).count();
+    }
+    traced_.reset();
 }
 
 std::vector<std::pair<std::string, double>> PassClock::seconds() {

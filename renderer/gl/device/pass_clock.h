@@ -3,8 +3,10 @@
 #pragma once
 
 #include "renderer/gl/device/context.h"
+#include "scenarios/values/trace.h"
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,13 +15,14 @@ namespace fernlicht::gl {
 
 class PassClock {
   public:
-    /// finish: wait for the GPU at each border (the frame gets slower). query: GL_TIME_ELAPSED. Neither: measures nothing.
+    /// finish: wait for the GPU at each border (the frame gets slower). query: GL_TIME_ELAPSED. Neither: measures nothing. A trace has each
+    /// pass as the CPU sees it: with `finish` what the GPU does, else what it is asked for.
     PassClock(Context& context, bool finish, bool query) : context_(&context), finish_(finish), query_(query && !finish) {}
     PassClock(PassClock&& other) noexcept;
     PassClock& operator=(PassClock&&) = delete;
     ~PassClock();
 
-    void begin(const char* name);
+    void begin(const char* name); ///< a literal
     void end();
     /// Waits for the queries. Seconds by pass, in their order.
     std::vector<std::pair<std::string, double>> seconds();
@@ -34,6 +37,7 @@ class PassClock {
     bool finish_, query_;
     std::vector<Pass> passes_;
     std::chrono::steady_clock::time_point since_;
+    std::optional<TraceSpan> traced_; ///< of the pass between begin() and end()
 };
 
 class FragmentCount {

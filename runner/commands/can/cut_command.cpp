@@ -2,6 +2,7 @@
 
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/flag_values.h"
+#include "runner/files/log.h"
 #include "runner/play/progress.h"
 #include "scenarios/can/can_frame.h"
 
@@ -67,8 +68,8 @@ class Cut {
     void tell_absent(const CandumpStream& log) const {
         for (std::size_t i = 0; i < channels_.size(); ++i)
             if (!seen_[i])
-                fmt::print(stderr, "fernlicht: {}: no frame of channel {}\n", printable(log.path().string(), 400),
-                           printable(channels_[i].channel));
+                tell(LogLevel::warning,
+                     fmt::format("{}: no frame of channel {}", printable(log.path().string(), 400), printable(channels_[i].channel)));
     }
 
     bool keeps(const CanFrame& frame) {

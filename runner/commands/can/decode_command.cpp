@@ -3,6 +3,7 @@
 #include "runner/commands/can/decoded_text.h"
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/flag_values.h"
+#include "runner/files/log.h"
 #include "runner/play/progress.h"
 #include "scenarios/can/can_database.h"
 #include "scenarios/can/signal_codec.h"
@@ -139,7 +140,7 @@ class Decoder {
         if (flags.notes)
             for (const CanDatabase& database : databases_.all())
                 for (const std::string& note : database.notes)
-                    fmt::print(stderr, "fernlicht: {}: {}\n", printable(database.file.string(), 400), note);
+                    tell(LogLevel::warning, fmt::format("{}: {}", printable(database.file.string(), 400), note));
         if (flags.csv)
             write_header();
     }
@@ -261,8 +262,8 @@ bool Decoder::decode_log(const std::string& path) {
 void Decoder::finish() {
     out_.finish();
     if (unknown_ > 0 && (flags_.known || flags_.csv))
-        fmt::print(stderr, "fernlicht: {} frame{} of {} identifier{} that no message describes left out\n", unknown_,
-                   unknown_ == 1 ? "" : "s", unknown_ids_.size(), unknown_ids_.size() == 1 ? "" : "s");
+        tell(LogLevel::warning, fmt::format("{} frame{} of {} identifier{} that no message describes left out", unknown_,
+                                            unknown_ == 1 ? "" : "s", unknown_ids_.size(), unknown_ids_.size() == 1 ? "" : "s"));
 }
 
 int decode_logs(const DecodeFlags& flags) {

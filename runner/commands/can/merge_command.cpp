@@ -2,6 +2,7 @@
 
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/flag_values.h"
+#include "runner/files/log.h"
 #include "runner/play/progress.h"
 
 #include <CLI/CLI.hpp>
@@ -103,8 +104,8 @@ class MergeSource {
             line_.style = style;
         }
         if (!told_ && started_ && line_.frame.time_ns < before) {
-            fmt::print(stderr, "fernlicht: {}:{}: its stamps fall; its own order is kept\n", printable(log().path().string(), 400),
-                       log().line_number());
+            tell(LogLevel::warning,
+                 fmt::format("{}:{}: its stamps fall; its own order is kept", printable(log().path().string(), 400), log().line_number()));
             told_ = true;
         }
         started_ = true;

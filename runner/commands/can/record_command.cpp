@@ -2,6 +2,7 @@
 
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/flag_values.h"
+#include "runner/files/log.h"
 #include "runner/play/stage.h"
 #include "scenarios/can/candump_log.h"
 #include "scenarios/drives/play/bus_recording.h"
@@ -35,7 +36,7 @@ int record_drive(const RecordFlags& flags) {
     }
     out.finish();
     for (const std::string& note : notes)
-        fmt::print(stderr, "{}\n", note);
+        tell(LogLevel::info, note);
     return 0;
 }
 

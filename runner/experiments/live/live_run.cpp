@@ -44,25 +44,6 @@ std::size_t live_lamp_set(const Drive& drive, const std::string& name) {
     return static_cast<std::size_t>(found - drive.lamp_sets.begin());
 }
 
-/// A new file in a folder that is there, or in the report's. So that nothing is made or lost for a recording that cannot be written.
-void check_recording(const LiveOptions& options) {
-    namespace fs = std::filesystem;
-    if (options.record.empty())
-        return;
-    const fs::path file = fs::absolute(options.record).lexically_normal(), report = fs::absolute(options.folder).lexically_normal();
-    const auto refuse = [](const std::string& found, const char* expected) { throw InputError({{}, 0, 0, "--record"}, found, expected); };
-    std::error_code ignored;
-    if (fs::exists(fs::symlink_status(file, ignored)))
-        refuse(printable(options.record.string(), 400) + " is there already", "a new file");
-    if (!file.has_filename() || file == report)
-        refuse(printable(options.record.string(), 400) + " is a folder", "a new file");
-    const fs::path folder = file.parent_path();
-    if (folder != report && !fs::is_directory(folder, ignored))
-        refuse("there is no folder " + printable(folder.string(), 400), "a new file in a folder that is there");
-    if (folder != report && access(folder.c_str(), W_OK | X_OK) != 0)
-        refuse(printable(folder.string(), 400) + " cannot be written to", "a new file in a folder that can");
-}
-
 /// The mapping with another channel or recording.
 template <class Change> void change_mapping(Drive& drive, const Change& change) {
     BusMapping mapping = *drive.can;
@@ -222,7 +203,8 @@ PlayedCell LiveSession::result(const LiveFigures& figures) {
 }
 
 Report LiveSession::play() {
-    check_recording(options_);
+    if (!options_.record.empty())
+        refuse_unwritable("--record", options_.record, options_.folder);
     if (options_.log.empty())
         CanSocket probe(socket_); // refused before anything is drawn or written
     if (options_.draw) {

@@ -3,6 +3,7 @@
 #include "renderer/reference/embree_scene.h"
 #include "renderer/reference/pixel_estimate.h"
 #include "runner/experiments/reference/checkpoint.h"
+#include "runner/files/log.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/library_versions.h"
 #include "runner/findings/run_context.h"
@@ -107,7 +108,8 @@ void draw(ReferenceResult& result, const Stage& stage, const ReferenceRequest& r
     const Reference reference(stage.scene);
     result.triangles = reference.geometry(result.moment)->triangles();
     if (!request.quiet && (result.settings.integrator == Integrator::radiosity || result.settings.integrator == Integrator::photon_map))
-        fmt::print(stderr, "solving the light before the picture is computed ({})\n", integrator_name(result.settings.integrator));
+        tell(LogLevel::info,
+             fmt::format("solving the light before the picture is computed ({})", integrator_name(result.settings.integrator)));
     Progress progress("reference", result.view.width_px * result.view.height_px, request.quiet, "pixels");
     auto stored = std::chrono::steady_clock::now();
     result.image = reference.render(

@@ -8,6 +8,7 @@
 #include "runner/experiments/run/run_judging.h"
 #include "runner/experiments/run/savings.h"
 #include "runner/experiments/shadows/moment_sheet.h"
+#include "runner/files/log.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
 #include "runner/findings/summary.h"
@@ -26,6 +27,7 @@
 #include "scenarios/drives/play/drive_log.h"
 #include "scenarios/drives/play/motion.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/trace.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -66,9 +68,20 @@ std::vector<std::string> notes_for(const Stage& stage, const LampSet& lamp_set, 
     return notes;
 }
 
+/// Of what is done to one drive, and to one of its lamp sets ("" for all).
+void tell_which(TraceSpan& span, const Stage& stage, const std::string& lamp_set = {}) {
+    if (!span)
+        return;
+    span.tell("drive", stage.drive.name);
+    if (!lamp_set.empty())
+        span.tell("lamp set", lamp_set);
+}
+
 /// Plays one lamp set and completes it with readings and verdicts.
 PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& renderer, const RunOptions& options, Writers& writers,
                          std::ostream* log = nullptr) {
+    TraceSpan span("lamp set", "run");
+    tell_which(span, stage, lamp_set.name);
     prepare(renderer, stage.drive, stage.route, lamp_set, options.ticks);
     const int compiled = renderer.compiled_programs();
     const Renderer::ShadowMapsUsed maps_before = renderer.shadow_maps_used();
@@ -122,6 +135,7 @@ PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& 
         played.extent_summaries = summarise_extents(played, *stage.drive.extent);
     std::ranges::copy(extent_readings(played), std::back_inserter(played.readings));
     if (stage.drive.seeing.tolerances && !Interruption::requested()) {
+        const TraceSpan series("cars of a series", "measure");
         std::optional<Progress> cars;
         played.series = std::make_shared<const SeriesFindings>(
             play_series(stage.drive, stage.route, lamp_set, options.ticks, played.readings, draw, [&](std::size_t done, std::size_t all) {
@@ -152,6 +166,8 @@ PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& 
 /// After all is played: the renderer that leaves nothing out takes memory of its own.
 void add_savings(const Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options, Renderer& renderer,
                  std::span<PlayedCell> played) {
+    TraceSpan span("savings by pruning", "run");
+    tell_which(span, stage);
     std::optional<Renderer> unpruned;
     for (std::size_t i = 0; i < played.size() && !Interruption::requested(); ++i) {
         PruningSavings& savings = played[i].savings;
@@ -174,6 +190,8 @@ void add_savings(const Stage& stage, Device& device, const RendererSettings& set
 
 /// By the renderer that played: what it drew is what is measured.
 void add_errors(const Stage& stage, const RunOptions& options, Renderer& renderer, std::span<PlayedCell> played) {
+    TraceSpan span("accuracy", "run");
+    tell_which(span, stage);
     for (std::size_t i = 0; i < played.size() && !Interruption::requested(); ++i) {
         DriveError& error = played[i].error;
         error.not_measured = no_drive_error(stage.drive, played[i]);
@@ -193,6 +211,8 @@ int middle_tick(const PlayedCell& played, int first_tick) {
 
 void add_contact_sheets(const Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options,
                         std::span<PlayedCell> played) {
+    TraceSpan span("contact sheets", "run");
+    tell_which(span, stage);
     std::vector<ContactSheet> sheets;
     for (std::size_t i = 0; i < played.size(); ++i) {
         const LampSet& lamp_set = stage.drive.lamp_sets[i];
@@ -236,10 +256,15 @@ void add_contact_sheets(const Stage& stage, Device& device, const RendererSettin
 }
 
 void run_drive(Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options, Report& report) {
+    TraceSpan span("drive", "run");
+    tell_which(span, stage);
     std::shared_ptr<const ShadowChoice> shadows;
-    if (const auto chosen = choose_shadows(stage, device, settings_for(stage.drive, settings)))
-        shadows = std::make_shared<const ShadowChoice>(*chosen);
-    fit_tone_mapper(stage, device, settings_for(stage.drive, settings));
+    {
+        const TraceSpan choosing("choose shadows and exposure", "run");
+        if (const auto chosen = choose_shadows(stage, device, settings_for(stage.drive, settings)))
+            shadows = std::make_shared<const ShadowChoice>(*chosen);
+        fit_tone_mapper(stage, device, settings_for(stage.drive, settings));
+    }
     write_file(options.folder / (file_name_of(stage.drive.name) + ".yaml"), write_drive(stage.drive));
     add_inputs(report.context.inputs, stage.drive.opened);
     add_inputs(report.context.inputs, stage.network.opened);
@@ -376,8 +401,10 @@ void add_reruns(const std::vector<Drive>& drives, const RunOptions& options, Rep
 
 Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
     std::deque<Stage> stages; // everything is read and checked before the first frame; a route points into its own network
-    for (const Drive& drive : drives)
+    for (const Drive& drive : drives) {
+        const TraceSpan span("read road, make scene", "run");
         stages.emplace_back(drive);
+    }
     for (const Stage& stage : stages)
         if (ticks_to_play(stage.drive, options.ticks) == 0)
             throw InputError({stage.drive.file, 0, 0, "--frames"}, fmt::format("found a range from {} on", options.ticks.first),
@@ -390,9 +417,13 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
         lamps.add(stage.drive, left_hand_traffic(stage));
     if (options.strict)
         lamps.refuse_meaningless();
+    std::optional<TraceSpan> opening(std::in_place, "open device", "run");
     Device device = open_device(options.backend);
     check_sanity(device);
     const RendererSettings settings = settings_for(device, options.profile);
+    opening.reset();
+    tell(LogLevel::debug, fmt::format("rendering by {}, {}", device.info().backend, device.info().gl_renderer),
+         {{"backend", device.info().backend}, {"renderer", device.info().gl_renderer}});
     for (const Stage& stage : stages)
         check_planar_shadows(stage, device, options.ticks);
     OutputFolder folder(options.folder); // only now: bad input or a machine that cannot draw leaves no folder behind
@@ -417,7 +448,10 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
     }
     add_warnings(stages, drives, options.ticks, report);
     add_reruns(drives, options, report);
-    options.write(report, options.folder);
+    {
+        const TraceSpan span("write report", "write");
+        options.write(report, options.folder);
+    }
     if (failure)
         std::rethrow_exception(failure);
     if (report.complete)

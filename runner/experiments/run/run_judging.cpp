@@ -5,6 +5,7 @@
 #include "runner/judge/baselines.h"
 #include "runner/judge/limits.h"
 #include "runner/play/stage.h"
+#include "scenarios/values/trace.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -26,6 +27,7 @@ std::string lit_title(const std::string& title, const std::string& technique) {
 }
 
 void judge_whole(Report& report, const RunOptions& options) {
+    const TraceSpan span("judge", "run");
     if (!options.baselines.empty())
         for (PlayedCell& played : report.played)
             std::ranges::copy(judge_against_baselines(played, report.context, options.folder, options.baselines, played.technique,

@@ -2,11 +2,13 @@
 
 #include "runner/experiments/study/study_progress.h"
 #include "runner/files/durable_files.h"
+#include "runner/files/trace_file.h"
 #include "runner/findings/run_context.h"
 #include "runner/play/progress.h"
 #include "runner/play/stage.h"
 #include "runner/workers/worker_pool.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/trace.h"
 
 #include <algorithm>
 #include <csignal>
@@ -70,6 +72,11 @@ std::string last_word(const fs::path& log) {
     }
 }
 
+void tell_cell(TraceSpan& span, const PlannedCell& planned) {
+    if (span)
+        span.tell("cell", planned.cell.name);
+}
+
 /// What is killed from outside, as by the kernel where memory is short, passes where nothing is beside it.
 bool may_pass_alone(const WorkerEnd& end) { return end.ending == WorkerEnding::killed && (end.code == SIGKILL || end.code == SIGTERM); }
 
@@ -80,6 +87,8 @@ double physical_memory_mib() {
 } // namespace
 
 bool play_into(const CellStore& store, const Study& study, const StudyPlan& plan, const PlannedCell& planned, const StudyOptions& options) {
+    TraceSpan span("cell", "study");
+    tell_cell(span, planned);
     const Workplace place(store.new_workplace(planned.key));
     RunOptions run = run_options(options, place.folder);
     run.no_times = no_times_beside_others;
@@ -92,6 +101,8 @@ bool play_into(const CellStore& store, const Study& study, const StudyPlan& plan
 }
 
 bool play_timed(const Study& study, const PlannedCell& planned, const StudyOptions& options, const fs::path& folder) {
+    TraceSpan span("cell", "study");
+    tell_cell(span, planned);
     return run_drives({unjudged_drive(study, planned.cell)}, run_options(options, folder)).complete;
 }
 
@@ -146,6 +157,13 @@ std::map<std::size_t, PlayedInWorker> play_in_workers(const CellStore& store, co
     const auto command = [&](std::size_t i) {
         // This very program, whatever is built meanwhile.
         WorkerCommand one{playing_command(study, plan, {i}, of_worker), fmt::format("/proc/{}/exe", ::getpid()), {}, log_of(i)};
+        if (is_tracing()) {
+            const fs::path trace = logs / (plan.cells[i].cell.name + ".trace.json");
+            std::error_code ignored;
+            fs::remove(trace, ignored); // of a try before this one
+            join_trace_of_process(trace);
+            one.words.insert(one.words.end(), {"--trace", trace.string()});
+        }
         store.note_failure(plan.cells[i].key, "");
         return one;
     };

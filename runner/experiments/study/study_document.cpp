@@ -136,6 +136,28 @@ Table failures_table(const StudyResult& result) {
     return table;
 }
 
+/// What is red, a paragraph each, with the command that repeats it. Who reads a hundred of them opens the page.
+std::vector<std::string> red_lines(const StudyResult& result) {
+    constexpr std::size_t most = 100;
+    std::vector<std::string> lines;
+    std::size_t more = 0;
+    for (const PlayedCell& suite : suites_of(result).played)
+        for (const Verdict& verdict : suite.verdicts) {
+            if (!is_red(verdict))
+                continue;
+            if (lines.size() == most) {
+                ++more;
+                continue;
+            }
+            const std::string line = verdict_line(verdict, suite.drive + ": ");
+            lines.push_back(line.substr(0, line.find_last_not_of('\n') + 1) +
+                            (verdict.rerun.empty() ? "" : fmt::format(". Repeat with `{}`", verdict.rerun)));
+        }
+    if (more > 0)
+        lines.push_back(fmt::format("And {} more, all in report.html.", more));
+    return lines;
+}
+
 /// The verdict as people say it.
 std::string verdict_words(const StudyResult& result) {
     const auto exceeds = [](const std::vector<Verdict>& verdicts) {
@@ -378,9 +400,15 @@ Document study_paper(const StudyResult& result) {
                      ? Cell(fmt::format("{:.{}f}", change.total_uncertainty(), decimals_of(change)), change.total_uncertainty())
                      : Cell(""),
                  unit_label(change.unit()), change_name(change.kind)});
-    Section section{"", {std::move(table)}};
+    Section section{was_judged(result) ? verdict_words(result) : "No limits were set", {}};
+    if (!result.interrupted.empty())
+        section.blocks.emplace_back("The study did not end: " + result.interrupted + ".");
+    for (std::string& line : red_lines(result))
+        section.blocks.emplace_back(std::move(line));
+    section.blocks.emplace_back(study_sentence(result));
     if (!result.played_in_part.empty())
         section.blocks.emplace_back(result.played_in_part + ".");
+    section.blocks.emplace_back(std::move(table));
     section.blocks.emplace_back("Medians over what was played of the drive unless said otherwise. ± is the change's numerical uncertainty "
                                 "and the noise of the candela tables; within aim means that 0.1° of aim would do as much.");
     return {result.study.title, {section}};

@@ -11,7 +11,7 @@ namespace fernlicht {
 Document document(const StudyResult& result, const std::vector<std::string>& papers = {});
 /// For a terminal: verdict, what differs between the lamps, the largest changes, what failed.
 Document study_summary(const StudyResult& result);
-/// The table of the deciding readings, for papers.
+/// For papers and for pages of CI servers: verdict, what is red and how it is repeated, the decision, the table of the deciding readings.
 Document study_paper(const StudyResult& result);
 
 /// study.schema.json describes it. What differs from call to call stands under `context`.

@@ -15,6 +15,7 @@
 #include "scenarios/values/errors.h"
 #include "scenarios/values/glob.h"
 #include "scenarios/values/pose.h"
+#include "scenarios/values/trace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -167,6 +168,7 @@ CellInputs StudyPlan::inputs(const PlannedCell& cell) const {
 }
 
 StudyPlan plan_study(const Study& study, const StudyOptions& options) {
+    const TraceSpan span("plan", "study");
     StudyPlan plan;
     KnownStage stage;
     LampFileChecks checks;

@@ -1,5 +1,7 @@
 #include "runner/experiments/study/study_progress.h"
 
+#include "runner/files/log.h"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -15,7 +17,8 @@ std::string minutes_text(double seconds) {
 } // namespace
 
 StudyProgress::StudyProgress(std::size_t cells, bool quiet)
-    : cells_(cells), quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1), start_(std::chrono::steady_clock::now()) {}
+    : cells_(cells), quiet_(quiet || !is_told(LogLevel::info)), terminal_(::isatty(STDERR_FILENO) == 1 && !log_settings().json),
+      start_(std::chrono::steady_clock::now()) {}
 
 StudyProgress::~StudyProgress() {
     if (!quiet_ && terminal_ && cells_ > 0)
@@ -47,7 +50,16 @@ void StudyProgress::ended(const std::string& cell, double seconds, const std::st
             fmt::print(stderr, "\r\x1b[Kcell {} failed: {}\n", cell, failed);
         return beat(running_);
     }
-    fmt::print(stderr, "cell {}: {}; {}\n", cell, failed.empty() ? fmt::format("{:.1f} s", seconds) : "failed: " + failed, state());
+    LogFields fields{{"cell", cell},
+                     {"seconds", seconds},
+                     {"done", static_cast<std::int64_t>(done_)},
+                     {"failed", static_cast<std::int64_t>(failed_)},
+                     {"running", static_cast<std::int64_t>(running_)},
+                     {"total", static_cast<std::int64_t>(cells_)}};
+    if (!failed.empty())
+        fields.emplace_back("why", failed);
+    tell(LogLevel::info,
+         fmt::format("cell {}: {}; {}", cell, failed.empty() ? fmt::format("{:.1f} s", seconds) : "failed: " + failed, state()), fields);
 }
 
 } // namespace fernlicht

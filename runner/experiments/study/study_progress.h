@@ -1,5 +1,5 @@
 // How far a study is: cells done, running, failed, and the time left. One line that changes on a terminal, a line a cell elsewhere, nothing
-// when quiet. On stderr.
+// when quiet. By files/log.h.
 #pragma once
 
 #include <chrono>

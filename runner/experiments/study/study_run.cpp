@@ -6,9 +6,11 @@
 #include "runner/experiments/study/slurm_playing.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/files/checked_json.h"
+#include "runner/files/log.h"
 #include "runner/files/output_folder.h"
 #include "runner/play/progress.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/trace.h"
 
 #include <algorithm>
 #include <array>
@@ -16,6 +18,7 @@
 #include <fmt/ranges.h>
 #include <map>
 #include <oneapi/tbb/global_control.h>
+#include <optional>
 
 namespace fernlicht {
 namespace {
@@ -152,13 +155,17 @@ std::string played_words(const StudyResult& result, const std::string& how) {
 }
 
 void finish(StudyResult& result, const StudyOptions& options, OutputFolder& folder) {
+    std::optional<TraceSpan> span(std::in_place, "compare cells", "study");
     add_lanes(result.study, result);
     compare_cells(result);
+    span.reset();
     if (options.known)
         apply_known_failures(result, *options.known, options.run.today);
     add_aim_warnings(result);
+    span.emplace("write figures and report", "write");
     result.figures = study_figures(result, options.folder);
     options.write(result);
+    span.reset();
     if (result.complete())
         folder.finish();
 }
@@ -220,7 +227,7 @@ void play_all_timed(const Study& study, const StudyPlan& plan, const StudyOption
         const fs::path folder = options.folder / "cells" / one.cell.name;
         CellResult& cell = result.cells.emplace_back(unplayed_cell(study, plan, one, options));
         if (result.interrupted.empty() && !options.run.quiet)
-            fmt::print(stderr, "cell {} of {}: {}\n", i + 1, plan.cells.size(), one.cell.name);
+            tell(LogLevel::info, fmt::format("cell {} of {}: {}", i + 1, plan.cells.size(), one.cell.name));
         if (one.moments == 0)
             cell.failed = no_moments(options);
         else if (!result.interrupted.empty()) {
@@ -325,7 +332,7 @@ bool play_into_store(const Study& study, const StudyOptions& options) {
                 return false;
         } catch (const std::exception& error) {
             all_there = false;
-            fmt::print(stderr, "fernlicht: cell {}: {}\n", one.cell.name, error.what());
+            tell(LogLevel::error, fmt::format("cell {}: {}", one.cell.name, error.what()));
             store.note_failure(one.key, error.what());
         }
     }

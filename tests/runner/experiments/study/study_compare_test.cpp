@@ -333,6 +333,34 @@ TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
     EXPECT_THAT(document_text(study_summary(result)), HasSubstr("9 of 660 to 900 moments of each drive"));
 }
 
+/// Whoever sees it on a CI server's page wants the verdict, then what to repeat, then the decision; the table after all that.
+TEST(StudyCompare, ThePaperLeadsWithTheVerdictWhatIsRedAndTheDecision) {
+    StudyResult result = two_cells(40.0, 50.0);
+    compare_cells(result);
+    EXPECT_THAT(document_markdown(study_paper(result)),
+                testing::StartsWith("# by hand\n\n## No limits were set\n\nnew against old: better by reach at 5 lx"));
+    result.call = {"fernlicht", "study", "s.yaml"};
+    result.study.limits.resize(2);
+    for (StudyLimit& limit : result.study.limits)
+        limit.reading = "reach_5lx_target_own_m";
+    result.study.limits[0].at_least = 45.0;
+    result.study.limits[1].at_most = 60.0;
+    result.study.techniques = {"photometric"};
+    compare_cells(result);
+    EXPECT_THAT(
+        document_markdown(study_paper(result)),
+        testing::StartsWith("# by hand\n\n## Limits exceeded\n\nFAIL by hand: one_old: reach_5lx_target_own_m: 40 m, limit at least 45 m. "
+                            "Repeat with `fernlicht study s.yaml --only one_old`\n\nnew against old: better by reach"));
+    result.interrupted = "interrupted by the user";
+    result.cells[1].failed = "not reached";
+    EXPECT_THAT(document_markdown(study_paper(result)), AllOf(HasSubstr("\n\nThe study did not end: interrupted by the user.\n"),
+                                                              HasSubstr("NOT MEASURED one_new: played: not reached")));
+    EXPECT_THAT(document_latex(study_paper(result)), HasSubstr("\n% FAIL by hand: one_old")) << "a comment in a paper";
+    for (int i = 0; i < 200; ++i)
+        result.verdicts.push_back({VerdictKind::fail, "more", "x", ""});
+    EXPECT_THAT(document_markdown(study_paper(result)), HasSubstr("\nAnd 102 more, all in report.html.\n"));
+}
+
 TEST(StudyCompare, ACellThatFailedTakesTheVerdictWithIt) {
     StudyResult result = two_cells(40.0, 40.0);
     compare_cells(result);

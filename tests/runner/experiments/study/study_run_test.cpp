@@ -60,8 +60,10 @@ struct StudyProgram : testing::Test {
 
 TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
     const std::string file = write_study_file(folder, xenon);
-    const Outcome run = run_program("study " + file + quick + "--out " + (folder / "out"));
+    const Outcome run = run_program("study " + file + quick + "--out " + (folder / "out") + " --trace " + (folder / "out/trace.json"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
+    const json events = json::parse(content_of(folder / "out/trace.json")).at("traceEvents");
+    EXPECT_EQ(std::ranges::count_if(events, [](const json& event) { return event.at("name") == "cell"; }), 2);
     const json study = tests::checked(content_of(folder / "out/study.json"), study_members);
     EXPECT_EQ(study.at("verdict"), "pass");
     ASSERT_EQ(study.at("cells").size(), 2U);
@@ -90,7 +92,8 @@ TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
         for (const char* form : {"svg", "png"})
             EXPECT_GT(std::filesystem::file_size(folder / ("out/" + figure.at(form).get<std::string>())), 500U) << figure;
     EXPECT_THAT(content_of(folder / "out/study.tex"), HasSubstr("\\toprule"));
-    EXPECT_THAT(content_of(folder / "out/study.md"), HasSubstr("| new / old | straight-1 |"));
+    EXPECT_THAT(content_of(folder / "out/study.md"),
+                testing::AllOf(testing::StartsWith("# Two cells\n\n## No limits were set\n\n"), HasSubstr("| new / old | straight-1 |")));
     EXPECT_FALSE(std::filesystem::exists(folder / "out/INCOMPLETE"));
     if (run_shell("command -v chromium").exit_code != 0)
         GTEST_SKIP() << "no Chromium on this machine: the page is not opened";
