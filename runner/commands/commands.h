@@ -38,6 +38,7 @@ AddCommand add_doctor_command;     // what this machine can draw with
 AddCommand add_stability_command;  // extreme and degenerate inputs as a table of cases; 1 when one fails
 AddCommand add_accept_command;     // takes a run's results as what later runs are compared with
 AddCommand add_baselines_command;  // lists, shows, compares and removes what was accepted
+AddCommand add_history_command;    // what nights of a study read, over months: what changed, when and why
 AddCommand add_migrate_command;    // files of version 0.1 with the names of today
 
 } // namespace fernlicht

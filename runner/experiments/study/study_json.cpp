@@ -117,6 +117,10 @@ JsonMembers cell_reading_members(Reading& reading) {
     return joined({{"name", reading.key}, {"value", value}, {"unit", reading.unit()}}, when(!value.measured(), {{"not_measured", reason}}));
 }
 
+JsonMembers cell_input_members(CellInput& input) {
+    return {{"kind", one_of(input.kind, names_of<InputKind>(input_kind_name, 8))}, {"name", input.name}, {"hash", input.hash}};
+}
+
 JsonMembers study_cell_members(CellResult& cell, Study& study) {
     StudyCell& at = cell.cell;
     StudyConditions& conditions = study.conditions;
@@ -146,6 +150,7 @@ JsonMembers study_cell_members(CellResult& cell, Study& study) {
                         {"readings", readings}};
     const auto point = through([&at] { return std::uint64_t{at.point} + 1; }, [&at](std::uint64_t number) { at.point = number - 1; });
     return joined(std::move(members), when(!cell.aims.empty(), {{"aims", cell.aims, lamp_aim_members}}),
+                  when(!cell.inputs.empty(), {{"inputs", cell.inputs, cell_input_members}}), when(!cell.key.empty(), {{"key", cell.key}}),
                   when(!at.axes.empty(), {{"point", point}, {"axes", at.axes, axis_value_members}}));
 }
 

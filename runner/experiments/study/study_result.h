@@ -4,6 +4,7 @@
 #include "metrics/beam/lamp_difference.h"
 #include "metrics/readings/significance.h"
 #include "runner/experiments/compare/runs/played_report.h"
+#include "runner/findings/cell_inputs.h"
 #include "runner/findings/document.h"
 #include "runner/findings/lamp_checks.h"
 #include "runner/judge/known_failures.h"
@@ -19,6 +20,8 @@ struct CellResult : PlayedResult {
     std::string failed;                      ///< why there is no report; "" when there is one
     bool reused = false;                     ///< played by an earlier call
     std::string command;                     ///< that repeats it
+    CellInputs inputs;                       ///< what decided its figures; empty where that was not kept
+    std::string key;                         ///< hash over them; "" without
     int moments = 0, moments_of_drive = 0;   ///< that were to be played, and that the whole drive has
 };
 
