@@ -27,6 +27,9 @@ HashesByInput hashes_of(const CellInputs& inputs) {
     return hashes;
 }
 
+/// Of a night that kept no hashes.
+bool is_version(const std::string& value) { return !value.empty() && value.size() < 32; }
+
 std::string short_hash(const std::string& hash) { return hash.empty() ? "none" : hash.substr(0, 12); }
 
 } // namespace
@@ -65,7 +68,9 @@ std::string phrase_of(const InputChange& change) {
     const std::string name = short_text(change.name, 60), kind = input_kind_name(change.kind);
     switch (change.kind) {
     case InputKind::program:
-        return name + "'s sources";
+        if (is_version(change.before) || is_version(change.now))
+            return fmt::format("{} {} → {}", name, change.before, change.now);
+        return "sources in " + name;
     case InputKind::setting:
     case InputKind::library:
     case InputKind::device: {

@@ -25,9 +25,9 @@ using InputChanges = std::vector<InputChange>;
 /// In the order of kinds and names.
 InputChanges changed_inputs(const CellInputs& before, const CellInputs& now);
 
-/// "lamp low-beam.ies (1f0c93a2b7d4 → 91bc03e8a5f0)", "renderer's sources", "driver Mesa 22.3.6 → Mesa 25.0.1".
+/// "lamp low-beam.ies (1f0c93a2b7d4 → 91bc03e8a5f0)", "sources in renderer", "driver Mesa 22.3.6 → Mesa 25.0.1".
 std::string phrase_of(const InputChange& change);
-/// "inputs: lamp low-beam.ies (1f0c93a2b7d4 → 91bc03e8a5f0); program: renderer's sources"; where nothing changed, that.
+/// "inputs: lamp low-beam.ies (1f0c93a2b7d4 → 91bc03e8a5f0); program: sources in renderer"; where nothing changed, that.
 std::string phrase_of(const InputChanges& changes);
 /// "inputs", "inputs and program"; "not known" of none.
 std::string causes_of(const InputChanges& changes);

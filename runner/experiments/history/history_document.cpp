@@ -224,13 +224,12 @@ Section times_section(const HistoryFindings& findings) {
             fmt::format("No cell was timed by itself in {} nights or more: no change of times can be told.", fewest_samples_of_change));
         return section;
     }
-    section.blocks.emplace_back(fmt::format("Frames of {}, timed in up to {} nights. Readings are exact, times are not: a change is one "
-                                            "that fewer than {} % of all orders of the nights "
-                                            "would show by chance, over all cells together (permutation test of the largest step of their "
-                                            "logarithms, {} orders; false discovery rate {} % "
-                                            "by Benjamini and Hochberg).",
-                                            counted(times.cells, "cell"), times.nights, 100.0 * times.rate, orders_of_change,
-                                            100.0 * times.rate));
+    section.blocks.emplace_back(fmt::format(
+        "Frames of {}, timed in up to {}. Readings are exact, times are not: p is the share of {} random orders of the nights in which two "
+        "levels lie as far apart (permutation test of the largest step of the logarithms). A change is claimed where p passes the "
+        "procedure "
+        "of Benjamini and Hochberg over all cells, at a false discovery rate of {} %.",
+        counted(times.cells, "cell"), counted(times.nights, "night"), orders_of_change + 1, 100.0 * times.rate));
     Table table{"times", "", columns_of("night<|lamp<|route<|time a frame [%]|p|cause<"), {}};
     for (const HistoryTimes::Change& change : times.changes) {
         const NightCell& cell = night_cell(findings.tonight(), change.cell);

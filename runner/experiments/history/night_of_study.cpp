@@ -48,6 +48,14 @@ CellInputs machine_of(const RunContext& context) {
 
 } // namespace
 
+NightReadings night_readings(const CellResult& cell) {
+    NightReadings readings;
+    for (const auto& [key, reading] : cell.readings)
+        if (!is_time(key))
+            readings.emplace(name_of(key), reading.value);
+    return readings;
+}
+
 Night night_of_study(const StudyResult& result, const std::filesystem::path& folder) {
     Night night;
     night.study = result.study.name;
@@ -56,15 +64,11 @@ Night night_of_study(const StudyResult& result, const std::filesystem::path& fol
     night.machine = machine_of(result.context);
     night.decide = result.study.decide;
     for (const CellResult& cell : result.cells) {
-        const auto readings = std::make_shared<NightReadings>();
-        for (const auto& [key, reading] : cell.readings)
-            if (!is_time(key))
-                readings->emplace(name_of(key), reading.value);
         const std::string technique =
             cell.cell.technique < result.study.techniques.size() ? result.study.techniques[cell.cell.technique] : "";
         night.cells.push_back({cell.cell.name, cell.drive, result.study.lamps[cell.cell.lamp].name, technique,
-                               condition_of(result, cell.cell), cell.failed, std::make_shared<CellInputs>(cell.inputs), readings, nullptr,
-                               cell.reused ? std::nullopt : cell.frame_s});
+                               condition_of(result, cell.cell), cell.failed, std::make_shared<CellInputs>(cell.inputs),
+                               std::make_shared<NightReadings>(night_readings(cell)), nullptr, cell.reused ? std::nullopt : cell.frame_s});
     }
     return night;
 }

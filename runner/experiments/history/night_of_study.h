@@ -6,6 +6,9 @@
 
 namespace fernlicht {
 
+/// What a cell read of its whole drive, without times of the machine.
+NightReadings night_readings(const CellResult& cell);
+
 /// Readings of whole drives, without times of the machine; frame times of cells that were played this night. `folder` is where the study's
 /// report lies.
 Night night_of_study(const StudyResult& result, const std::filesystem::path& folder);

@@ -191,12 +191,12 @@ TEST(ThirtyNights, ThePageLeadsWithWhatChanged) {
     EXPECT_THAT(text,
                 HasSubstr("2026-01-15: machine: driver Mesa 22.3.6 → Mesa 25.0.1; 24 readings of 6 cells within rounding, at most 0.0"));
     EXPECT_THAT(text, HasSubstr("2026-01-18 to 2026-01-27: drift in 10 nights; 3 readings of 3 cells"));
-    EXPECT_THAT(text, HasSubstr("(+1 %), beyond 0.5 % since 2026-01-22; program: scenarios's sources"));
+    EXPECT_THAT(text, HasSubstr("(+1 %), beyond 0.5 % since 2026-01-22; program: sources in scenarios"));
     EXPECT_THAT(text, HasSubstr("both moved it"));
     EXPECT_THAT(text, HasSubstr("2026-01-11: time a frame of 4 cells +"));
-    EXPECT_THAT(text, HasSubstr("false discovery rate 1 % by Benjamini and Hochberg"));
+    EXPECT_THAT(text, HasSubstr("Benjamini and Hochberg over all cells, at a false discovery rate of 1 %"));
     EXPECT_THAT(text, HasSubstr("Changed, and moved no reading"));
-    EXPECT_THAT(text, HasSubstr("2026-01-11: program: renderer's sources"));
+    EXPECT_THAT(text, HasSubstr("2026-01-11: program: sources in renderer"));
     EXPECT_THAT(text, HasSubstr("/nights/2026-01-01"));
     const std::vector<Plot> lines = sparklines(thirty.last);
     ASSERT_GE(lines.size(), 3U);
@@ -222,7 +222,7 @@ TEST(HistoryCauses, WithoutAPlayerItSaysWhyItCannotTell) {
     both.lamp_light["xenon"] = 1.05;
     EXPECT_THAT(document_text(document(explained({{}, both}))),
                 AllOf(HasSubstr("cannot be told apart: of no cell was it played"), HasSubstr("inputs: lamp xenon-low.ies"),
-                      HasSubstr("program: metrics's sources")));
+                      HasSubstr("program: sources in metrics")));
     EXPECT_THAT(document_text(document(explained({{}, both, both}))), HasSubstr("its program is no longer the one at hand"));
     const HistoryFindings refused = explained({{}, both}, {.tell_apart = [](const CellRequest&) {
                                                   return Replayed{std::nullopt, "the store lost the lamp"};
@@ -313,7 +313,7 @@ TEST(HistoryTrend, LevelsWithTheirNightsAndCauses) {
     EXPECT_THAT(text, HasSubstr("inputs: lamp xenon-low.ies"));
     EXPECT_THAT(text, HasSubstr("machine: driver Mesa 22.3.6 → Mesa 25.0.1"));
     EXPECT_THAT(document_text(trend_document(nights, "frame_s", "straight_xenon")),
-                AllOf(HasSubstr("2026-01-11  2026-01-30"), HasSubstr("program: renderer's sources")));
+                AllOf(HasSubstr("2026-01-11  2026-01-30"), HasSubstr("program: sources in renderer")));
     EXPECT_THAT(tests::refusal_of([&] { trend_document(nights, "reach_5lx_target_own", "*"); }),
                 HasSubstr("such as reach_5lx_target_own_m"));
 }
