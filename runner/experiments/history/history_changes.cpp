@@ -297,6 +297,7 @@ HistoryFindings explain_nights(std::vector<Night> nights, const HistoryOptions& 
     for (const auto& [key, count] : changed)
         if (!key.second.empty() && !moving.contains(key))
             findings.quiet.push_back(findings.nights[key.first].date() + ": " + phrase_of(key.second));
+    std::ranges::reverse(findings.quiet); // the newest matter most
     sort_by_size(findings.since);
     findings.times = changes_of_times(findings.nights, findings.base, options.rate);
     add_absent(findings);

@@ -278,6 +278,27 @@ TEST(HistoryCauses, TwoMachinesInTurnAreComparedEachWithItself) {
     EXPECT_THAT(explained({{}, other, {}, other, {}}).events, IsEmpty());
 }
 
+TEST(HistoryCauses, NightsThatKeptNoInputsKnowProgramAndMachine) {
+    PlantedNights planted(7);
+    std::vector<Night> nights;
+    for (int i = 0; i < 3; ++i) {
+        World world;
+        world.driver = i == 2 ? "Mesa 25.0.1" : "Mesa 22.3.6";
+        world.program_area = i == 0 ? 1.0 : 1.1;
+        world.last_digits = i == 2 ? 0.01 : 0.0;
+        StudyResult result = planted.play(i, world);
+        result.context.versions = {{"fernlicht", i == 0 ? "0.1" : "0.2"}};
+        result.context.os = fmt::format("Debian 12.{}", i); // decides over times alone
+        for (CellResult& cell : result.cells)
+            cell.inputs.clear();
+        nights.push_back(night_of_study(result, "/n"));
+    }
+    const HistoryFindings found = explain_nights(nights);
+    ASSERT_EQ(found.events.size(), 2U);
+    EXPECT_EQ(phrase_of(found.events[0].causes), "program: fernlicht 0.1 → 0.2");
+    EXPECT_EQ(phrase_of(found.events[1].causes), "machine: driver Mesa 22.3.6 → Mesa 25.0.1");
+}
+
 TEST(HistoryCauses, ThereAndBackIsTwoChangesAndNoneInSum) {
     World other;
     other.version["xenon"] = 1;
