@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <random>
 #include <stdexcept>
@@ -21,13 +22,13 @@ struct StepSearch {
     std::vector<double> scale; ///< of the sum of the first t + 1, for a standard deviation of one
 
     explicit StepSearch(const std::vector<double>& samples) {
+        if (std::ranges::adjacent_find(samples, std::ranges::not_equal_to{}) == samples.end())
+            return; // of equal ones the mean may be rounded
         const auto n = static_cast<double>(samples.size());
         mean = std::accumulate(samples.begin(), samples.end(), 0.0) / n;
         double squares = 0.0;
         for (const double sample : samples)
             squares += (sample - mean) * (sample - mean);
-        if (!(squares > 0.0))
-            return;
         for (std::size_t t = 1; t < samples.size(); ++t) {
             const auto before = static_cast<double>(t);
             scale.push_back(1.0 / std::sqrt(squares / (n - 1.0) * before * (n - before) / n));

@@ -233,10 +233,13 @@ std::vector<std::size_t> chain_of(const std::vector<Night>& nights, const std::s
         static_cast<std::size_t>(std::ranges::find(nights.back().cells, cell, &NightCell::name) - nights.back().cells.begin());
     std::vector<std::size_t> played;
     std::vector<std::string> classes;
+    const CellInputs* same = nullptr; // most nights share one object
     for (std::size_t i = first; i < nights.size(); ++i)
         if (const NightCell* one = nights[i].cell(cell, likely); one && one->failed.empty()) {
             played.push_back(i);
-            classes.push_back(device_class_of(deciding_inputs(nights[i], *one)));
+            const bool as_before = !one->inputs->empty() && one->inputs.get() == same;
+            classes.push_back(as_before ? classes.back() : device_class_of(deciding_inputs(nights[i], *one)));
+            same = one->inputs.get();
         }
     if (played.empty() || played.back() + 1 != nights.size())
         return {};

@@ -99,9 +99,9 @@ TEST(ChangePoint, SeveralLevelsInSeveralSeries) {
 }
 
 TEST(ChangePoint, TooFewOrEqualSamplesTellNothing) {
-    EXPECT_FALSE(change_point({1.0, 1.0, 1.0, 2.0, 2.0}));
+    EXPECT_FALSE(change_point(std::vector<double>{1.0, 1.0, 1.0, 2.0, 2.0}));
     EXPECT_FALSE(change_point(std::vector<double>(30, 0.01)));
-    EXPECT_FALSE(largest_step({1.0}));
+    EXPECT_FALSE(largest_step(std::vector<double>{1.0}));
     EXPECT_TRUE(change_points(std::vector<std::vector<double>>{{}, {1.0}}, 0.05).empty());
     EXPECT_THROW(change_point({1.0, 0.0}), std::invalid_argument);
     EXPECT_THROW(largest_step({1.0, std::numeric_limits<double>::quiet_NaN()}), std::invalid_argument);

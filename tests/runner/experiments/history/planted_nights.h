@@ -39,7 +39,7 @@ class PlantedNights {
     explicit PlantedNights(std::uint64_t seed) : generator_(seed) {
         for (const char* drive : drives)
             for (const char* lamp : lamps)
-                for (const char* reading : {"reach_5lx_target_own_m", "reach_1lx_road_own_m", "area_5lx_road_all_m2", "lux_probe_kerb_lx"})
+                for (const char* reading : {"reach_5lx_target_own_m", "reach_1lx_road_own_m", "area_5lx_road_all_m2", "probe_kerb_lx"})
                     base_[fmt::format("{}_{} {}", drive, lamp, reading)] = 10.0 + 90.0 * share();
     }
 
@@ -73,7 +73,7 @@ class PlantedNights {
                 const std::string reading = name.substr(cell.size() + 1);
                 double value = base;
                 value *= reading.starts_with("area") ? world.program_area : light == world.lamp_light.end() ? 1.0 : light->second;
-                value *= reading.starts_with("lux") && lamp == "halogen" ? world.drift_of_halogen : 1.0;
+                value *= reading.starts_with("probe") && lamp == "halogen" ? world.drift_of_halogen : 1.0;
                 value *= 1.0 + world.last_digits * std::sin(base);
                 all[reading] = value;
             }

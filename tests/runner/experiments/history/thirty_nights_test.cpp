@@ -155,7 +155,7 @@ TEST(ThirtyNights, TheDriftIsTheSumAndDatedWhereItPassesItsBound) {
         EXPECT_NEAR(*moved.share(), std::pow(1.001, 10) - 1.0, 1e-12) << moved.cell;
     // The sum since the accepted night has the lamp's part as well.
     const auto sum = std::ranges::find_if(
-        thirty.last.since, [](const MovedReading& one) { return one.cell == "straight_halogen" && one.reading == "lux_probe_kerb_lx"; });
+        thirty.last.since, [](const MovedReading& one) { return one.cell == "straight_halogen" && one.reading == "probe_kerb_lx"; });
     ASSERT_NE(sum, thirty.last.since.end());
     EXPECT_NEAR(*sum->share(), std::pow(1.001, 10) * 1.03 - 1.0, 3e-6);
 }
