@@ -61,8 +61,8 @@ std::string told_split(const HistoryFindings& findings, const HistoryEvent& even
                                 : told.inputs_moved                     ? "the inputs alone moved it"
                                                                         : "the " + others + " alone moved it";
     return fmt::format(
-        "; told apart by {}, played with that night's {} and the inputs before: {} ({} {}, inputs {}); the other way round cannot be "
-        "played, a program that is gone",
+        "; told apart by {}, played with that night's {} and the inputs before: {} ({} {}, inputs {}); the other order cannot be played: "
+        "the earlier program is gone",
         place_of(findings, told.cell), others, verdict, others, part(first.before, first.with_earlier_inputs),
         part(first.with_earlier_inputs, first.now));
 }
@@ -270,7 +270,7 @@ std::string told_value(const std::string& reading, const Value& value) {
 }
 
 std::string told_share(const std::optional<double>& share) {
-    return share ? (*share < 0.0 ? "−" : "+") + told_percent(std::abs(*share)) : "";
+    return !share ? "" : (*share < 0.0 ? "−" : *share > 0.0 ? "+" : "") + told_percent(std::abs(*share));
 }
 
 Section changes_section(const HistoryFindings& findings) {

@@ -93,8 +93,13 @@ void draw_line(plots::Drawing& drawing, const HistoryFindings& findings, const s
     if (accepted && findings.base >= first)
         drawing.dot(place({static_cast<double>(findings.base), *accepted}), 2.6, faint);
     for (std::size_t i = 1; reading != timed_frame && i < line.size(); ++i)
-        if (std::abs(line[i].y - line[i - 1].y) > rounding_of_class.relative * std::abs(line[i].y) + rounding_of_class.absolute)
-            drawing.dot(placed[i], 2.2, change_colour());
+        if (line[i].y != line[i - 1].y) {
+            const Night &earlier = findings.nights[static_cast<std::size_t>(line[i - 1].x)],
+                        &later = findings.nights[static_cast<std::size_t>(line[i].x)];
+            if (is_beyond(line[i - 1].y, line[i].y, 0.0,
+                          changed_inputs(deciding_inputs(earlier, *earlier.cell(cell)), deciding_inputs(later, *later.cell(cell)))))
+                drawing.dot(placed[i], 2.2, change_colour());
+        }
     const std::string share = accepted ? told_share(MovedReading{"", "", Value(*accepted), Value(line.back().y)}.share()) : "";
     const Value last(reading == timed_frame ? 1e3 * line.back().y : line.back().y);
     drawing.text(left + line_px + 8.0, top + 16.0, reading == timed_frame ? four_digits(*last.figure()) + " ms" : told_value(reading, last),

@@ -85,7 +85,7 @@ TEST_F(HistoryCommand, ThePageHasLinesAndFramesSideBySide) {
     EXPECT_THAT(page, AllOf(HasSubstr("What changed since 2026-01-01"), HasSubstr("Before and after"),
                             HasSubstr("xenon on straight, driver, after 1.0 s"), HasSubstr("<svg"), HasSubstr("as accepted")));
     EXPECT_EQ(std::filesystem::exists(folder_ / "page/history-reach_5lx_target_own_m.png"), true);
-    EXPECT_THAT(content_of(folder_ / "page/tables/moved.csv"), HasSubstr("2026-01-03,inputs,xenon,\"straight, night\""));
+    EXPECT_THAT(content_of(folder_ / "page/tables/moved.csv"), HasSubstr("2026-01-03,inputs,xenon,\"straight, night"));
     std::filesystem::remove_all(night(0));
     EXPECT_THAT(printed("history explain" + flag_), HasSubstr("The folder of the night of 2026-01-01 is gone"));
     EXPECT_THAT(printed("history show" + flag_), HasSubstr("gone: " + night(0)));
