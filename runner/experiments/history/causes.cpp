@@ -120,6 +120,12 @@ CellInputs timing_inputs(const Night& night, const NightCell& cell) {
     return inputs;
 }
 
+InputChanges changes_between(const Night& earlier, const NightCell& before, const Night& later, const NightCell& now) {
+    static const NightCell without_inputs;
+    const bool kept = !before.inputs->empty() && !now.inputs->empty();
+    return changed_inputs(deciding_inputs(earlier, kept ? before : without_inputs), deciding_inputs(later, kept ? now : without_inputs));
+}
+
 std::string device_class_of(const CellInputs& inputs) {
     std::string device;
     for (const auto& [input, hash] : hashes_of(inputs))

@@ -37,6 +37,8 @@ bool has_cause(const InputChanges& changes, Cause cause);
 CellInputs deciding_inputs(const Night& night, const NightCell& cell);
 /// The same with what decides over its time alone: CPU and system.
 CellInputs timing_inputs(const Night& night, const NightCell& cell);
+/// Of one cell in two nights; of program and machine alone where either night did not keep its inputs.
+InputChanges changes_between(const Night& earlier, const NightCell& before, const Night& later, const NightCell& now);
 /// Within one class readings are the same to the last bit as long as nothing else changes.
 std::string device_class_of(const CellInputs& inputs);
 

@@ -272,7 +272,7 @@ HistoryFindings explain_nights(std::vector<Night> nights, const HistoryOptions& 
         for (std::size_t i = 1; i < chain.size(); ++i) {
             const Night &earlier = findings.nights[chain[i - 1]], &later = findings.nights[chain[i]];
             const NightCell &before = *earlier.cell(cell.name, place), &now = *later.cell(cell.name, place);
-            InputChanges causes = changed_inputs(deciding_inputs(earlier, before), deciding_inputs(later, now));
+            InputChanges causes = changes_between(earlier, before, later, now);
             const auto& [key, count] = *changed.emplace(std::pair(chain[i], std::move(causes)), 0).first;
             for (auto& [moved, beyond] : moved_between(before, now, key.second)) {
                 steps[{moved.cell, moved.reading}].push_back({chain[i], &key.second, moved, beyond});
@@ -282,7 +282,7 @@ HistoryFindings explain_nights(std::vector<Night> nights, const HistoryOptions& 
         if (chain.size() > 1 && chain.front() == findings.base) {
             const Night& before = findings.before();
             const NightCell& earlier = *before.cell(cell.name);
-            const InputChanges causes = changed_inputs(deciding_inputs(before, earlier), deciding_inputs(findings.tonight(), cell));
+            const InputChanges causes = changes_between(before, earlier, findings.tonight(), cell);
             for (auto& [moved, beyond] : moved_between(earlier, cell, causes))
                 if (beyond)
                     findings.since.push_back(std::move(moved));
@@ -299,7 +299,7 @@ HistoryFindings explain_nights(std::vector<Night> nights, const HistoryOptions& 
             event.told_apart = tell_apart(findings, event, options.tell_apart, findings.replays);
     for (const auto& [key, count] : changed)
         if (!key.second.empty() && !moving.contains(key))
-            findings.quiet.push_back(findings.nights[key.first].date() + ": " + phrase_of(key.second));
+            findings.quiet.push_back(findings.when(key.first) + ": " + phrase_of(key.second));
     std::ranges::reverse(findings.quiet); // the newest matter most
     sort_by_size(findings.since);
     findings.times = changes_of_times(findings.nights, findings.base, options.rate);

@@ -67,8 +67,15 @@ std::string told_split(const HistoryFindings& findings, const HistoryEvent& even
         part(first.with_earlier_inputs, first.now));
 }
 
+std::string told_causes(const HistoryFindings& findings, const HistoryEvent& event) {
+    if (!night_cell(findings.nights[event.night], *event.cells.begin()).inputs->empty())
+        return phrase_of(event.causes);
+    return event.causes.empty() ? "cause not known: program and machine are as they were, what went in was not kept"
+                                : phrase_of(event.causes) + " (what went in was not kept)";
+}
+
 std::string told_event(const HistoryFindings& findings, const HistoryEvent& event) {
-    std::string text = findings.nights[event.night].date() + ": " + phrase_of(event.causes) + "; ";
+    std::string text = findings.when(event.night) + ": " + told_causes(findings, event) + "; ";
     if (!event.moved.empty())
         text += told_moved(findings, event.moved);
     if (event.within_rounding > 0)
@@ -83,12 +90,11 @@ std::string told_event(const HistoryFindings& findings, const HistoryEvent& even
 }
 
 std::string told_drift(const HistoryFindings& findings, const HistoryDrift& drift) {
-    const std::string beyond =
-        drift.exceeded ? fmt::format("beyond {} since {}", told_percent(findings.drift_bound), findings.nights[*drift.exceeded].date())
-                       : fmt::format("not beyond {} so far", told_percent(findings.drift_bound));
-    return fmt::format("{} to {}: drift in {} nights; {}, {}; {}", findings.nights[drift.nights.front()].date(),
-                       findings.nights[drift.nights.back()].date(), drift.nights.size(), told_moved(findings, drift.moved), beyond,
-                       phrase_of(drift.causes));
+    const std::string beyond = drift.exceeded
+                                   ? fmt::format("beyond {} since {}", told_percent(findings.drift_bound), findings.when(*drift.exceeded))
+                                   : fmt::format("not beyond {} so far", told_percent(findings.drift_bound));
+    return fmt::format("{} to {}: drift in {} nights; {}, {}; {}", findings.when(drift.nights.front()), findings.when(drift.nights.back()),
+                       drift.nights.size(), told_moved(findings, drift.moved), beyond, phrase_of(drift.causes));
 }
 
 /// All of one night with the same causes in one sentence.
@@ -103,7 +109,7 @@ std::vector<std::string> told_times(const HistoryFindings& findings) {
         std::string by = told_share(least->ratio - 1.0);
         if (changes.size() > 1)
             by += " to " + told_share(most->ratio - 1.0);
-        told.push_back(fmt::format("{}: time a frame of {} {} (p at most {:.2g}); {}", findings.nights[key.first].date(),
+        told.push_back(fmt::format("{}: time a frame of {} {} (p at most {:.2g}); {}", findings.when(key.first),
                                    changes.size() == 1 ? place_of(findings, changes.front().cell) : counted(changes.size(), "cell"), by, p,
                                    phrase_of(key.second)));
     }
@@ -111,8 +117,8 @@ std::vector<std::string> told_times(const HistoryFindings& findings) {
 }
 
 std::string base_words(const HistoryFindings& findings) {
-    const Night& base = findings.before();
-    return findings.is_accepted() ? "the accepted night of " + base.date() : "the first night, " + base.date() + "; none is accepted";
+    return findings.is_accepted() ? "the accepted night of " + findings.when(findings.base)
+                                  : "the first night, " + findings.when(findings.base) + "; none is accepted";
 }
 
 std::string headline(const HistoryFindings& findings) {
@@ -174,10 +180,9 @@ Section readings_section(const HistoryFindings& findings) {
     Section section{"The readings that moved", {}};
     Table table = moved_table("moved", fmt::format("Of each change the largest {}; `fernlicht history trend` shows the others", most_rows));
     for (const HistoryEvent& event : findings.events)
-        add_moved_rows(table, findings, findings.nights[event.night].date(), causes_of(event.causes), event.moved);
+        add_moved_rows(table, findings, findings.when(event.night), causes_of(event.causes), event.moved);
     for (const HistoryDrift& drift : findings.drifts)
-        add_moved_rows(table, findings, "from " + findings.nights[drift.nights.front()].date(), "drift: " + causes_of(drift.causes),
-                       drift.moved);
+        add_moved_rows(table, findings, "from " + findings.when(drift.nights.front()), "drift: " + causes_of(drift.causes), drift.moved);
     if (!table.rows.empty())
         section.blocks.emplace_back(std::move(table));
     Table since = moved_table("since", fmt::format("In sum: tonight off {}", base_words(findings)));
@@ -197,11 +202,11 @@ Section apart_section(const HistoryFindings& findings) {
     for (const HistoryEvent& event : findings.events) {
         if (!event.told_apart || event.told_apart->parts.empty())
             continue;
-        Table table{"apart-" + findings.nights[event.night].date(),
-                    fmt::format("{}, {}: {}", findings.nights[event.night].date(), place_of(findings, event.told_apart->cell),
-                                phrase_of(event.causes)),
-                    columns_of("reading<|before|new program, inputs before|now|unit<"),
-                    {}};
+        Table table{
+            "apart-" + findings.when(event.night),
+            fmt::format("{}, {}: {}", findings.when(event.night), place_of(findings, event.told_apart->cell), phrase_of(event.causes)),
+            columns_of("reading<|before|new program, inputs before|now|unit<"),
+            {}};
         const std::vector<ToldApart::Part>& parts = event.told_apart->parts;
         for (std::size_t i = 0; i < std::min(most_rows, parts.size()); ++i) {
             const auto value = [](const Value& one) {
@@ -233,8 +238,7 @@ Section times_section(const HistoryFindings& findings) {
     Table table{"times", "", columns_of("night<|lamp<|route<|time a frame [%]|p|cause<"), {}};
     for (const HistoryTimes::Change& change : times.changes) {
         const NightCell& cell = night_cell(findings.tonight(), change.cell);
-        table.rows.push_back({findings.nights[change.night].date(), cell.lamp,
-                              cell.drive + (cell.condition.empty() ? "" : ", " + cell.condition),
+        table.rows.push_back({findings.when(change.night), cell.lamp, cell.drive + (cell.condition.empty() ? "" : ", " + cell.condition),
                               Cell(signed_figure(100.0 * (change.ratio - 1.0), 1), 100.0 * (change.ratio - 1.0)),
                               Cell(fmt::format("{:.2g}", change.p), change.p), phrase_of(change.causes)});
     }
@@ -246,14 +250,20 @@ Section times_section(const HistoryFindings& findings) {
 Section frames_section(const HistoryFindings& findings) {
     Section section{"Before and after", {}};
     for (const NightFrames& pair : findings.frames)
-        section.blocks.emplace_back(
-            PictureStrip{pair.title, {{pair.before, findings.before().date()}, {pair.after, findings.tonight().date()}}});
+        section.blocks.emplace_back(PictureStrip{
+            pair.title, {{pair.before, findings.when(findings.base)}, {pair.after, findings.when(findings.nights.size() - 1)}}});
     if (!findings.no_frames.empty())
         section.blocks.emplace_back(findings.no_frames);
     return section;
 }
 
 } // namespace
+
+std::string HistoryFindings::when(std::size_t night) const {
+    const std::string date = nights[night].date();
+    const bool is_alone = std::ranges::count_if(nights, [&](const Night& one) { return one.date() == date; }) == 1;
+    return is_alone || nights[night].played_utc.size() < 16 ? date : date + " " + nights[night].played_utc.substr(11, 5);
+}
 
 std::string label_of_reading(const std::string& name) {
     if (name == timed_frame)
@@ -274,7 +284,7 @@ std::string told_share(const std::optional<double>& share) {
 }
 
 Section changes_section(const HistoryFindings& findings) {
-    Section section{findings.nights.size() == 1 ? "The first night" : "What changed since " + findings.before().date(),
+    Section section{findings.nights.size() == 1 ? "The first night" : "What changed since " + findings.when(findings.base),
                     {headline(findings)}};
     std::vector<std::pair<std::size_t, std::string>> claims;
     for (const HistoryEvent& event : findings.events)
@@ -308,7 +318,7 @@ std::vector<Section> history_sections(const HistoryFindings& findings) {
     std::vector<Section> sections{changes_section(findings)};
     if (findings.nights.size() == 1)
         return sections;
-    Section lines{"Lamp by lamp and route by route", {}};
+    Section lines{"Lamp by lamp and route by route", {}, 2, true};
     for (Plot& plot : sparklines(findings))
         lines.blocks.emplace_back(std::move(plot));
     for (Section& section : std::vector<Section>{readings_section(findings), apart_section(findings), times_section(findings),
@@ -319,7 +329,8 @@ std::vector<Section> history_sections(const HistoryFindings& findings) {
 }
 
 Document document(const HistoryFindings& findings) {
-    return {fmt::format("{}, night of {}", short_text(findings.study, 120), findings.tonight().date()), history_sections(findings)};
+    return {fmt::format("{}, night of {}", short_text(findings.study, 120), findings.when(findings.nights.size() - 1)),
+            history_sections(findings)};
 }
 
 } // namespace fernlicht

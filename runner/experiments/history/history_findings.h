@@ -107,6 +107,7 @@ struct HistoryFindings : Findings {
     std::vector<NightFrames> frames;
     std::string no_frames; ///< why there are none, or not all
 
+    std::string when(std::size_t night) const; ///< its date, with the time where several nights have that date
     const Night& tonight() const { return nights.back(); }
     const Night& before() const { return nights[base]; }
     bool is_accepted() const { return before().accepted; }

@@ -96,8 +96,7 @@ void draw_line(plots::Drawing& drawing, const HistoryFindings& findings, const s
         if (line[i].y != line[i - 1].y) {
             const Night &earlier = findings.nights[static_cast<std::size_t>(line[i - 1].x)],
                         &later = findings.nights[static_cast<std::size_t>(line[i].x)];
-            if (is_beyond(line[i - 1].y, line[i].y, 0.0,
-                          changed_inputs(deciding_inputs(earlier, *earlier.cell(cell)), deciding_inputs(later, *later.cell(cell)))))
+            if (is_beyond(line[i - 1].y, line[i].y, 0.0, changes_between(earlier, *earlier.cell(cell), later, *later.cell(cell))))
                 drawing.dot(placed[i], 2.2, change_colour());
         }
     const std::string share = accepted ? told_share(MovedReading{"", "", Value(*accepted), Value(line.back().y)}.share()) : "";
@@ -139,7 +138,7 @@ std::optional<Plot> sparkline_plot(const HistoryFindings& findings, const std::s
     }
     std::vector<std::string> captions{fmt::format("each line has its own scale, over {}; grey: {}; coloured: nights in which it changed",
                                                   counted(std::min(most_nights, findings.nights.size()), "night"),
-                                                  findings.before().date())};
+                                                  findings.when(findings.base))};
     if (shown < routes.size())
         captions.push_back(fmt::format("{} of {} routes", shown, routes.size()));
     return Plot{.name = "history-" + file_name_of(reading), .figure = std::move(drawing), .captions = std::move(captions)};

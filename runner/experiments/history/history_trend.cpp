@@ -36,8 +36,7 @@ std::vector<TrendLevel> levels_of(const std::vector<Night>& nights, const std::s
         if (levels.empty() || !(levels.back().value == *value)) {
             InputChanges causes;
             if (earlier)
-                causes =
-                    changed_inputs(deciding_inputs(nights[*earlier], *nights[*earlier].cell(cell)), deciding_inputs(nights[night], now));
+                causes = changes_between(nights[*earlier], *nights[*earlier].cell(cell), nights[night], now);
             levels.push_back({night, night, 0, *value, std::move(causes)});
         }
         levels.back().last = night;

@@ -303,6 +303,15 @@ TEST(HistoryCauses, NightsThatKeptNoInputsKnowProgramAndMachine) {
     ASSERT_EQ(found.events.size(), 2U);
     EXPECT_EQ(phrase_of(found.events[0].causes), "program: fernlicht 0.1 → 0.2");
     EXPECT_EQ(phrase_of(found.events[1].causes), "machine: driver Mesa 22.3.6 → Mesa 25.0.1");
+    EXPECT_THAT(document_text(document(found)), HasSubstr("program: fernlicht 0.1 → 0.2 (what went in was not kept)"));
+}
+
+TEST(HistoryCauses, NightsOfOneDateAreToldByTheirTimes) {
+    PlantedNights planted(7);
+    StudyResult again = planted.play(0, {});
+    again.context.started_utc = "2026-01-01T05:30:00Z";
+    const HistoryFindings found = explain_nights({night_of_study(planted.play(0, {}), "/a"), night_of_study(again, "/b")});
+    EXPECT_THAT(document(found).sections.front().title, "What changed since 2026-01-01 02:00");
 }
 
 TEST(HistoryCauses, ThereAndBackIsTwoChangesAndNoneInSum) {
