@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <stdexcept>
 #include <tuple>
 
 namespace fernlicht {
@@ -36,7 +37,11 @@ double other_of(const NightReadings& readings, const std::string& name) {
     if (!key || !is_uncertainty(*key))
         return 0.0;
     key->aspect = Aspect::value;
-    return value_named(readings, name_of(*key)).figure().value_or(0.0);
+    try {
+        return value_named(readings, name_of(*key)).figure().value_or(0.0);
+    } catch (const std::logic_error&) { // of several readings together, as the error of both edges
+        return 0.0;
+    }
 }
 
 bool is_same(const Value& before, const Value& now) {

@@ -203,7 +203,7 @@ Section apart_section(const HistoryFindings& findings) {
         if (!event.told_apart || event.told_apart->parts.empty())
             continue;
         Table table{
-            "apart-" + findings.when(event.night),
+            fmt::format("apart-{}", section.blocks.size() + 1),
             fmt::format("{}, {}: {}", findings.when(event.night), place_of(findings, event.told_apart->cell), phrase_of(event.causes)),
             columns_of("reading<|before|new program, inputs before|now|unit<"),
             {}};

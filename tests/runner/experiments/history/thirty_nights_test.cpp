@@ -306,6 +306,28 @@ TEST(HistoryCauses, NightsThatKeptNoInputsKnowProgramAndMachine) {
     EXPECT_THAT(document_text(document(found)), HasSubstr("program: fernlicht 0.1 → 0.2 (what went in was not kept)"));
 }
 
+TEST(HistoryCauses, AnUncertaintyMayMoveByRoundingOfItsReading) {
+    PlantedNights planted(7);
+    World program;
+    program.version["metrics"] = 1;
+    std::vector<Night> nights;
+    for (int i = 0; i < 2; ++i) {
+        Night night = night_of_study(planted.play(i, i == 0 ? World{} : program), "/n");
+        auto readings = *night.cells[0].readings;
+        readings["reach_5lx_target_own_twin_difference_m"] = Value(i == 0 ? 1e-6 : 9e-6); // of a reach of 10 m or more
+        readings["reach_5lx_target_own_edge_grid_error_m"] = Value(i == 0 ? 0.2 : 0.3);   // of two edges: stands for itself
+        readings["named_by_an_older_fernlicht"] = Value(i == 0 ? 1.0 : 2.0);
+        night.cells[0].readings = std::make_shared<NightReadings>(readings);
+        nights.push_back(night);
+    }
+    const HistoryFindings found = explain_nights(nights);
+    ASSERT_EQ(found.events.size(), 1U);
+    EXPECT_EQ(found.events[0].within_rounding, 1U);
+    ASSERT_EQ(found.events[0].moved.size(), 2U);
+    EXPECT_EQ(found.events[0].moved[0].reading, "named_by_an_older_fernlicht");
+    EXPECT_THAT(document_text(document(found)), HasSubstr("named_by_an_older_fernlicht"));
+}
+
 TEST(HistoryCauses, NightsOfOneDateAreToldByTheirTimes) {
     PlantedNights planted(7);
     StudyResult again = planted.play(0, {});
