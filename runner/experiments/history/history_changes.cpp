@@ -1,6 +1,7 @@
 #include "runner/experiments/history/history_findings.h"
 
 #include "metrics/readings/reading_key.h"
+#include "scenarios/values/glob.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,10 +70,21 @@ std::vector<std::pair<MovedReading, bool>> moved_between(const NightCell& before
     return moved;
 }
 
-void sort_by_size(std::vector<MovedReading>& moved) {
-    std::ranges::sort(moved, [](const MovedReading& a, const MovedReading& b) {
+/// What decides first, the largest of it, then all else; how exact others are comes last.
+void sort_for_people(std::vector<MovedReading>& moved, const std::vector<std::string>& decide) {
+    std::map<std::string, int> ranks;
+    for (const MovedReading& one : moved)
+        if (const auto [rank, is_new] = ranks.emplace(one.reading, 1); is_new) {
+            const std::optional<ReadingKey> key = key_of(one.reading);
+            if (key && is_uncertainty(*key))
+                rank->second = 2;
+            else if (std::ranges::any_of(decide, [&](const std::string& pattern) { return matches(pattern, one.reading); }))
+                rank->second = 0;
+        }
+    std::ranges::sort(moved, [&](const MovedReading& a, const MovedReading& b) {
+        const int rank_a = ranks.at(a.reading), rank_b = ranks.at(b.reading);
         const double of_a = a.size(), of_b = b.size();
-        return std::tie(of_b, a.cell, a.reading) < std::tie(of_a, b.cell, b.reading);
+        return std::tie(rank_a, of_b, a.cell, a.reading) < std::tie(rank_b, of_a, b.cell, b.reading);
     });
 }
 
@@ -123,7 +135,7 @@ void add_causes(InputChanges& all, const InputChanges& more) {
     }
 }
 
-std::vector<HistoryDrift> drifts_of(const StepsByReading& steps, double bound) {
+std::vector<HistoryDrift> drifts_of(const StepsByReading& steps, double bound, const std::vector<std::string>& decide) {
     std::map<std::vector<std::size_t>, HistoryDrift> by_nights;
     std::map<std::vector<std::size_t>, std::map<std::size_t, const InputChanges*>> causes;
     for (const auto& [reading, all] : steps) {
@@ -161,13 +173,13 @@ std::vector<HistoryDrift> drifts_of(const StepsByReading& steps, double bound) {
     for (auto& [nights, drift] : by_nights) {
         for (const auto& [night, of_night] : causes[nights])
             add_causes(drift.causes, *of_night);
-        sort_by_size(drift.moved);
+        sort_for_people(drift.moved, decide);
         drifts.push_back(std::move(drift));
     }
     return drifts;
 }
 
-std::vector<HistoryEvent> events_of(const StepsByReading& steps) {
+std::vector<HistoryEvent> events_of(const StepsByReading& steps, const std::vector<std::string>& decide) {
     std::map<std::pair<std::size_t, InputChanges>, HistoryEvent> by_cause;
     std::set<std::pair<std::size_t, InputChanges>> of_drifts;
     for (const auto& [reading, all] : steps)
@@ -191,7 +203,7 @@ std::vector<HistoryEvent> events_of(const StepsByReading& steps) {
     std::vector<HistoryEvent> events;
     for (auto& [key, event] : by_cause)
         if (!event.moved.empty() || !of_drifts.contains(key)) { // rounding that goes with a drift says nothing of its own
-            sort_by_size(event.moved);
+            sort_for_people(event.moved, decide);
             events.push_back(std::move(event));
         }
     return events;
@@ -297,8 +309,8 @@ HistoryFindings explain_nights(std::vector<Night> nights, const HistoryOptions& 
         raise_creeping(all);
         mark_drifts(all, options.drift_bound);
     }
-    findings.drifts = drifts_of(steps, options.drift_bound);
-    findings.events = events_of(steps);
+    findings.drifts = drifts_of(steps, options.drift_bound, findings.tonight().decide);
+    findings.events = events_of(steps, findings.tonight().decide);
     for (HistoryEvent& event : findings.events)
         if (has_cause(event.causes, Cause::inputs) && (has_cause(event.causes, Cause::program) || has_cause(event.causes, Cause::machine)))
             event.told_apart = tell_apart(findings, event, options.tell_apart, findings.replays);
@@ -306,7 +318,7 @@ HistoryFindings explain_nights(std::vector<Night> nights, const HistoryOptions& 
         if (!key.second.empty() && !moving.contains(key))
             findings.quiet.push_back(findings.when(key.first) + ": " + phrase_of(key.second));
     std::ranges::reverse(findings.quiet); // the newest matter most
-    sort_by_size(findings.since);
+    sort_for_people(findings.since, findings.tonight().decide);
     findings.times = changes_of_times(findings.nights, findings.base, options.rate);
     add_absent(findings);
     return findings;

@@ -36,11 +36,11 @@ std::size_t count_cells(const std::vector<MovedReading>& moved) {
     return cells.size();
 }
 
-/// "24 readings of 6 cells, most reach at 5 lx ..., xenon on straight: 40.2 m → 41.1 m (+2.31 %)".
+/// "24 readings of 6 cells, above all reach at 5 lx ..., xenon on straight: 40.2 m → 41.1 m (+2.31 %)".
 std::string told_moved(const HistoryFindings& findings, const std::vector<MovedReading>& moved) {
     const MovedReading& largest = moved.front();
     const std::string share = told_share(largest.share());
-    return fmt::format("{} of {}, most {}, {}: {} → {}{}", counted(moved.size(), "reading"), counted(count_cells(moved), "cell"),
+    return fmt::format("{} of {}, above all {}, {}: {} → {}{}", counted(moved.size(), "reading"), counted(count_cells(moved), "cell"),
                        label_of_reading(largest.reading), place_of(findings, largest.cell), told_value(largest.reading, largest.before),
                        told_value(largest.reading, largest.now), share.empty() ? "" : " (" + share + ")");
 }
@@ -52,19 +52,28 @@ std::string told_split(const HistoryFindings& findings, const HistoryEvent& even
                                                                                                                   : "machine";
     if (told.parts.empty())
         return fmt::format("; what the {} did and what the inputs did cannot be told apart: {}", others, told.why_not);
-    const ToldApart::Part& first = told.parts.front();
-    const auto part = [&](const Value& from, const Value& to) {
-        const std::string share = told_share(MovedReading{"", "", from, to}.share());
-        return share.empty() ? told_value(first.reading, from) + " → " + told_value(first.reading, to) : share;
+    const auto step = [](const ToldApart::Part& part, const Value& from, const Value& to) {
+        const std::string share = told_share(MovedReading{part.reading, "", from, to}.share());
+        return share.empty() ? told_value(part.reading, from) + " → " + told_value(part.reading, to) : share;
     };
-    const std::string verdict = told.program_moved && told.inputs_moved ? "both moved it"
-                                : told.inputs_moved                     ? "the inputs alone moved it"
-                                                                        : "the " + others + " alone moved it";
-    return fmt::format(
-        "; told apart by {}, played with that night's {} and the inputs before: {} ({} {}, inputs {}); the other order cannot be played: "
-        "the earlier program is gone",
-        place_of(findings, told.cell), others, verdict, others, part(first.before, first.with_earlier_inputs),
-        part(first.with_earlier_inputs, first.now));
+    const auto by_program = [](const ToldApart::Part& part) { return MovedReading{"", "", part.before, part.with_earlier_inputs}.size(); };
+    const auto by_inputs = [](const ToldApart::Part& part) { return MovedReading{"", "", part.with_earlier_inputs, part.now}.size(); };
+    std::vector<const ToldApart::Part*> shown{&told.parts.front()};
+    if (told.program_moved && told.inputs_moved) {
+        shown = {&*std::ranges::max_element(told.parts, {}, by_inputs)};
+        if (const auto other = std::ranges::max_element(told.parts, {}, by_program); &*other != shown.front())
+            shown.push_back(&*other);
+    }
+    std::string parts;
+    for (const ToldApart::Part* part : shown)
+        parts += fmt::format("{}{}: {} {}, inputs {}", parts.empty() ? "" : "; ", label_of_reading(part->reading), others,
+                             step(*part, part->before, part->with_earlier_inputs), step(*part, part->with_earlier_inputs, part->now));
+    const std::string verdict = told.program_moved && told.inputs_moved ? "both moved readings"
+                                : told.inputs_moved                     ? "the inputs alone moved them"
+                                                                        : "the " + others + " alone moved them";
+    return fmt::format("; told apart by {}, played with that night's {} and the inputs before: {} ({}); the other order cannot be played: "
+                       "the earlier program is gone",
+                       place_of(findings, told.cell), others, verdict, parts);
 }
 
 std::string told_causes(const HistoryFindings& findings, const HistoryEvent& event) {
@@ -178,7 +187,9 @@ void add_moved_rows(Table& table, const HistoryFindings& findings, const std::st
 
 Section readings_section(const HistoryFindings& findings) {
     Section section{"The readings that moved", {}};
-    Table table = moved_table("moved", fmt::format("Of each change the largest {}; `fernlicht history trend` shows the others", most_rows));
+    Table table = moved_table(
+        "moved", fmt::format("Of each change {} readings, what decides first, then the largest; `fernlicht history trend` shows the others",
+                             most_rows));
     for (const HistoryEvent& event : findings.events)
         add_moved_rows(table, findings, findings.when(event.night), causes_of(event.causes), event.moved);
     for (const HistoryDrift& drift : findings.drifts)

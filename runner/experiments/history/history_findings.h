@@ -60,7 +60,7 @@ struct ToldApart {
 struct HistoryEvent {
     std::size_t night = 0;               ///< in which it was first read
     InputChanges causes;                 ///< against the night before in which the cell was played; empty: nothing that decides changed
-    std::vector<MovedReading> moved;     ///< beyond rounding, the largest first
+    std::vector<MovedReading> moved;     ///< beyond rounding, what decides first, then the largest
     std::set<std::string> cells;         ///< in which a bit changed
     std::size_t within_rounding = 0;     ///< readings that changed by less
     double most_within = 0.0;            ///< of those, the largest share
@@ -71,7 +71,7 @@ struct HistoryEvent {
 struct HistoryDrift {
     std::vector<std::size_t> nights;     ///< three or more
     InputChanges causes;                 ///< of all of them, each input once, from its first value to its last
-    std::vector<MovedReading> moved;     ///< from before the first of these nights to the last, the largest first
+    std::vector<MovedReading> moved;     ///< from before the first of these nights to the last, what decides first, then the largest
     std::optional<std::size_t> exceeded; ///< the first night in which one of them is beyond the bound in sum
 };
 
@@ -102,7 +102,7 @@ struct HistoryFindings : Findings {
     HistoryTimes times;
     std::vector<std::string> quiet;               ///< nights and inputs that changed and moved nothing
     std::vector<std::string> absent;              ///< cells that one of both nights has not, or did not play
-    std::vector<MovedReading> since;              ///< base against tonight beyond rounding, the largest first
+    std::vector<MovedReading> since;              ///< base against tonight beyond rounding, what decides first, then the largest
     std::map<std::string, NightReadings> replays; ///< what was played tonight to tell causes apart, by cell
     std::vector<NightFrames> frames;
     std::string no_frames; ///< why there are none, or not all

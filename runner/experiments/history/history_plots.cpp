@@ -15,7 +15,7 @@ namespace fernlicht {
 namespace {
 
 constexpr std::size_t most_nights = 120, most_routes = 40;
-constexpr double names_px = 210.0, lamp_px = 250.0, line_px = 130.0, row_px = 34.0, head_px = 52.0;
+constexpr double names_px = 310.0, lamp_px = 250.0, line_px = 130.0, row_px = 34.0, head_px = 52.0;
 constexpr plots::Colour dark{40, 40, 40}, faint{150, 150, 150};
 
 const plots::Colour& change_colour() {
@@ -126,7 +126,7 @@ std::optional<Plot> sparkline_plot(const HistoryFindings& findings, const std::s
     for (std::size_t i = 0; i < lamps.size(); ++i)
         drawing.text(names_px + lamp_px * static_cast<double>(i), 42.0, short_text(lamps[i], 34), {.size_px = 12.0, .colour = dark});
     for (std::size_t row = 0; row < shown; ++row)
-        drawing.text(8.0, head_px + row_px * static_cast<double>(row) + 20.0, short_text(routes[row], 36),
+        drawing.text(8.0, head_px + row_px * static_cast<double>(row) + 20.0, short_text(routes[row], 48),
                      {.size_px = 11.0, .colour = dark});
     for (const NightCell& cell : findings.tonight().cells) {
         const auto route = static_cast<std::size_t>(

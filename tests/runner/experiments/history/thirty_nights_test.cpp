@@ -192,14 +192,16 @@ TEST(ThirtyNights, ThePageLeadsWithWhatChanged) {
         text,
         HasSubstr("4 changes, 1 drift and 1 change of times since the accepted night of 2026-01-01 (\"the beginning\"), in 29 nights."));
     const World before = world_of(lamp_night - 1), after = world_of(lamp_night);
-    EXPECT_THAT(text, HasSubstr(fmt::format("2026-01-07: inputs: lamp xenon-low.ies ({} → {}); 9 readings of 3 cells, most ",
+    EXPECT_THAT(text, HasSubstr(fmt::format("2026-01-07: inputs: lamp xenon-low.ies ({} → {}); 9 readings of 3 cells, above all reach at 5 "
+                                            "lx on a target, own lane, xenon on ",
                                             before.hash("xenon").substr(0, 12), after.hash("xenon").substr(0, 12))));
     EXPECT_THAT(text, HasSubstr("(+2 %)"));
     EXPECT_THAT(text,
                 HasSubstr("2026-01-15: machine: driver Mesa 22.3.6 → Mesa 25.0.1; 24 readings of 6 cells within rounding, at most 0.0"));
     EXPECT_THAT(text, HasSubstr("2026-01-18 to 2026-01-27: drift in 10 nights; 3 readings of 3 cells"));
     EXPECT_THAT(text, HasSubstr("(+1 %), beyond 0.5 % since 2026-01-22; program: sources in scenarios"));
-    EXPECT_THAT(text, HasSubstr("both moved it"));
+    EXPECT_THAT(text, AllOf(HasSubstr("both moved readings"), HasSubstr("own lane: program 0 %, inputs +3 %"),
+                            HasSubstr("whole width: program −0.5 %, inputs 0 %")));
     EXPECT_THAT(text, HasSubstr("2026-01-11: time a frame of 4 cells +"));
     EXPECT_THAT(text, HasSubstr("Benjamini and Hochberg over all cells, at a false discovery rate of 1 %"));
     EXPECT_THAT(text, HasSubstr("Changed, and moved no reading"));
@@ -251,7 +253,8 @@ TEST(HistoryCauses, ALampThatChangedInItsWordsAlone) {
         return Replayed{readings};
     };
     const HistoryFindings found = explained({{}, both}, options);
-    EXPECT_THAT(document_text(document(found)), HasSubstr("the program alone moved it (program −10 %, inputs 0 %)"));
+    EXPECT_THAT(document_text(document(found)),
+                HasSubstr("the program alone moved them (area at 5 lx on the road, whole width: program −10 %, inputs 0 %)"));
 }
 
 TEST(HistoryCauses, ABitThatMovesWithoutACauseIsAClaim) {
