@@ -22,7 +22,7 @@ fernlicht::AddCommand* const commands[] = {
     fernlicht::add_shadows_command, fernlicht::add_reference_command, fernlicht::add_list_commands,    fernlicht::add_can_command,
     fernlicht::add_lamp_command,    fernlicht::add_model_command,     fernlicht::add_import_command,   fernlicht::add_storyboard_command,
     fernlicht::add_doctor_command,  fernlicht::add_stability_command, fernlicht::add_accept_command,   fernlicht::add_baselines_command,
-    fernlicht::add_store_command,   fernlicht::add_migrate_command};
+    fernlicht::add_store_command,   fernlicht::add_history_command,   fernlicht::add_migrate_command};
 
 int complain(ExitCode code, const std::exception& error) {
     fernlicht::tell_end(error, code);

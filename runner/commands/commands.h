@@ -39,6 +39,7 @@ AddCommand add_stability_command;  // extreme and degenerate inputs as a table o
 AddCommand add_accept_command;     // takes a run's results as what later runs are compared with
 AddCommand add_baselines_command;  // lists, shows, compares and removes what was accepted
 AddCommand add_store_command;      // lists, verifies and prunes the cells that studies keep
+AddCommand add_history_command;    // what nights of a study read, over months: what changed, when and why
 AddCommand add_migrate_command;    // files of version 0.1 with the names of today
 
 } // namespace fernlicht

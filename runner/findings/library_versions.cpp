@@ -13,6 +13,8 @@
 #include <opencv2/core/version.hpp>
 #include <xxhash.h>
 
+extern "C" const char* sqlite3_libversion(void); // its header is runner/history's
+
 namespace fernlicht {
 namespace {
 
@@ -35,6 +37,7 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
         {"oneTBB", TBB_runtime_version()},
         {"OpenCV", CV_VERSION},
         {"OpenImageIO", OIIO_VERSION_STRING},
+        {"SQLite", sqlite3_libversion()},
         {"xxHash", dotted(XXH_versionNumber(), 10000, 100)},
     };
 }

@@ -384,6 +384,8 @@ TEST(StudyJson, ComesBack) {
     result.cells[1].frame_s = 0.01;
     result.cells[1].error_share = 0.02;
     result.cells[1].reused = true;
+    result.cells[1].inputs = {{InputKind::lamp, "new.ies", "1f0c"}, {InputKind::device, "driver", "Mesa 22.3.6"}};
+    result.cells[1].key = "91bc";
     result.cells[1].verdicts = {{VerdictKind::fail, "reach", "50 m", "fernlicht run", Expectation::known, "known since May"}};
     result.lamps = {{"new", "old", "left", "new.ies", "old.ies", {.level = {{0.03, 0.01}}, .undecided = "not known which"}},
                     {"new", "old", "right", "new-right.ies", "old-right.ies", {}}};

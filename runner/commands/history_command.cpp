@@ -1,0 +1,278 @@
+#include "runner/commands/commands.h"
+
+#include "runner/commands/flag_values.h"
+#include "runner/experiments/history/history_document.h"
+#include "runner/experiments/history/night_of_study.h"
+#include "runner/files/output_folder.h"
+#include "runner/findings/library_versions.h"
+#include "runner/findings/run_context.h"
+#include "runner/history/history.h"
+#include "runner/judge/known_failures.h"
+#include "runner/write/document.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+/// The flags as typed.
+struct HistoryFlags {
+    std::string history, folder, study, night, reading, cells = "*", note, drift = "0.5%", before, out;
+    std::optional<std::size_t> keep;
+    const OutputFormat* tables = nullptr;
+    bool accept = false, dry = false, csv = false, force = false;
+    std::vector<std::string> command;
+};
+
+std::filesystem::path file_of(const HistoryFlags& flags) {
+    const std::filesystem::path file = flags.history.empty() ? default_history_file() : std::filesystem::path(flags.history);
+    if (file.empty())
+        throw InputError({{}, 0, 0, "--history"}, "found none, and neither XDG_DATA_HOME nor HOME", "a file for the history");
+    return file;
+}
+
+std::vector<std::string> studies_in(const std::vector<Night>& nights) {
+    std::vector<std::string> studies;
+    for (const Night& night : nights)
+        if (std::ranges::find(studies, night.study) == studies.end())
+            studies.push_back(night.study);
+    return studies;
+}
+
+/// Of one study: of the named one, else of the one that was played last.
+std::vector<Night> nights_of_study(const HistoryFlags& flags) {
+    const std::filesystem::path file = file_of(flags);
+    std::vector<Night> nights = History(file, History::For::reading).nights();
+    if (nights.empty())
+        throw InputError({file, 0, 0, {}}, "holds no night", "one; `fernlicht history add FOLDER` adds it");
+    const std::string study = flags.study.empty() ? nights.back().study : flags.study;
+    const std::vector<std::string> studies = studies_in(nights);
+    if (std::ranges::find(studies, study) == studies.end())
+        throw InputError({file, 0, 0, "--study"}, "found '" + printable(study) + "'", fmt::format("one of {}", fmt::join(studies, ", ")));
+    std::erase_if(nights, [&](const Night& night) { return night.study != study; });
+    return nights;
+}
+
+/// By "last", a number, or a date, of which the last night counts.
+std::size_t place_of_night(const std::vector<Night>& nights, const std::string& word) {
+    std::int64_t number = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    const bool is_number = error == std::errc{} && end == word.data() + word.size();
+    for (std::size_t i = nights.size(); i > 0; --i)
+        if (word == "last" || (is_number && nights[i - 1].number == number) || nights[i - 1].date() == word ||
+            nights[i - 1].played_utc == word)
+            return i - 1;
+    throw InputError({{}, 0, 0, "NIGHT"}, "found '" + printable(word) + "'",
+                     "last, a number or a date that `fernlicht history show` lists");
+}
+
+std::size_t readings_in(const Night& night) {
+    std::size_t readings = 0;
+    for (const NightCell& cell : night.cells)
+        readings += cell.readings->size();
+    return readings;
+}
+
+std::string device_in(const Night& night) {
+    std::string device;
+    for (const CellInput& input : night.machine)
+        if (input.kind == InputKind::device && (input.name == "renderer" || input.name == "CPU class"))
+            device += (device.empty() ? "" : ", ") + input.hash;
+    return device;
+}
+
+int add(const HistoryFlags& flags) {
+    if (!flags.note.empty() && !flags.accept)
+        throw InputError({{}, 0, 0, "--note"}, "found without --accept", "both, or none");
+    const std::filesystem::path file = file_of(flags);
+    const Night night = read_night(flags.folder);
+    History history(file, History::For::collecting);
+    const History::Added added = history.add(night);
+    if (flags.accept)
+        history.accept(added.number, flags.note);
+    fmt::print("night {} of {}, {}: {} cells, {} readings; {}{} {}\n", added.number, printable(night.study), night.date(),
+               night.cells.size(), readings_in(night), flags.accept ? "accepted; " : "",
+               added.is_new ? "added to" : "was there already, as it is, in", file.string());
+    return 0;
+}
+
+int accept_night(const HistoryFlags& flags) {
+    const std::vector<Night> nights = nights_of_study(flags);
+    const Night& night = nights[place_of_night(nights, flags.night)];
+    History(file_of(flags), History::For::collecting).accept(night.number, flags.note);
+    fmt::print("accepted night {} of {}, {}: later nights are compared with it\n", night.number, printable(night.study), night.date());
+    return 0;
+}
+
+int list_nights(const HistoryFlags& flags) {
+    const std::filesystem::path file = file_of(flags);
+    std::vector<Night> nights = History(file, History::For::reading).nights(flags.study);
+    if (nights.empty()) {
+        fmt::print("no night is in {}\n", file.string());
+        return 0;
+    }
+    std::vector<std::vector<std::string>> rows{{"night", "played", "study", "cells", "readings", "accepted", "device", "folder"}};
+    std::error_code ignored;
+    for (const Night& night : nights)
+        rows.push_back({fmt::format("{}", night.number), night.played_utc, printable(night.study), fmt::format("{}", night.cells.size()),
+                        fmt::format("{}", readings_in(night)),
+                        night.accepted ? night.note.empty() ? "yes" : "yes: " + printable(night.note, 80) : "", printable(device_in(night)),
+                        std::filesystem::is_directory(night.folder, ignored) ? printable(night.folder, 200)
+                                                                             : "gone: " + printable(night.folder, 200)});
+    fmt::print("{}", aligned_table(">" + std::string(2, '<') + ">>" + std::string(3, '<'), rows));
+    return 0;
+}
+
+int show(const HistoryFlags& flags) {
+    if (flags.night.empty())
+        return list_nights(flags);
+    const std::vector<Night> nights = nights_of_study(flags);
+    const Night& night = nights[place_of_night(nights, flags.night)];
+    std::vector<std::vector<std::string>> facts{
+        {"night", fmt::format("{} of {}", night.number, printable(night.study))},
+        {"played", night.played_utc},
+        {"folder", printable(night.folder, 400)},
+        {"accepted", night.accepted ? night.note.empty() ? "yes" : "yes: " + printable(night.note, 200) : "no"}};
+    for (const CellInput& input : night.machine)
+        facts.push_back({input.name, printable(input.hash, 200)});
+    fmt::print("{}\n", aligned_table("<<", facts));
+    std::vector<std::vector<std::string>> rows{{"cell", "readings", "frame, ms", "inputs"}};
+    for (const NightCell& cell : night.cells) {
+        std::string inputs;
+        for (const CellInput& input : *cell.inputs)
+            inputs += fmt::format("{}{} {} {}", inputs.empty() ? "" : ", ", input_kind_name(input.kind), printable(input.name),
+                                  printable(input.hash, 12));
+        rows.push_back({printable(cell.name, 80), cell.failed.empty() ? fmt::format("{}", cell.readings->size()) : "not played",
+                        cell.frame_s ? fmt::format("{:.2f}", 1e3 * *cell.frame_s) : "", inputs.empty() ? "not kept" : inputs});
+    }
+    fmt::print("{}", aligned_table("<>><", rows));
+    return 0;
+}
+
+/// The page and its tables where --out asks for them; then the text.
+int tell(const HistoryFlags& flags, const Document& told, const HistoryFindings& findings) {
+    if (!flags.out.empty()) {
+        OutputFolder folder(flags.out);
+        write_document(told, findings, folder.path(), "report", flags.tables);
+        folder.finish();
+    }
+    fmt::print("{}", document_text(told));
+    if (!flags.out.empty())
+        fmt::print("\n{}\n", (std::filesystem::path(flags.out) / "report.html").string());
+    return 0;
+}
+
+RunContext context_of(const HistoryFlags& flags) {
+    RunContext context;
+    context.versions = library_versions();
+    context.command = shell_quoted(flags.command);
+    return context;
+}
+
+int trend(const HistoryFlags& flags) {
+    HistoryFindings findings;
+    findings.context = context_of(flags);
+    return tell(flags, trend_document(nights_of_study(flags), flags.reading, flags.cells), findings);
+}
+
+int explain(const HistoryFlags& flags) {
+    std::vector<Night> nights = nights_of_study(flags);
+    nights.resize(place_of_night(nights, flags.night.empty() ? "last" : flags.night) + 1);
+    HistoryFindings findings = explain_nights(std::move(nights), {.drift_bound = share_of("--drift", flags.drift)});
+    findings.context = context_of(flags);
+    add_frames(findings);
+    return tell(flags, document(findings), findings);
+}
+
+int prune(const HistoryFlags& flags) {
+    if (flags.keep.has_value() == !flags.before.empty())
+        throw InputError({{}, 0, 0, "prune"}, flags.keep ? "found --keep and --before" : "found neither --keep nor --before",
+                         "one of them");
+    if (!flags.before.empty() && !is_date(flags.before))
+        refuse_flag("--before", flags.before, "a date, e.g. 2026-01-31");
+    const std::filesystem::path file = file_of(flags);
+    if (std::error_code ignored; !std::filesystem::exists(file, ignored))
+        throw InputError({file, 0, 0, {}}, "is no file", "a history");
+    const History::Pruned pruned = History(file, History::For::collecting).prune(flags.keep, flags.before, flags.dry);
+    for (const Night& night : pruned.nights)
+        fmt::print("{} night {} of {}, {}\n", flags.dry ? "would remove" : "removed", night.number, printable(night.study), night.date());
+    fmt::print("{} {} nights{}; their folders stay as they are\n", flags.dry ? "would remove" : "removed", pruned.nights.size(),
+               pruned.kept_accepted > 0 ? fmt::format(", kept {} older ones that are accepted", pruned.kept_accepted) : "");
+    return 0;
+}
+
+int export_nights(const HistoryFlags& flags) {
+    if (!flags.csv)
+        throw InputError({{}, 0, 0, "export"}, "found no format", "--csv");
+    const std::vector<Night> nights = History(file_of(flags), History::For::reading).nights(flags.study);
+    if (flags.out.empty()) {
+        export_csv(nights, [](const std::string& lines) { fmt::print("{}", lines); });
+        return 0;
+    }
+    refuse_existing("--out", flags.out, flags.force);
+    std::string all;
+    export_csv(nights, [&all](const std::string& lines) { all += lines; });
+    write_file(flags.out, all);
+    return 0;
+}
+
+constexpr const char* night_words = "last, a number or a date";
+
+} // namespace
+
+void add_history_command(CLI::App& app, const std::vector<std::string>& words, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<HistoryFlags>();
+    flags->command = words;
+    CLI::App* command = app.add_subcommand("history", "keep what nights of a study read, and say what changed, when and why");
+    command->require_subcommand(1);
+    command->footer("docs/history.md tells what counts as a change and how causes are found.");
+    const auto add_action = [&](const char* name, const char* text, int (*action)(const HistoryFlags&)) {
+        CLI::App* sub = command->add_subcommand(name, text);
+        sub->add_option("--history", flags->history, "the file (default: " + default_history_file().string() + ")");
+        sub->callback([flags, action, &chosen] { chosen = [flags, action] { return action(*flags); }; });
+        return sub;
+    };
+    const auto add_study = [&](CLI::App* sub, const char* text) { sub->add_option("--study", flags->study, text); };
+    const char* const one_study = "of this study (default: the one that was played last)";
+    const char* const page = "new or empty folder for the page";
+    CLI::App* adding = add_action("add", "add a night: the folder of a complete study", add);
+    adding->add_option("FOLDER", flags->folder, "folder that `fernlicht study` wrote")->required();
+    adding->add_flag("--accept", flags->accept, "later nights are compared with this one");
+    adding->add_option("--note", flags->note, "why it is accepted, in one sentence");
+    CLI::App* accepting = add_action("accept", "compare later nights with this one", accept_night);
+    accepting->add_option("NIGHT", flags->night, night_words)->required();
+    accepting->add_option("--note", flags->note, "why, in one sentence");
+    add_study(accepting, one_study);
+    CLI::App* showing = add_action("show", "list the nights, or show one", show);
+    showing->add_option("NIGHT", flags->night, night_words);
+    add_study(showing, "of this study (default: all; for one night the study that was played last)");
+    CLI::App* trending = add_action("trend", "when a reading changed, and why", trend);
+    trending->add_option("READING", flags->reading, "name or pattern of readings, * and ? allowed; frame_s for times")->required();
+    trending->add_option("--cells", flags->cells, "pattern of cells")->capture_default_str();
+    add_study(trending, one_study);
+    CLI::App* explaining = add_action("explain", "what changed since the last accepted night, dated, with its cause", explain);
+    explaining->add_option("NIGHT", flags->night, "the night to explain: last, a number or a date (default: last)");
+    explaining->add_option("--drift", flags->drift, "a drift is told to exceed this in sum; its steps are smaller")->capture_default_str();
+    add_study(explaining, one_study);
+    for (CLI::App* sub : {trending, explaining}) {
+        sub->add_option("--out", flags->out, page);
+        add_tables_flag(*sub, flags->tables);
+    }
+    CLI::App* pruning = add_action("prune", "remove old nights; accepted ones stay", prune);
+    pruning->add_option("--keep", flags->keep, "keep so many of the newest nights of each study")->check(CLI::NonNegativeNumber);
+    pruning->add_option("--before", flags->before, "remove nights before this date");
+    pruning->add_flag("--dry-run", flags->dry, "only show what would be removed");
+    CLI::App* exporting = add_action("export", "every reading of every night, one line each", export_nights);
+    exporting->add_flag("--csv", flags->csv, "as tidy CSV (RFC 4180)");
+    exporting->add_option("--out", flags->out, "new file (default: print)");
+    exporting->add_flag("--force", flags->force, "replace the file");
+    add_study(exporting, "of this study (default: all)");
+}
+
+} // namespace fernlicht

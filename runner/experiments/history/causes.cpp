@@ -1,0 +1,137 @@
+#include "runner/experiments/history/causes.h"
+
+#include "runner/files/clean_text.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <map>
+
+namespace fernlicht {
+namespace {
+
+/// Of a night's machine: within one device class they change no bit.
+constexpr std::array of_times_alone{"CPU", "system"};
+
+bool is_of_times_alone(const CellInput& input) {
+    return input.kind == InputKind::device && std::ranges::find(of_times_alone, input.name) != of_times_alone.end();
+}
+
+using HashesByInput = std::map<std::pair<InputKind, std::string>, std::string>;
+
+/// Of several with one name, all of their hashes.
+HashesByInput hashes_of(const CellInputs& inputs) {
+    HashesByInput hashes;
+    for (const CellInput& input : inputs)
+        hashes[{input.kind, input.name}] += input.hash;
+    return hashes;
+}
+
+/// Of a night that kept no hashes.
+bool is_version(const std::string& value) { return !value.empty() && value.size() < 32; }
+
+std::string short_hash(const std::string& hash) { return hash.empty() ? "none" : hash.substr(0, 12); }
+
+} // namespace
+
+Cause cause_of(InputKind kind) {
+    switch (kind) {
+    case InputKind::program:
+        return Cause::program;
+    case InputKind::library:
+    case InputKind::device:
+        return Cause::machine;
+    default:
+        return Cause::inputs;
+    }
+}
+
+const char* cause_name(Cause cause) { return std::array{"inputs", "program", "machine"}[static_cast<std::size_t>(cause)]; }
+
+InputChanges changed_inputs(const CellInputs& before, const CellInputs& now) {
+    const HashesByInput old_inputs = hashes_of(before), new_inputs = hashes_of(now);
+    InputChanges changes;
+    for (const auto& [input, hash] : new_inputs) {
+        const auto found = old_inputs.find(input);
+        const std::string was = found == old_inputs.end() ? "" : found->second;
+        if (was != hash)
+            changes.push_back({input.first, input.second, was, hash});
+    }
+    for (const auto& [input, hash] : old_inputs)
+        if (!new_inputs.contains(input))
+            changes.push_back({input.first, input.second, hash, ""});
+    std::ranges::sort(changes);
+    return changes;
+}
+
+std::string phrase_of(const InputChange& change) {
+    const std::string name = short_text(change.name, 60), kind = input_kind_name(change.kind);
+    switch (change.kind) {
+    case InputKind::program:
+        if (is_version(change.before) || is_version(change.now))
+            return fmt::format("{} {} → {}", name, change.before, change.now);
+        return "sources in " + name;
+    case InputKind::setting:
+    case InputKind::library:
+    case InputKind::device: {
+        const auto told = [](const std::string& value) { return value.empty() ? "none" : short_text(value, 60); };
+        return fmt::format("{} {} → {}", change.kind == InputKind::device ? name : kind + " " + name, told(change.before),
+                           told(change.now));
+    }
+    default:
+        return fmt::format("{} {} ({} → {})", kind, name, short_hash(change.before), short_hash(change.now));
+    }
+}
+
+std::string phrase_of(const InputChanges& changes) {
+    std::string all;
+    for (const Cause cause : {Cause::inputs, Cause::program, Cause::machine}) {
+        std::string of_cause;
+        for (const InputChange& change : changes)
+            if (cause_of(change.kind) == cause)
+                of_cause += (of_cause.empty() ? "" : ", ") + phrase_of(change);
+        if (!of_cause.empty())
+            all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", cause_name(cause), of_cause);
+    }
+    return all.empty() ? "cause not known: inputs, program and machine are as they were" : all;
+}
+
+std::string causes_of(const InputChanges& changes) {
+    std::string all;
+    for (const Cause cause : {Cause::inputs, Cause::program, Cause::machine})
+        if (has_cause(changes, cause))
+            all += fmt::format("{}{}", all.empty() ? "" : " and ", cause_name(cause));
+    return all.empty() ? "not known" : all;
+}
+
+bool has_cause(const InputChanges& changes, Cause cause) {
+    return std::ranges::any_of(changes, [&](const InputChange& change) { return cause_of(change.kind) == cause; });
+}
+
+CellInputs deciding_inputs(const Night& night, const NightCell& cell) {
+    CellInputs inputs = cell.inputs->empty() ? night.machine : *cell.inputs;
+    std::erase_if(inputs, is_of_times_alone);
+    return inputs;
+}
+
+CellInputs timing_inputs(const Night& night, const NightCell& cell) {
+    CellInputs inputs = deciding_inputs(night, cell);
+    std::ranges::copy_if(night.machine, std::back_inserter(inputs), is_of_times_alone);
+    return inputs;
+}
+
+InputChanges changes_between(const Night& earlier, const NightCell& before, const Night& later, const NightCell& now) {
+    static const NightCell without_inputs;
+    const bool kept = !before.inputs->empty() && !now.inputs->empty();
+    return changed_inputs(deciding_inputs(earlier, kept ? before : without_inputs), deciding_inputs(later, kept ? now : without_inputs));
+}
+
+std::string device_class_of(const CellInputs& inputs) {
+    std::string device;
+    for (const auto& [input, hash] : hashes_of(inputs))
+        if (input.first == InputKind::device)
+            device += fmt::format("{}\n{}\n", input.second, hash);
+    return device;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,45 @@
+// Why a cell read something else than the night before: what went in, the program, or the machine.
+#pragma once
+
+#include "runner/history/history.h"
+
+#include <compare>
+#include <string>
+#include <vector>
+
+namespace fernlicht {
+
+enum class Cause { inputs, program, machine };
+Cause cause_of(InputKind kind);
+const char* cause_name(Cause cause); ///< "inputs", "program", "machine"
+
+/// One input that differs between two nights.
+struct InputChange {
+    InputKind kind = InputKind::drive;
+    std::string name;
+    std::string before, now; ///< hash or version; "" where it was not there
+    auto operator<=>(const InputChange&) const = default;
+};
+using InputChanges = std::vector<InputChange>;
+
+/// In the order of kinds and names.
+InputChanges changed_inputs(const CellInputs& before, const CellInputs& now);
+
+/// "lamp low-beam.ies (1f0c93a2b7d4 → 91bc03e8a5f0)", "sources in renderer", "driver Mesa 22.3.6 → Mesa 25.0.1".
+std::string phrase_of(const InputChange& change);
+/// "inputs: lamp low-beam.ies (1f0c93a2b7d4 → 91bc03e8a5f0); program: sources in renderer"; where nothing changed, that.
+std::string phrase_of(const InputChanges& changes);
+/// "inputs", "inputs and program"; "not known" of none.
+std::string causes_of(const InputChanges& changes);
+bool has_cause(const InputChanges& changes, Cause cause);
+
+/// What decides a cell's readings: its own inputs; where they were not kept, what the night's context tells of program and machine.
+CellInputs deciding_inputs(const Night& night, const NightCell& cell);
+/// The same with what decides over its time alone: CPU and system.
+CellInputs timing_inputs(const Night& night, const NightCell& cell);
+/// Of one cell in two nights; of program and machine alone where either night did not keep its inputs.
+InputChanges changes_between(const Night& earlier, const NightCell& before, const Night& later, const NightCell& now);
+/// Within one class readings are the same to the last bit as long as nothing else changes.
+std::string device_class_of(const CellInputs& inputs);
+
+} // namespace fernlicht

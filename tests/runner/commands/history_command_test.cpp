@@ -1,0 +1,129 @@
+// `fernlicht history` through the program, on folders of a study that was never drawn.
+#include "runner/commands/run_files.h"
+#include "runner/experiments/study/study_document.h"
+#include "runner/findings/report.h"
+#include "tests/runner/experiments/history/planted_nights.h"
+#include "tests/runner/program.h"
+
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using tests::PlantedNights;
+using tests::World;
+
+/// The smallest PNG: one pixel.
+const std::string png_bytes("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x08\6\0\0\0\x1f\x15\xc4\x89\0\0\0\rIDATx\x9c"
+                            "c\xf8\xcf\xc0\xf0\x1f\0\5\0\1\xff\x56\xc7/\r\0\0\0\0IEND\xae"
+                            "B`\x82",
+                            70);
+
+/// A night's folder: study.json, and of one cell a report with a frame.
+void write_night(const std::filesystem::path& folder, const StudyResult& result) {
+    const std::filesystem::path cell = folder / "cells" / "straight_xenon";
+    std::filesystem::create_directories(cell / "frames");
+    write_file(folder / "study.json", json_text(as_json(result, study_members)));
+    write_file(cell / "frames" / "10-driver.png", png_bytes);
+    Report report;
+    report.context = result.context;
+    PlayedCell& played = report.played.emplace_back();
+    played.drive = "straight";
+    played.lamp_set = "xenon";
+    played.ticks_planned = played.ticks_done = 20;
+    played.frames = {{10, 1.0, "driver", "frames/10-driver.png", ""}};
+    write_report(report, cell);
+}
+
+class HistoryCommand : public testing::Test {
+  protected:
+    TemporaryFolder folder_;
+    std::string file_ = folder_ / "history.db", flag_ = " --history " + file_;
+
+    void SetUp() override {
+        PlantedNights planted(3);
+        World lamp;
+        lamp.version["xenon"] = 1;
+        lamp.lamp_light["xenon"] = 1.05;
+        for (int night = 0; night < 3; ++night)
+            write_night(folder_ / ("n" + std::to_string(night)), planted.play(night, night < 2 ? World{} : lamp));
+    }
+    std::string night(int number) const { return folder_ / ("n" + std::to_string(number)); }
+};
+
+TEST_F(HistoryCommand, FromTheFirstNightToTheCause) {
+    EXPECT_THAT(printed("history add " + night(0) + " --accept --note 'as bought'" + flag_),
+                HasSubstr("night 1 of planted, 2026-01-01: 6 cells, 24 readings; accepted; added to "));
+    printed("history add " + night(1) + flag_);
+    EXPECT_THAT(printed("history explain" + flag_),
+                HasSubstr("Nothing changed since the accepted night of 2026-01-01 (\"as bought\"), in 1 night: 24 readings of 6 cells"));
+    printed("history add " + night(2) + flag_);
+    EXPECT_THAT(printed("history add " + night(2) + flag_), HasSubstr("was there already, as it is, in"));
+    EXPECT_THAT(printed("history show" + flag_),
+                AllOf(HasSubstr("yes: as bought"), HasSubstr("llvmpipe (LLVM 15.0.6, 256 bits), avx2"), HasSubstr(night(2))));
+    EXPECT_THAT(printed("history show 3" + flag_),
+                AllOf(HasSubstr("Mesa 22.3.6"), HasSubstr("straight_halogen"), HasSubstr("lamp xenon-low.ies")));
+    EXPECT_THAT(printed("history explain" + flag_),
+                AllOf(HasSubstr("1 change since"), HasSubstr("2026-01-03: inputs: lamp xenon-low.ies"), HasSubstr("(+5 %)")));
+    EXPECT_THAT(printed("history explain 2026-01-02" + flag_), HasSubstr("Nothing changed"));
+    EXPECT_THAT(printed("history trend 'reach_5lx*' --cells straight_xenon" + flag_),
+                AllOf(HasSubstr("2026-01-01  2026-01-02"), HasSubstr("inputs: lamp xenon-low.ies")));
+    printed("history accept last" + flag_);
+    EXPECT_THAT(printed("history prune --keep 0 --dry-run" + flag_),
+                HasSubstr("would remove 1 nights, kept 2 older ones that are accepted"));
+    EXPECT_THAT(printed("history prune --before 2026-01-03" + flag_), HasSubstr("removed night 2 of planted, 2026-01-02"));
+}
+
+TEST_F(HistoryCommand, ThePageHasLinesAndFramesSideBySide) {
+    for (int number = 0; number < 3; ++number)
+        printed("history add " + night(number) + (number == 0 ? " --accept" : "") + flag_);
+    printed("history explain --tables csv --out " + (folder_ / "page") + flag_);
+    const std::string page = content_of(folder_ / "page/report.html");
+    EXPECT_THAT(page, AllOf(HasSubstr("What changed since 2026-01-01"), HasSubstr("Before and after"),
+                            HasSubstr("xenon on straight, driver, after 1.0 s"), HasSubstr("<svg"), HasSubstr("as accepted")));
+    EXPECT_EQ(std::filesystem::exists(folder_ / "page/history-reach_5lx_target_own_m.png"), true);
+    EXPECT_THAT(content_of(folder_ / "page/tables/moved.csv"), HasSubstr("2026-01-03,inputs,xenon,\"straight, night"));
+    std::filesystem::remove_all(night(0));
+    EXPECT_THAT(printed("history explain" + flag_), HasSubstr("The folder of the night of 2026-01-01 is gone"));
+    EXPECT_THAT(printed("history show" + flag_), HasSubstr("gone: " + night(0)));
+}
+
+TEST_F(HistoryCommand, TidyCsvHasEveryReading) {
+    for (int number = 0; number < 3; ++number)
+        printed("history add " + night(number) + flag_);
+    const std::vector<std::vector<std::string>> rows = csv_rows(printed("history export --csv" + flag_));
+    ASSERT_EQ(rows.size(), 1U + 3U * (24U + 4U)); // and four timed cells
+    EXPECT_THAT(rows[0], testing::Contains("reading"));
+    printed("history export --csv --out " + (folder_ / "all.csv") + flag_);
+    EXPECT_THAT(printed("history export --csv --out " + (folder_ / "all.csv") + flag_, 2), HasSubstr("is there already"));
+}
+
+TEST_F(HistoryCommand, WhatCannotBeUsedGivesOneSentence) {
+    EXPECT_THAT(printed("history explain" + flag_, 2),
+                HasSubstr("history.db: is no file, expected a history; `fernlicht history add FOLDER` begins one"));
+    EXPECT_THAT(printed("history add " + (folder_ / "none") + flag_, 2), HasSubstr("is no folder of a study"));
+    EXPECT_FALSE(std::filesystem::exists(file_));
+    printed("history add " + night(0) + flag_);
+    EXPECT_THAT(printed("history explain 2027-01-01" + flag_, 2), HasSubstr("found '2027-01-01', expected last, a number or a date"));
+    EXPECT_THAT(printed("history explain --study standard" + flag_, 2), HasSubstr("expected one of planted"));
+    EXPECT_THAT(printed("history prune" + flag_, 2), HasSubstr("found neither --keep nor --before"));
+    EXPECT_THAT(printed("history export" + flag_, 2), HasSubstr("expected --csv"));
+    EXPECT_THAT(printed("history trend reach_5lx_target_own" + flag_, 2), HasSubstr("such as reach_5lx_target_own_m"));
+    write_file(folder_ / "n1/INCOMPLETE", "");
+    EXPECT_THAT(printed("history add " + night(1) + flag_, 2), HasSubstr("holds a study that did not end"));
+    EXPECT_THAT(printed("history", 2), Not(HasSubstr("bug")));
+}
+
+TEST_F(HistoryCommand, TheDefaultFileFollowsXdg) {
+    const std::string home = "HOME=" + (folder_ / "home"), data = "XDG_DATA_HOME=" + (folder_ / "data");
+    EXPECT_EQ(run_program("history add " + night(0), "env -u XDG_DATA_HOME " + home).exit_code, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "home/.local/share/fernlicht/history.db"));
+    EXPECT_EQ(run_program("history add " + night(0), "env " + home + " " + data).exit_code, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "data/fernlicht/history.db"));
+}
+
+} // namespace
+} // namespace fernlicht
