@@ -3,6 +3,9 @@
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
 #include "runner/commands/run_files.h"
+#include "runner/experiments/history/history_document.h"
+#include "runner/experiments/history/night_of_study.h"
+#include "runner/experiments/history/tell_apart_by_playing.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/experiments/study/study_run.h"
 #include "runner/files/log.h"
@@ -28,7 +31,7 @@ struct StudyFlags {
     std::vector<std::string> only;
     JudgingFlags judging;
     bool strict = false, resume = false, quiet = false, no_accuracy = false, list = false;
-    std::string store;
+    std::string store, history;
     int jobs = 0, per = 1;
     std::vector<std::string> expect;
     std::optional<double> cell_minutes, cell_memory_mib;
@@ -44,7 +47,7 @@ int list_cells(const std::vector<StudyCell>& cells) {
 }
 
 /// The page last: a disk that fills up takes it before it takes the numbers.
-void write_study(const StudyResult& result, const std::filesystem::path& folder) {
+void write_study(const StudyResult& result, const std::filesystem::path& folder, const std::optional<HistoryFindings>& history) {
     const Document paper = study_paper(result);
     write_file(folder / "study.json", json_text(as_json(result, study_members)));
     write_file(folder / "study.csv", study_csv(result));
@@ -54,7 +57,26 @@ void write_study(const StudyResult& result, const std::filesystem::path& folder)
             write_file(folder / papers.emplace_back(std::string("study") + format.extension), format.of_document(paper));
     write_file(folder / "junit.xml", report_junit(suites_of(result)));
     write_file(folder / "study.yaml", result.study.text);
-    write_document(document(result, papers), result, folder, "report");
+    Document page = document(result, papers);
+    if (history) {
+        std::vector<Section> changes = history_sections(*history);
+        page.sections.insert(page.sections.begin(), std::make_move_iterator(changes.begin()), std::make_move_iterator(changes.begin() + 1));
+        page.sections.insert(page.sections.end(), std::make_move_iterator(changes.begin() + 1), std::make_move_iterator(changes.end()));
+    }
+    write_document(page, result, folder, "report");
+}
+
+/// Tonight against the last accepted night; nothing without --history, and of a study that did not end. Then tonight is kept there.
+std::optional<HistoryFindings> remember(const StudyFlags& flags, const StudyResult& result, const StudyOptions& options) {
+    if (flags.history.empty() || !result.complete())
+        return std::nullopt;
+    HistoryFindings findings =
+        history_of(flags.history, result, options.folder, {.tell_apart = tell_apart_by_playing(result.study, options)});
+    History history(flags.history, History::For::collecting);
+    const History::Added added = history.add(night_of_study(result, options.folder));
+    for (const auto& [cell, readings] : findings.replays)
+        history.keep_replay(added.number, cell, readings);
+    return findings;
 }
 
 /// Why each cell that the store lacks must be played.
@@ -151,7 +173,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     options.known = take(flags.judging, options.run);
     options.run.command = command;
     options.run.write = [](const Report& report, const std::filesystem::path& cell) { write_report(report, cell); };
-    options.write = [&](const StudyResult& result) { write_study(result, options.folder); };
+    options.write = [&](const StudyResult& result) { write_study(result, options.folder, remember(flags, result, options)); };
     options.judge_cell = [](const Report& report, const std::filesystem::path& cell) { write_judgement(report, cell); };
     if (flags.explain)
         return explain_cells(study, options);
@@ -201,6 +223,8 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
         ->check(CLI::IsMember({"local", "slurm"}));
     sub->add_option("--partition", flags->partition, "of the cluster");
     sub->add_option("--gpus", flags->gpus, "of the cluster for each cell, as --gres has it: gpu:1");
+    sub->add_option("--history", flags->history,
+                    "lead with what changed since the last accepted night of this history, and add tonight to it");
     sub->add_flag("--explain", flags->explain, "say why each cell must be played that the store lacks, and play none");
     sub->add_flag("--plan", flags->plan, "print a command for each cell that the store lacks, a line of JSON each, and play none");
     sub->add_option("--per", flags->per, "cells for each command of --plan, and for each task of a cluster (default: 1)")
