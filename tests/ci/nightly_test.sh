@@ -63,8 +63,8 @@ rm "$tree/calls"
 CODE=0 accept "a reason" || { echo "did not accept"; cat "$tree/said"; ((++failures)); }
 [[ $(<"$tree/baselines/index.json") == $'old\na reason\na reason' ]] || { echo "lost what was there, or a part"; ((++failures)); }
 diff - "$tree/calls" <<'END' || ((++failures))
-study scenarios/library/studies/standard.yaml --backend software --no-accuracy --quiet --out WORK/whole
-study scenarios/library/studies/standard.yaml --backend software --no-accuracy --quiet --out WORK/two --only straight* --frames 0:4
+study scenarios/library/studies/standard.yaml --backend software --no-accuracy --quiet --store WORK/store --out WORK/whole
+study scenarios/library/studies/standard.yaml --backend software --no-accuracy --quiet --store WORK/store --out WORK/two --only straight* --frames 0:4
 accept WORK/whole --baselines WORK/baselines --readings-only --note a reason --replace-class
 accept WORK/two --baselines WORK/baselines --readings-only --note a reason
 END
