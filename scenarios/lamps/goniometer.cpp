@@ -181,9 +181,15 @@ Axes first_axes(const Native& native) {
     return axes;
 }
 
-/// Light within a cell: the native table's, where it has data, at 8 x 8 places.
-double native_light(const Native& native, double h0, double h1, double v0, double v1) {
-    constexpr int parts = 8;
+/// Light within a cell: the native table's, where it has data, at 8 x 8 places; none where 3 x 3 of a cell whose corners are all `outside`
+/// find no data, as in most of what a border leaves free.
+double native_light(const Native& native, double h0, double h1, double v0, double v1, bool outside) {
+    constexpr int parts = 8, looks = 3;
+    bool empty = outside;
+    for (int i = 0; empty && i < looks * looks; ++i)
+        empty = !native.at(h0 + (h1 - h0) * (i % looks + 0.5) / looks, v0 + (v1 - v0) * (i / looks + 0.5) / looks).known;
+    if (empty)
+        return 0.0;
     double sum = 0.0;
     for (int j = 0; j < parts; ++j) {
         const double v = v0 + (v1 - v0) * (j + 0.5) / parts;
@@ -225,7 +231,7 @@ void settle_border(const Native& native, const std::vector<unsigned char>& known
             const int corners = known[i] + known[i + 1] + known[i + width] + known[i + width + 1];
             bool gap = corners < 4;
             if (const double h0 = table.h_deg[x], h1 = table.h_deg[x + 1], v0 = table.v_deg[y], v1 = table.v_deg[y + 1]; gap) {
-                surplus_lm -= native_light(native, h0, h1, v0, v1);
+                surplus_lm -= native_light(native, h0, h1, v0, v1, corners == 0);
                 const std::vector<double> cd{table.cd[i], table.cd[i + 1], table.cd[i + width], table.cd[i + width + 1]};
                 const double whole_lm = corners > 0 ? flux_lm({{h0, h1}, {v0, v1}, cd, {}, table.rule}) : 0.0;
                 gap = corners == 0 || surplus_lm + whole_lm / 2.0 > 0.0;
