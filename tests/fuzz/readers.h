@@ -25,7 +25,7 @@ inline constexpr std::string_view part_end = "\n%%%%\n";
 
 /// A new reader is one line of these tables.
 std::span<const Reader> scenarios_readers(); ///< lamps, roads, storyboards, drives, studies, buses, models, pictures
-std::span<const Reader> runner_readers();   ///< what runs, studies and stores leave behind, and lists that users keep of them
+std::span<const Reader> runner_readers();    ///< what runs, studies and stores leave behind, and lists that users keep of them
 
 /// Files that inputs may name, made in `folder`: road.xodr, low.ies, drive.yaml, catalogs/cars.xosc ...
 void make_companions(const std::filesystem::path& folder);

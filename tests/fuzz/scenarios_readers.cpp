@@ -88,7 +88,6 @@ void read_picture(const fs::path& folder) {
     const std::string bytes = with_check_sums(read_file(file, opened));
     constexpr std::size_t max_pixels = std::size_t{1} << 20;
     tried([&] { decode_picture(file, "", bytes, max_pixels); });
-    tried([&] { decode_texture(file, bytes, max_pixels); });
     check(read_beam_texture(file, bytes,
                             {.texture_scale_lx = 10.0, .texture_h_extent_deg = {-30.0, 30.0}, .texture_v_extent_deg = {-10.0, 10.0}}, {}));
 }
