@@ -10,13 +10,6 @@
 namespace fernlicht {
 namespace {
 
-#ifdef FERNLICHT_FUZZ // the same arithmetic, a hundredth of it: the fuzzer is after the readers
-constexpr std::size_t sample_budget = 5'000;
-constexpr int probes = 400;
-#else
-constexpr std::size_t sample_budget = 500'000;
-constexpr int probes = 40'000;
-#endif
 // Per axis and at the middle of an interval. Both axes add, and a kink beside the middle shows at least half its error there.
 constexpr double split_above = 4e-4;
 constexpr double finest_deg = 1e-3;
@@ -113,7 +106,7 @@ bool split_worst(Axes& axes, const Axes& errors, double tolerance_cd) {
     std::size_t columns = axes.h.size(), rows = axes.v.size();
     bool split = false;
     for (const Interval& interval : wanting) {
-        if ((columns + interval.along_h) * (rows + !interval.along_h) > sample_budget)
+        if ((columns + interval.along_h) * (rows + !interval.along_h) > most_resampled)
             break;
         (interval.along_h ? axes.h : axes.v).push_back(interval.middle);
         (interval.along_h ? columns : rows) += 1;
@@ -268,16 +261,17 @@ CandelaTable sampled(const Native& native, const Axes& axes) {
 double worst_difference_cd(const Native& native, const CandelaTable& table) {
     const Peak peak = peak_of(table);
     double worst = 0.0;
-    const auto probe = [&](double h0, double h1, double v0, double v1, int count) {
-        for (int i = 1; i <= count; ++i) {
+    const auto count = static_cast<int>(std::min<std::size_t>(40'000, most_resampled));
+    const auto probe = [&](double h0, double h1, double v0, double v1, int places) {
+        for (int i = 1; i <= places; ++i) {
             const double a = i * 0.7548776662466927, b = i * 0.5698402909980532;
             const double h = h0 + (h1 - h0) * (a - std::floor(a)), v = v0 + (v1 - v0) * (b - std::floor(b));
             if (const Native::Sample sample = native.at(h, v); sample.known && has_data(table, h, v))
                 worst = std::max(worst, std::abs(intensity_cd(table, h, v) - sample.cd));
         }
     };
-    probe(table.h_deg.front(), table.h_deg.back(), table.v_deg.front(), table.v_deg.back(), probes);
-    probe(peak.h_deg - 5.0, peak.h_deg + 5.0, peak.v_deg - 3.0, peak.v_deg + 3.0, probes / 2);
+    probe(table.h_deg.front(), table.h_deg.back(), table.v_deg.front(), table.v_deg.back(), count);
+    probe(peak.h_deg - 5.0, peak.h_deg + 5.0, peak.v_deg - 3.0, peak.v_deg + 3.0, count / 2);
     return worst;
 }
 

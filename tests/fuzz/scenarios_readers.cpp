@@ -8,6 +8,7 @@
 #include "scenarios/drives/play/drive_log.h"
 #include "scenarios/lamps/beam_files.h"
 #include "scenarios/lamps/eulumdat.h"
+#include "scenarios/lamps/goniometer.h"
 #include "scenarios/lamps/ies.h"
 #include "scenarios/lamps/lamp_text.h"
 #include "scenarios/lamps/mounted_lamp.h"
@@ -34,12 +35,26 @@ void check(LampFile lamp) {
     check_invariants(lamp.table);
 }
 
+/// What resampling takes tells nothing of a reader.
+class FewSamples {
+  public:
+    FewSamples() { most_resampled = 5'000; }
+    ~FewSamples() { most_resampled = before_; }
+    FewSamples(const FewSamples&) = delete;
+    FewSamples& operator=(const FewSamples&) = delete;
+
+  private:
+    std::size_t before_ = most_resampled;
+};
+
 template <ReadLampText read> void read_lamp_text(const fs::path& file) {
+    const FewSamples few;
     FilesRead opened;
     check(read(file, lamp_text(read_file(file, opened), file), {}, opened));
 }
 
 void read_grid(const fs::path& folder) {
+    const FewSamples few;
     FilesRead opened;
     const fs::path file = folder / "grid.txt";
     const GridRecipe recipe = read_grid_recipe(folder / "recipe.yaml", opened);

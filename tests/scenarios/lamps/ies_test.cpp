@@ -251,6 +251,8 @@ TEST_F(IesFile, TiltFactorsAreThoseOfTheMeasuredPosition) {
     EXPECT_EQ(lamp.opened[1].path.filename(), "lamp.tlt");
     EXPECT_THAT(refusal("g.ies", "IESNA91\nTILT=missing.tlt\n" + std::string(small_numbers)),
                 HasSubstr("g.ies:2: TILT: there is no file 'missing.tlt'"));
+    EXPECT_THAT(refusal("g.ies", "IESNA91\nTILT=" + std::string(300, 'a') + "\n" + small_numbers), HasSubstr("TILT: there is no file 'aaa"))
+        << "a name that no file can have";
     EXPECT_THAT(refusal("h.ies", "IESNA91\nTILT=../../etc/passwd\n" + std::string(small_numbers)), HasSubstr("beside this one"));
     EXPECT_THAT(refusal("j.ies", "IESNA91\nTILT=\n" + std::string(small_numbers)), HasSubstr("j.ies:2: TILT: found ''"));
     write("bad.tlt", "1\n2\n0 x\n1 1\n");
