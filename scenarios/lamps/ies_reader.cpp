@@ -367,6 +367,7 @@ LampFile read_ies(const std::filesystem::path& path, std::string_view text, cons
             if (name == key && !value.empty())
                 lamp.name = value;
     if (p.type == 'C') {
+        check_count(p.grid.v_deg, "vertical angles", p.grid.v_line, path);
         from_c_planes(p.grid, symmetry_of(p.grid.h_deg), options, lamp);
         return lamp;
     }
