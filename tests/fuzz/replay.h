@@ -6,8 +6,11 @@
 
 #include <cctype>
 #include <gtest/gtest.h>
+#include <ostream>
 
 namespace fernlicht::fuzz {
+
+inline void PrintTo(const Reader& reader, std::ostream* out) { *out << reader.name; }
 
 class KeptInputs : public testing::TestWithParam<Reader> {};
 
