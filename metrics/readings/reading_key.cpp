@@ -224,7 +224,8 @@ std::size_t lane_end(std::string_view text) {
 bool match(std::span<const Part> form, std::string_view text, ReadingKey& key) {
     if (form.empty())
         return text.empty();
-    const auto& [part, words] = form.front();
+    const std::string& part = form.front().text;
+    const std::vector<const Word*>& words = form.front().words;
     const auto goes_on = [&](std::size_t from, auto&& set) {
         ReadingKey next = key;
         set(next);

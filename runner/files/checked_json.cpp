@@ -14,7 +14,13 @@ CheckedJson CheckedJson::read(const std::filesystem::path& file) {
 }
 
 CheckedJson CheckedJson::parse(const std::string& content, const std::filesystem::path& file) {
-    auto root = std::make_shared<const nlohmann::json>(nlohmann::json::parse(content, nullptr, false));
+    constexpr int deepest = 64; // ours have a dozen; what shows a refused value calls itself once a level
+    const auto watch = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+        if (depth > deepest)
+            throw InputError({file, 0, 0, {}}, fmt::format("is JSON nested deeper than {} levels", deepest));
+        return true;
+    };
+    auto root = std::make_shared<const nlohmann::json>(nlohmann::json::parse(content, watch, false));
     if (root->is_discarded())
         throw InputError({file, 0, 0, {}}, "is no JSON, or only part of it");
     return {root, *root, file, ""};

@@ -54,7 +54,7 @@ std::vector<std::pair<double, double>> resolve_values(const std::vector<std::pai
                                                       const InputError::Where& where) {
     std::vector<std::pair<double, double>> resolved;
     for (const auto& [text, value] : values) {
-        const auto label = std::ranges::find_if(signal.labels, [&](const auto& known) { return known.second == text; });
+        const auto label = std::ranges::find_if(signal.labels, [&, &wanted = text](const auto& known) { return known.second == wanted; });
         double physical = 0.0;
         if (label != signal.labels.end()) {
             physical = static_cast<double>(label->first) * signal.factor + signal.offset;

@@ -116,11 +116,11 @@ const std::vector<double>& LampWindows::step(const std::vector<OtherUser>& other
                                              const glm::dvec3& position_m, double yaw_rad, double dt_s) {
     const double margin_deg = degrees(parameters_.margin_rad);
     for (std::size_t i = 0; i < levels_.size(); ++i) {
-        const auto [from_deg, to_deg] = lamp_.windows_deg[i];
+        const auto& window_deg = lamp_.windows_deg[i];
         const bool met = std::ranges::any_of(others, [&](const OtherUser& other) {
             const auto [least, most] = seen_deg(other, position_m, yaw_rad);
             return other.lamps_on && std::hypot(other.ahead_m, other.left_m) <= (other.oncoming() ? reach.oncoming_m : reach.preceding_m) &&
-                   least <= most && least - margin_deg < to_deg && most + margin_deg > from_deg;
+                   least <= most && least - margin_deg < window_deg.second && most + margin_deg > window_deg.first;
         });
         const double wanted = met ? 0.0 : 1.0;
         since_s_[i] = wanted == levels_[i] ? 0.0 : since_s_[i] + dt_s;

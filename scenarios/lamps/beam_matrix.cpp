@@ -20,7 +20,7 @@ struct MatrixHeader {
 
 /// The key of `# key: value` when it is one lower-case word; "" for comments.
 std::string_view key_of(std::string_view line) {
-    line = trimmed(line.substr(line.find_first_not_of('#')));
+    line = trimmed(line.substr(std::min(line.find_first_not_of('#'), line.size())));
     const std::size_t colon = line.find(':');
     const std::string_view key = trimmed(line.substr(0, colon));
     const bool word = std::all_of(key.begin(), key.end(), [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; });

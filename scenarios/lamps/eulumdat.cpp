@@ -199,6 +199,7 @@ LampFile read_eulumdat(const std::filesystem::path& path, std::string_view text,
     MeasuredGrid grid = read_planes(in, layout, lamps.flux_lm / 1000.0 * conversion, path);
     const std::size_t planes = grid.h_deg.size(), first_line = in.next_number() - grid.cd.size(); // a value a line, plane by plane
     check_and_order(grid, path, lamp.notes, [&](std::size_t at) { return first_line + at % planes * grid.v_deg.size() + at / planes; });
+    check_count(grid.v_deg, "gamma angles", grid.v_line, path);
     lamp.format = fmt::format("EULUMDAT, Isym {}", layout.symmetry);
     for (const std::size_t i : {std::size_t{3}, std::size_t{2}}) // number, then luminaire
         if (!lamp.labels[i].second.empty())

@@ -10,7 +10,6 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t sample_budget = 500'000;
 // Per axis and at the middle of an interval. Both axes add, and a kink beside the middle shows at least half its error there.
 constexpr double split_above = 4e-4;
 constexpr double finest_deg = 1e-3;
@@ -107,7 +106,7 @@ bool split_worst(Axes& axes, const Axes& errors, double tolerance_cd) {
     std::size_t columns = axes.h.size(), rows = axes.v.size();
     bool split = false;
     for (const Interval& interval : wanting) {
-        if ((columns + interval.along_h) * (rows + !interval.along_h) > sample_budget)
+        if ((columns + interval.along_h) * (rows + !interval.along_h) > most_resampled)
             break;
         (interval.along_h ? axes.h : axes.v).push_back(interval.middle);
         (interval.along_h ? columns : rows) += 1;
@@ -181,9 +180,15 @@ Axes first_axes(const Native& native) {
     return axes;
 }
 
-/// Light within a cell: the native table's, where it has data, at 8 x 8 places.
-double native_light(const Native& native, double h0, double h1, double v0, double v1) {
-    constexpr int parts = 8;
+/// Light within a cell: the native table's, where it has data, at 8 x 8 places; none where 3 x 3 of a cell whose corners are all `outside`
+/// find no data, as in most of what a border leaves free.
+double native_light(const Native& native, double h0, double h1, double v0, double v1, bool outside) {
+    constexpr int parts = 8, looks = 3;
+    bool empty = outside;
+    for (int i = 0; empty && i < looks * looks; ++i)
+        empty = !native.at(h0 + (h1 - h0) * (i % looks + 0.5) / looks, v0 + (v1 - v0) * (i / looks + 0.5) / looks).known;
+    if (empty)
+        return 0.0;
     double sum = 0.0;
     for (int j = 0; j < parts; ++j) {
         const double v = v0 + (v1 - v0) * (j + 0.5) / parts;
@@ -225,7 +230,7 @@ void settle_border(const Native& native, const std::vector<unsigned char>& known
             const int corners = known[i] + known[i + 1] + known[i + width] + known[i + width + 1];
             bool gap = corners < 4;
             if (const double h0 = table.h_deg[x], h1 = table.h_deg[x + 1], v0 = table.v_deg[y], v1 = table.v_deg[y + 1]; gap) {
-                surplus_lm -= native_light(native, h0, h1, v0, v1);
+                surplus_lm -= native_light(native, h0, h1, v0, v1, corners == 0);
                 const std::vector<double> cd{table.cd[i], table.cd[i + 1], table.cd[i + width], table.cd[i + width + 1]};
                 const double whole_lm = corners > 0 ? flux_lm({{h0, h1}, {v0, v1}, cd, {}, table.rule}) : 0.0;
                 gap = corners == 0 || surplus_lm + whole_lm / 2.0 > 0.0;
@@ -256,16 +261,17 @@ CandelaTable sampled(const Native& native, const Axes& axes) {
 double worst_difference_cd(const Native& native, const CandelaTable& table) {
     const Peak peak = peak_of(table);
     double worst = 0.0;
-    const auto probe = [&](double h0, double h1, double v0, double v1, int count) {
-        for (int i = 1; i <= count; ++i) {
+    const auto count = static_cast<int>(std::min<std::size_t>(40'000, most_resampled));
+    const auto probe = [&](double h0, double h1, double v0, double v1, int places) {
+        for (int i = 1; i <= places; ++i) {
             const double a = i * 0.7548776662466927, b = i * 0.5698402909980532;
             const double h = h0 + (h1 - h0) * (a - std::floor(a)), v = v0 + (v1 - v0) * (b - std::floor(b));
             if (const Native::Sample sample = native.at(h, v); sample.known && has_data(table, h, v))
                 worst = std::max(worst, std::abs(intensity_cd(table, h, v) - sample.cd));
         }
     };
-    probe(table.h_deg.front(), table.h_deg.back(), table.v_deg.front(), table.v_deg.back(), 40'000);
-    probe(peak.h_deg - 5.0, peak.h_deg + 5.0, peak.v_deg - 3.0, peak.v_deg + 3.0, 20'000);
+    probe(table.h_deg.front(), table.h_deg.back(), table.v_deg.front(), table.v_deg.back(), count);
+    probe(peak.h_deg - 5.0, peak.h_deg + 5.0, peak.v_deg - 3.0, peak.v_deg + 3.0, count / 2);
     return worst;
 }
 

@@ -4,6 +4,7 @@
 #include "scenarios/lamps/lamp_file.h"
 #include "scenarios/lamps/measured_grid.h"
 
+#include <cstddef>
 #include <glm/vec3.hpp>
 
 namespace fernlicht {
@@ -19,11 +20,14 @@ AngleSystem flat_screen();
 /// as a plan view of the luminaire is read.
 AngleSystem beam_along_nadir();
 
+/// Most samples of a table brought onto H and V. Set to fewer where many files are read for their form alone (tests/fuzz).
+inline std::size_t most_resampled = 500'000;
+
 /// Sets lamp.measured to the table `native` over the angles of `system`, and lamp.table to the same brought onto H and V. The axes hold the
-/// native angles, the peak's direction, and as many more as bring the difference between the two tables below 0.1 % of the peak, up to half
-/// a million samples. Of the cells in which the native data end, at most 0.1 degrees wide where the samples suffice, as many are data as
-/// hold the light of those parts that have data: the flux stays, and the border runs to the cell. The others are gaps. Adds a note with the
-/// size and the worst difference found by probing.
+/// native angles, the peak's direction, and as many more as bring the difference between the two tables below 0.1 % of the peak, up to
+/// `most_resampled` samples. Of the cells in which the native data end, at most 0.1 degrees wide where the samples suffice, as many are
+/// data as hold the light of those parts that have data: the flux stays, and the border runs to the cell. The others are gaps. Adds a note
+/// with the size and the worst difference found by probing.
 void bring_onto_goniometer(CandelaTable native, AngleSystem system, LampFile& lamp);
 
 /// Type C photometry (IES type C, EULUMDAT), half planes C about the vertical, gamma from the nadir up: how the planes that a file stores

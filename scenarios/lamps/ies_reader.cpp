@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
+#include <system_error>
 
 namespace fernlicht {
 namespace {
@@ -207,7 +208,8 @@ double read_tilt(const IesHeader& header, IesNumbers& numbers, const std::filesy
         if (header.edition >= 2019)
             notes.push_back("TILT names a file, which LM-63-2019 forbids: read all the same.");
         const std::filesystem::path file = path.parent_path() / name;
-        if (!std::filesystem::exists(file))
+        std::error_code ignored; // what cannot be looked at is not there
+        if (!std::filesystem::exists(file, ignored))
             throw InputError(where, fmt::format("there is no file '{}' beside this one", printable(header.tilt)),
                              "NONE, INCLUDE or a file");
         const std::string text = lamp_text(read_file(file, opened, max_lamp_text_bytes), file);
@@ -365,6 +367,7 @@ LampFile read_ies(const std::filesystem::path& path, std::string_view text, cons
             if (name == key && !value.empty())
                 lamp.name = value;
     if (p.type == 'C') {
+        check_count(p.grid.v_deg, "vertical angles", p.grid.v_line, path);
         from_c_planes(p.grid, symmetry_of(p.grid.h_deg), options, lamp);
         return lamp;
     }

@@ -64,7 +64,7 @@ std::vector<double> listed_angles(const std::vector<ListedValue>& values, double
     for (const ListedValue& one : values)
         angles.push_back(one.*angle);
     std::ranges::sort(angles);
-    angles.erase(std::ranges::unique(angles).begin(), angles.end());
+    angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
     return angles;
 }
 

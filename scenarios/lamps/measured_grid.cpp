@@ -153,13 +153,17 @@ void check_and_order(MeasuredGrid& grid, const std::filesystem::path& file, Note
     grid = transposed(grid);
 }
 
+void check_count(const std::vector<double>& angles, const char* name, std::size_t line, const std::filesystem::path& file) {
+    if (angles.size() < 2)
+        throw InputError({file, line, 0, name}, fmt::format("found {} of them", angles.size()), "at least 2");
+}
+
 void check_angle_ranges(const MeasuredGrid& grid, double h_limit_deg, double v_limit_deg, const std::filesystem::path& file) {
     const auto check = [&](const std::vector<double>& angles, double limit, const char* name, std::size_t line) {
         for (const double angle : angles)
             if (std::abs(angle) > limit)
                 throw InputError({file, line, 0, name}, fmt::format("found {}", angle), fmt::format("angles from -{} to {}", limit, limit));
-        if (angles.size() < 2)
-            throw InputError({file, line, 0, name}, fmt::format("found {} of them", angles.size()), "at least 2");
+        check_count(angles, name, line, file);
     };
     check(grid.h_deg, h_limit_deg, "horizontal angles", grid.h_line);
     check(grid.v_deg, v_limit_deg, "vertical angles", grid.v_line);

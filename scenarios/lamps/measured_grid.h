@@ -28,6 +28,9 @@ void check_and_order(MeasuredGrid& grid, const std::filesystem::path& file, Note
 /// Beyond, a wall is more than 57 times as far away as straight ahead.
 inline constexpr double most_wall_deg = 89.0;
 
+/// Throws InputError unless there are at least 2 angles, as of C planes in gamma when repeated ones are dropped.
+void check_count(const std::vector<double>& angles, const char* name, std::size_t line, const std::filesystem::path& file);
+
 /// Throws InputError unless each axis has at least 2 angles, within these bounds to both sides, degrees.
 void check_angle_ranges(const MeasuredGrid& grid, double h_limit_deg, double v_limit_deg, const std::filesystem::path& file);
 

@@ -97,9 +97,9 @@ std::string_view name_of_today(std::string_view key, std::span<const std::string
 
 std::string edited(const std::string& text, std::vector<TextEdit> edits, std::vector<std::string>& unmatched) {
     const auto place = [](const TextEdit& edit) { return std::pair(edit.line, edit.column); };
+    const auto same_place = [&](const TextEdit& a, const TextEdit& b) { return place(a) == place(b); };
     std::ranges::sort(edits, {}, place);
-    const auto [first_again, end] = std::ranges::unique(edits, {}, place); // what an alias stands for is met at its anchor again
-    edits.erase(first_again, end);
+    edits.erase(std::unique(edits.begin(), edits.end(), same_place), edits.end()); // what an alias stands for is met at its anchor again
     const std::vector<std::size_t> starts = line_starts(text);
     std::string out;
     std::size_t done = 0;

@@ -4,6 +4,7 @@
 #include "runner/findings/extent_keys.h"
 
 #include <cstdio>
+#include <fmt/format.h>
 
 namespace fernlicht {
 namespace {
@@ -25,6 +26,10 @@ Ticks ticks_of(const std::vector<std::pair<int, double>>& moments) {
 
 JsonPart shadow_method_part(ShadowMethod& method) {
     return one_of(method, names_of<ShadowMethod>([](ShadowMethod one) { return name(one); }, 10));
+}
+
+std::string beams_text(const std::optional<BeamTexels>& beams) {
+    return beams ? fmt::format("{}x{}x{}", beams->width, beams->height, beams->bits) : "float";
 }
 
 JsonPart beams_part(std::optional<BeamTexels>& beams) {

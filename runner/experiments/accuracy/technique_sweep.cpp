@@ -168,10 +168,6 @@ void take_times(TimedTechniques& timed_techniques, const std::vector<Moment>& mo
 
 } // namespace
 
-std::string beams_text(const std::optional<BeamTexels>& beams) {
-    return beams ? fmt::format("{}x{}x{}", beams->width, beams->height, beams->bits) : "float";
-}
-
 std::string name_of(const Configuration& c) {
     std::string name = c.technique;
     if (c.varied.find("resolution") != std::string::npos)

@@ -11,7 +11,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <ranges>
 
 namespace fernlicht {
 namespace {
@@ -126,8 +125,10 @@ JsonMembers study_cell_members(CellResult& cell, Study& study) {
     StudyConditions& conditions = study.conditions;
     const auto readings = through(
         [&cell] {
-            const auto all = std::views::values(cell.readings);
-            return Readings(all.begin(), all.end());
+            Readings all;
+            for (const auto& [key, reading] : cell.readings)
+                all.push_back(reading);
+            return all;
         },
         [&cell](const Readings& all) {
             for (const Reading& reading : all)

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <set>
+#include <system_error>
 #include <tuple>
 
 namespace fernlicht {
@@ -74,7 +75,8 @@ void replace_aim(Drive& drive, BeamAim aim) {
 
 void replace_road(Drive& drive, const std::filesystem::path& road) {
     drive.road_file = made_absolute(road);
-    if (!std::filesystem::is_regular_file(drive.road_file))
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(drive.road_file, ignored))
         throw InputError({drive.road_file, 0, 0, {}}, "there is no such road file", "an OpenDRIVE file");
     if (!drive.via.empty() || !drive.start.road.empty() || drive.start.lane != 0)
         drive.notes.push_back("another road was given: the drive's own route does not hold there, it starts at the road's default start");

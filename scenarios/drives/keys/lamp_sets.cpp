@@ -251,7 +251,7 @@ Car read_car(const YamlMap& drive_keys, Drive& drive) {
         if (!drive.own_car)
             car.mounts.clear();
         for (const auto& [name, place] : mounts->named(max_lamps)) {
-            std::erase_if(car.mounts, [&](const LampMount& mount) { return mount.name == name; });
+            std::erase_if(car.mounts, [&, &given = name](const LampMount& mount) { return mount.name == given; });
             LampMount& mount = car.mounts.emplace_back(LampMount{name, {}, {}});
             if (place.is_list())
                 read_value(field_named(mount_fields(), "position_m"), place, &mount);

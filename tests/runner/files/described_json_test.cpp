@@ -94,6 +94,15 @@ TEST(DescribedJson, SaysWhatIsRefusedWhere) {
     refused("\"flag\"", "\"flags\"", "flag");
 }
 
+/// Lists in lists, 200 000 deep: what shows the refused value would run out of stack.
+TEST(DescribedJson, IsNotNestedWithoutEnd) {
+    for (const std::size_t levels : {66U, 200'000U})
+        EXPECT_THAT([&] { CheckedJson::parse(std::string(levels, '[') + std::string(levels, ']'), "deep.json").text(); },
+                    testing::ThrowsMessage<InputError>(testing::HasSubstr("deep.json: is JSON nested deeper than 64 levels")));
+    EXPECT_THAT([&] { CheckedJson::parse(std::string(64, '[') + std::string(64, ']'), "deep.json").text(); },
+                testing::ThrowsMessage<InputError>(testing::HasSubstr("expected a text")));
+}
+
 LayerComparison judged_layer() {
     const StrictnessResult kept{"mean FLIP", true, 0.0, 0.5, "", 6, 2, 1, 1.0, {}},
         broken{"no pixel differs", false, 1.5, 0.0, "lx", 6, 2, 1};

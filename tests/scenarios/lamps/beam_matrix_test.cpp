@@ -98,6 +98,8 @@ TEST_F(BeamMatrix, SeparatorsOrderOfRowsAndZeroPadding) {
     EXPECT_GT(intensity_cd(table("# unit: cd\n# gaps_deg: none\n" + padded), 0.0, -2.1), 4.9);
     EXPECT_EQ(intensity_cd(table("# unit: cd\n# gaps_deg: 0 1 0 2; -1 0 -2 0\n" + padded), 0.5, 1.0), 0.0);
     EXPECT_THAT(refusal("g.csv", "# unit: cd\n# gaps_deg: some\n" + padded), HasSubstr("g.csv:2: gaps_deg: found 'some'"));
+    EXPECT_EQ(table("# unit: cd\n# #\n#\nV\\H,-1,0\n-1,1,2\n0,4,5\n"), table("# unit: cd\nV\\H,-1,0\n-1,1,2\n0,4,5\n"))
+        << "comments of nothing";
 }
 
 TEST_F(BeamMatrix, ManyRectanglesOfGapsTakeNoMoreThanTheirText) {

@@ -178,6 +178,10 @@ TEST_F(Eulumdat, MessagesNameTheLine) {
                 HasSubstr("Mc): found 2, expected a multiple of 4 for symmetry 4"));
     EXPECT_THAT(complaint([](Ldt& l) { l.intensities.pop_back(); }), HasSubstr("x.ldt:48: intensity: the file ends before it"));
     EXPECT_THAT(complaint([](Ldt& l) { l.gamma = {0, 90, 90}, l.intensities = {1, 2, 3}; }), HasSubstr("the angle 90 is given twice"));
+    EXPECT_THAT(complaint([](Ldt& l) {
+                    l.gamma = {90, 90, 90}, l.intensities = {1, 1, 1};
+                }),
+                HasSubstr("gamma angles: found 1 of them, expected at least 2"));
 }
 
 TEST_F(Eulumdat, NoPrefixOfAGoodFileIsReadAndNothingMakesItFallOver) {

@@ -119,6 +119,8 @@ TEST_F(IesFile, AnglesAreSortedAndTypesTakenForWhatTheyAre) {
     const LampFile luminaire = read("l.ies", "TILT=NONE\n1 -1 1 3 1 3 2 0 0 0\n1 1 55\n0 90 180\n0\n50 50 50\n");
     EXPECT_EQ(luminaire.format, "IES LM-63-1986, type C");
     EXPECT_NEAR(flux_lm(luminaire.table), 4 * pi * 50, 1e-9);
+    EXPECT_THAT(refusal("m.ies", "TILT=NONE\n1 -1 1 2 1 3 2 0 0 0\n1 1 55\n100 100\n0\n50 50\n"),
+                HasSubstr("m.ies:4: vertical angles: found 1 of them, expected at least 2"));
 }
 
 /// H and V of type B's h = asin x, v = atan2(y, z).
@@ -251,6 +253,8 @@ TEST_F(IesFile, TiltFactorsAreThoseOfTheMeasuredPosition) {
     EXPECT_EQ(lamp.opened[1].path.filename(), "lamp.tlt");
     EXPECT_THAT(refusal("g.ies", "IESNA91\nTILT=missing.tlt\n" + std::string(small_numbers)),
                 HasSubstr("g.ies:2: TILT: there is no file 'missing.tlt'"));
+    EXPECT_THAT(refusal("g.ies", "IESNA91\nTILT=" + std::string(300, 'a') + "\n" + small_numbers), HasSubstr("TILT: there is no file 'aaa"))
+        << "a name that no file can have";
     EXPECT_THAT(refusal("h.ies", "IESNA91\nTILT=../../etc/passwd\n" + std::string(small_numbers)), HasSubstr("beside this one"));
     EXPECT_THAT(refusal("j.ies", "IESNA91\nTILT=\n" + std::string(small_numbers)), HasSubstr("j.ies:2: TILT: found ''"));
     write("bad.tlt", "1\n2\n0 x\n1 1\n");

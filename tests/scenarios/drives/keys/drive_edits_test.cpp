@@ -98,6 +98,8 @@ TEST_F(DriveEditsTest, AMissingLampOrRoad) {
     edits = {};
     edits.road = folder / "none.xodr";
     EXPECT_THAT(refusal(minimal, edits), HasSubstr("none.xodr: there is no such road file"));
+    edits.road = folder / std::string(300, 'a');
+    EXPECT_THAT(refusal(minimal, edits), HasSubstr("there is no such road file")) << "a name that no file can have";
 }
 
 TEST_F(DriveEditsTest, AnotherRoadForgetsTheRoute) {
