@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <map>
+#include <oneapi/tbb/parallel_for.h>
 
 namespace fernlicht {
 
@@ -47,10 +48,12 @@ void write_plot(const Plot& plot, const std::filesystem::path& place) {
 
 void write_document(const Document& document, const Findings& findings, const std::filesystem::path& folder, const std::string& stem,
                     const OutputFormat* tables) {
+    std::vector<const Plot*> plots;
     for (const Section& section : document.sections)
         for (const DocumentPart& block : section.blocks)
             if (const auto* plot = std::get_if<Plot>(&block))
-                write_plot(*plot, folder / place_of(*plot));
+                plots.push_back(plot);
+    oneapi::tbb::parallel_for(std::size_t{0}, plots.size(), [&](std::size_t i) { write_plot(*plots[i], folder / place_of(*plots[i])); });
     if (tables)
         write_tables(document, folder, *tables);
     write_file(folder / (stem + ".html"), document_html(document, findings, folder));

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <librsvg/rsvg.h>
 #include <memory>
+#include <png.h>
 #include <stdexcept>
 
 namespace fernlicht::plots {
@@ -32,6 +33,48 @@ std::string png_of(cairo_surface_t* surface) {
         return CAIRO_STATUS_SUCCESS;
     };
     check(cairo_surface_write_to_png_stream(surface, append, &bytes), "cannot encode a PNG");
+    return bytes;
+}
+
+struct PngWriter {
+    png_structp png = nullptr;
+    png_infop info = nullptr;
+    PngWriter() {
+        const auto fail = [](png_structp, png_const_charp why) { throw std::runtime_error(fmt::format("cannot encode a PNG: {}", why)); };
+        png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, nullptr);
+        info = png ? png_create_info_struct(png) : nullptr;
+        if (!info)
+            throw std::runtime_error("cannot encode a PNG: no memory");
+    }
+    PngWriter(const PngWriter&) = delete;
+    PngWriter& operator=(const PngWriter&) = delete;
+    ~PngWriter() { png_destroy_write_struct(&png, &info); }
+};
+
+/// Of a drawing: large areas of one colour. Without libpng's filters, which are for photographs.
+std::string png_of_drawing(cairo_surface_t* surface) {
+    cairo_surface_flush(surface);
+    const auto width = static_cast<png_uint_32>(cairo_image_surface_get_width(surface)),
+               height = static_cast<png_uint_32>(cairo_image_surface_get_height(surface));
+    const PngWriter writer;
+    std::string bytes;
+    png_set_write_fn(
+        writer.png, &bytes,
+        [](png_structp of, png_bytep data, std::size_t length) {
+            static_cast<std::string*>(png_get_io_ptr(of))->append(reinterpret_cast<const char*>(data), length);
+        },
+        nullptr);
+    png_set_IHDR(writer.png, writer.info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_filter(writer.png, 0, PNG_FILTER_NONE);
+    png_set_compression_level(writer.png, 4);
+    png_write_info(writer.png, writer.info);
+    png_set_bgr(writer.png);
+    png_set_filler(writer.png, 0, PNG_FILLER_AFTER);
+    for (png_uint_32 y = 0; y < height; ++y)
+        png_write_row(writer.png,
+                      cairo_image_surface_get_data(surface) + static_cast<std::ptrdiff_t>(y) * cairo_image_surface_get_stride(surface));
+    png_write_end(writer.png, writer.info);
     return bytes;
 }
 
@@ -79,7 +122,7 @@ std::string png_of_svg(const std::string& svg, double scale) {
     if (!rsvg_handle_render_document(handle.get(), context.get(), &viewport, &error))
         throw invalid_svg(error);
     check(cairo_status(context.get()), "cannot draw an SVG");
-    return png_of(surface.get());
+    return png_of_drawing(surface.get());
 }
 
 std::string base64(const std::string& bytes) {
