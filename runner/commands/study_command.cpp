@@ -127,6 +127,9 @@ void refuse_contradictions(const StudyFlags& flags) {
     const int ways = flags.explain + flags.plan + flags.play + flags.collect + flags.list;
     if (ways > 1)
         throw InputError({{}, 0, 0, "study"}, "found several of --list, --explain, --plan, --play and --collect", "one of them");
+    if (flags.executor != "local" && (ways > 0 || flags.timed))
+        throw InputError({{}, 0, 0, "--executor"}, "found beside --timed, --list, --explain, --plan, --play or --collect",
+                         "it without these");
     if (flags.timed && (ways > 0 || flags.jobs > 1))
         throw InputError({{}, 0, 0, "--timed"}, "found beside what plays several cells at a time or none",
                          "--timed by itself: cells are played one after another");

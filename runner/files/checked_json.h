@@ -22,6 +22,7 @@ class CheckedJson {
     std::vector<CheckedJson> items() const; ///< of a list
     bool has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
     std::vector<std::pair<std::string, std::string>> texts() const; ///< an object of texts, in the order of their names
+    std::size_t size() const { return value_->size(); }             ///< members of an object, items of a list
     bool is_null() const { return value_->is_null(); }
     std::string text() const;
     double number() const;

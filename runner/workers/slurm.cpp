@@ -132,8 +132,8 @@ std::string submit_array(const std::string& name, const std::vector<std::string>
     return id;
 }
 
-std::optional<std::map<std::pair<std::string, std::size_t>, std::string>> active_tasks(const std::vector<SlurmArray>& arrays) {
-    std::map<std::pair<std::string, std::size_t>, std::string> tasks;
+std::optional<SlurmTasks> active_tasks(const std::vector<SlurmArray>& arrays) {
+    SlurmTasks tasks;
     std::vector<std::string> names;
     for (const SlurmArray& array : arrays)
         names.push_back(array.name);
@@ -142,13 +142,14 @@ std::optional<std::map<std::pair<std::string, std::size_t>, std::string>> active
     const Answer answer = ask({"squeue", "--noheader", "--array",
                                "--states=PENDING,RUNNING,SUSPENDED,COMPLETING,CONFIGURING,REQUEUED,REQUEUE_HOLD,REQUEUE_FED,RESIZING,"
                                "SIGNALING,STAGE_OUT,STOPPED,SPECIAL_EXIT,RESV_DEL_HOLD",
-                               fmt::format("--name={}", fmt::join(names, ",")), "--format=%F %K %T"});
+                               fmt::format("--name={}", fmt::join(names, ",")), "--format=%F %K %T %r"});
     if (answer.code != 0)
         return std::nullopt;
     std::istringstream lines(answer.said);
-    for (std::string id, task, state; lines >> id >> task >> state;)
+    std::string id, task;
+    for (SlurmTask one; lines >> id >> task >> one.state && std::getline(lines >> std::ws, one.reason);)
         if (!task.empty() && task.find_first_not_of("0123456789") == std::string::npos)
-            tasks[{id, std::stoul(task)}] = state;
+            tasks[{id, std::stoul(task)}] = one;
     return tasks;
 }
 

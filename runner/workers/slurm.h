@@ -33,9 +33,13 @@ struct SlurmArray {
 std::string submit_array(const std::string& name, const std::vector<std::string>& commands, const SlurmResources& resources,
                          const std::filesystem::path& folder);
 
-/// States of the tasks that the controller knows and that have not ended, by array id and task: "RUNNING", "PENDING". nullopt where it does
+struct SlurmTask {
+    std::string state, reason; ///< "PENDING", "Resources"
+};
+/// The tasks that the controller knows and that have not ended, by array id and task. nullopt where it does
 /// not answer; then nothing is known of any task.
-std::optional<std::map<std::pair<std::string, std::size_t>, std::string>> active_tasks(const std::vector<SlurmArray>& arrays);
+using SlurmTasks = std::map<std::pair<std::string, std::size_t>, SlurmTask>;
+std::optional<SlurmTasks> active_tasks(const std::vector<SlurmArray>& arrays);
 
 /// The id of an array that is known by its name alone; "" where none is active. nullopt where the controller does not answer.
 std::optional<std::string> array_id(const std::string& name);

@@ -3,6 +3,7 @@
 #include "runner/experiments/study/study_progress.h"
 #include "runner/files/described_json.h"
 #include "runner/files/durable_files.h"
+#include "runner/files/log.h"
 #include "runner/findings/run_context.h"
 #include "runner/play/progress.h"
 #include "runner/workers/slurm.h"
@@ -60,6 +61,7 @@ class SlurmStudy {
         while (!open_.empty()) {
             if (Interruption::requested()) {
                 cancel_arrays({arrays_.begin(), arrays_.end()});
+                tell(LogLevel::warning, "interrupted: all jobs are cancelled; --resume goes on");
                 break;
             }
             wait();
@@ -88,7 +90,7 @@ class SlurmStudy {
                     wait();
                 }
         std::erase_if(arrays_, [](const Submitted& array) { return array.id.empty(); });
-        std::optional<std::map<std::pair<std::string, std::size_t>, std::string>> active;
+        std::optional<SlurmTasks> active;
         while (!arrays_.empty() && !Interruption::requested() && !(active = active_tasks({arrays_.begin(), arrays_.end()})))
             wait();
         for (const Submitted& array : arrays_)
@@ -135,6 +137,8 @@ class SlurmStudy {
         keep_record(); // before it is submitted: whatever happens in between, its name is known
         arrays_.back().id = submit_array(array.name, commands, resources(per), folder_);
         keep_record();
+        if (!options_.run.quiet)
+            tell(LogLevel::info, fmt::format("submitted {} tasks as job array {}", array.tasks, arrays_.back().id));
     }
 
     SlurmResources resources(std::size_t per) const {
@@ -163,7 +167,7 @@ class SlurmStudy {
     void end(const std::string& name, const std::string& failed) {
         outcome_[open_.at(name).index].failed = failed;
         open_.erase(name);
-        progress_.ended(name, std::chrono::duration<double>(Clock::now() - began_).count(), failed);
+        progress_.ended(name, 0.0, failed); // how long its task took is the cluster's affair
     }
 
     void look() {
@@ -185,9 +189,26 @@ class SlurmStudy {
                 lost.push_back(name);
         }
         submit(lost);
-        progress_.beat(
-            active ? static_cast<std::size_t>(std::ranges::count_if(*active, [](const auto& task) { return task.second == "RUNNING"; }))
-                   : 0);
+        tell_waiting(active);
+    }
+
+    /// Once a minute what is waited for, and why tasks do not begin.
+    void tell_waiting(const std::optional<SlurmTasks>& active) {
+        std::size_t running = 0, pending = 0;
+        std::string reason;
+        for (const auto& [task, what] : active.value_or(SlurmTasks())) {
+            ++(what.state == "PENDING" ? pending : running);
+            if (what.state == "PENDING" && reason.empty())
+                reason = what.reason;
+        }
+        progress_.beat(running);
+        if (std::chrono::duration<double>(Clock::now() - told_).count() < 60.0 || options_.run.quiet)
+            return;
+        told_ = Clock::now();
+        if (!active)
+            tell(LogLevel::warning, "the Slurm controller does not answer; still waiting");
+        else if (pending > 0)
+            tell(LogLevel::info, fmt::format("{} tasks running, {} pending ({})", running, pending, reason));
     }
 
     /// Of a cell without a task and without results. True where it is to be submitted again; one that failed is ended.
@@ -235,7 +256,7 @@ class SlurmStudy {
     SlurmPatience patience_;
     fs::path folder_, record_;
     std::size_t most_;
-    Clock::time_point began_ = Clock::now();
+    Clock::time_point began_ = Clock::now(), told_ = Clock::now();
     std::vector<Submitted> arrays_;
     std::map<std::string, Open> open_;
     std::map<std::size_t, PlayedInWorker> outcome_;

@@ -59,7 +59,9 @@ void StudyProgress::ended(const std::string& cell, double seconds, const std::st
     if (!failed.empty())
         fields.emplace_back("why", failed);
     tell(LogLevel::info,
-         fmt::format("cell {}: {}; {}", cell, failed.empty() ? fmt::format("{:.1f} s", seconds) : "failed: " + failed, state()), fields);
+         fmt::format("cell {}: {}; {}", cell,
+                     failed.empty() ? (seconds > 0.0 ? fmt::format("{:.1f} s", seconds) : "done") : "failed: " + failed, state()),
+         fields);
 }
 
 } // namespace fernlicht

@@ -52,18 +52,25 @@ std::vector<LampComparison> compare_lamp_files(const Study& study) {
 constexpr const char* plan_schema = "fernlicht plan";
 
 /// The keys of a study's cells, so that it is known later what was begun.
-std::string plan_text(const StudyPlan& plan) {
+std::string plan_text(const Study& study, const StudyPlan& plan) {
     nlohmann::ordered_json cells = nlohmann::ordered_json::object();
     for (const PlannedCell& one : plan.cells)
         cells[one.cell.name] = one.key;
-    return nlohmann::ordered_json{{"schema", plan_schema}, {"schema_version", 1}, {"cells", cells}}.dump(1) + "\n";
+    return nlohmann::ordered_json{{"schema", plan_schema}, {"schema_version", 1}, {"study", study.name}, {"cells", cells}}.dump(1) + "\n";
 }
 
 /// Before a study is gone on with: what was begun is what is asked for now.
-void refuse_other_cells(const StudyPlan& plan, const fs::path& folder) {
+void refuse_other_cells(const Study& study, const StudyPlan& plan, const fs::path& folder) {
     const CheckedJson begun = CheckedJson::read(folder / "plan.json");
     begun.expect_schema(plan_schema, 1);
+    if (const std::string name = begun.at("study").text(); name != study.name)
+        throw InputError({folder, 0, 0, "--resume"}, fmt::format("holds study '{}'", printable(name)),
+                         "the folder of '" + printable(study.name) + "'");
     const CheckedJson cells = begun.at("cells");
+    if (cells.size() != plan.cells.size())
+        throw InputError({folder, 0, 0, "--resume"},
+                         fmt::format("was begun with {} cells, and {} are asked for now", cells.size(), plan.cells.size()),
+                         "the same --only as then, or a new folder");
     for (const PlannedCell& one : plan.cells)
         if (cells.has(one.cell.name) && cells.at(one.cell.name).text() != one.key)
             throw InputError({folder / "cells" / one.cell.name, 0, 0, "--resume"},
@@ -71,7 +78,7 @@ void refuse_other_cells(const StudyPlan& plan, const fs::path& folder) {
 }
 
 /// A new folder, or with --resume that of a study that was stopped, or of one that ended, whose report is then written anew.
-OutputFolder folder_for(const StudyPlan& plan, const StudyOptions& options) {
+OutputFolder folder_for(const Study& study, const StudyPlan& plan, const StudyOptions& options) {
     const bool begun = fs::is_regular_file(options.folder / "plan.json");
     if (!options.resume && begun && is_marked_incomplete(options.folder))
         throw InputError({options.folder, 0, 0, "--out"}, "holds a study that did not end",
@@ -79,7 +86,7 @@ OutputFolder folder_for(const StudyPlan& plan, const StudyOptions& options) {
     if (!options.resume)
         return OutputFolder(options.folder);
     if (begun)
-        refuse_other_cells(plan, options.folder);
+        refuse_other_cells(study, plan, options.folder);
     if (is_marked_incomplete(options.folder) || !begun)
         return OutputFolder::left_incomplete(options.folder);
     write_file(options.folder / "INCOMPLETE", "This study's report is being written anew.\n");
@@ -268,8 +275,8 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
     const std::vector<std::size_t> to_play = lacking(store, plan);
     if (!options.timed && !to_play.empty())
         refuse_unwritable(store);
-    OutputFolder folder = folder_for(plan, options);
-    write_file(options.folder / "plan.json", plan_text(plan));
+    OutputFolder folder = folder_for(study, plan, options);
+    write_file(options.folder / "plan.json", plan_text(study, plan));
     const Interruption listening;
     if (options.timed) {
         play_all_timed(study, plan, options, result);
@@ -295,8 +302,8 @@ StudyResult collect_study(const Study& study, const StudyOptions& options) {
     const StudyPlan plan = plan_study(study, options);
     StudyResult result = begun_study(study, plan, options);
     const CellStore store(options.store);
-    OutputFolder folder = folder_for(plan, options);
-    write_file(options.folder / "plan.json", plan_text(plan));
+    OutputFolder folder = folder_for(study, plan, options);
+    write_file(options.folder / "plan.json", plan_text(study, plan));
     Telling telling(study, plan, options);
     for (const PlannedCell& one : plan.cells) {
         CellResult& cell = result.cells.emplace_back(unplayed_cell(study, plan, one, options));

@@ -63,7 +63,7 @@ TEST(WorkerPoolMemory, DISABLED_Takes300MiB) {
 
 TEST_F(WorkerPoolTest, OneThatTakesTooMuchMemoryFailsAlone) {
     pool.limits.memory_mib = 200;
-    const std::string taker = std::filesystem::read_symlink("/proc/self/exe").string() +
+    const std::string taker = "env -u GTEST_TOTAL_SHARDS -u GTEST_SHARD_INDEX " + std::filesystem::read_symlink("/proc/self/exe").string() +
                               " --gtest_also_run_disabled_tests --gtest_filter=WorkerPoolMemory.DISABLED_Takes300MiB";
 #if defined(__SANITIZE_ADDRESS__)
     GTEST_SKIP() << "AddressSanitizer needs more than any limit";
