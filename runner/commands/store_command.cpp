@@ -67,8 +67,9 @@ int list_store(const StoreFlags& flags) {
 int verify(const StoreFlags& flags) {
     const std::vector<StoreDamage> damage = verify_store(store_of(flags));
     for (const StoreDamage& one : damage)
-        fmt::print("taken out: {}: {}\n", one.what, one.why);
-    fmt::print("{}\n", damage.empty() ? "all is whole" : fmt::format("{} of it was damaged", damage.size()));
+        fmt::print("removed {}: {}\n", one.what, one.why);
+    fmt::print("{}\n", damage.empty() ? "nothing is damaged"
+                                      : fmt::format("{} damaged parts were removed; studies play those cells again", damage.size()));
     return damage.empty() ? 0 : 1;
 }
 

@@ -216,7 +216,8 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     add_trace_flag(*sub, flags->trace);
     sub->add_flag("--list", flags->list, "list the cells and play none");
     sub->add_option("--store", flags->store, "folder where played cells are kept (default: $XDG_CACHE_HOME/fernlicht/store)");
-    sub->add_option("--jobs", flags->jobs, "cells to play at a time (default: one for each core that draws)")->check(CLI::Range(1, 1024));
+    sub->add_option("--jobs", flags->jobs, "cells to play at a time (default: one per core; with a GPU at most 4)")
+        ->check(CLI::Range(1, 1024));
     sub->add_flag("--timed", flags->timed, "play cells one after another by themselves and take times; take none from the store");
     sub->add_option("--cell-minutes", flags->cell_minutes, "stop a cell that takes longer (default: the study's resources)")
         ->check(CLI::Range(0.001, 1e5));

@@ -144,11 +144,11 @@ std::string CellStore::refuses_writing() const {
     return {};
 }
 
-fs::path CellStore::new_workplace(const std::string& key) const {
+Workplace CellStore::new_workplace(const std::string& key) const {
     static std::atomic<unsigned> made{0};
     const fs::path folder = folder_ / "playing" / fmt::format("{}-{}-{}", key, ::getpid(), ++made);
     make_folder(folder.parent_path());
-    return folder;
+    return Workplace(folder);
 }
 
 } // namespace fernlicht

@@ -20,6 +20,18 @@ struct StoredCell {
     std::vector<std::pair<std::string, std::string>> files; ///< names and hashes of input files that are kept beside it
 };
 
+/// A folder that is removed with all that is in it when this goes.
+struct Workplace {
+    std::filesystem::path folder;
+    explicit Workplace(std::filesystem::path at) : folder(std::move(at)) {}
+    Workplace(const Workplace&) = delete;
+    Workplace& operator=(const Workplace&) = delete;
+    ~Workplace() {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder, ignored);
+    }
+};
+
 /// `$XDG_CACHE_HOME/fernlicht/store`, else `~/.cache/fernlicht/store`; throws InputError that names --store where there is neither.
 std::filesystem::path default_store();
 
@@ -47,7 +59,7 @@ class CellStore {
     /// Why nothing can be kept here; "" where it can. Tries it.
     std::string refuses_writing() const;
     /// A folder of its own for a cell that is being played, on the store's disk.
-    std::filesystem::path new_workplace(const std::string& key) const;
+    Workplace new_workplace(const std::string& key) const;
 
   private:
     std::filesystem::path entry_path(const std::string& key) const;

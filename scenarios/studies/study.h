@@ -69,7 +69,7 @@ struct Study {
 template <class Struct> struct Fields;
 const Fields<Study>& study_fields(); ///< the keys of its file
 
-/// docs/cluster.md says what so many need.
+/// Planning reads every drive once, some 40 ms each.
 inline constexpr std::size_t max_study_cells = 100'000;
 
 /// One thing that is played: a drive with one lamp set in one technique under one condition.

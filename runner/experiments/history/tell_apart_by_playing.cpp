@@ -29,17 +29,6 @@ std::vector<std::string> hashes_of(const CellInputs& inputs, InputKind kind) {
     return hashes;
 }
 
-struct Removed {
-    fs::path folder;
-    explicit Removed(fs::path at) : folder(std::move(at)) {}
-    Removed(const Removed&) = delete;
-    Removed& operator=(const Removed&) = delete;
-    ~Removed() {
-        std::error_code ignored;
-        fs::remove_all(folder, ignored);
-    }
-};
-
 /// In the study's lamp, where its file's content is that of `today`.
 bool put_back(StudyLamp& lamp, const CellInput& today, const fs::path& earlier) {
     bool found = false;
@@ -55,7 +44,7 @@ bool put_back(StudyLamp& lamp, const CellInput& today, const fs::path& earlier) 
 
 Replayed with_earlier_lamps(const Study& study, const StudyOptions& options, const CellRequest& request) {
     const CellStore store(options.store);
-    const Removed place(store.new_workplace("before"));
+    const Workplace place = store.new_workplace("before");
     StudyOptions one = options;
     one.only = {request.cell};
     one.expected.clear();

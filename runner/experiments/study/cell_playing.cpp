@@ -38,18 +38,6 @@ RunOptions run_options(const StudyOptions& options, const fs::path& folder) {
     return run;
 }
 
-/// Whatever happens, nothing of it stays.
-struct Workplace {
-    fs::path folder;
-    explicit Workplace(fs::path at) : folder(std::move(at)) {}
-    Workplace(const Workplace&) = delete;
-    Workplace& operator=(const Workplace&) = delete;
-    ~Workplace() {
-        std::error_code ignored;
-        fs::remove_all(folder, ignored);
-    }
-};
-
 FilesRead inputs_of(const Report& report, const PlannedCell& planned) {
     FilesRead inputs = report.context.inputs;
     add_inputs(inputs, *planned.road);
@@ -89,7 +77,7 @@ double physical_memory_mib() {
 bool play_into(const CellStore& store, const Study& study, const StudyPlan& plan, const PlannedCell& planned, const StudyOptions& options) {
     TraceSpan span("cell", "study");
     tell_cell(span, planned);
-    const Workplace place(store.new_workplace(planned.key));
+    const Workplace place = store.new_workplace(planned.key); // whatever happens, nothing of it stays
     RunOptions run = run_options(options, place.folder);
     run.no_times = no_times_beside_others;
     const Report report = run_drives({unjudged_drive(study, planned.cell)}, run);

@@ -188,8 +188,8 @@ std::vector<std::size_t> lacking(const CellStore& store, const StudyPlan& plan) 
 
 void refuse_unwritable(const CellStore& store) {
     if (const std::string why = store.refuses_writing(); !why.empty())
-        throw DeviceError(
-            fmt::format("the store of cells cannot be written ({}), and cells are lacking; --store names another folder", why));
+        throw DeviceError(fmt::format(
+            "the store of cells cannot be written ({}), and some cells must be played; choose another folder with --store", why));
 }
 
 /// From the store, in the order of the plan. What turns out to be damaged there is played once more.
