@@ -36,7 +36,9 @@ struct PlaceChange {
     std::string not_measured;             ///< why there is no change; "" where there is one
 
     /// 0.05: 5 % brighter.
-    std::optional<double> change() const { return not_measured.empty() ? std::optional(*new_cd / *old_cd - 1.0) : std::nullopt; }
+    std::optional<double> change() const {
+        return not_measured.empty() && old_cd && new_cd ? std::optional(*new_cd / *old_cd - 1.0) : std::nullopt;
+    }
 };
 
 /// One of the two lamps. `source`: which stored sample each one of the table is, as ResidualGrid has it.

@@ -66,7 +66,7 @@ double median_of(const std::vector<double>& times, std::size_t first, std::size_
 }
 
 /// Of a series, not yet known to have one level.
-struct Part {
+struct SeriesPart {
     std::size_t series = 0, first = 0, end = 0;
 };
 
@@ -118,15 +118,15 @@ std::vector<bool> discoveries(const std::vector<double>& p, double rate) {
 }
 
 std::vector<SeriesChange> change_points(const std::vector<std::vector<double>>& series, double rate) {
-    std::vector<Part> parts;
+    std::vector<SeriesPart> parts;
     for (std::size_t i = 0; i < series.size(); ++i)
         parts.push_back({i, 0, series[i].size()});
     std::vector<SeriesChange> found;
     while (!parts.empty()) {
-        std::vector<Part> tested;
+        std::vector<SeriesPart> tested;
         std::vector<ChangePoint> changes;
         std::vector<double> p;
-        for (const Part& part : parts) {
+        for (const SeriesPart& part : parts) {
             const std::vector<double>& all = series[part.series];
             const std::vector<double> times(all.begin() + static_cast<std::ptrdiff_t>(part.first),
                                             all.begin() + static_cast<std::ptrdiff_t>(part.end));

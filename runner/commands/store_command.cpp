@@ -79,7 +79,7 @@ int prune(const StoreFlags& flags) {
     Pruning pruning{{}, {}, flags.study, flags.dry};
     if (!flags.older_than.empty())
         pruning.older_than_s = number_with_unit("--older-than", flags.older_than, {{"d", 86400.0}, {"h", 3600.0}, {"min", 60.0}},
-                                                "a number of d, h or min: 30d");
+                                                "a number with its unit, d, h or min: 30d");
     if (!flags.at_most.empty())
         pruning.at_most_bytes = static_cast<std::uint64_t>(
             number_with_unit("--at-most", flags.at_most, {{"MiB", 1048576.0}, {"GiB", 1073741824.0}, {"TiB", 1099511627776.0}},

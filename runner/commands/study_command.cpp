@@ -49,7 +49,7 @@ int list_cells(const std::vector<StudyCell>& cells) {
 /// The page last: a disk that fills up takes it before it takes the numbers.
 void write_study(const StudyResult& result, const std::filesystem::path& folder, const std::optional<HistoryFindings>& history) {
     const Document paper = study_paper(result);
-    write_file(folder / "study.json", json_text(as_json(result, study_members)));
+    write_json(folder / "study.json", result, study_members);
     write_file(folder / "study.csv", study_csv(result));
     std::vector<std::string> papers;
     for (const OutputFormat& format : output_formats())
@@ -130,6 +130,18 @@ void refuse_contradictions(const StudyFlags& flags) {
     if (flags.executor != "local" && (ways > 0 || flags.timed))
         throw InputError({{}, 0, 0, "--executor"}, "found beside --timed, --list, --explain, --plan, --play or --collect",
                          "it without these");
+    const auto refuse_without = [](bool is_there, bool may_be, const char* flag, const char* needs) {
+        if (is_there && !may_be)
+            throw InputError({{}, 0, 0, flag}, std::string("found without ") + needs, "it beside that flag alone");
+    };
+    const bool slurm = flags.executor == "slurm";
+    refuse_without(!flags.partition.empty(), slurm, "--partition", "--executor slurm");
+    refuse_without(!flags.gpus.empty(), slurm, "--gpus", "--executor slurm");
+    refuse_without(flags.per > 1, slurm || flags.plan, "--per", "--plan or --executor slurm");
+    refuse_without(!flags.expect.empty(), flags.play, "--expect", "--play");
+    if (!flags.out.empty() && ways > 0 && !flags.collect)
+        throw InputError({{}, 0, 0, "--out"}, "found beside --list, --explain, --plan or --play, which write no report",
+                         "it without these");
     if (flags.timed && (ways > 0 || flags.jobs > 1))
         throw InputError({{}, 0, 0, "--timed"}, "found beside what plays several cells at a time or none",
                          "--timed by itself: cells are played one after another");
@@ -158,6 +170,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     options.folder = result_folder(flags.out, study.name);
     options.store = flags.store.empty() && !flags.timed ? default_store() : std::filesystem::path(flags.store);
     options.timed = flags.timed;
+    options.times_too = !flags.history.empty();
     options.jobs = flags.jobs;
     options.resources = resources_of(flags, study);
     options.executor = flags.executor == "slurm" ? StudyExecutor::slurm : StudyExecutor::local;

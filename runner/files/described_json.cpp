@@ -1,6 +1,9 @@
 #include "runner/files/described_json.h"
 
+#include "scenarios/values/files.h"
+
 #include <algorithm>
+#include <utility>
 
 namespace fernlicht {
 namespace {
@@ -87,6 +90,53 @@ JsonPart::JsonPart(JsonMembers members)
               }
               return Json{{"type", "object"}, {"additionalProperties", false}, {"required", required}, {"properties", properties}};
           }) {}
+
+namespace {
+
+/// A list as the value of a member; what is finished of the text goes to `take`.
+void append_items(std::string& out, const JsonPart& list, const TakePiece& take) {
+    Json first = Json::array();
+    bool is_long = false;
+    const auto add = [&](const Json& item, const char* before) {
+        out += before;
+        out += "\n    ";
+        append_json(out, item, 2);
+        take(out);
+        out.clear();
+    };
+    list.each([&](Json item) {
+        if (is_long)
+            return add(item, ",");
+        first.push_back(std::move(item));
+        is_long = takes_lines(first);
+        for (std::size_t i = 0; is_long && i < first.size(); ++i)
+            add(first[i], i == 0 ? "[" : ",");
+    });
+    if (is_long)
+        out += "\n  ]";
+    else
+        append_json(out, first, 1);
+}
+
+} // namespace
+
+void write_json(const std::filesystem::path& file, const JsonMembers& members) {
+    write_file(file, [&](const TakePiece& take) {
+        std::string out;
+        bool is_first = true;
+        for (const auto& [key, part] : members)
+            if (part.is_there) {
+                out += (is_first ? "{\n  " : ",\n  ") + json_quoted(key) + ": ";
+                is_first = false;
+                if (part.each)
+                    append_items(out, part, take);
+                else
+                    append_json(out, part.write(), 1);
+                take(std::exchange(out, {}));
+            }
+        take("\n}\n");
+    });
+}
 
 JsonMembers when(bool there, JsonMembers members) {
     for (JsonMember& member : members)

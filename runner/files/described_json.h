@@ -31,6 +31,7 @@ struct JsonPart {
     std::function<Json()> write;
     std::function<void(const CheckedJson&)> read;
     std::function<Json()> schema;
+    std::function<void(const std::function<void(Json)>&)> each = {}; ///< of a list: what `write` has, item by item
     bool is_there = true;
     bool may_lack = false; ///< left out where it is not there
     int turn = 0;          ///< 0, 1 or 2: read after all members of an earlier one
@@ -58,6 +59,7 @@ template <class T, class... Inner> JsonPart json_part(T&& value, Inner... inner)
         JsonPart part = json_part(*own, inner...);
         part.write = [own, write = part.write] { return write(); };
         part.read = nullptr;
+        part.each = nullptr;
         return part;
     } else if constexpr ((std::is_invocable_v<Inner, T> || ...)) {
         return JsonPart(inner(value)...);
@@ -73,25 +75,30 @@ template <class T, class... Inner> JsonPart json_part(T&& value, Inner... inner)
                     return nullable(json_part(one, inner...).schema());
                 }};
     } else if constexpr (!requires { json_leaf(value); }) {
-        return {[&value, inner...] {
-                    Json list = Json::array();
-                    for (auto& element : value)
-                        list.push_back(json_part(element, inner...).write());
-                    return list;
-                },
-                [&value, inner...](const CheckedJson& json) {
-                    const std::vector<CheckedJson> items = json.items();
-                    if constexpr (requires { value.resize(0); })
-                        value = Plain(items.size());
-                    else if (items.size() != value.size())
-                        json.refuse(std::to_string(value.size()) + " elements");
-                    for (std::size_t i = 0; i < items.size(); ++i)
-                        json_part(value[i], inner...).read(items[i]);
-                },
-                [inner...] {
-                    typename Plain::value_type one{};
-                    return Json{{"type", "array"}, {"items", json_part(one, inner...).schema()}};
-                }};
+        const auto each = [&value, inner...](const std::function<void(Json)>& take) {
+            for (auto& element : value)
+                take(json_part(element, inner...).write());
+        };
+        JsonPart part{[each] {
+                          Json list = Json::array();
+                          each([&](Json item) { list.push_back(std::move(item)); });
+                          return list;
+                      },
+                      [&value, inner...](const CheckedJson& json) {
+                          const std::vector<CheckedJson> items = json.items();
+                          if constexpr (requires { value.resize(0); })
+                              value = Plain(items.size());
+                          else if (items.size() != value.size())
+                              json.refuse(std::to_string(value.size()) + " elements");
+                          for (std::size_t i = 0; i < items.size(); ++i)
+                              json_part(value[i], inner...).read(items[i]);
+                      },
+                      [inner...] {
+                          typename Plain::value_type one{};
+                          return Json{{"type", "array"}, {"items", json_part(one, inner...).schema()}};
+                      }};
+        part.each = each;
+        return part;
     } else
         return json_leaf(value);
 }
@@ -183,6 +190,11 @@ template <class E, class Name> auto names_of(Name name, int count) {
 
 template <class T, class... Inner> nlohmann::ordered_json as_json(const T& value, Inner... inner) {
     return json_part(const_cast<T&>(value), inner...).write(); // which only looks at it
+}
+/// The file has the text that json_text() has of as_json(); of each long list, one item at a time is in memory.
+void write_json(const std::filesystem::path& file, const JsonMembers& members);
+template <class T> void write_json(const std::filesystem::path& file, const T& value, JsonMembers (*members)(T&)) {
+    write_json(file, members(const_cast<T&>(value))); // as above
 }
 /// Throws InputError for what is no such value, with its place.
 template <class T, class... Inner> T from_json(const CheckedJson& json, Inner... inner) {

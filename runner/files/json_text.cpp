@@ -26,7 +26,9 @@ std::size_t at_least(const Json& value) {
     return sum;
 }
 
-void append(std::string& out, const Json& value, std::size_t depth) {
+} // namespace
+
+void append_json(std::string& out, const Json& value, std::size_t depth) {
     if (!value.is_structured() || value.empty() || is_plain_array(value)) {
         out += compact(value);
         return;
@@ -44,18 +46,18 @@ void append(std::string& out, const Json& value, std::size_t depth) {
         first = false;
         if (value.is_object())
             out += compact(Json(item.key())) + ": ";
-        append(out, *item, depth + 1);
+        append_json(out, *item, depth + 1);
     }
     out += "\n" + std::string(2 * depth, ' ') + (value.is_array() ? "]" : "}");
 }
 
-} // namespace
+bool takes_lines(const Json& list) { return !is_plain_array(list) && at_least(list) > line_characters; }
 
 std::string json_quoted(const std::string& text) { return compact(Json(text)); }
 
 std::string json_text(const Json& value) {
     std::string out;
-    append(out, value, 0);
+    append_json(out, value, 0);
     return out + "\n";
 }
 

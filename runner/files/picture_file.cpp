@@ -1,7 +1,10 @@
 #include "runner/files/picture_file.h"
 
 #include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
+#include "scenarios/values/picture_decoding.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
 #include <array>
@@ -175,12 +178,15 @@ std::vector<PictureChannel> read_exr(const std::filesystem::path& path) {
     const auto refuse = [&](const std::string& found) {
         throw InputError({path, 0, 0, {}}, "cannot be read: " + printable(found, 200), "an EXR picture");
     };
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
-    if (!input)
-        refuse(OIIO::geterror());
-    if (std::string_view(input->format_name()) != "openexr")
-        refuse(std::string("is ") + input->format_name());
-    const OIIO::ImageSpec spec = input->spec();
+    FilesRead opened;
+    std::string bytes = read_file(path, opened, std::size_t{1} << 30, true);
+    if (!has_whole_exr_header(bytes))
+        refuse("it is no EXR, ends early or is damaged");
+    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create("openexr");
+    OIIO::ImageSpec spec;
+    if (!input || !input->set_ioproxy(&memory) || !input->open(path.string(), spec))
+        refuse(input ? input->geterror() : OIIO::geterror());
     if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 ||
         spec.image_pixels() * static_cast<OIIO::imagesize_t>(spec.nchannels) > (OIIO::imagesize_t{1} << 28))
         refuse("it claims " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels of " +

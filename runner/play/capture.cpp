@@ -8,9 +8,15 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
+#include <oneapi/tbb/global_control.h>
 #include <optional>
 
 namespace fernlicht {
+
+bool has_core_beside_drawing() {
+    using oneapi::tbb::global_control;
+    return std::thread::hardware_concurrency() > 1 && global_control::active_value(global_control::max_allowed_parallelism) > 1;
+}
 
 Writers::Writers(int threads, std::size_t max_waiting) : max_waiting_(max_waiting) {
     for (int i = 0; i < threads; ++i)
@@ -53,6 +59,10 @@ void Writers::work() {
 }
 
 void Writers::submit(std::function<void()> job) {
+    if (threads_.empty()) {
+        job();
+        return;
+    }
     std::unique_lock lock(mutex_);
     std::optional<TraceSpan> waiting;
     if (waiting_.size() >= max_waiting_)

@@ -13,10 +13,13 @@
 
 namespace fernlicht {
 
-/// A bounded queue of things to write. Memory stays constant: submit() waits while the queue is full.
+/// Whether this process has a core for work beside drawing: false on a machine of one core, and where oneTBB was told to use one alone.
+bool has_core_beside_drawing();
+
+/// A bounded queue of things to write. Memory stays constant: submit() waits while the queue is full. Of no threads: submit() writes.
 class Writers {
   public:
-    explicit Writers(int threads = 1, std::size_t max_waiting = 8);
+    explicit Writers(int threads = has_core_beside_drawing() ? 1 : 0, std::size_t max_waiting = 8);
     ~Writers(); ///< waits for what is queued; an error that nobody asked for is dropped
 
     /// Throws what an earlier job threw.

@@ -94,8 +94,8 @@ class Pictures {
     std::size_t captured_ = 0;                         ///< moments until now
 };
 
-/// Measures moments by other threads while the next ones are drawn. Rows stand in the order of the moments, and an error comes out of the
-/// add() or finish() that meets it. Memory stays constant: add() waits while too many moments are waiting.
+/// Measures moments by other threads while the next ones are drawn, where there is a core for that. Rows stand in the order of the moments,
+/// and an error comes out of the add() or finish() that meets it. Memory stays constant: add() waits while too many moments are waiting.
 class Measuring {
   public:
     Measuring(const ExtentFold& fold, std::vector<ExtentRow>& rows)
@@ -104,8 +104,9 @@ class Measuring {
     void add(ExtentDrawing drawing) {
         if (waiting_.size() == max_waiting_)
             join_first();
-        waiting_.push_back(std::async(std::launch::async, [this, drawing = std::move(drawing)] {
-            name_traced_thread("measuring");
+        waiting_.push_back(std::async(how_, [this, drawing = std::move(drawing)] {
+            if (how_ == std::launch::async)
+                name_traced_thread("measuring");
             return fold_.measure(drawing);
         }));
     }
@@ -124,6 +125,7 @@ class Measuring {
 
     const ExtentFold& fold_;
     std::vector<ExtentRow>& rows_;
+    std::launch how_ = has_core_beside_drawing() ? std::launch::async : std::launch::deferred;
     std::size_t max_waiting_;
     std::deque<std::future<ExtentRow>> waiting_; ///< each waits for its thread when it is destroyed
 };

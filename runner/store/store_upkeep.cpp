@@ -73,6 +73,7 @@ std::vector<StoreDamage> verify_store(const CellStore& store) {
             continue;
         damage.push_back({sentence_name(cell), "its results are missing or damaged; it is played again when it is asked for"});
         store.forget(cell.key);
+        store.note_failure(cell.key, "its results in the store were damaged");
     }
     for (const fs::path& path : files_of(store.folder() / "cells"))
         if (path.extension() == ".json" && !whole.contains(path.parent_path().filename().string() + path.stem().string())) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -107,6 +108,7 @@ std::string submit_array(const std::string& name, const std::vector<std::string>
     write_durably(script, fmt::format("#!/bin/sh\n# Line SLURM_ARRAY_TASK_ID + 1 of the list is this task's command, quoted for a shell.\n"
                                       "command=$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" {})\neval \"exec $command\"\n",
                                       quoted_for_shell(list.string())));
+    const auto seconds = static_cast<long>(std::ceil(60.0 * resources.minutes));
     std::vector<std::string> words{
         "sbatch",
         "--parsable",
@@ -115,7 +117,7 @@ std::string submit_array(const std::string& name, const std::vector<std::string>
         fmt::format("--array=0-{}{}", commands.size() - 1, resources.at_once > 0 ? fmt::format("%{}", resources.at_once) : ""),
         fmt::format("--output={}", (fs::absolute(folder) / (name + "-%a.log")).string()),
         "--open-mode=append",
-        fmt::format("--time={}", static_cast<int>(resources.minutes + 0.999)),
+        fmt::format("--time={}:{:02}", seconds / 60, seconds % 60),
         fmt::format("--cpus-per-task={}", resources.cores),
         "--export=ALL"};
     if (resources.memory_mib > 0)

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fstream>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -29,6 +31,8 @@ constexpr auto look_every = std::chrono::milliseconds(5);
 struct Worker {
     std::size_t index = 0;
     ::pid_t pid = -1;
+    int printed = -1; ///< a file in memory: a disk that is full loses no message
+    std::filesystem::path log;
     Clock::time_point started, asked;
     bool timed_out = false, ended_by_us = false;
 };
@@ -82,20 +86,21 @@ std::vector<std::string> environment_with(const std::vector<std::string>& more) 
 }
 
 Worker start_worker(std::size_t index, WorkerCommand command, const WorkerLimits& limits) {
-    const int log = ::open(command.log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    if (log < 0)
-        throw DeviceError(command.log.string() + ": cannot be written: " + std::generic_category().message(errno));
+    const int printed = ::memfd_create("printed", MFD_CLOEXEC);
+    if (printed < 0)
+        throw DeviceError("no process can be started: " + std::generic_category().message(errno));
     std::vector<std::string> environment = environment_with(command.environment);
     const std::vector<char*> words = pointers_of(command.words), variables = pointers_of(environment);
     const std::string program = command.program.empty() ? command.words.front() : command.program.string();
     const ::pid_t parent = ::getpid();
-    Worker worker{index, ::fork(), Clock::now(), {}, false, false};
+    Worker worker{index, ::fork(), printed, std::move(command.log), Clock::now(), {}, false, false};
     if (worker.pid == 0)
-        become(program.c_str(), words.data(), variables.data(), log, limits, parent);
-    const int error = errno;
-    ::close(log);
-    if (worker.pid < 0)
+        become(program.c_str(), words.data(), variables.data(), printed, limits, parent);
+    if (worker.pid < 0) {
+        const int error = errno;
+        ::close(printed);
         throw DeviceError("no process can be started: " + std::generic_category().message(error));
+    }
     ::setpgid(worker.pid, worker.pid); // here too: whoever is first
     return worker;
 }
@@ -111,6 +116,18 @@ void end_worker(Worker& worker, double patience_s) {
         send(worker, SIGKILL);
 }
 
+/// Into its log, and the last line of it.
+std::string take_printed(const Worker& worker) {
+    std::string text(static_cast<std::size_t>(std::max<::off_t>(0, ::lseek(worker.printed, 0, SEEK_END))), '\0');
+    text.resize(static_cast<std::size_t>(std::max<::ssize_t>(0, ::pread(worker.printed, text.data(), text.size(), 0))));
+    ::close(worker.printed);
+    if (!text.empty())
+        std::ofstream(worker.log, std::ios::app | std::ios::binary) << text;
+    while (text.ends_with('\n'))
+        text.pop_back();
+    return text.substr(text.rfind('\n') + 1);
+}
+
 /// True where it ended.
 bool look_after(Worker& worker, const WorkerPool& pool, bool going_on, WorkerEnd& end) {
     int status = 0;
@@ -124,6 +141,7 @@ bool look_after(Worker& worker, const WorkerPool& pool, bool going_on, WorkerEnd
         return false;
     }
     send(worker, SIGKILL); // what it left running
+    end.said = take_printed(worker);
     end.seconds = since(worker.started);
     end.cpu_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
     end.peak_memory_mib = static_cast<double>(usage.ru_maxrss) / 1024.0;
@@ -145,6 +163,7 @@ struct Workers {
         for (const Worker& worker : all) {
             send(worker, SIGKILL);
             ::waitpid(worker.pid, nullptr, 0);
+            ::close(worker.printed);
         }
     }
 };

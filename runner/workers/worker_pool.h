@@ -13,7 +13,7 @@ struct WorkerCommand {
     std::vector<std::string> words;       ///< the first is what it is called by
     std::filesystem::path program;        ///< what is started; "": the first word, a path
     std::vector<std::string> environment; ///< "NAME=value", beside that of this process
-    std::filesystem::path log;            ///< takes what it prints, of a run before too
+    std::filesystem::path log;            ///< takes what it prints when it ended, behind what is there
 };
 
 struct WorkerLimits {
@@ -27,6 +27,7 @@ struct WorkerEnd {
     int code = 0; ///< of exit, or the signal
     double seconds = 0.0, cpu_s = 0.0;
     double peak_memory_mib = 0.0; ///< resident
+    std::string said;             ///< the last line that it printed, also where a full disk did not take the log
 };
 /// "ended with exit code 3", "was killed by SIGSEGV", "was stopped after 600 s, its limit of time"; with what it says of memory.
 std::string ending_text(const WorkerEnd& end, const WorkerLimits& limits);

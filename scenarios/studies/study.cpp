@@ -6,6 +6,7 @@
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/studies/axes_on_drive.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/glob.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -123,7 +124,7 @@ double aim_percent(const YamlEntry& entry) { return entry.number(-10.0, 10.0); }
 double voltage_v(const YamlEntry& entry) { return entry.number(12.0, 13.8); }
 bool is_mirrored(const YamlEntry& entry) { return entry.flag(); }
 std::string technique_name(const YamlEntry& entry) { return entry.name(); }
-std::string reading_name(const YamlEntry& entry) { return entry.text(); }
+std::string name_or_pattern(const YamlEntry& entry) { return entry.text(); }
 
 const Fields<StudyConditions>& condition_fields() {
     using Conditions = StudyConditions;
@@ -264,7 +265,7 @@ const Fields<Study>& study_fields() {
         form<Study>("compare", FieldKind::list, names(0, max_entries), "all with the first by default", read_comparisons)
             .of(comparison_fields()),
         field("measure", 5, &Study::measure, seeing_fields(), "in every drive that does not ask itself"),
-        values_form("decide", &Study::decide, reading_name, false, text,
+        values_form("decide", &Study::decide, name_or_pattern, false, text,
                     "readings that decide, by name or pattern, the most important first"),
         list("limits", 6, &Study::limits, 0, max_entries, study_limit_fields(), "beyond these the study fails").read_by(read_study_limits),
         field("pictured_moments", 7, &Study::pictured_moments, range(1.0, 12.0), "stored moments of each cell"),
@@ -272,12 +273,25 @@ const Fields<Study>& study_fields() {
                     read_study_resolution)
             .schema_by(R"({"type": "array", "minItems": 2, "maxItems": 2,
                 "items": {"type": "integer", "minimum": 1, "maximum": 16384}})"),
+        values_form("timed_cells", &Study::timed_cells, name_or_pattern, false, text,
+                    "with --history: cells, by name or pattern, that are also played by themselves for their times"),
         field("resources", 8, &Study::resources, study_resources_fields(), "what each cell may take of the machine that plays it"),
         form<Study>("lamp_noise_percent", FieldKind::number, range(0.0, 100.0), "standard deviation of the lamps' intensities",
                     [](const YamlEntry& entry, Study& study) { study.noise_relative = entry.number(0.0, 100.0) / 100.0; }),
     };
     return fields;
 }
+
+namespace {
+
+void refuse_unknown_cells(const Study& study, const YamlEntry& patterns) {
+    const std::vector<StudyCell> cells = cells_of(study);
+    for (const YamlEntry& pattern : patterns.list(1, max_entries))
+        if (std::ranges::none_of(cells, [&](const StudyCell& cell) { return matches(pattern.text(), cell.name); }))
+            pattern.refuse("'" + printable(pattern.text()) + "', which fits no cell", "a name or a pattern of cells; --list names them");
+}
+
+} // namespace
 
 Study read_study(const std::filesystem::path& path) {
     Study study;
@@ -301,6 +315,8 @@ Study read_study(const std::filesystem::path& path) {
     study.points = points_of(study.axes, study.sample);
     if (is_daylight_an_axis(study.axes))
         study.conditions.times_of_day.front().name = "daylight by axis";
+    if (const std::optional<YamlEntry> timed = keys.find("timed_cells"))
+        refuse_unknown_cells(study, *timed);
     return study;
 }
 

@@ -101,16 +101,26 @@ std::string read_file(const std::filesystem::path& path, FilesRead& opened, std:
 }
 
 void write_file(const std::filesystem::path& path, const std::string& content) {
+    write_file(path, [&](const TakePiece& take) { take(content); });
+}
+
+void write_file(const std::filesystem::path& path, const std::function<void(const TakePiece&)>& content) {
     const std::string part = path.string() + fmt::format(".part-{}", ::getpid());
-    const auto fail = [&](int error) {
+    try {
+        const auto fail = [&](int error) { throw DeviceError(path.string() + ": cannot be written: " + reason(error)); };
+        File file(std::fopen(part.c_str(), "wbe"));
+        if (!file)
+            fail(errno);
+        content([&](std::string_view piece) {
+            if (std::fwrite(piece.data(), 1, piece.size(), file.get()) != piece.size())
+                fail(errno);
+        });
+        if (std::fclose(file.release()) != 0 || ::rename(part.c_str(), path.c_str()) != 0)
+            fail(errno);
+    } catch (...) {
         ::unlink(part.c_str());
-        throw DeviceError(path.string() + ": cannot be written: " + reason(error));
-    };
-    File file(std::fopen(part.c_str(), "wbe"));
-    if (!file || std::fwrite(content.data(), 1, content.size(), file.get()) != content.size() || std::fclose(file.release()) != 0)
-        fail(errno);
-    if (::rename(part.c_str(), path.c_str()) != 0)
-        fail(errno);
+        throw;
+    }
 }
 
 bool is_utf16(const std::string& bytes) {

@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fernlicht {
@@ -33,6 +35,9 @@ std::string content_hash(const void* data, std::size_t bytes);
 /// Writes `content` beside `path` and renames it into place: readers see the old file or the new one, never half of one.
 /// Throws DeviceError with the path and the system's reason (full disk, read-only folder ...).
 void write_file(const std::filesystem::path& path, const std::string& content);
+/// The same of a content that comes in pieces, so that it need not be in memory as a whole. What `content` throws leaves nothing behind.
+using TakePiece = std::function<void(std::string_view)>;
+void write_file(const std::filesystem::path& path, const std::function<void(const TakePiece&)>& content);
 
 /// UTF-8 as it is (without byte order mark); anything else is taken as Windows-1252 and converted.
 std::string to_utf8(const std::string& bytes);

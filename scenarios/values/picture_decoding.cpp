@@ -40,6 +40,34 @@ bool whole_png(const std::string& bytes) {
 
 } // namespace
 
+bool has_whole_exr_header(std::string_view bytes) {
+    const auto number = [&](std::size_t at) {
+        std::uint32_t value = 0;
+        for (std::size_t i = 4; i > 0; --i)
+            value = value << 8 | static_cast<unsigned char>(bytes[at + i - 1]);
+        return value;
+    };
+    constexpr std::size_t magic_and_version = 8;
+    constexpr std::uint32_t magic = 20000630, several_parts = 0x1000;
+    std::size_t at = magic_and_version;
+    if (bytes.size() < at || number(0) != magic)
+        return false;
+    do { // a part: attributes, each with name, zero, type, zero, size and value, up to an empty name
+        for (std::size_t end = bytes.find('\0', at); end != at; end = bytes.find('\0', at)) {
+            end = end == std::string_view::npos ? end : bytes.find('\0', end + 1);
+            if (end == std::string_view::npos || bytes.size() - end < 5)
+                return false;
+            at = end + 5;
+            const std::uint32_t size = number(end + 1);
+            if (size > bytes.size() - at)
+                return false;
+            at += size;
+        }
+        ++at;
+    } while ((number(4) & several_parts) != 0 && at < bytes.size() && bytes[at] != '\0');
+    return true;
+}
+
 DecodedPicture decode_picture(const std::filesystem::path& file, const std::string& key, const std::string& bytes, std::size_t max_pixels) {
     const auto fail = [&](const std::string& found, const std::string& expected) { throw InputError({file, 0, 0, key}, found, expected); };
     const bool png = bytes.starts_with("\x89PNG"), jpeg = bytes.starts_with("\xFF\xD8\xFF");
@@ -75,7 +103,7 @@ TextureImage decode_texture(const std::filesystem::path& path, const std::string
     OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size()); // only read from; the type wants it so
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
-    if (png && !whole_png(bytes))
+    if (png ? !whole_png(bytes) : bytes.starts_with("v/1\1") && !has_whole_exr_header(bytes))
         fail("ends early or is damaged");
     const auto in = OIIO::ImageInput::create(png ? "png" : "openexr");
     OIIO::ImageSpec spec;

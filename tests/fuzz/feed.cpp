@@ -59,6 +59,7 @@ const std::map<std::string, std::string, std::less<>>& companions() {
 
 void make_companions(const fs::path& folder) {
     fs::create_directories(folder / "catalogs");
+    fs::create_directories(folder / "cells/c0");
     for (const auto& [name, bytes] : companions())
         write(folder / name, bytes);
 }

@@ -25,7 +25,7 @@ std::size_t night_before(const HistoryFindings& findings, const std::string& cel
     return at == chain.begin() ? night : *(at - 1);
 }
 
-const char* needs_player = "of no cell was it played what tonight's program makes of the inputs before";
+const char* needs_player = "no cell was played with tonight's program and the inputs of the night before";
 
 Replayed replay_of(const HistoryFindings& findings, const HistoryEvent& event, const std::string& cell, const TellApart& play) {
     const Night& night = findings.nights[event.night];

@@ -68,7 +68,7 @@ Night night_of_study(const StudyResult& result, const std::filesystem::path& fol
             cell.cell.technique < result.study.techniques.size() ? result.study.techniques[cell.cell.technique] : "";
         night.cells.push_back({cell.cell.name, cell.drive, result.study.lamps[cell.cell.lamp].name, technique,
                                condition_of(result, cell.cell), cell.failed, std::make_shared<CellInputs>(cell.inputs),
-                               std::make_shared<NightReadings>(night_readings(cell)), nullptr, cell.reused ? std::nullopt : cell.frame_s});
+                               std::make_shared<NightReadings>(night_readings(cell)), nullptr, cell.frame_s});
     }
     return night;
 }

@@ -45,19 +45,10 @@ FilesRead inputs_of(const Report& report, const PlannedCell& planned) {
     return inputs;
 }
 
-/// "fernlicht: " and what a worker said last.
-std::string last_word(const fs::path& log) {
-    try {
-        FilesRead opened;
-        std::string text = read_file(log, opened, std::size_t{64} << 20, true);
-        while (text.ends_with('\n'))
-            text.pop_back();
-        text = text.substr(text.rfind('\n') + 1);
-        constexpr std::string_view program = "fernlicht: ";
-        return printable(text.starts_with(program) ? text.substr(program.size()) : text, 400);
-    } catch (const InputError&) { // it said nothing
-        return {};
-    }
+/// Without the program's name.
+std::string last_word(const WorkerEnd& end) {
+    constexpr std::string_view program = "fernlicht: ";
+    return printable(end.said.starts_with(program) ? end.said.substr(program.size()) : end.said, 400);
 }
 
 void tell_cell(TraceSpan& span, const PlannedCell& planned) {
@@ -166,9 +157,9 @@ std::map<std::size_t, PlayedInWorker> play_in_workers(const CellStore& store, co
         if (end.ending != WorkerEnding::exited || end.code != 0) {
             played.failed = store.failure(plan.cells[i].key);
             if (played.failed.empty())
-                played.failed = fmt::format("its process {}{}", ending_text(end, pool.limits),
-                                            last_word(log_of(i)).empty() ? "" : ": " + last_word(log_of(i)));
-            played.failed += fmt::format(" (log: logs/{}.log)", plan.cells[i].cell.name);
+                played.failed =
+                    fmt::format("its process {}{}", ending_text(end, pool.limits), end.said.empty() ? "" : ": " + last_word(end));
+            played.failed += end.said.empty() ? " (it printed nothing)" : fmt::format(" (log: logs/{}.log)", plan.cells[i].cell.name);
         } else if (!store.find(plan.cells[i].key))
             played.failed = "its inputs changed while the study was played";
         std::error_code ignored;

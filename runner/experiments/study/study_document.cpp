@@ -34,7 +34,7 @@ std::string nothing_compared(const StudyResult& result) {
     if (deciding > 0)
         return fmt::format("Nothing could be compared: of none of {} changes of deciding readings is it known how exact they are.",
                            deciding);
-    return result.changes.empty() ? "Nothing could be compared: of no two lamps was the same cell played."
+    return result.changes.empty() ? "Nothing could be compared: no two lamps were played under the same conditions."
                                   : "Nothing could be compared: no deciding reading is in two cells that are compared.";
 }
 

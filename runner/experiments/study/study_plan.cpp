@@ -153,8 +153,10 @@ std::vector<std::pair<std::string, std::vector<std::string>>> reasons_to_play(co
         if (one.moments == 0 || store.find(one.key))
             continue;
         const auto before = latest.find(one.cell.name);
-        reasons.emplace_back(one.cell.name, before == latest.end() ? std::vector<std::string>{"new"}
-                                                                   : input_changes(before->second.inputs, plan.inputs(one)));
+        const std::string failure = store.failure(one.key);
+        reasons.emplace_back(one.cell.name, !failure.empty()         ? std::vector<std::string>{failure}
+                                            : before == latest.end() ? std::vector<std::string>{"new"}
+                                                                     : input_changes(before->second.inputs, plan.inputs(one)));
         if (reasons.back().second.empty())
             reasons.back().second.emplace_back("what was kept is damaged");
     }

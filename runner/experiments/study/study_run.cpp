@@ -1,6 +1,7 @@
 #include "runner/experiments/study/study_run.h"
 
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
+#include "runner/experiments/run/run_report.h"
 #include "runner/experiments/study/cell_collecting.h"
 #include "runner/experiments/study/cell_playing.h"
 #include "runner/experiments/study/slurm_playing.h"
@@ -10,6 +11,7 @@
 #include "runner/files/output_folder.h"
 #include "runner/play/progress.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/glob.h"
 #include "scenarios/values/trace.h"
 
 #include <algorithm>
@@ -252,6 +254,26 @@ void play_all_timed(const Study& study, const StudyPlan& plan, const StudyOption
     }
 }
 
+/// When nothing else is left to play. A cell that cannot be timed is told, and has no time.
+void time_cells(const Study& study, const StudyPlan& plan, StudyOptions options, StudyResult& result) {
+    options.run.accuracy = false;
+    for (std::size_t i = 0; i < plan.cells.size() && !Interruption::requested(); ++i) {
+        const PlannedCell& one = plan.cells[i];
+        if (one.moments == 0 ||
+            std::ranges::none_of(study.timed_cells, [&](const std::string& pattern) { return matches(pattern, one.cell.name); }))
+            continue;
+        if (!options.run.quiet)
+            tell(LogLevel::info, fmt::format("timing cell {}", one.cell.name));
+        const Workplace place(options.folder / "timed");
+        try {
+            if (play_timed(study, one, options, place.folder))
+                result.cells[i].frame_s = read_report(place.folder).played.front().throughput.view_s;
+        } catch (const std::exception& error) {
+            tell(LogLevel::warning, fmt::format("cell {} has no time: {}", one.cell.name, error.what()));
+        }
+    }
+}
+
 /// Where a plan was made with other files, another program or on another class of machine, what is played here is not what it waits for.
 void refuse_others(const StudyPlan& plan, const CellStore& store, const StudyOptions& options) {
     for (const auto& [cell, key] : options.expected)
@@ -288,6 +310,8 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
         if (Interruption::requested())
             result.interrupted = "interrupted by the user";
         collect_all(store, study, plan, options, played, jobs, result);
+        if (options.times_too && options.executor == StudyExecutor::local)
+            time_cells(study, plan, options, result);
         result.played_by =
             played_words(result, options.executor == StudyExecutor::slurm
                                      ? "by Slurm"
@@ -340,7 +364,11 @@ bool play_into_store(const Study& study, const StudyOptions& options) {
         } catch (const std::exception& error) {
             all_there = false;
             tell(LogLevel::error, fmt::format("cell {}: {}", one.cell.name, error.what()));
-            store.note_failure(one.key, error.what());
+            try {
+                store.note_failure(one.key, error.what());
+            } catch (const DeviceError&) { // it was told
+                continue;
+            }
         }
     }
     return all_there;

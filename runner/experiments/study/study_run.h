@@ -19,6 +19,7 @@ struct StudyOptions {
     bool strict = false;                ///< refuse lamp files with which readings are meaningless
     bool resume = false;                ///< go on in the study's folder
     bool timed = false;                 ///< play cells one after another by themselves, and time them; none is taken from the store
+    bool times_too = false;             ///< play the study's timed_cells by themselves, too, when all others are there
     int jobs = 0;                       ///< cells at a time on this machine; 0: as jobs_for() says
     std::vector<std::pair<std::string, std::string>> expected; ///< with play_into_store: cells and the keys that a plan gave them
     StudyResources resources;                                  ///< of each cell: the study's, but for what flags say

@@ -10,6 +10,7 @@
 #include "runner/experiments/shadows/shadow_result.h"
 #include "runner/experiments/study/study_document.h"
 #include "scenarios/values/errors.h"
+#include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
 
 #include <cstdlib>
@@ -80,6 +81,16 @@ TEST(DescribedJson, ComesBack) {
     EXPECT_EQ(
         as_json(Whole{}, whole_members).dump(),
         R"({"count":3,"tick":null,"seed":0,"flag":false,"share":0.5,"colour":"red","note":null,"texts":{},"ends":{"from":0.0,"to":0.0},"best":null,"sum":3.5})");
+}
+
+/// One item at a time, and as if all were there at once: none, a few on one line, and many on lines of their own.
+TEST(DescribedJson, IsWrittenItemByItem) {
+    const std::filesystem::path file = tests::new_folder() / "whole.json";
+    for (const std::size_t parts : {0U, 1U, 2U, 3U, 4U, 100U}) {
+        Whole whole{.texts = {{"key", "text"}}, .parts = std::vector<Part>(parts, {"a", 1.5, "", 2.0})};
+        write_json(file, whole, whole_members);
+        EXPECT_EQ(content_of(file), json_text(as_json(whole, whole_members))) << parts;
+    }
 }
 
 TEST(DescribedJson, SaysWhatIsRefusedWhere) {

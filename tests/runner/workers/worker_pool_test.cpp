@@ -41,6 +41,16 @@ TEST_F(WorkerPoolTest, TellsHowEachEndedAndTheOthersGoOn) {
     EXPECT_EQ(text(3), "was killed by SIGKILL");
     EXPECT_EQ(ends.at(4).code, 0);
     EXPECT_EQ(log(4), "last\n");
+    EXPECT_EQ(ends.at(0).said, "said");
+    EXPECT_EQ(ends.at(1).said, "");
+}
+
+/// As on a disk that is full.
+TEST_F(WorkerPoolTest, WhatItSaidIsKnownWhereItsLogCannotBeWritten) {
+    std::filesystem::create_directory(folder / "0.log");
+    run({"echo before; echo no space left >&2; exit 3"});
+    EXPECT_EQ(ends.at(0).said, "no space left");
+    EXPECT_EQ(ends.at(0).code, 3);
 }
 
 TEST_F(WorkerPoolTest, OneThatHangsIsStoppedWithAllThatItStarted) {

@@ -229,7 +229,7 @@ TEST(HistoryCauses, WithoutAPlayerItSaysWhyItCannotTell) {
     both.version["xenon"] = both.version["metrics"] = 1;
     both.lamp_light["xenon"] = 1.05;
     EXPECT_THAT(document_text(document(explained({{}, both}))),
-                AllOf(HasSubstr("cannot be told apart: of no cell was it played"), HasSubstr("inputs: lamp xenon-low.ies"),
+                AllOf(HasSubstr("cannot be told apart: no cell was played"), HasSubstr("inputs: lamp xenon-low.ies"),
                       HasSubstr("program: sources in metrics")));
     EXPECT_THAT(document_text(document(explained({{}, both, both}))), HasSubstr("its program is no longer the one at hand"));
     const HistoryFindings refused = explained({{}, both}, {.tell_apart = [](const CellRequest&) {

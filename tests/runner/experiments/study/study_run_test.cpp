@@ -1,6 +1,7 @@
 // Whole studies through the program.
 #include "runner/experiments/study/study_document.h"
 #include "runner/files/object_store.h"
+#include "runner/history/database.h"
 #include "runner/write/formats.h"
 #include "tests/runner/opened_page.h"
 #include "tests/runner/run_readings.h"
@@ -247,8 +248,10 @@ TEST_F(StudyProgram, CellsThatHangOrTakeTooMuchAreRedRows) {
         EXPECT_EQ(run_program(arguments + (folder / out) + limit).exit_code, 1);
         const json study = tests::checked(content_of(folder / (out + "/study.json")), study_members);
         EXPECT_THAT(study.at("context").at("cells").at(0).at("command").get<std::string>(), HasSubstr(" run "));
-        EXPECT_TRUE(std::filesystem::exists(folder / (out + "/logs/straight_old.log")));
-        return study.at("cells").at(0).at("failed").get<std::string>();
+        std::string failed = study.at("cells").at(0).at("failed");
+        const bool has_log = std::filesystem::exists(folder / (out + "/logs/straight_old.log"));
+        EXPECT_THAT(failed, HasSubstr(has_log ? "(log: logs/straight_old.log)" : "(it printed nothing)"));
+        return failed;
     };
     EXPECT_THAT(why(" --cell-minutes 0.01", "slow"), HasSubstr("s, its limit of time"));
     EXPECT_THAT(why(" --cell-memory-mib 40", "large"),
@@ -295,6 +298,34 @@ TEST_F(StudyProgram, TimesAreOfCellsByThemselves) {
         run_program("study " + write_study_file(folder, xenon, "limits:\n  - {reading: frame_time_median_ms, at_most: 1000}\n") + quick);
     EXPECT_EQ(limited.exit_code, 2);
     EXPECT_THAT(limited.output, HasSubstr("--timed, which plays cells by themselves"));
+}
+
+/// Cells out of the store have times too, where the study asks for the history of some. The lamp is edited, and the night before is made
+/// to have been another program's: the lamp of then is played with the program of now, and moved the reading by itself.
+TEST_F(StudyProgram, TheHistoryHasTimesAndTellsLampAndProgramApart) {
+    const std::string lamp = folder / "new.ies", history = " --history " + (folder / "nights.db");
+    std::filesystem::copy_file(library_file("lamps/xenon-low.ies"), lamp);
+    const std::string file = write_study_file(folder, "{low: " + lamp + ", source: arc}", "timed_cells: ['*_new']\n");
+    const auto night = [&](const char* name) {
+        const Outcome run = run_program("study " + file + quick + history + " --out " + (folder / name));
+        EXPECT_EQ(run.exit_code, 0) << run.output;
+        return json::parse(content_of(folder / (std::string(name) + "/study.json")));
+    };
+    night("first");
+    const json second = night("second");
+    for (const json& cell : second.at("context").at("cells")) {
+        EXPECT_EQ(cell.at("reused"), true);
+        EXPECT_EQ(cell.at("frame_s").is_number(), cell.at("cell") == "straight_new") << cell;
+    }
+    Database(folder / "nights.db", Database::For::writing)
+        .run("UPDATE inputs SET hash = 'another' WHERE kind = 'program' AND name = 'metrics'");
+    std::string text = content_of(lamp);
+    text.replace(text.find("1 -1 1 "), 7, "1 -1 1.1 "); // the factor of all candela
+    std::ofstream(lamp) << text;
+    night("third");
+    const std::string page = content_of(folder / "third/report.html");
+    EXPECT_THAT(page, testing::AllOf(HasSubstr("told apart by new on straight-1, night, aim -1 %, 13.2 V, played with that night"),
+                                     HasSubstr("the inputs alone moved them")));
 }
 
 TEST_F(StudyProgram, AFinishedStudyIsReportedAgainFromItsCells) {
