@@ -59,7 +59,7 @@ struct Study {
     std::vector<StudyComparison> comparisons;
     std::vector<std::string> decide; ///< readings by name or pattern (glob.h), the most important first
     std::vector<StudyLimit> limits;
-    std::vector<std::string> timed_cells; ///< by name or pattern: what the history of its times is of
+    std::vector<std::string> timed_cells;             ///< by name or pattern: what the history of its times is of
     int pictured_moments = 4;                         ///< stored moments of each cell
     std::optional<std::pair<int, int>> resolution_px; ///< of the camera views; nullopt: the drives' own
     StudyResources resources;                         ///< of each cell
