@@ -235,7 +235,7 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_option("--cell-minutes", flags->cell_minutes, "stop a cell that takes longer (default: the study's resources)")
         ->check(CLI::Range(0.001, 1e5));
     sub->add_option("--cell-memory-mib", flags->cell_memory_mib, "memory that a cell may take; 0: no limit")->check(CLI::Range(0.0, 1e7));
-    sub->add_option("--cell-cores", flags->cell_cores, "threads of the software renderer in each cell")->check(CLI::Range(1, 1024));
+    sub->add_option("--cell-cores", flags->cell_cores, "of each cell (default: one, or all with --jobs 1)")->check(CLI::Range(1, 1024));
     sub->add_option("--executor", flags->executor, "local, or slurm: play cells as job arrays of a cluster")
         ->check(CLI::IsMember({"local", "slurm"}));
     sub->add_option("--partition", flags->partition, "of the cluster");

@@ -91,7 +91,7 @@ Jobs jobs_for(int asked, const RunContext& context, const StudyResources& resour
     int usual = is_software ? cores : std::min(4, cores);
     if (resources.memory_mib > 0.0)
         usual = std::clamp(usual, 1, std::max(1, static_cast<int>(physical_memory_mib() / resources.memory_mib)));
-    return {asked > 0 ? asked : usual, std::max(resources.cores, asked == 1 ? cores : 1)};
+    return {asked > 0 ? asked : usual, resources.cores > 0 ? resources.cores : asked == 1 ? cores : 1};
 }
 
 std::vector<std::string> playing_command(const Study& study, const StudyPlan& plan, const std::vector<std::size_t>& cells,
@@ -109,7 +109,7 @@ std::vector<std::string> playing_command(const Study& study, const StudyPlan& pl
     add("--backend", options.run.backend);
     add("--frames", frames_text(options.run.ticks));
     add("--repeat", options.run.repeats > 1 ? fmt::format("{}", options.run.repeats) : "");
-    add("--cell-cores", fmt::format("{}", options.resources.cores));
+    add("--cell-cores", fmt::format("{}", std::max(1, options.resources.cores)));
     if (!options.run.accuracy)
         words.emplace_back("--no-accuracy");
     words.emplace_back("--quiet");
@@ -132,7 +132,7 @@ std::map<std::size_t, PlayedInWorker> play_in_workers(const CellStore& store, co
                     [] { return !Interruption::requested(); },
                     [&](std::size_t running) { progress.beat(running); }};
     StudyOptions of_worker = options;
-    of_worker.resources.cores = jobs.threads;
+    of_worker.resources.cores = jobs.cores;
     const auto command = [&](std::size_t i) {
         // This very program, whatever is built meanwhile.
         WorkerCommand one{playing_command(study, plan, {i}, of_worker), fmt::format("/proc/{}/exe", ::getpid()), {}, log_of(i)};

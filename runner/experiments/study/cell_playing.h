@@ -16,11 +16,11 @@ bool play_into(const CellStore& store, const Study& study, const StudyPlan& plan
 /// Plays the cell by itself into its folder, and takes its times; false where it was interrupted.
 bool play_timed(const Study& study, const PlannedCell& planned, const StudyOptions& options, const std::filesystem::path& folder);
 
-/// How many cells to play at a time, and how many threads llvmpipe has in each. One a core where the CPU draws, at most four where a GPU
+/// How many cells to play at a time, and how many cores each has. One a core where the CPU draws, at most four cells where a GPU
 /// does (not measured there); as many as the memory holds.
 struct Jobs {
     int at_once = 1;
-    int threads = 1; ///< of llvmpipe; 0: the cell's own thread draws
+    int cores = 1;
 };
 Jobs jobs_for(int asked, const RunContext& context, const StudyResources& resources);
 

@@ -145,7 +145,7 @@ class SlurmStudy {
         const StudyResources& asked = options_.resources;
         return {asked.minutes * static_cast<double>(per),
                 static_cast<std::uint64_t>(asked.memory_mib),
-                asked.cores,
+                std::max(1, asked.cores),
                 asked.partition,
                 asked.gpus,
                 asked.at_once};

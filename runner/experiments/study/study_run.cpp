@@ -313,9 +313,9 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
         if (options.times_too && options.executor == StudyExecutor::local)
             time_cells(study, plan, options, result);
         result.played_by =
-            played_words(result, options.executor == StudyExecutor::slurm
-                                     ? "by Slurm"
-                                     : fmt::format("{} at a time, {} of the renderer's threads each", jobs.at_once, jobs.threads));
+            played_words(result, options.executor == StudyExecutor::slurm ? "by Slurm"
+                                                                          : fmt::format("{} at a time, {} {} each", jobs.at_once,
+                                                                                        jobs.cores, jobs.cores == 1 ? "core" : "cores"));
     }
     finish(result, options, folder);
     return result;
@@ -347,9 +347,9 @@ StudyResult collect_study(const Study& study, const StudyOptions& options) {
 }
 
 bool play_into_store(const Study& study, const StudyOptions& options) {
-    ::setenv("LP_NUM_THREADS", fmt::format("{}", options.resources.cores).c_str(), 0);
-    const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism,
-                                              static_cast<std::size_t>(options.resources.cores));
+    const int cores = std::max(1, options.resources.cores);
+    ::setenv("LP_NUM_THREADS", fmt::format("{}", cores).c_str(), 0);
+    const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(cores));
     const StudyPlan plan = plan_study(study, options);
     const CellStore store(options.store);
     refuse_others(plan, store, options);
