@@ -108,8 +108,8 @@ void add_store_command(CLI::App& app, const std::vector<std::string>&, std::func
     CLI::App* pruned = add("prune", "remove cells, then files that no cell needs", prune);
     for (CLI::App* sub : {list, pruned})
         sub->add_option("--study", flags->study, "only of studies of this name, * and ? allowed");
-    pruned->add_option("--older-than", flags->older_than, "cells that were played before: 30d, 12h");
-    pruned->add_option("--at-most", flags->at_most, "the oldest until so much is left: 20GiB");
+    pruned->add_option("--older-than", flags->older_than, "remove cells played longer ago than this: 30d, 12h, 12h");
+    pruned->add_option("--at-most", flags->at_most, "remove the oldest cells until at most this much is left: 20GiB: 20GiB");
     pruned->add_flag("--dry-run", flags->dry, "only say what would go");
 }
 

@@ -66,16 +66,15 @@ void write_study(const StudyResult& result, const std::filesystem::path& folder,
     write_document(page, result, folder, "report");
 }
 
-/// Tonight against the last accepted night; nothing without --history, and of a study that did not end. Then tonight is kept there.
+/// Tonight against the last accepted night; nothing without --history, and of a study that was interrupted. Then tonight is kept there.
 std::optional<HistoryFindings> remember(const StudyFlags& flags, const StudyResult& result, const StudyOptions& options) {
-    if (flags.history.empty() || !result.complete())
+    if (flags.history.empty() || !result.interrupted.empty())
         return std::nullopt;
     HistoryFindings findings =
         history_of(flags.history, result, options.folder, {.tell_apart = tell_apart_by_playing(result.study, options)});
-    History history(flags.history, History::For::collecting);
-    const History::Added added = history.add(night_of_study(result, options.folder));
-    for (const auto& [cell, readings] : findings.replays)
-        history.keep_replay(added.number, cell, readings);
+    Night tonight = night_of_study(result, options.folder);
+    take_replays(tonight, findings.replays);
+    History(flags.history, History::For::collecting).add(tonight);
     return findings;
 }
 
@@ -92,11 +91,7 @@ int explain_cells(const Study& study, const StudyOptions& options) {
 /// A line of JSON for each command that plays some of the cells that the store lacks.
 int print_plan(const Study& study, const StudyOptions& options) {
     const StudyPlan plan = plan_study(study, options);
-    const CellStore store(options.store);
-    std::vector<std::size_t> lacking;
-    for (std::size_t i = 0; i < plan.cells.size(); ++i)
-        if (plan.cells[i].moments > 0 && !store.find(plan.cells[i].key))
-            lacking.push_back(i);
+    const std::vector<std::size_t> lacking = lacking_cells(CellStore(options.store), plan);
     const std::size_t per = static_cast<std::size_t>(options.per);
     for (std::size_t from = 0; from < lacking.size(); from += per) {
         const std::vector<std::size_t> some(lacking.begin() + static_cast<std::ptrdiff_t>(from),
@@ -132,7 +127,7 @@ void refuse_contradictions(const StudyFlags& flags) {
                          "it without these");
     const auto refuse_without = [](bool is_there, bool may_be, const char* flag, const char* needs) {
         if (is_there && !may_be)
-            throw InputError({{}, 0, 0, flag}, std::string("found without ") + needs, "it beside that flag alone");
+            throw InputError({{}, 0, 0, flag}, std::string("found without ") + needs, "both together");
     };
     const bool slurm = flags.executor == "slurm";
     refuse_without(!flags.partition.empty(), slurm, "--partition", "--executor slurm");
@@ -168,7 +163,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
         throw InputError({{}, 0, 0, "--resume"}, "found no --out beside it", "the folder to go on in");
     StudyOptions options;
     options.folder = result_folder(flags.out, study.name);
-    options.store = flags.store.empty() && !flags.timed ? default_store() : std::filesystem::path(flags.store);
+    options.store = flags.store.empty() && (!flags.timed || !flags.history.empty()) ? default_store() : std::filesystem::path(flags.store);
     options.timed = flags.timed;
     options.times_too = !flags.history.empty();
     options.jobs = flags.jobs;
@@ -177,7 +172,10 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     options.per = flags.per;
     options.only = items_of("--only", flags.only);
     for (const std::string& text : flags.expect) {
-        options.expected.emplace_back(text.substr(0, text.find('=')), text.substr(std::min(text.size(), text.find('=') + 1)));
+        if (const std::size_t at = text.rfind('='); at == std::string::npos || at == 0 || text.size() - at != 33 ||
+                                                    text.find_first_not_of("0123456789abcdef", at + 1) != std::string::npos)
+            throw InputError({{}, 0, 0, "--expect"}, "found '" + printable(text) + "'", "CELL=KEY, as --plan prints it");
+        options.expected.emplace_back(text.substr(0, text.rfind('=')), text.substr(text.rfind('=') + 1));
         options.only.push_back(options.expected.back().first);
     }
     options.strict = flags.strict;
@@ -189,12 +187,23 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     options.known = take(flags.judging, options.run);
     options.run.command = command;
     options.run.write = [](const Report& report, const std::filesystem::path& cell) { write_report(report, cell); };
-    options.write = [&](const StudyResult& result) { write_study(result, options.folder, remember(flags, result, options)); };
+    std::string no_history; ///< why; it costs nobody the report
+    options.write = [&](const StudyResult& result) {
+        std::optional<HistoryFindings> findings;
+        try {
+            findings = remember(flags, result, options);
+        } catch (const std::exception& error) {
+            no_history = error.what();
+        }
+        write_study(result, options.folder, findings);
+    };
     options.judge_cell = [](const Report& report, const std::filesystem::path& cell) { write_judgement(report, cell); };
     if (flags.explain)
         return explain_cells(study, options);
     if (flags.plan)
         return print_plan(study, options);
+    if (!flags.history.empty())
+        History(flags.history, History::For::collecting); // before hours are spent on what it cannot take
     TraceFile trace(
         flags.trace,
         fmt::format("fernlicht study {}{}", study.name, flags.play ? ": " + fmt::format("{}", fmt::join(options.only, ", ")) : ""),
@@ -208,6 +217,8 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     fmt::print("{}{}\n{}\n", document_text(study_summary(result)), result.played_by, (options.folder / "report.html").string());
     annotate_study(result);
     trace.finish();
+    if (!no_history.empty())
+        throw DeviceError("the report is written, but not into the history: " + no_history);
     return overall(result) == VerdictKind::pass ? 0 : 1;
 }
 
@@ -235,10 +246,10 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_option("--cell-minutes", flags->cell_minutes, "stop a cell that takes longer (default: the study's resources)")
         ->check(CLI::Range(0.001, 1e5));
     sub->add_option("--cell-memory-mib", flags->cell_memory_mib, "memory that a cell may take; 0: no limit")->check(CLI::Range(0.0, 1e7));
-    sub->add_option("--cell-cores", flags->cell_cores, "of each cell (default: one, or all with --jobs 1)")->check(CLI::Range(1, 1024));
+    sub->add_option("--cell-cores", flags->cell_cores, "cores for each cell (default: 1; all with --jobs 1)")->check(CLI::Range(1, 1024));
     sub->add_option("--executor", flags->executor, "local, or slurm: play cells as job arrays of a cluster")
         ->check(CLI::IsMember({"local", "slurm"}));
-    sub->add_option("--partition", flags->partition, "of the cluster");
+    sub->add_option("--partition", flags->partition, "partition of the cluster to submit to");
     sub->add_option("--gpus", flags->gpus, "of the cluster for each cell, as --gres has it: gpu:1");
     sub->add_option("--history", flags->history,
                     "lead with what changed since the last accepted night of this history, and add tonight to it");

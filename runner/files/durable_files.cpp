@@ -30,6 +30,12 @@ void sync(const std::filesystem::path& path) {
         fail(path, "cannot be written to the disk", error);
 }
 
+int open_to_lock(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::is_directory(path, ignored) ? ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)
+                                                        : ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+}
+
 } // namespace
 
 void write_durably(const std::filesystem::path& path, const std::string& content) {
@@ -67,18 +73,33 @@ void make_folder(const std::filesystem::path& folder) {
         fail(folder, "cannot be created", error.value());
 }
 
-FolderLock::FolderLock(const std::filesystem::path& folder, For what) : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+FolderLock::FolderLock(const std::filesystem::path& path, For what) : file_(open_to_lock(path)) {
     const bool reading = what == For::reading;
     if (file_ < 0 && !reading)
-        fail(folder, "cannot be opened", errno);
+        fail(path, "cannot be opened", errno);
     while (file_ >= 0 && ::flock(file_, reading ? LOCK_SH : LOCK_EX) != 0)
         if (errno != EINTR) {
             const int error = errno;
             if (reading)
                 return;
             ::close(file_);
-            fail(folder, "cannot be locked", error);
+            fail(path, "cannot be locked", error);
         }
+}
+
+std::unique_ptr<FolderLock> FolderLock::at_once(const std::filesystem::path& path) {
+    const int file = open_to_lock(path);
+    if (file < 0)
+        fail(path, "cannot be opened", errno);
+    while (::flock(file, LOCK_EX | LOCK_NB) != 0)
+        if (errno != EINTR) {
+            const int error = errno;
+            ::close(file);
+            if (error == EWOULDBLOCK)
+                return nullptr;
+            fail(path, "cannot be locked", error);
+        }
+    return std::unique_ptr<FolderLock>(new FolderLock(file));
 }
 
 FolderLock::~FolderLock() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 namespace fernlicht {
@@ -20,19 +21,24 @@ void sync_folder(const std::filesystem::path& folder);
 /// Creates the folder and those above it. Throws DeviceError.
 void make_folder(const std::filesystem::path& folder);
 
-/// Held while it lives; a second process waits. Throws DeviceError.
+/// Held while it lives; a second process waits. On a folder: of processes of this machine; on a file, which is made where there is none:
+/// of all machines that see it. Throws DeviceError.
 class FolderLock {
   public:
     enum class For {
         change, ///< nobody else holds it
-        reading ///< many may read, nobody changes. Where the folder is not there, or its file system has no locks, nothing is held
+        reading ///< many may read, nobody changes. Where it cannot be opened, or its file system has no locks, nothing is held
     };
-    explicit FolderLock(const std::filesystem::path& folder, For what = For::change);
+    explicit FolderLock(const std::filesystem::path& path, For what = For::change);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;
     FolderLock& operator=(const FolderLock&) = delete;
 
+    /// The same for a change, without waiting; nullptr where somebody else holds it.
+    static std::unique_ptr<FolderLock> at_once(const std::filesystem::path& path);
+
   private:
+    explicit FolderLock(int file) : file_(file) {}
     int file_;
 };
 

@@ -9,7 +9,7 @@ namespace fernlicht {
 /// Where a store has the bytes of this hash (32 hexadecimal digits).
 std::filesystem::path object_path(const std::filesystem::path& store, const std::string& hash);
 
-/// True where the store has these bytes, whole.
+/// True where the store has these bytes, whole. Throws DeviceError, as all below, where it cannot be read.
 bool holds_object(const std::filesystem::path& store, const std::string& hash);
 
 /// Keeps the bytes, on the disk when it returns; nothing refers to them yet. Whole ones that are there stay. Returns their hash. Any

@@ -201,22 +201,30 @@ History::Added History::add(const Night& night) {
     Database& database = tables_->database;
     Transaction transaction(database);
     Statement same(database, "SELECT number FROM nights WHERE study = ?1 AND played_utc = ?2 AND folder = ?3");
-    if (same.bind(1, night.study).bind(2, night.played_utc).bind(3, night.folder).step())
-        return {same.whole(0), false};
+    std::optional<std::int64_t> gone_on_with; ///< with cells that failed, and may be there now
+    if (same.bind(1, night.study).bind(2, night.played_utc).bind(3, night.folder).step()) {
+        gone_on_with = same.whole(0);
+        Statement failed(database, "SELECT count(*) FROM cells WHERE night = ?1 AND failed <> ''");
+        failed.bind(1, *gone_on_with).step();
+        if (failed.whole(0) <= std::ranges::count_if(night.cells, [](const NightCell& cell) { return !cell.failed.empty(); }))
+            return {*gone_on_with, false};
+        Statement(database, "DELETE FROM cells WHERE night = ?1").bind(1, *gone_on_with).run();
+    }
     std::string decide;
     for (const std::string& reading : night.decide)
         decide += reading + "\n";
-    Statement(database,
-              "INSERT INTO nights (study, played_utc, folder, accepted, note, machine, decide) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)")
-        .bind(1, night.study)
-        .bind(2, night.played_utc)
-        .bind(3, night.folder)
-        .bind(4, std::int64_t{night.accepted})
-        .bind(5, night.note)
-        .bind(6, tables_->set_of(night.machine))
-        .bind(7, decide)
-        .run();
-    const std::int64_t number = database.last_row();
+    if (!gone_on_with)
+        Statement(database,
+                  "INSERT INTO nights (study, played_utc, folder, accepted, note, machine, decide) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)")
+            .bind(1, night.study)
+            .bind(2, night.played_utc)
+            .bind(3, night.folder)
+            .bind(4, std::int64_t{night.accepted})
+            .bind(5, night.note)
+            .bind(6, tables_->set_of(night.machine))
+            .bind(7, decide)
+            .run();
+    const std::int64_t number = gone_on_with.value_or(database.last_row());
     Statement row(database, "INSERT INTO cells VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12)");
     std::int64_t place = 0;
     for (const NightCell& cell : night.cells) {
@@ -239,17 +247,6 @@ void History::accept(std::int64_t number, const std::string& note) {
     Transaction transaction(tables_->database);
     tables_->refuse_unknown(number);
     Statement(tables_->database, "UPDATE nights SET accepted = 1, note = ?2 WHERE number = ?1").bind(1, number).bind(2, note).run();
-    transaction.commit();
-}
-
-void History::keep_replay(std::int64_t number, const std::string& cell, const NightReadings& readings) {
-    Transaction transaction(tables_->database);
-    tables_->refuse_unknown(number);
-    Statement(tables_->database, "UPDATE cells SET result_with_earlier_inputs = ?3 WHERE night = ?1 AND name = ?2")
-        .bind(1, number)
-        .bind(2, cell)
-        .bind(3, tables_->result_of(readings))
-        .run();
     transaction.commit();
 }
 
@@ -328,8 +325,8 @@ History::Pruned History::prune(std::optional<std::size_t> keep, const std::strin
         return pruned;
     Transaction transaction(database);
     for (const Night& night : pruned.nights) {
-        Statement(database, "DELETE FROM cells WHERE night = ?1").bind(1, night.number).run();
-        Statement(database, "DELETE FROM nights WHERE number = ?1").bind(1, night.number).run();
+        Statement(database, "DELETE FROM nights WHERE number = ?1 AND accepted = 0").bind(1, night.number).run(); // by another meanwhile
+        Statement(database, "DELETE FROM cells WHERE night = ?1 AND night NOT IN (SELECT number FROM nights)").bind(1, night.number).run();
     }
     database.run("DELETE FROM results WHERE number NOT IN (SELECT result FROM cells UNION SELECT result_with_earlier_inputs FROM cells "
                  "WHERE result_with_earlier_inputs IS NOT NULL);"

@@ -62,14 +62,13 @@ class History {
 
     struct Added {
         std::int64_t number = 0;
-        bool is_new = true; ///< false: a night of this study, time and folder is there, and stays as it is
+        /// False: a night of this study, time and folder is there, and stays as it is. One of which fewer cells failed by now is written
+        /// anew.
+        bool is_new = true;
     };
     Added add(const Night& night);
     /// Throws InputError where there is no such night.
     void accept(std::int64_t number, const std::string& note);
-    /// What one of its cells read with_earlier_inputs.
-    void keep_replay(std::int64_t number, const std::string& cell, const NightReadings& readings);
-
     /// In the order in which they were played; of all studies for "".
     std::vector<Night> nights(const std::string& study = "") const;
 

@@ -6,7 +6,6 @@
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -96,7 +95,7 @@ PackedFiles CellStore::load(const StoredCell& cell) const {
 
 void CellStore::keep(StoredCell cell, const PackedFiles& files, const FilesRead& inputs) const {
     make_folder(folder_);
-    const FolderLock against_pruning(folder_, FolderLock::For::reading);
+    const FolderLock against_pruning(lock_file(), FolderLock::For::reading);
     for (const FileRead& input : inputs) {
         FilesRead opened;
         const std::string content = read_file(input.path, opened, std::size_t{1} << 30, true);
@@ -144,11 +143,6 @@ std::string CellStore::refuses_writing() const {
     return {};
 }
 
-Workplace CellStore::new_workplace(const std::string& key) const {
-    static std::atomic<unsigned> made{0};
-    const fs::path folder = folder_ / "playing" / fmt::format("{}-{}-{}", key, ::getpid(), ++made);
-    make_folder(folder.parent_path());
-    return Workplace(folder);
-}
+Workplace CellStore::new_workplace(const std::string& begins_with) const { return {folder_ / "playing", begins_with}; }
 
 } // namespace fernlicht

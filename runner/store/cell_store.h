@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runner/files/packed_folder.h"
+#include "runner/files/workplace.h"
 #include "runner/findings/cell_inputs.h"
 #include "scenarios/values/files.h"
 
@@ -18,18 +19,6 @@ struct StoredCell {
     std::string object; ///< hash of its packed folder
     std::uint64_t bytes = 0;
     std::vector<std::pair<std::string, std::string>> files; ///< names and hashes of input files that are kept beside it
-};
-
-/// A folder that is removed with all that is in it when this goes.
-struct Workplace {
-    std::filesystem::path folder;
-    explicit Workplace(std::filesystem::path at) : folder(std::move(at)) {}
-    Workplace(const Workplace&) = delete;
-    Workplace& operator=(const Workplace&) = delete;
-    ~Workplace() {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder, ignored);
-    }
 };
 
 /// `$XDG_CACHE_HOME/fernlicht/store`, else `~/.cache/fernlicht/store`; throws InputError that names --store where there is neither.
@@ -58,8 +47,10 @@ class CellStore {
     void forget(const std::string& key) const;
     /// Why nothing can be kept here; "" where it can. Tries it.
     std::string refuses_writing() const;
-    /// A folder of its own for a cell that is being played, on the store's disk.
-    Workplace new_workplace(const std::string& key) const;
+    /// A folder of its own for what is being played, on the store's disk.
+    Workplace new_workplace(const std::string& begins_with) const;
+    /// Held while objects are written that no entry names yet, and while those are taken out that none names.
+    std::filesystem::path lock_file() const { return folder_ / "lock"; }
 
   private:
     std::filesystem::path entry_path(const std::string& key) const;

@@ -18,15 +18,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double leftover_age_s = 3600.0;
+constexpr double leftover_age_s = 3600.0, note_age_s = 30 * 86400.0;
 
 std::vector<fs::path> files_of(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code error;
     if (fs::is_directory(folder, error))
-        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
-            if (entry.is_regular_file())
-                files.push_back(entry.path());
+        for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+            if (entry->is_regular_file(error))
+                files.push_back(entry->path());
     return files;
 }
 
@@ -46,9 +46,20 @@ std::optional<double> seconds_of(const std::string& utc) {
 
 std::string name_of_object(const fs::path& path) { return path.parent_path().filename().string() + path.filename().string(); }
 
-bool is_left_over(const fs::path& path) {
-    const auto age = fs::file_time_type::clock::now() - fs::last_write_time(path);
-    return std::chrono::duration<double>(age).count() >= leftover_age_s;
+/// Of the newest of its files, or of the file itself; 0 for what is gone meanwhile.
+double age_s(const fs::path& path) {
+    std::error_code error;
+    const auto written = fs::last_write_time(path, error);
+    double age = error ? 0.0 : std::chrono::duration<double>(fs::file_time_type::clock::now() - written).count();
+    for (const fs::path& file : files_of(path))
+        age = std::min(age, age_s(file));
+    return age;
+}
+
+std::uint64_t size_of(const fs::path& file) {
+    std::error_code gone;
+    const std::uintmax_t bytes = fs::file_size(file, gone);
+    return gone ? 0 : bytes;
 }
 
 std::string sentence_name(const StoredCell& cell) { return fmt::format("cell {} of {}", printable(cell.cell), printable(cell.study)); }
@@ -56,13 +67,19 @@ std::string sentence_name(const StoredCell& cell) { return fmt::format("cell {} 
 } // namespace
 
 std::vector<StoreDamage> verify_store(const CellStore& store) {
-    const FolderLock lock(store.folder());
     std::vector<StoreDamage> damage;
-    for (const fs::path& path : files_of(store.folder() / "objects")) {
-        const std::string hash = name_of_object(path);
-        if (hash.size() != 32 || holds_object(store.folder(), hash)) // the first: half written
+    std::vector<fs::path> broken;
+    {
+        const FolderLock others_may_read(store.lock_file(), FolderLock::For::reading);
+        for (const fs::path& path : files_of(store.folder() / "objects"))
+            if (name_of_object(path).size() == 32 && !holds_object(store.folder(), name_of_object(path))) // others are half written
+                broken.push_back(path);
+    }
+    const FolderLock lock(store.lock_file());
+    for (const fs::path& path : broken) {
+        if (holds_object(store.folder(), name_of_object(path))) // written anew meanwhile
             continue;
-        damage.push_back({"object " + hash, "its bytes are not those that were kept"});
+        damage.push_back({"object " + name_of_object(path), "its bytes are not those that were kept"});
         take_out(path);
     }
     std::set<std::string> whole;
@@ -73,7 +90,11 @@ std::vector<StoreDamage> verify_store(const CellStore& store) {
             continue;
         damage.push_back({sentence_name(cell), "its results are missing or damaged; it is played again when it is asked for"});
         store.forget(cell.key);
-        store.note_failure(cell.key, "its results in the store were damaged");
+        try {
+            store.note_failure(cell.key, "its results in the store were damaged");
+        } catch (const DeviceError&) { // it is told here, too
+            continue;
+        }
     }
     for (const fs::path& path : files_of(store.folder() / "cells"))
         if (path.extension() == ".json" && !whole.contains(path.parent_path().filename().string() + path.stem().string())) {
@@ -85,7 +106,7 @@ std::vector<StoreDamage> verify_store(const CellStore& store) {
 }
 
 Pruned prune_store(const CellStore& store, const Pruning& pruning, double now_s) {
-    const FolderLock lock(store.folder());
+    const FolderLock lock(store.lock_file());
     std::vector<StoredCell> cells = store.list(), stay;
     Pruned pruned;
     const auto is_of_study = [&](const StoredCell& cell) { return pruning.study.empty() || matches(pruning.study, cell.study); };
@@ -114,20 +135,31 @@ Pruned prune_store(const CellStore& store, const Pruning& pruning, double now_s)
     }
     const auto take_file = [&](const fs::path& path) {
         ++pruned.files;
-        pruned.bytes += fs::file_size(path);
+        pruned.bytes += size_of(path);
         if (!pruning.dry)
             take_out(path);
     };
     for (const fs::path& path : files_of(store.folder() / "objects"))
         if (needed.contains(name_of_object(path)))
-            pruned.bytes_left += fs::file_size(path);
+            pruned.bytes_left += size_of(path);
         else
             take_file(path);
-    for (const char* const part : {"playing", "cells", "failed"})
-        for (const fs::path& path : files_of(store.folder() / part))
-            if (path.extension() != ".json" || std::string_view(part) == "playing")
-                if (is_left_over(path))
-                    take_file(path);
+    for (const fs::path& path : files_of(store.folder() / "cells"))
+        if (path.extension() != ".json" && age_s(path) >= leftover_age_s)
+            take_file(path);
+    for (const fs::path& path : files_of(store.folder() / "failed"))
+        if (age_s(path) >= note_age_s)
+            take_file(path);
+    std::error_code none;
+    for (fs::directory_iterator place(store.folder() / "playing", none), end; !none && place != end; place.increment(none)) {
+        if (age_s(place->path()) < leftover_age_s || !FolderLock::at_once(place->path())) // a cell may write nothing for long
+            continue;
+        for (const fs::path& path : files_of(place->path()))
+            take_file(path);
+        std::error_code ignored;
+        if (!pruning.dry)
+            fs::remove_all(place->path(), ignored);
+    }
     return pruned;
 }
 

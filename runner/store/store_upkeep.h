@@ -21,8 +21,8 @@ struct Pruned {
     std::size_t cells = 0, cells_left = 0, files = 0; ///< files: objects, and what killed processes left
     std::uint64_t bytes = 0, bytes_left = 0;
 };
-/// Takes out cells, then what no cell needs, and what killed processes left an hour ago or earlier. `now_s`: seconds since 1970; a cell
-/// from the future has no age. Waits for writers. Throws DeviceError.
+/// Takes out cells, then what no cell needs, what killed processes left an hour ago or earlier, and why cells failed 30 days ago. `now_s`:
+/// seconds since 1970; a cell from the future has no age. Waits for writers. Throws DeviceError.
 Pruned prune_store(const CellStore& store, const Pruning& pruning, double now_s);
 
 } // namespace fernlicht

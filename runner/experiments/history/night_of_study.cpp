@@ -73,6 +73,12 @@ Night night_of_study(const StudyResult& result, const std::filesystem::path& fol
     return night;
 }
 
+void take_replays(Night& tonight, const std::map<std::string, NightReadings>& replays) {
+    for (NightCell& cell : tonight.cells)
+        if (const auto replay = replays.find(cell.name); replay != replays.end())
+            cell.with_earlier_inputs = std::make_shared<NightReadings>(replay->second);
+}
+
 Night read_night(const std::filesystem::path& folder) {
     std::error_code ignored;
     if (is_marked_incomplete(folder))

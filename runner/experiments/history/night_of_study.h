@@ -16,4 +16,7 @@ Night night_of_study(const StudyResult& result, const std::filesystem::path& fol
 /// The same of a study's folder. Throws InputError for what is no folder of a complete study.
 Night read_night(const std::filesystem::path& folder);
 
+/// What cells read when they were played again, by name, to the night.
+void take_replays(Night& tonight, const std::map<std::string, NightReadings>& replays);
+
 } // namespace fernlicht

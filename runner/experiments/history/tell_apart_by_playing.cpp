@@ -49,7 +49,7 @@ Replayed with_earlier_lamps(const Study& study, const StudyOptions& options, con
     one.only = {request.cell};
     one.expected.clear();
     one.timed = false;
-    one.folder = place.folder / "out";
+    one.folder = place.folder() / "out";
     const StudyPlan today = plan_study(study, one);
     const CellInputs now = today.inputs(today.cells.front());
     for (const InputKind kind : {InputKind::drive, InputKind::road, InputKind::model, InputKind::setting})
@@ -63,7 +63,7 @@ Replayed with_earlier_lamps(const Study& study, const StudyOptions& options, con
     for (std::size_t i = 0; i < lamps.size(); ++i) {
         if (lamps[i].hash == earlier[i].hash)
             continue;
-        const fs::path file = place.folder / fmt::format("{}", i) / fs::path(earlier[i].name).filename();
+        const fs::path file = place.folder() / fmt::format("{}", i) / fs::path(earlier[i].name).filename();
         make_folder(file.parent_path());
         write_file(file, get_object(store.folder(), earlier[i].hash, "lamp that was kept"));
         if (!put_back(lamp, lamps[i], file))

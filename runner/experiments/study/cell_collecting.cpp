@@ -83,6 +83,8 @@ CellResult unplayed_cell(const Study& study, const StudyPlan& plan, const Planne
 void judge_cell(const Study& study, const PlannedCell& planned, const StudyOptions& options, CellResult& result) {
     const fs::path folder = options.folder / folder_name_of(planned);
     const Drive drive = cell_drive(study, planned.cell);
+    if (cell_inputs(drive, *planned.road, *planned.others, planned.settings) != planned.own_inputs)
+        throw InputError({drive.file, 0, 0, {}}, "changed, or its lamps did, while the study was played", "files that stay as they are");
     Report report = report_of_cell(folder);
     judge(drive, planned, options, folder, report);
     write_file(folder / planned.resolved_file, write_drive(drive));

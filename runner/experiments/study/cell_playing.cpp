@@ -1,5 +1,6 @@
 #include "runner/experiments/study/cell_playing.h"
 
+#include "runner/experiments/run/run_report.h"
 #include "runner/experiments/study/study_progress.h"
 #include "runner/files/durable_files.h"
 #include "runner/files/trace_file.h"
@@ -69,13 +70,13 @@ bool play_into(const CellStore& store, const Study& study, const StudyPlan& plan
     TraceSpan span("cell", "study");
     tell_cell(span, planned);
     const Workplace place = store.new_workplace(planned.key); // whatever happens, nothing of it stays
-    RunOptions run = run_options(options, place.folder);
+    RunOptions run = run_options(options, place.folder());
     run.no_times = no_times_beside_others;
     const Report report = run_drives({unjudged_drive(study, planned.cell)}, run);
     if (!report.complete)
         return false;
     store.keep({planned.key, study.name, planned.cell.name, report.context.started_utc, plan.inputs(planned), {}, 0, {}},
-               files_below(place.folder), inputs_of(report, planned));
+               files_below(place.folder()), inputs_of(report, planned));
     return true;
 }
 
@@ -88,7 +89,7 @@ bool play_timed(const Study& study, const PlannedCell& planned, const StudyOptio
 Jobs jobs_for(int asked, const RunContext& context, const StudyResources& resources) {
     const bool is_software = context.gl_renderer.starts_with("llvmpipe") || context.gl_renderer.starts_with("softpipe");
     const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    int usual = is_software ? cores : std::min(4, cores);
+    int usual = std::max(1, (is_software ? cores : std::min(4, cores)) / std::max(1, resources.cores));
     if (resources.memory_mib > 0.0)
         usual = std::clamp(usual, 1, std::max(1, static_cast<int>(physical_memory_mib() / resources.memory_mib)));
     return {asked > 0 ? asked : usual, resources.cores > 0 ? resources.cores : asked == 1 ? cores : 1};
@@ -97,8 +98,10 @@ Jobs jobs_for(int asked, const RunContext& context, const StudyResources& resour
 std::vector<std::string> playing_command(const Study& study, const StudyPlan& plan, const std::vector<std::size_t>& cells,
                                          const StudyOptions& options) {
     std::error_code ignored;
-    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-    std::vector<std::string> words{program.empty() ? "fernlicht" : program.string(), "study", fs::absolute(study.file).string(), "--play"};
+    std::string program = fs::read_symlink("/proc/self/exe", ignored).string();
+    if (constexpr std::string_view built_anew = " (deleted)"; program.ends_with(built_anew))
+        program.resize(program.size() - built_anew.size());
+    std::vector<std::string> words{program.empty() ? "fernlicht" : program, "study", fs::absolute(study.file).string(), "--play"};
     const auto add = [&](const char* flag, const std::string& value) {
         if (!value.empty())
             words.insert(words.end(), {flag, value});
@@ -154,14 +157,17 @@ std::map<std::size_t, PlayedInWorker> play_in_workers(const CellStore& store, co
             return;
         }
         PlayedInWorker& played = outcome[i] = {"", end.seconds, end.cpu_s, end.peak_memory_mib};
-        if (end.ending != WorkerEnding::exited || end.code != 0) {
+        if (store.find(plan.cells[i].key)) {
+            // However it ended then.
+        } else if (end.ending == WorkerEnding::exited && end.code == 0)
+            played.failed = "its process ended well, and the store does not have the cell: was it pruned meanwhile?";
+        else {
             played.failed = store.failure(plan.cells[i].key);
             if (played.failed.empty())
                 played.failed =
                     fmt::format("its process {}{}", ending_text(end, pool.limits), end.said.empty() ? "" : ": " + last_word(end));
             played.failed += end.said.empty() ? " (it printed nothing)" : fmt::format(" (log: logs/{}.log)", plan.cells[i].cell.name);
-        } else if (!store.find(plan.cells[i].key))
-            played.failed = "its inputs changed while the study was played";
+        }
         std::error_code ignored;
         if (played.failed.empty())
             fs::remove(log_of(i), ignored);
@@ -178,6 +184,33 @@ std::map<std::size_t, PlayedInWorker> play_in_workers(const CellStore& store, co
     std::error_code ignored;
     fs::remove(logs, ignored); // where it is empty
     return outcome;
+}
+
+double frame_s_by_itself(const Study& study, const std::string& cell, const CellStore& store, const StudyOptions& options) {
+    const Workplace place = store.new_workplace("timed");
+    const std::string out = (place.folder() / "out").string();
+    std::vector<std::string> words{"fernlicht",     "study",  fs::absolute(study.file).string(), "--timed", "--only", cell, "--out", out,
+                                   "--no-accuracy", "--quiet"};
+    for (const auto& [flag, value] :
+         {std::pair<std::string, std::string>("--backend", options.run.backend), {"--frames", frames_text(options.run.ticks)}})
+        if (!value.empty())
+            words.insert(words.end(), {flag, value});
+    WorkerPool pool{1, {60.0 * options.resources.minutes, static_cast<std::uint64_t>(options.resources.memory_mib)}, [] {
+                        return !Interruption::requested();
+                    }};
+    WorkerEnd ended;
+    run_workers(
+        1, pool,
+        [&](std::size_t) {
+            return WorkerCommand{words, fmt::format("/proc/{}/exe", ::getpid()), {}, place.folder() / "log"};
+        },
+        [&](std::size_t, const WorkerEnd& end) { ended = end; });
+    if (ended.ending != WorkerEnding::exited || ended.code > 1) // 1: beyond a limit, and timed
+        throw DeviceError(fmt::format("its process {}: {}", ending_text(ended, pool.limits), last_word(ended)));
+    const std::optional<double> frame_s = read_report(fs::path(out) / "cells" / cell).played.front().throughput.view_s;
+    if (!frame_s)
+        throw DeviceError("too few moments were played to time a frame");
+    return *frame_s;
 }
 
 } // namespace fernlicht

@@ -16,6 +16,10 @@ bool play_into(const CellStore& store, const Study& study, const StudyPlan& plan
 /// Plays the cell by itself into its folder, and takes its times; false where it was interrupted.
 bool play_timed(const Study& study, const PlannedCell& planned, const StudyOptions& options, const std::filesystem::path& folder);
 
+/// Seconds a frame of the driver's view takes when the cell is played once more, in a process of its own, with nothing beside it. Throws
+/// what kept it from being timed.
+double frame_s_by_itself(const Study& study, const std::string& cell, const CellStore& store, const StudyOptions& options);
+
 /// How many cells to play at a time, and how many cores each has. One a core where the CPU draws, at most four cells where a GPU
 /// does (not measured there); as many as the memory holds.
 struct Jobs {

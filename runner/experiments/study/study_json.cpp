@@ -116,10 +116,6 @@ JsonMembers cell_reading_members(Reading& reading) {
     return joined({{"name", reading.key}, {"value", value}, {"unit", reading.unit()}}, when(!value.measured(), {{"not_measured", reason}}));
 }
 
-JsonMembers cell_input_members(CellInput& input) {
-    return {{"kind", one_of(input.kind, names_of<InputKind>(input_kind_name, 8))}, {"name", input.name}, {"hash", input.hash}};
-}
-
 JsonMembers study_cell_members(CellResult& cell, Study& study) {
     StudyCell& at = cell.cell;
     StudyConditions& conditions = study.conditions;

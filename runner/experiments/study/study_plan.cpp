@@ -140,6 +140,14 @@ std::string frames_text(const TickRange& ticks) {
     return fmt::format("{}:{}", ticks.first, ticks.last);
 }
 
+std::vector<std::size_t> lacking_cells(const CellStore& store, const StudyPlan& plan) {
+    std::vector<std::size_t> cells;
+    for (std::size_t i = 0; i < plan.cells.size(); ++i)
+        if (plan.cells[i].moments > 0 && !store.find(plan.cells[i].key))
+            cells.push_back(i);
+    return cells;
+}
+
 std::vector<std::pair<std::string, std::vector<std::string>>> reasons_to_play(const Study& study, const StudyPlan& plan,
                                                                               const CellStore& store) {
     std::map<std::string, StoredCell> latest; // by cell
@@ -195,11 +203,12 @@ StudyPlan plan_study(const Study& study, const StudyOptions& options) {
                tick_count(drive),
                {},
                {},
+               {},
                stage.road,
                stage.others};
-        const CellSettings settings{std::max(0, ticks.first), std::min(ticks.last, one.moments_of_drive - 1), options.run.accuracy,
-                                    options.run.repeats};
-        one.own_inputs = cell_inputs(drive, *stage.road, *stage.others, settings);
+        one.settings = {std::max(0, ticks.first), std::min(ticks.last, one.moments_of_drive - 1), options.run.accuracy,
+                        options.run.repeats};
+        one.own_inputs = cell_inputs(drive, *stage.road, *stage.others, one.settings);
     }
     if (!options.timed)
         refuse_limits_on_times(study, plan.cells);

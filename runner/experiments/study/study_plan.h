@@ -3,6 +3,7 @@
 
 #include "runner/experiments/run/run_drives.h"
 #include "runner/findings/lamp_checks.h"
+#include "runner/store/cell_key.h"
 #include "runner/store/cell_store.h"
 #include "scenarios/studies/study.h"
 
@@ -17,7 +18,8 @@ struct PlannedCell {
     std::string resolved_file; ///< its name in the cell's folder
     bool left_hand_traffic = false, limits_times = false;
     int moments = 0, moments_of_drive = 0; ///< to be played, and that the whole drive has
-    CellInputs own_inputs;                 ///< but for those of the machine
+    CellSettings settings;
+    CellInputs own_inputs; ///< but for those of the machine
     std::string key;
     std::shared_ptr<const FilesRead> road, others; ///< opened for its road, and beside road and lamps
 };
@@ -38,8 +40,10 @@ StudyPlan plan_study(const Study& study, const StudyOptions& options);
 /// As `--frames` takes it; "" for all moments.
 std::string frames_text(const TickRange& ticks);
 
-/// The cells that one of `plan` differs from what the store has of the same study and cell: why each must be played, "new" where it never
-/// was. Only of cells that the store lacks.
+/// Places of the cells that are to be played and that the store lacks, or holds damaged.
+std::vector<std::size_t> lacking_cells(const CellStore& store, const StudyPlan& plan);
+
+/// Why each cell of the plan that the store lacks must be played; "new" where this study never played it.
 std::vector<std::pair<std::string, std::vector<std::string>>> reasons_to_play(const Study& study, const StudyPlan& plan,
                                                                               const CellStore& store);
 

@@ -1,13 +1,14 @@
 #include "runner/experiments/study/study_run.h"
 
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
-#include "runner/experiments/run/run_report.h"
 #include "runner/experiments/study/cell_collecting.h"
 #include "runner/experiments/study/cell_playing.h"
 #include "runner/experiments/study/slurm_playing.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/files/checked_json.h"
+#include "runner/files/durable_files.h"
 #include "runner/files/log.h"
+#include "runner/files/object_store.h"
 #include "runner/files/output_folder.h"
 #include "runner/play/progress.h"
 #include "scenarios/values/errors.h"
@@ -19,6 +20,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <map>
+#include <memory>
 #include <oneapi/tbb/global_control.h>
 #include <optional>
 
@@ -53,12 +55,15 @@ std::vector<LampComparison> compare_lamp_files(const Study& study) {
 
 constexpr const char* plan_schema = "fernlicht plan";
 
-/// The keys of a study's cells, so that it is known later what was begun.
-std::string plan_text(const Study& study, const StudyPlan& plan) {
+/// The keys of a study's cells and when it began, so that it is known later.
+std::string plan_text(const Study& study, const StudyPlan& plan, const std::string& started_utc) {
     nlohmann::ordered_json cells = nlohmann::ordered_json::object();
     for (const PlannedCell& one : plan.cells)
         cells[one.cell.name] = one.key;
-    return nlohmann::ordered_json{{"schema", plan_schema}, {"schema_version", 1}, {"study", study.name}, {"cells", cells}}.dump(1) + "\n";
+    return nlohmann::ordered_json{
+               {"schema", plan_schema}, {"schema_version", 1}, {"study", study.name}, {"started_utc", started_utc}, {"cells", cells}}
+               .dump(1) +
+           "\n";
 }
 
 /// Before a study is gone on with: what was begun is what is asked for now.
@@ -74,9 +79,26 @@ void refuse_other_cells(const Study& study, const StudyPlan& plan, const fs::pat
                          fmt::format("was begun with {} cells, and {} are asked for now", cells.size(), plan.cells.size()),
                          "the same --only as then, or a new folder");
     for (const PlannedCell& one : plan.cells)
-        if (cells.has(one.cell.name) && cells.at(one.cell.name).text() != one.key)
+        if (!cells.has(one.cell.name) || cells.at(one.cell.name).text() != one.key)
             throw InputError({folder / "cells" / one.cell.name, 0, 0, "--resume"},
-                             "found a cell that was played with other files or settings", "the study as it was begun");
+                             "found a cell that was not begun, or begun with other files, settings, another program or another machine",
+                             "the study as it was begun");
+}
+
+/// Of two that go on in one folder the second is refused. Held on the mark of a study that did not end.
+std::unique_ptr<FolderLock> only_process(const fs::path& folder) {
+    std::unique_ptr<FolderLock> alone = FolderLock::at_once(folder / "INCOMPLETE");
+    if (!alone)
+        throw InputError({folder, 0, 0, "--out"}, "is being written by another process", "one process at a time in a folder");
+    return alone;
+}
+
+/// With --resume a study began when it did, not now.
+void begin(const Study& study, const StudyPlan& plan, const StudyOptions& options, StudyResult& result) {
+    if (const fs::path file = options.folder / "plan.json"; options.resume && fs::is_regular_file(file))
+        if (const CheckedJson begun = CheckedJson::read(file); begun.has("started_utc"))
+            result.context.started_utc = begun.at("started_utc").text();
+    write_file(options.folder / "plan.json", plan_text(study, plan, result.context.started_utc));
 }
 
 /// A new folder, or with --resume that of a study that was stopped, or of one that ended, whose report is then written anew.
@@ -179,19 +201,24 @@ void finish(StudyResult& result, const StudyOptions& options, OutputFolder& fold
         folder.finish();
 }
 
-/// Those that the store lacks, or holds damaged.
-std::vector<std::size_t> lacking(const CellStore& store, const StudyPlan& plan) {
-    std::vector<std::size_t> cells;
-    for (std::size_t i = 0; i < plan.cells.size(); ++i)
-        if (plan.cells[i].moments > 0 && !store.find(plan.cells[i].key))
-            cells.push_back(i);
-    return cells;
-}
-
 void refuse_unwritable(const CellStore& store) {
     if (const std::string why = store.refuses_writing(); !why.empty())
         throw DeviceError(fmt::format(
             "the store of cells cannot be written ({}), and some cells must be played; choose another folder with --store", why));
+}
+
+/// Whether the store has what it says that it has.
+bool is_whole(const CellStore& store, const std::string& key) {
+    const std::optional<StoredCell> stored = store.find(key);
+    return stored && holds_object(store.folder(), stored->object);
+}
+
+/// Its drive is read anew, and may be gone.
+CellResult begun_cell(const Study& study, const StudyPlan& plan, const PlannedCell& one, const StudyOptions& options) {
+    CellResult cell;
+    cell.cell = one.cell;
+    try_cell(cell, [&] { cell = unplayed_cell(study, plan, one, options); });
+    return cell;
 }
 
 /// From the store, in the order of the plan. What turns out to be damaged there is played once more.
@@ -200,10 +227,12 @@ void collect_all(const CellStore& store, const Study& study, const StudyPlan& pl
     Telling telling(study, plan, options);
     for (std::size_t i = 0; i < plan.cells.size(); ++i) {
         const PlannedCell& one = plan.cells[i];
-        CellResult& cell = result.cells.emplace_back(unplayed_cell(study, plan, one, options));
+        CellResult& cell = result.cells.emplace_back(begun_cell(study, plan, one, options));
         const auto found = played.find(i);
         cell.reused = found == played.end();
-        if (one.moments == 0)
+        if (!cell.failed.empty()) {
+            // Its drive cannot be read any more.
+        } else if (one.moments == 0)
             cell.failed = no_moments(options);
         else if (found != played.end() && !found->second.failed.empty())
             cell.failed = found->second.failed;
@@ -212,18 +241,14 @@ void collect_all(const CellStore& store, const Study& study, const StudyPlan& pl
             result.missing.push_back("cell " + one.cell.name);
         } else
             try_cell(cell, [&] {
-                try {
-                    collect_cell(store, study, one, options, cell);
-                } catch (const InputError&) {
-                    if (Interruption::requested())
-                        throw;
+                if (!is_whole(store, one.key) && options.executor == StudyExecutor::local && !Interruption::requested()) {
                     store.forget(one.key);
                     cell.reused = false;
                     if (const auto again = play_in_workers(store, study, plan, {i}, jobs, options);
                         again.contains(i) && !again.at(i).failed.empty())
                         throw DeviceError(again.at(i).failed);
-                    collect_cell(store, study, one, options, cell);
                 }
+                collect_cell(store, study, one, options, cell);
             });
         telling.add(result);
     }
@@ -234,7 +259,7 @@ void play_all_timed(const Study& study, const StudyPlan& plan, const StudyOption
     for (std::size_t i = 0; i < plan.cells.size(); ++i) {
         const PlannedCell& one = plan.cells[i];
         const fs::path folder = options.folder / "cells" / one.cell.name;
-        CellResult& cell = result.cells.emplace_back(unplayed_cell(study, plan, one, options));
+        CellResult& cell = result.cells.emplace_back(begun_cell(study, plan, one, options));
         if (result.interrupted.empty() && !options.run.quiet)
             tell(LogLevel::info, fmt::format("cell {} of {}: {}", i + 1, plan.cells.size(), one.cell.name));
         if (one.moments == 0)
@@ -254,37 +279,50 @@ void play_all_timed(const Study& study, const StudyPlan& plan, const StudyOption
     }
 }
 
-/// When nothing else is left to play. A cell that cannot be timed is told, and has no time.
-void time_cells(const Study& study, const StudyPlan& plan, StudyOptions options, StudyResult& result) {
-    options.run.accuracy = false;
+/// When nothing else is left to play. Returns what is said of cells that could not be timed.
+std::string time_cells(const Study& study, const StudyPlan& plan, const CellStore& store, const StudyOptions& options,
+                       StudyResult& result) {
+    std::string said;
     for (std::size_t i = 0; i < plan.cells.size() && !Interruption::requested(); ++i) {
-        const PlannedCell& one = plan.cells[i];
-        if (one.moments == 0 ||
-            std::ranges::none_of(study.timed_cells, [&](const std::string& pattern) { return matches(pattern, one.cell.name); }))
+        const std::string& name = plan.cells[i].cell.name;
+        if (!result.cells[i].failed.empty() ||
+            std::ranges::none_of(study.timed_cells, [&](const std::string& pattern) { return matches(pattern, name); }))
             continue;
         if (!options.run.quiet)
-            tell(LogLevel::info, fmt::format("timing cell {}", one.cell.name));
-        const Workplace place(options.folder / "timed");
+            tell(LogLevel::info, fmt::format("timing cell {}", name));
         try {
-            if (play_timed(study, one, options, place.folder))
-                result.cells[i].frame_s = read_report(place.folder).played.front().throughput.view_s;
+            result.cells[i].frame_s = frame_s_by_itself(study, name, store, options);
         } catch (const std::exception& error) {
-            tell(LogLevel::warning, fmt::format("cell {} has no time: {}", one.cell.name, error.what()));
+            said += fmt::format("; cell {} has no time: {}", name, error.what());
         }
     }
+    return said;
 }
 
 /// Where a plan was made with other files, another program or on another class of machine, what is played here is not what it waits for.
 void refuse_others(const StudyPlan& plan, const CellStore& store, const StudyOptions& options) {
+    std::string found;
     for (const auto& [cell, key] : options.expected)
         if (const auto one = std::ranges::find(plan.cells, cell, [](const PlannedCell& planned) { return planned.cell.name; });
             one != plan.cells.end() && one->key != key) {
-            const std::string here = fmt::format("{}, {}", plan.context.gl_renderer, plan.context.cpu);
-            const std::string why =
-                fmt::format("cell {}: files, program or class of machine are not those of the plan (here: {})", cell, here);
+            const std::string why = fmt::format("cell {}: files, program or class of machine are not those of the plan (here: {}, {})",
+                                                cell, plan.context.gl_renderer, plan.context.cpu);
             store.note_failure(key, why);
-            throw InputError({{}, 0, 0, "--expect"}, "found " + why, "a plan that was made with these");
+            found = found.empty() ? why : found;
         }
+    if (!found.empty())
+        throw InputError({{}, 0, 0, "--expect"}, "found " + found, "a plan that was made with these");
+}
+
+/// What cannot even be planned here is the reason of every cell that is waited for.
+StudyPlan plan_or_note(const Study& study, const CellStore& store, const StudyOptions& options) {
+    try {
+        return plan_study(study, options);
+    } catch (const std::exception& error) {
+        for (const auto& [cell, key] : options.expected)
+            store.note_failure(key, error.what());
+        throw;
+    }
 }
 
 } // namespace
@@ -294,11 +332,12 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
     const StudyPlan plan = plan_study(study, options);
     StudyResult result = begun_study(study, plan, options);
     const CellStore store(options.store);
-    const std::vector<std::size_t> to_play = lacking(store, plan);
+    const std::vector<std::size_t> to_play = lacking_cells(store, plan);
     if (!options.timed && !to_play.empty())
         refuse_unwritable(store);
     OutputFolder folder = folder_for(study, plan, options);
-    write_file(options.folder / "plan.json", plan_text(study, plan));
+    const std::unique_ptr<FolderLock> alone = only_process(options.folder);
+    begin(study, plan, options, result);
     const Interruption listening;
     if (options.timed) {
         play_all_timed(study, plan, options, result);
@@ -310,12 +349,12 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
         if (Interruption::requested())
             result.interrupted = "interrupted by the user";
         collect_all(store, study, plan, options, played, jobs, result);
-        if (options.times_too && options.executor == StudyExecutor::local)
-            time_cells(study, plan, options, result);
         result.played_by =
             played_words(result, options.executor == StudyExecutor::slurm ? "by Slurm"
                                                                           : fmt::format("{} at a time, {} {} each", jobs.at_once,
                                                                                         jobs.cores, jobs.cores == 1 ? "core" : "cores"));
+        if (options.times_too && options.executor == StudyExecutor::local)
+            result.played_by += time_cells(study, plan, store, options, result);
     }
     finish(result, options, folder);
     return result;
@@ -327,12 +366,15 @@ StudyResult collect_study(const Study& study, const StudyOptions& options) {
     StudyResult result = begun_study(study, plan, options);
     const CellStore store(options.store);
     OutputFolder folder = folder_for(study, plan, options);
-    write_file(options.folder / "plan.json", plan_text(study, plan));
+    const std::unique_ptr<FolderLock> alone = only_process(options.folder);
+    begin(study, plan, options, result);
     Telling telling(study, plan, options);
     for (const PlannedCell& one : plan.cells) {
-        CellResult& cell = result.cells.emplace_back(unplayed_cell(study, plan, one, options));
+        CellResult& cell = result.cells.emplace_back(begun_cell(study, plan, one, options));
         cell.reused = true;
-        if (one.moments == 0)
+        if (!cell.failed.empty()) {
+            // Its drive cannot be read any more.
+        } else if (one.moments == 0)
             cell.failed = no_moments(options);
         else if (!store.find(one.key)) {
             const std::string why = store.failure(one.key);
@@ -350,8 +392,8 @@ bool play_into_store(const Study& study, const StudyOptions& options) {
     const int cores = std::max(1, options.resources.cores);
     ::setenv("LP_NUM_THREADS", fmt::format("{}", cores).c_str(), 0);
     const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(cores));
-    const StudyPlan plan = plan_study(study, options);
     const CellStore store(options.store);
+    const StudyPlan plan = plan_or_note(study, store, options);
     refuse_others(plan, store, options);
     const Interruption listening;
     bool all_there = true;

@@ -71,12 +71,15 @@ TEST(HistoryFile, WhatGoesInComesBackToTheLastBit) {
     {
         History history(file, History::For::collecting);
         EXPECT_EQ(history.journal(), "wal");
-        EXPECT_EQ(history.add(night_of(2)).number, 1);
+        Night replayed = night_of(2);
+        for (NightCell& cell : replayed.cells)
+            if (cell.name == "straight_xenon")
+                cell.with_earlier_inputs = std::make_shared<NightReadings>(NightReadings{{"a", Value(7.0)}});
+        EXPECT_EQ(history.add(replayed).number, 1);
         EXPECT_EQ(history.add(night_of(1)).number, 2);
         EXPECT_EQ(history.add(night_of(3, "other")).number, 3);
         EXPECT_FALSE(history.add(night_of(2)).is_new) << "the same night again";
         history.accept(2, "as bought");
-        history.keep_replay(1, "straight_xenon", {{"a", Value(7.0)}});
     }
     const History history(file, History::For::reading);
     const std::vector<Night> nights = history.nights("standard");
@@ -244,6 +247,21 @@ TEST(HistoryFile, WhereWriteAheadLoggingDoesNotWorkARollbackJournalDoes) {
     EXPECT_EQ(moved.journal(), "delete");
     EXPECT_TRUE(moved.add(night_of(2)).is_new);
     EXPECT_EQ(moved.nights().size(), 2U);
+}
+
+/// A study whose cells failed stands there with them; gone on with, it stands there as it is then, and once.
+TEST(HistoryFile, ANightThatWasGoneOnWithIsWrittenAnew) {
+    History history(new_folder() / "history.db", History::For::collecting);
+    Night red = night_of(1);
+    red.cells.front().failed = "was killed by SIGSEGV";
+    EXPECT_EQ(history.add(red).number, 1);
+    EXPECT_EQ(history.nights().front().cells.front().failed, "was killed by SIGSEGV");
+    const History::Added whole = history.add(night_of(1));
+    EXPECT_TRUE(whole.is_new);
+    EXPECT_EQ(whole.number, 1);
+    ASSERT_EQ(history.nights().size(), 1U);
+    expect_same(history.nights().front(), night_of(1));
+    EXPECT_FALSE(history.add(night_of(1)).is_new);
 }
 
 TEST(HistoryFile, AReaderSeesWholeNightsWhileOneIsAdded) {

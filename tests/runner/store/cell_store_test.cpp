@@ -103,6 +103,29 @@ TEST_F(CellStoreTest, PrunesByAgeSizeAndStudy) {
     EXPECT_THAT(verify_store(store), IsEmpty());
 }
 
+/// A cell that writes nothing for hours is still being played; one whose process was killed is not.
+TEST_F(CellStoreTest, WhatIsBeingPlayedStaysAndWhatWasLeftGoes) {
+    const auto old = fs::file_time_type::clock::now() - std::chrono::hours(3);
+    const auto leave = [&](const fs::path& place) {
+        write_file(place / "frame.png", "a frame");
+        for (const fs::path& path : {place / "frame.png", place})
+            fs::last_write_time(path, old);
+    };
+    const Workplace first = store.new_workplace(key_of_cell(1)), second = store.new_workplace(key_of_cell(1));
+    EXPECT_NE(first.folder(), second.folder()) << "of one key, also where every process has the number 1";
+    leave(first.folder());
+    const fs::path left = store.folder() / "playing/left-by-one-that-was-killed";
+    fs::create_directories(left);
+    leave(left);
+    EXPECT_EQ(prune_store(store, {}, noon_s).files, 1U);
+    EXPECT_FALSE(fs::exists(left));
+    EXPECT_TRUE(fs::exists(first.folder() / "frame.png"));
+    store.note_failure(key_of_cell(9), "found no lamp");
+    fs::last_write_time(store.folder() / "failed" / key_of_cell(9), old);
+    prune_store(store, {}, noon_s);
+    EXPECT_EQ(store.failure(key_of_cell(9)), "found no lamp") << "for whoever collects in the morning";
+}
+
 TEST_F(CellStoreTest, ManyWritersAtOnceLeaveWholeCells) {
     std::vector<::pid_t> writers;
     for (int w = 0; w < 6; ++w)

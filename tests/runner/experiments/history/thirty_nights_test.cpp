@@ -97,9 +97,9 @@ struct ThirtyNights {
             last = history_of(file, result, "/nights/" + date_of_night(night), options);
             claims.push_back(claims_of(last));
             History history(file, History::For::collecting);
-            const std::int64_t number = history.add(night_of_study(result, "/nights/" + date_of_night(night))).number;
-            for (const auto& [cell, readings] : last.replays)
-                history.keep_replay(number, cell, readings);
+            Night tonight = night_of_study(result, "/nights/" + date_of_night(night));
+            take_replays(tonight, last.replays);
+            const std::int64_t number = history.add(tonight).number;
             if (night == 0)
                 history.accept(number, "the beginning");
         }

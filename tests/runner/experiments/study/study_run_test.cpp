@@ -1,5 +1,6 @@
 // Whole studies through the program.
 #include "runner/experiments/study/study_document.h"
+#include "runner/files/durable_files.h"
 #include "runner/files/object_store.h"
 #include "runner/history/database.h"
 #include "runner/write/formats.h"
@@ -133,7 +134,7 @@ TEST_F(StudyProgram, GoesOnWhereItWasStoppedAndGivesTheSameBytes) {
     EXPECT_THAT(anew.output, HasSubstr("holds a study that did not end, expected --resume to go on with it, or a new or an empty folder"));
     const Outcome other = run_program("study " + file + " --frames 0:4 --no-accuracy --resume" + store + " --out " + (folder / "out"));
     EXPECT_EQ(other.exit_code, 2) << "other moments are another study";
-    EXPECT_THAT(other.output, HasSubstr("found a cell that was played with other files or settings"));
+    EXPECT_THAT(other.output, HasSubstr("found a cell that was not begun, or begun with other files, settings"));
     const Outcome resumed = run_program(arguments + (folder / "out") + " --resume");
     EXPECT_EQ(resumed.exit_code, 0) << resumed.output;
     const json study = tests::checked(content_of(folder / "out/study.json"), study_members);
@@ -352,12 +353,38 @@ TEST_F(StudyProgram, AFinishedStudyIsReportedAgainFromItsCells) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out/INCOMPLETE")) << "nothing was begun";
 }
 
+/// Two that go on in one folder would play everything twice and take each other's cells away.
+TEST_F(StudyProgram, OneProcessAtATimeGoesOnInAFolder) {
+    const std::string arguments = "study " + write_study_file(folder, xenon) + quick + "--out " + (folder / "out");
+    EXPECT_EQ(run_program(arguments).exit_code, 0);
+    write_file(folder / "out/INCOMPLETE", "");
+    {
+        const auto other = FolderLock::at_once(folder / "out/INCOMPLETE");
+        EXPECT_THAT(printed(arguments + " --resume", 2), HasSubstr("--out: is being written by another process"));
+    }
+    EXPECT_EQ(run_program(arguments + " --resume").exit_code, 0);
+    EXPECT_THAT(printed(arguments + " --resume --only straight_old", 2), HasSubstr("was begun with 2 cells, and 1 are asked for now"));
+}
+
 TEST_F(StudyProgram, RefusesBeforeAnythingIsDrawn) {
     const std::string file = write_study_file(folder, xenon, "techniques: [fotometric]\n");
     const Outcome run = run_program("study " + file + quick + "--out " + (folder / "out"));
     EXPECT_EQ(run.exit_code, 2) << run.output;
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
     EXPECT_EQ(run_program("study " + file + " --resume").exit_code, 2);
+    const auto refused = [&](const std::string& flags, const char* sentence) {
+        EXPECT_THAT(printed("study " + write_study_file(folder, xenon) + quick + flags, 2), HasSubstr(sentence));
+        EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+    };
+    const std::string out = " --out " + (folder / "out");
+    write_file(folder / "no.db", "no history at all, but long enough to be looked at by SQLite, which wants a hundred bytes of header ...");
+    refused(out + " --history " + (folder / "no.db"), "no.db: is damaged or no database");
+    refused("--play --expect straight_old", "--expect: found 'straight_old', expected CELL=KEY, as --plan prints it");
+    refused(out + " --plan", "--out: found beside --list, --explain, --plan or --play, which write no report");
+    refused(out + " --gpus gpu:1", "--gpus: found without --executor slurm, expected both together");
+    refused(out + " --per 2", "--per: found without --plan or --executor slurm");
+    EXPECT_THAT(printed("study " + write_study_file(folder, xenon, "timed_cells: [moon]\n") + quick + out, 2),
+                HasSubstr("found 'moon', which fits no cell, expected a name or a pattern of cells"));
     const Outcome beyond = run_program("study " + write_study_file(folder, xenon) + " --frames 100000:100001 --out " + (folder / "out"));
     EXPECT_EQ(beyond.exit_code, 2) << beyond.output;
     EXPECT_THAT(beyond.output, HasSubstr("expected moments of a drive, the longest of which has 0 to 99"));
