@@ -67,6 +67,7 @@ cd "$FAKE_SLURM"; echo "scancel $*" >>calls
 )sh";
 
 struct SlurmPlaying : testing::Test {
+    const Interruption listening; // and nothing of an earlier test
     TemporaryFolder folder;
     CellStore store{folder / "store"};
     Study study;
@@ -110,7 +111,8 @@ struct SlurmPlaying : testing::Test {
     /// Cells to a task, array by array.
     std::vector<std::vector<std::size_t>> submitted() const {
         std::vector<std::vector<std::size_t>> sizes;
-        for (const json& array : json::parse(content_of(options.folder / "slurm.json")).at("arrays"))
+        const json record = json::parse(content_of(options.folder / "slurm.json"));
+        for (const json& array : record.at("arrays"))
             for (sizes.emplace_back(); const json& task : array.at("cells"))
                 sizes.back().push_back(task.size());
         return sizes;
@@ -144,7 +146,6 @@ TEST_F(SlurmPlaying, InterruptedWhileItAsksForArraysItSubmitsNoneAndForgetsNone)
         R"( {"name": "fernlicht-x-2", "id": "7", "cells": [["c2", "c3"]]}]})";
     is("out/slurm.json", record);
     is("silent", "");
-    const Interruption listening;
     testing::internal::CaptureStderr();
     EXPECT_THAT(play(), IsEmpty());
     const std::string said = testing::internal::GetCapturedStderr();
