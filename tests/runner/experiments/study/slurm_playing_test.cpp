@@ -50,10 +50,16 @@ done <"${!#}"
 [[ ! -e refuse-$n ]] || exit 1
 echo "$n"
 )sh";
-// By name alone: its id, where it is known. silent: the controller does not answer, and someone presses Ctrl-C.
+// By name alone: its id, where it is known. silent: the controller does not answer, and someone presses Ctrl-C. requeued: the task of the
+// first array is gone, is pending again for thirty looks, is gone, and its results show two looks later.
 constexpr const char* squeue = R"sh(#!/bin/bash
 cd "$FAKE_SLURM"
 [[ ! -e silent ]] || { kill -INT "$PPID"; exit 1; }
+if [[ -e requeued ]]; then
+    echo >>requeued; looks=$(wc -l <requeued)
+    ((looks == 1 || looks > 31)) || echo "1 0 PENDING BeginTime"
+    ((looks < 34)) || { mkdir -p store/cells; cp -r played/. store/cells; }
+fi
 for word; do [[ $word != --name=* || ! -e id-${word#*=} ]] || cat "id-${word#*=}"; done
 )sh";
 constexpr const char* scontrol = R"sh(#!/bin/bash
@@ -138,6 +144,14 @@ TEST_F(SlurmPlaying, OnlyATaskOfOneCellTellsWhichTakesTooMuch) {
     for (const int other : {0, 1, 3})
         EXPECT_EQ(why[static_cast<std::size_t>(other)], "");
     EXPECT_THAT(submitted(), ElementsAre(ElementsAre(4), ElementsAre(1, 1, 1, 1)));
+}
+
+TEST_F(SlurmPlaying, ATaskThatWasRequeuedHasAllTheTimeForLateFilesAnew) {
+    is("fails-c1", "NODE_FAIL 1");
+    is("requeued", "");
+    patience.late_files_s = 1.2; // less than thirty looks take
+    EXPECT_THAT(failed(), ElementsAre("", "", "", ""));
+    EXPECT_EQ(content_of(folder / "calls"), "sbatch\n");
 }
 
 TEST_F(SlurmPlaying, InterruptedWhileItAsksForArraysItSubmitsNoneAndForgetsNone) {
