@@ -9,8 +9,8 @@ struct SlurmPatience {
     double ask_every_s = 2.0;      ///< the controller, at first; up to ten times that in a long study
     double late_files_s = 30.0;    ///< a shared file system may show results so much later than their task ended
     int submissions = 3;           ///< of a cell whose task was lost: by a node, a kill, a preemption without requeue
-    double refused_every_s = 60.0; ///< sbatch, where it refused a later submission
-    int refusals = 60;             ///< in a row, after which cells fail that no other task is waited for beside
+    double refused_every_s = 60.0; ///< then sbatch is asked again for a later array that it refused
+    int refusals = 60;             ///< in a row; then, where no task is active, what is due fails
 };
 
 /// Submits, waits, and submits what was lost again, until each of these cells (places in the plan) is in the store or known to have failed.
