@@ -41,7 +41,8 @@ std::string all_of(int file) {
     }
 }
 
-/// No shell is between: words stay words. What it complains goes to a file without a name, so that neither can fill up.
+/// No shell is between: words stay words. What it complains goes to a file without a name, so that neither can fill up. Its process
+/// group is its own: Ctrl-C on the terminal is for this program alone.
 Answer ask(std::vector<std::string> words) {
     std::vector<char*> pointers;
     for (std::string& word : words)
@@ -55,8 +56,13 @@ Answer ask(std::vector<std::string> words) {
     ::posix_spawn_file_actions_init(&actions);
     ::posix_spawn_file_actions_adddup2(&actions, said[1], STDOUT_FILENO);
     ::posix_spawn_file_actions_adddup2(&actions, ::fileno(complained), STDERR_FILENO);
+    posix_spawnattr_t attributes;
+    ::posix_spawnattr_init(&attributes);
+    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    ::posix_spawnattr_setpgroup(&attributes, 0);
     ::pid_t pid = -1;
-    const int error = ::posix_spawnp(&pid, pointers.front(), &actions, nullptr, pointers.data(), environ);
+    const int error = ::posix_spawnp(&pid, pointers.front(), &actions, &attributes, pointers.data(), environ);
+    ::posix_spawnattr_destroy(&attributes);
     ::posix_spawn_file_actions_destroy(&actions);
     ::close(said[1]);
     Answer answer;
@@ -75,13 +81,6 @@ Answer ask(std::vector<std::string> words) {
         throw DeviceError(fmt::format("{} cannot be started: {}; Slurm's programs must be on the PATH", words.front(),
                                       std::generic_category().message(error)));
     return answer;
-}
-
-std::string quoted_for_shell(const std::string& word) {
-    std::string quoted = "'";
-    for (const char c : word)
-        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
 }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
@@ -105,9 +104,8 @@ std::string submit_array(const std::string& name, const std::vector<std::string>
                          const fs::path& folder) {
     const fs::path list = fs::absolute(folder) / (name + ".commands"), script = fs::absolute(folder) / (name + ".sh");
     write_durably(list, fmt::format("{}\n", fmt::join(commands, "\n")));
-    write_durably(script, fmt::format("#!/bin/sh\n# Line SLURM_ARRAY_TASK_ID + 1 of the list is this task's command, quoted for a shell.\n"
-                                      "command=$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" {})\neval \"exec $command\"\n",
-                                      quoted_for_shell(list.string())));
+    write_durably(script, "#!/bin/sh\n# Line SLURM_ARRAY_TASK_ID + 1 of the list is this task's command, quoted for a shell.\n"
+                          "command=$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" \"$1\")\neval \"exec $command\"\n");
     const auto seconds = static_cast<long>(std::ceil(60.0 * resources.minutes));
     std::vector<std::string> words{
         "sbatch",
@@ -126,7 +124,7 @@ std::string submit_array(const std::string& name, const std::vector<std::string>
         words.push_back("--partition=" + resources.partition);
     if (!resources.gpus.empty())
         words.push_back("--gres=" + resources.gpus);
-    words.push_back(script.string());
+    words.insert(words.end(), {script.string(), list.string()});
     const Answer answer = ask(words);
     const std::string id = answer.said.substr(0, answer.said.find_first_of(";\n"));
     if (answer.code != 0 || id.empty())
@@ -173,9 +171,21 @@ std::size_t most_tasks() {
     return std::max<std::size_t>(2, std::stoul(most)) - 1;
 }
 
-void cancel_arrays(const std::vector<SlurmArray>& arrays) {
-    for (const SlurmArray& array : arrays)
-        ask({"scancel", "--name=" + array.name});
+std::vector<std::string> cancel_arrays(const std::vector<SlurmArray>& arrays) {
+    std::vector<std::string> failed;
+    for (const SlurmArray& array : arrays) {
+        std::string why;
+        try {
+            if (const Answer answer = ask({"scancel", "--name=" + array.name}); answer.code != 0)
+                why = answer.complained.empty() ? fmt::format("scancel ended with {}", answer.code) : first_line(answer.complained);
+        } catch (const DeviceError& error) {
+            why = error.what();
+        }
+        if (!why.empty())
+            failed.push_back(fmt::format("job array {} may still run: {}; cancel it by scancel --name={}",
+                                         array.id.empty() ? array.name : array.id, why, array.name));
+    }
+    return failed;
 }
 
 } // namespace fernlicht

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -25,7 +26,6 @@ struct SlurmResources {
 struct SlurmArray {
     std::string name; ///< unique on the cluster
     std::string id;
-    std::size_t tasks = 0;
 };
 
 /// Writes NAME.commands (a line each) and NAME.sh below `folder`, which all nodes see, and submits them; logs of tasks go to NAME-N.log
@@ -50,7 +50,7 @@ std::string ended_state(const std::string& array_id, std::size_t task);
 /// How many tasks an array may have. Throws DeviceError where no controller answers.
 std::size_t most_tasks();
 
-/// Ends all of them, in vain too.
-void cancel_arrays(const std::vector<SlurmArray>& arrays);
+/// Ends all of them, by name. Returns a sentence for each of which Slurm did not say so.
+std::vector<std::string> cancel_arrays(const std::vector<SlurmArray>& arrays);
 
 } // namespace fernlicht

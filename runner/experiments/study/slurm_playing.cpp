@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <iterator>
 #include <set>
 #include <thread>
 
@@ -47,26 +48,23 @@ class SlurmStudy {
         : store_(store), study_(study), plan_(plan), options_(options), patience_(patience), folder_(options.folder / "slurm"),
           record_(options.folder / "slurm.json"), most_(most_tasks()), progress_(cells.size(), options.run.quiet) {
         for (const std::size_t i : cells)
-            open_[plan.cells[i].cell.name] = {i, 0, {}, {}};
+            open_[plan.cells[i].cell.name].index = i;
         make_folder(folder_);
         if (fs::exists(record_))
             arrays_ = from_json<Submissions>(CheckedJson::read(record_), submissions_members).arrays;
-        for (Submitted& array : arrays_)
-            array.tasks = array.cells.size();
     }
 
     std::map<std::size_t, PlayedInWorker> play() {
-        adopt();
-        submit_missing();
-        while (!open_.empty()) {
-            if (Interruption::requested()) {
-                cancel_arrays({arrays_.begin(), arrays_.end()});
-                tell(LogLevel::warning, "interrupted: all jobs are cancelled; --resume goes on");
-                break;
-            }
-            wait();
+        for (adopt(); !Interruption::requested(); wait()) {
             look();
+            if (open_.empty())
+                return outcome_;
         }
+        const std::vector<std::string> failed = cancel_arrays({arrays_.begin(), arrays_.end()});
+        for (const std::string& why : failed)
+            tell(LogLevel::warning, "interrupted: " + why);
+        if (failed.empty())
+            tell(LogLevel::warning, "interrupted: all jobs are cancelled; --resume goes on");
         return outcome_;
     }
 
@@ -74,71 +72,121 @@ class SlurmStudy {
     struct Open {
         std::size_t index = 0;
         int submissions = 0;
-        std::optional<Clock::time_point> gone; ///< since its task is not active any more
-        std::string state;                     ///< in which the task ended
+        bool due = true;                          ///< to be submitted
+        bool alone = true;                        ///< in its task
+        std::pair<std::string, std::size_t> task; ///< array and number; the array is "" while its answer is not known
+        std::string log;                          ///< of its task
+        std::optional<Clock::time_point> gone;    ///< since its task is not active any more
+        std::string state;                        ///< in which the task ended
     };
 
-    /// Arrays whose answer was lost, and those of an earlier call: what is active is not submitted again.
+    /// What an earlier call submitted and is still active is not submitted again.
     void adopt() {
-        for (Submitted& array : arrays_)
-            if (array.id.empty())
-                while (!Interruption::requested()) {
-                    if (const std::optional<std::string> id = array_id(array.name)) {
-                        array.id = *id;
-                        break;
-                    }
-                    wait();
-                }
-        std::erase_if(arrays_, [](const Submitted& array) { return array.id.empty(); });
         std::optional<SlurmTasks> active;
-        while (!arrays_.empty() && !Interruption::requested() && !(active = active_tasks({arrays_.begin(), arrays_.end()})))
+        while (!Interruption::requested() && !(settle() && (active = active_tasks({arrays_.begin(), arrays_.end()}))))
             wait();
         for (const Submitted& array : arrays_)
             for (std::size_t task = 0; active && task < array.cells.size(); ++task)
                 if (active->contains({array.id, task}))
                     for (const std::string& cell : array.cells[task])
-                        if (const auto open = open_.find(cell); open != open_.end())
+                        if (const auto open = open_.find(cell); open != open_.end()) {
+                            put_into(open->second, array, task);
                             open->second.submissions = 1;
+                            has_begun_ = true;
+                        }
     }
 
-    void submit_missing() {
-        std::vector<std::string> names;
-        for (const auto& [name, open] : open_)
-            if (open.submissions == 0)
-                names.push_back(name);
-        submit(names);
+    static void put_into(Open& open, const Submitted& array, std::size_t task) {
+        open.due = false;
+        open.alone = array.cells[task].size() == 1;
+        open.task = {array.id, task};
+        open.log = fmt::format(" (log: slurm/{}-{}.log)", array.name, task);
+        open.gone.reset();
     }
 
-    /// So many to a task that one array holds them all, and at least as many as were asked for.
-    void submit(const std::vector<std::string>& names) {
-        if (names.empty())
+    /// Arrays whose answer was lost get their id, or are taken back where they were never there. False while the controller does not say.
+    bool settle() {
+        for (std::size_t i = 0; i < arrays_.size();) {
+            const std::optional<std::string> id = arrays_[i].id.empty() ? array_id(arrays_[i].name) : arrays_[i].id;
+            if (!id)
+                return false;
+            if (id->empty())
+                take_back(i);
+            else if (arrays_[i].id.empty())
+                begin(arrays_[i++], *id);
+            else
+                ++i;
+        }
+        return true;
+    }
+
+    void begin(Submitted& array, const std::string& id) {
+        array.id = id;
+        has_begun_ = true;
+        for (const std::vector<std::string>& task : array.cells)
+            for (const std::string& cell : task)
+                if (const auto open = open_.find(cell); open != open_.end())
+                    open->second.task.first = id;
+        keep_record();
+    }
+
+    void take_back(std::size_t i) {
+        for (const std::vector<std::string>& task : arrays_[i].cells)
+            for (const std::string& cell : task)
+                if (const auto open = open_.find(cell); open != open_.end()) {
+                    open->second.submissions -= open->second.due ? 0 : 1;
+                    open->second.due = true;
+                }
+        std::error_code ignored;
+        for (const char* ending : {".commands", ".sh"})
+            fs::remove(folder_ / (arrays_[i].name + ending), ignored);
+        arrays_.erase(arrays_.begin() + static_cast<std::ptrdiff_t>(i));
+        keep_record();
+    }
+
+    /// One array, `per` cells to a task. Throws DeviceError where it is the first and sbatch refuses; later ones are tried again.
+    void submit(const std::vector<std::string>& names, std::size_t per) {
+        if (names.empty() || Clock::now() < submit_from_)
             return;
-        const std::size_t per = std::max<std::size_t>(static_cast<std::size_t>(options_.per), (names.size() + most_ - 1) / most_);
         Submitted array;
         std::vector<std::string> commands;
+        const std::string whose = fs::absolute(options_.folder).string() + utc_now();
+        array.name = fmt::format("fernlicht-{}-{}", content_hash(whose.data(), whose.size()).substr(0, 10), ++named_);
         for (std::size_t from = 0; from < names.size(); from += per) {
-            const std::vector<std::string> some(names.begin() + static_cast<std::ptrdiff_t>(from),
-                                                names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), from + per)));
+            array.cells.emplace_back(names.begin() + static_cast<std::ptrdiff_t>(from),
+                                     names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), from + per)));
             std::vector<std::size_t> places;
-            for (const std::string& name : some) {
+            for (const std::string& name : array.cells.back()) {
                 Open& open = open_.at(name);
                 ++open.submissions;
-                open.gone.reset();
+                put_into(open, array, array.cells.size() - 1);
                 places.push_back(open.index);
                 store_.note_failure(plan_.cells[open.index].key, "");
             }
-            array.cells.push_back(some);
             commands.push_back(shell_quoted(playing_command(study_, plan_, places, options_)));
         }
-        array.tasks = commands.size();
-        const std::string whose = fs::absolute(options_.folder).string() + utc_now();
-        array.name = fmt::format("fernlicht-{}-{}", content_hash(whose.data(), whose.size()).substr(0, 10), arrays_.size() + 1);
         arrays_.push_back(array);
         keep_record(); // before it is submitted: whatever happens in between, its name is known
-        arrays_.back().id = submit_array(array.name, commands, resources(per), folder_);
-        keep_record();
+        try {
+            begin(arrays_.back(), submit_array(array.name, commands, resources(per), folder_));
+        } catch (const DeviceError& error) {
+            settle(); // the answer alone may be lost
+            if (const auto there = std::ranges::find(arrays_, array.name, &SlurmArray::name); there == arrays_.end() || there->id.empty()) {
+                if (!has_begun_)
+                    throw;
+                return note_refusal(error.what());
+            }
+        }
+        refusals_ = 0;
         if (!options_.run.quiet)
-            tell(LogLevel::info, fmt::format("submitted {} tasks as job array {}", array.tasks, arrays_.back().id));
+            tell(LogLevel::info, fmt::format("submitted {} tasks as job array {}", commands.size(), arrays_.back().id));
+    }
+
+    void note_refusal(const std::string& why) {
+        refusal_ = why;
+        submit_from_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(patience_.refused_every_s));
+        if (++refusals_ == 1)
+            tell(LogLevel::warning, fmt::format("{}; it is asked again every {:g} s", why, patience_.refused_every_s));
     }
 
     SlurmResources resources(std::size_t per) const {
@@ -165,31 +213,79 @@ class SlurmStudy {
     }
 
     void end(const std::string& name, const std::string& failed) {
+        progress_.ended(name, 0.0, failed); // how long its task took is the cluster's affair
         outcome_[open_.at(name).index].failed = failed;
         open_.erase(name);
-        progress_.ended(name, 0.0, failed); // how long its task took is the cluster's affair
     }
 
+    /// Asks for what is waited for, once for all, and submits what is due. First submissions have as many cells to a task as were asked
+    /// for, more where one array would not hold them; a cell that was lost has a task of its own, so that it takes no other with it.
     void look() {
-        const auto active = active_tasks({arrays_.begin(), arrays_.end()});
-        std::set<std::string> running;
-        for (const Submitted& array : arrays_)
-            for (std::size_t task = 0; active && task < array.cells.size(); ++task)
-                if (const auto found = active->find({array.id, task}); found != active->end())
-                    for (const std::string& cell : array.cells[task])
-                        running.insert(cell);
-        std::vector<std::string> names, lost;
+        settle();
+        const std::optional<SlurmTasks> active = active_tasks(awaited());
+        std::vector<std::string> names, missing, lost;
         for (const auto& [name, open] : open_)
             names.push_back(name);
         for (const std::string& name : names) {
-            const PlannedCell& one = plan_.cells[open_.at(name).index];
-            if (store_.find(one.key))
-                end(name, "");
-            else if (active && !running.contains(name) && is_given_up(name))
-                lost.push_back(name);
+            Open& open = open_.at(name);
+            if (const std::optional<std::string> ended = open.due ? why_refused(active) : how_ended(open, active))
+                end(name, *ended);
+            else if (open.due)
+                (open.submissions == 0 ? missing : lost).push_back(name);
         }
-        submit(lost);
+        submit(missing, std::max(static_cast<std::size_t>(options_.per), (missing.size() + most_ - 1) / most_));
+        lost.resize(std::min(lost.size(), most_)); // the others when it is looked again
+        submit(lost, 1);
         tell_waiting(active);
+    }
+
+    /// Arrays in which a cell is waited for.
+    std::vector<SlurmArray> awaited() const {
+        std::set<std::string> ids;
+        for (const auto& [name, open] : open_)
+            if (!open.due)
+                ids.insert(open.task.first);
+        std::vector<SlurmArray> some;
+        std::ranges::copy_if(arrays_, std::back_inserter(some), [&](const Submitted& array) { return ids.contains(array.id); });
+        return some;
+    }
+
+    /// nullopt while there is hope, or another task is active.
+    std::optional<std::string> why_refused(const std::optional<SlurmTasks>& active) const {
+        if (refusals_ < patience_.refusals || !active || !active->empty())
+            return std::nullopt;
+        return fmt::format("{}, {} times", refusal_, refusals_);
+    }
+
+    /// Why the cell has no results; "" where it has some, nullopt while it may get some. One whose task was lost becomes due.
+    std::optional<std::string> how_ended(Open& open, const std::optional<SlurmTasks>& active) const {
+        const auto task = active ? active->find(open.task) : SlurmTasks::const_iterator();
+        const bool listed = active && task != active->end();
+        if (listed || (active && open.task.first.empty())) {
+            open.gone.reset(); // it may have been put back into the queue
+            if (!listed || open.alone || task->second.state == "PENDING")
+                return std::nullopt; // its results come when it ends; the store is not asked in vain
+        }
+        const std::string& key = plan_.cells[open.index].key;
+        if (store_.find(key))
+            return "";
+        if (listed || !active)
+            return std::nullopt;
+        if (!open.gone) {
+            open.gone = Clock::now();
+            open.state = ended_state(open.task.first, open.task.second);
+        }
+        if (const std::string why = store_.failure(key); !why.empty())
+            return why;
+        if (open.alone && ends_for_good(open.state))
+            return fmt::format("its task ended as {}{}", open.state, open.log);
+        if (std::chrono::duration<double>(Clock::now() - *open.gone).count() < patience_.late_files_s)
+            return std::nullopt;
+        open.due = open.submissions < patience_.submissions;
+        if (open.due)
+            return std::nullopt;
+        return fmt::format("its task was lost {} times{}{}", open.submissions,
+                           open.state.empty() ? "; Slurm no longer knows how it last ended" : ", the last one as " + open.state, open.log);
     }
 
     /// Once a minute what is waited for, and why tasks do not begin.
@@ -211,44 +307,6 @@ class SlurmStudy {
             tell(LogLevel::info, fmt::format("{} tasks running, {} pending ({})", running, pending, reason));
     }
 
-    /// Of a cell without a task and without results. True where it is to be submitted again; one that failed is ended.
-    bool is_given_up(const std::string& name) {
-        Open& open = open_.at(name);
-        const std::string& key = plan_.cells[open.index].key;
-        if (!open.gone) {
-            open.gone = Clock::now();
-            open.state = state_of(name);
-        }
-        if (const std::string why = store_.failure(key); !why.empty())
-            return end(name, why), false;
-        if (ends_for_good(open.state))
-            return end(name, fmt::format("its task ended as {}{}", open.state, log_of(name))), false;
-        if (std::chrono::duration<double>(Clock::now() - *open.gone).count() < patience_.late_files_s)
-            return false;
-        if (open.submissions < patience_.submissions)
-            return true;
-        end(name, fmt::format("its task was lost {} times, the last one as {}{}", open.submissions,
-                              open.state.empty() ? "not known" : open.state, log_of(name)));
-        return false;
-    }
-
-    /// The last array that has it, and its task.
-    std::pair<const Submitted*, std::size_t> task_of(const std::string& name) const {
-        for (auto array = arrays_.rbegin(); array != arrays_.rend(); ++array)
-            for (std::size_t task = 0; task < array->cells.size(); ++task)
-                if (std::ranges::find(array->cells[task], name) != array->cells[task].end())
-                    return {&*array, task};
-        return {nullptr, 0};
-    }
-    std::string state_of(const std::string& name) const {
-        const auto [array, task] = task_of(name);
-        return array ? ended_state(array->id, task) : "";
-    }
-    std::string log_of(const std::string& name) const {
-        const auto [array, task] = task_of(name);
-        return array ? fmt::format(" (log: slurm/{}-{}.log)", array->name, task) : "";
-    }
-
     const CellStore& store_;
     const Study& study_;
     const StudyPlan& plan_;
@@ -256,7 +314,11 @@ class SlurmStudy {
     SlurmPatience patience_;
     fs::path folder_, record_;
     std::size_t most_;
-    Clock::time_point began_ = Clock::now(), told_ = Clock::now();
+    Clock::time_point began_ = Clock::now(), told_ = Clock::now(), submit_from_ = Clock::now();
+    bool has_begun_ = false; ///< a task of this study is, or was, on the cluster
+    int named_ = 0;          ///< arrays of this call
+    int refusals_ = 0;       ///< by sbatch, in a row
+    std::string refusal_;
     std::vector<Submitted> arrays_;
     std::map<std::string, Open> open_;
     std::map<std::size_t, PlayedInWorker> outcome_;

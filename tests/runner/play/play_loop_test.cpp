@@ -107,7 +107,7 @@ Draw without_lux(bool road) {
     };
 }
 
-const Reading& named(const Readings& readings, const std::string& name) {
+const Reading& reading_named(const Readings& readings, const std::string& name) {
     const auto found = std::ranges::find(readings, key_of(name), &Reading::key);
     if (found == readings.end())
         throw std::out_of_range(name);
@@ -240,10 +240,10 @@ TEST(TechniqueWithoutIlluminance, LeavesEveryReadingFromItNotMeasured) {
          {"probe_near_lx", "probe_near_min_lx", "probe_near_max_lx", "reach_1lx_road_own_m", "reach_5lx_target_all_p05_m",
           "width_3lx_road_own_at_20m_m", "area_10lx_target_all_m2", "reach_1lx_road_own_twin_difference_m",
           "reach_1lx_road_own_left_edge_m", "unlit_before_reach_1lx_road_own_m"}) {
-        EXPECT_FALSE(named(readings, name).value.measured()) << name;
-        EXPECT_EQ(named(readings, name).value.reason(), why) << name;
+        EXPECT_FALSE(reading_named(readings, name).value.measured()) << name;
+        EXPECT_EQ(reading_named(readings, name).value.reason(), why) << name;
     }
-    EXPECT_TRUE(named(readings, "probe_near_twin_lx").value.measured()) << "the twin draws nothing";
+    EXPECT_TRUE(reading_named(readings, "probe_near_twin_lx").value.measured()) << "the twin draws nothing";
     const std::vector<Verdict> verdicts = judge_limits(stage.drive, readings);
     ASSERT_EQ(verdicts.size(), 3U);
     EXPECT_EQ(verdicts[0].kind, VerdictKind::not_measured);
@@ -264,9 +264,9 @@ TEST(TechniqueWithoutIlluminance, MayKnowTheSurfaceAndNotTargets) {
     PlayedCell played = stage.play_with(without_lux(true), 4, writers);
     played.extent_summaries = summarise_extents(played, *stage.drive.extent);
     const Readings readings = extent_readings(played);
-    EXPECT_TRUE(named(readings, "area_1lx_road_own_m2").value.measured() ||
-                named(readings, "area_1lx_road_own_m2").value.reason().find("technique") == std::string::npos);
-    EXPECT_NE(named(readings, "area_1lx_target_own_m2").value.reason().find("does not compute the illuminance of targets"),
+    EXPECT_TRUE(reading_named(readings, "area_1lx_road_own_m2").value.measured() ||
+                reading_named(readings, "area_1lx_road_own_m2").value.reason().find("technique") == std::string::npos);
+    EXPECT_NE(reading_named(readings, "area_1lx_target_own_m2").value.reason().find("does not compute the illuminance of targets"),
               std::string::npos);
     for (const LaneExtent& extent : played.extents[0].rendered)
         EXPECT_EQ(extent.surface, Surface::road);
