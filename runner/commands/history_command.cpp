@@ -258,7 +258,8 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
     add_study(trending, one_study);
     CLI::App* explaining = add_action("explain", "what changed since the last accepted night, dated, with its cause", explain);
     explaining->add_option("NIGHT", flags->night, "the night to explain: last, a number or a date (default: last)");
-    explaining->add_option("--drift", flags->drift, "tell of a drift when its sum exceeds this; each step is smaller")->capture_default_str();
+    explaining->add_option("--drift", flags->drift, "tell of a drift when its sum exceeds this; each step is smaller")
+        ->capture_default_str();
     add_study(explaining, one_study);
     for (CLI::App* sub : {trending, explaining}) {
         sub->add_option("--out", flags->out, page);

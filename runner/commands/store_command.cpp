@@ -23,9 +23,10 @@ struct StoreFlags {
 CellStore store_of(const StoreFlags& flags) {
     const std::filesystem::path folder = flags.store.empty() ? default_store() : std::filesystem::path(flags.store);
     std::error_code ignored;
-    if (!std::filesystem::is_directory(folder, ignored))
-        throw InputError({folder, 0, 0, "--store"}, "is no folder", "a store of cells that `fernlicht study` made");
-    return CellStore(folder);
+    CellStore store(folder);
+    if (!std::filesystem::is_regular_file(store.mark(), ignored))
+        throw InputError({folder, 0, 0, "--store"}, "is no store of cells", "one that `fernlicht study` made");
+    return store;
 }
 
 /// A number and one of the units; throws InputError naming the flag.
@@ -108,8 +109,8 @@ void add_store_command(CLI::App& app, const std::vector<std::string>&, std::func
     CLI::App* pruned = add("prune", "remove cells, then files that no cell needs", prune);
     for (CLI::App* sub : {list, pruned})
         sub->add_option("--study", flags->study, "only of studies of this name, * and ? allowed");
-    pruned->add_option("--older-than", flags->older_than, "remove cells played longer ago than this: 30d, 12h, 12h");
-    pruned->add_option("--at-most", flags->at_most, "remove the oldest cells until at most this much is left: 20GiB: 20GiB");
+    pruned->add_option("--older-than", flags->older_than, "remove cells played longer ago than this: 30d, 12h or 90min");
+    pruned->add_option("--at-most", flags->at_most, "remove the oldest cells until at most this much is left: 20GiB");
     pruned->add_flag("--dry-run", flags->dry, "only say what would go");
 }
 

@@ -48,7 +48,9 @@ int list_cells(const std::vector<StudyCell>& cells) {
 
 /// The page last: a disk that fills up takes it before it takes the numbers.
 void write_study(const StudyResult& result, const std::filesystem::path& folder, const std::optional<HistoryFindings>& history) {
-    const Document paper = study_paper(result);
+    Document paper = study_paper(result);
+    if (history)
+        paper.sections.insert(paper.sections.begin(), changes_section(*history));
     write_json(folder / "study.json", result, study_members);
     write_file(folder / "study.csv", study_csv(result));
     std::vector<std::string> papers;
@@ -134,12 +136,26 @@ void refuse_contradictions(const StudyFlags& flags) {
     refuse_without(!flags.gpus.empty(), slurm, "--gpus", "--executor slurm");
     refuse_without(flags.per > 1, slurm || flags.plan, "--per", "--plan or --executor slurm");
     refuse_without(!flags.expect.empty(), flags.play, "--expect", "--play");
+    if (!flags.history.empty() && ways > 0 && !flags.collect)
+        throw InputError({{}, 0, 0, "--history"}, "found beside --list, --explain, --plan or --play, which make no night",
+                         "it without these");
     if (!flags.out.empty() && ways > 0 && !flags.collect)
         throw InputError({{}, 0, 0, "--out"}, "found beside --list, --explain, --plan or --play, which write no report",
                          "it without these");
     if (flags.timed && (ways > 0 || flags.jobs > 1))
         throw InputError({{}, 0, 0, "--timed"}, "found beside what plays several cells at a time or none",
                          "--timed by itself: cells are played one after another");
+}
+
+/// What a store takes out of its folder must not be a report.
+void refuse_mixed(const std::filesystem::path& out, const std::filesystem::path& store) {
+    const std::filesystem::path of_out = std::filesystem::weakly_canonical(out), of_store = std::filesystem::weakly_canonical(store);
+    const auto lies_in = [](const std::filesystem::path& inner, const std::filesystem::path& outer) {
+        return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+    };
+    if (!store.empty() && (lies_in(of_out, of_store) || lies_in(of_store, of_out)))
+        throw InputError({{}, 0, 0, "--store"}, "found " + printable(store.string(), 400) + ", where the report is to lie, too",
+                         "a folder outside --out, and --out outside it");
 }
 
 /// All by the study's file, which is the user's own; its drives may be shipped ones.
@@ -164,6 +180,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     StudyOptions options;
     options.folder = result_folder(flags.out, study.name);
     options.store = flags.store.empty() && (!flags.timed || !flags.history.empty()) ? default_store() : std::filesystem::path(flags.store);
+    refuse_mixed(options.folder, options.store);
     options.timed = flags.timed;
     options.times_too = !flags.history.empty();
     options.jobs = flags.jobs;
@@ -188,8 +205,8 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     options.run.command = command;
     options.run.write = [](const Report& report, const std::filesystem::path& cell) { write_report(report, cell); };
     std::string no_history; ///< why; it costs nobody the report
+    std::optional<HistoryFindings> findings;
     options.write = [&](const StudyResult& result) {
-        std::optional<HistoryFindings> findings;
         try {
             findings = remember(flags, result, options);
         } catch (const std::exception& error) {
@@ -214,7 +231,10 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
         return all_there ? 0 : 1;
     }
     const StudyResult result = flags.collect ? collect_study(study, options) : run_study(study, options);
-    fmt::print("{}{}\n{}\n", document_text(study_summary(result)), result.played_by, (options.folder / "report.html").string());
+    Document summary = study_summary(result);
+    if (findings)
+        summary.sections.insert(summary.sections.begin(), changes_section(*findings));
+    fmt::print("{}{}\n{}\n", document_text(summary), result.played_by, (options.folder / "report.html").string());
     annotate_study(result);
     trace.finish();
     if (!no_history.empty())

@@ -33,7 +33,7 @@ void sync(const std::filesystem::path& path) {
 int open_to_lock(const std::filesystem::path& path) {
     std::error_code ignored;
     return std::filesystem::is_directory(path, ignored) ? ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)
-                                                        : ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+                                                        : ::open(path.c_str(), O_RDWR | O_CLOEXEC);
 }
 
 } // namespace

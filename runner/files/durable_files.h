@@ -21,8 +21,8 @@ void sync_folder(const std::filesystem::path& folder);
 /// Creates the folder and those above it. Throws DeviceError.
 void make_folder(const std::filesystem::path& folder);
 
-/// Held while it lives; a second process waits. On a folder: of processes of this machine; on a file, which is made where there is none:
-/// of all machines that see it. Throws DeviceError.
+/// Held while it lives; a second process waits. On a folder: of processes of this machine; on a file: of all machines that see it. Throws
+/// DeviceError.
 class FolderLock {
   public:
     enum class For {

@@ -3,6 +3,7 @@
 #include "runner/findings/library_versions.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -65,9 +66,12 @@ std::string repeat_command(const std::vector<std::string>& call, const std::vect
     std::vector<std::string> words;
     const auto is = [](const std::string& word, const std::string& flag) { return word == flag || word.starts_with(flag + "="); };
     for (std::size_t i = 0; i < call.size(); ++i)
-        if (is(call[i], "--out") || (!choice.empty() && is(call[i], "--only")))
+        if (std::ranges::any_of(std::array{"--out", "--trace", "--annotate", "--history"},
+                                [&](const char* of_this_call) { return is(call[i], of_this_call); }) ||
+            (!choice.empty() && is(call[i], "--only")))
             i += call[i].find('=') == std::string::npos ? 1U : 0U;
-        else if (!is(call[i], "--resume") && std::ranges::find(others, call[i]) == others.end())
+        else if (call[i] != "--resume" && call[i] != "--collect" && call[i] != "--log-json" &&
+                 std::ranges::find(others, call[i]) == others.end())
             words.push_back(call[i]);
     words.insert(words.end(), choice.begin(), choice.end());
     return shell_quoted(words);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <fstream>
 #include <unistd.h>
 
 namespace fernlicht {
@@ -94,8 +95,8 @@ PackedFiles CellStore::load(const StoredCell& cell) const {
 }
 
 void CellStore::keep(StoredCell cell, const PackedFiles& files, const FilesRead& inputs) const {
-    make_folder(folder_);
-    const FolderLock against_pruning(lock_file(), FolderLock::For::reading);
+    make();
+    const FolderLock against_pruning(mark(), FolderLock::For::reading);
     for (const FileRead& input : inputs) {
         FilesRead opened;
         const std::string content = read_file(input.path, opened, std::size_t{1} << 30, true);
@@ -143,6 +144,14 @@ std::string CellStore::refuses_writing() const {
     return {};
 }
 
-Workplace CellStore::new_workplace(const std::string& begins_with) const { return {folder_ / "playing", begins_with}; }
+void CellStore::make() const {
+    make_folder(folder_);
+    std::ofstream(mark(), std::ios::app); // what is written next says what a disk refuses
+}
+
+Workplace CellStore::new_workplace(const std::string& begins_with) const {
+    make();
+    return {folder_ / "playing", begins_with};
+}
 
 } // namespace fernlicht

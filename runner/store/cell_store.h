@@ -49,10 +49,12 @@ class CellStore {
     std::string refuses_writing() const;
     /// A folder of its own for what is being played, on the store's disk.
     Workplace new_workplace(const std::string& begins_with) const;
-    /// Held while objects are written that no entry names yet, and while those are taken out that none names.
-    std::filesystem::path lock_file() const { return folder_ / "lock"; }
+    /// Tells a store from other folders, out of which nothing is taken. Locked while objects are written that no entry names yet, and while
+    /// those are taken out that none names.
+    std::filesystem::path mark() const { return folder_ / "fernlicht-store"; }
 
   private:
+    void make() const;
     std::filesystem::path entry_path(const std::string& key) const;
     std::filesystem::path failure_path(const std::string& key) const;
     std::filesystem::path folder_;

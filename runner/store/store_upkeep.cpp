@@ -44,7 +44,17 @@ std::optional<double> seconds_of(const std::string& utc) {
     return stream.fail() ? std::nullopt : std::optional(static_cast<double>(::timegm(&time)));
 }
 
-std::string name_of_object(const fs::path& path) { return path.parent_path().filename().string() + path.filename().string(); }
+/// The hash or key of a file that a store wrote, whole or in part: two digits are its folder, the others its name; "" of all others.
+std::string key_in(const fs::path& path, std::string_view ending) {
+    constexpr std::size_t digits = 30;
+    const std::string folder = path.parent_path().filename().string(), name = path.filename().string();
+    const std::string key = folder + name.substr(0, digits);
+    const bool is_ours = folder.size() == 2 && key.size() == 32 && key.find_first_not_of("0123456789abcdef") == std::string::npos;
+    const std::string rest = name.substr(std::min(digits, name.size()));
+    return is_ours && (rest == ending || rest.starts_with(std::string(ending) + ".part-")) ? key : "";
+}
+std::string name_of_object(const fs::path& path) { return key_in(path, ""); }
+bool is_part(const fs::path& path) { return path.filename().string().find(".part-") != std::string::npos; }
 
 /// Of the newest of its files, or of the file itself; 0 for what is gone meanwhile.
 double age_s(const fs::path& path) {
@@ -70,12 +80,12 @@ std::vector<StoreDamage> verify_store(const CellStore& store) {
     std::vector<StoreDamage> damage;
     std::vector<fs::path> broken;
     {
-        const FolderLock others_may_read(store.lock_file(), FolderLock::For::reading);
+        const FolderLock others_may_read(store.mark(), FolderLock::For::reading);
         for (const fs::path& path : files_of(store.folder() / "objects"))
-            if (name_of_object(path).size() == 32 && !holds_object(store.folder(), name_of_object(path))) // others are half written
+            if (!name_of_object(path).empty() && !is_part(path) && !holds_object(store.folder(), name_of_object(path)))
                 broken.push_back(path);
     }
-    const FolderLock lock(store.lock_file());
+    const FolderLock lock(store.mark());
     for (const fs::path& path : broken) {
         if (holds_object(store.folder(), name_of_object(path))) // written anew meanwhile
             continue;
@@ -97,7 +107,7 @@ std::vector<StoreDamage> verify_store(const CellStore& store) {
         }
     }
     for (const fs::path& path : files_of(store.folder() / "cells"))
-        if (path.extension() == ".json" && !whole.contains(path.parent_path().filename().string() + path.stem().string())) {
+        if (const std::string key = key_in(path, ".json"); !key.empty() && !is_part(path) && !whole.contains(key)) {
             damage.push_back(
                 {"entry " + path.filename().string(), "is none that this version wrote; its cell is played again when it is asked for"});
             take_out(path);
@@ -106,7 +116,7 @@ std::vector<StoreDamage> verify_store(const CellStore& store) {
 }
 
 Pruned prune_store(const CellStore& store, const Pruning& pruning, double now_s) {
-    const FolderLock lock(store.lock_file());
+    const FolderLock lock(store.mark());
     std::vector<StoredCell> cells = store.list(), stay;
     Pruned pruned;
     const auto is_of_study = [&](const StoredCell& cell) { return pruning.study.empty() || matches(pruning.study, cell.study); };
@@ -140,12 +150,12 @@ Pruned prune_store(const CellStore& store, const Pruning& pruning, double now_s)
             take_out(path);
     };
     for (const fs::path& path : files_of(store.folder() / "objects"))
-        if (needed.contains(name_of_object(path)))
+        if (needed.contains(name_of_object(path)) && !is_part(path))
             pruned.bytes_left += size_of(path);
-        else
+        else if (!name_of_object(path).empty())
             take_file(path);
     for (const fs::path& path : files_of(store.folder() / "cells"))
-        if (path.extension() != ".json" && age_s(path) >= leftover_age_s)
+        if (!key_in(path, ".json").empty() && is_part(path) && age_s(path) >= leftover_age_s)
             take_file(path);
     for (const fs::path& path : files_of(store.folder() / "failed"))
         if (age_s(path) >= note_age_s)

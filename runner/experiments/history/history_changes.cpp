@@ -197,7 +197,9 @@ std::vector<HistoryEvent> events_of(const StepsByReading& steps, const std::vect
                 event.moved.push_back(step.moved);
             } else {
                 ++event.within_rounding;
-                event.most_within = std::max(event.most_within, step.moved.share() ? step.moved.size() : 0.0);
+                const std::optional<ReadingKey> of = key_of(step.moved.reading);
+                const bool tells_exactness = of && is_uncertainty(*of); // its own share says nothing: 1e-5 m may be 1e-4 m
+                event.most_within = std::max(event.most_within, step.moved.share() && !tells_exactness ? step.moved.size() : 0.0);
             }
         }
     std::vector<HistoryEvent> events;

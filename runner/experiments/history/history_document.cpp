@@ -88,11 +88,11 @@ std::string told_event(const HistoryFindings& findings, const HistoryEvent& even
     if (!event.moved.empty())
         text += told_moved(findings, event.moved);
     if (event.within_rounding > 0)
-        text += fmt::format("{}{} within rounding, at most {}", event.moved.empty() ? "" : "; ",
+        text += fmt::format("{}{} within rounding{}", event.moved.empty() ? "" : "; ",
                             event.moved.empty()
                                 ? fmt::format("{} of {}", counted(event.within_rounding, "reading"), counted(event.cells.size(), "cell"))
                                 : fmt::format("{} more", event.within_rounding),
-                            told_percent(event.most_within));
+                            event.most_within > 0.0 ? ", at most " + told_percent(event.most_within) : "");
     if (event.told_apart && !event.moved.empty())
         text += told_split(findings, event);
     return text;

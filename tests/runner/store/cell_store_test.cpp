@@ -126,6 +126,22 @@ TEST_F(CellStoreTest, WhatIsBeingPlayedStaysAndWhatWasLeftGoes) {
     EXPECT_EQ(store.failure(key_of_cell(9)), "found no lamp") << "for whoever collects in the morning";
 }
 
+/// Whatever else lies there is somebody's.
+TEST_F(CellStoreTest, TakesOutNothingThatNoStoreWrote) {
+    keep(1, "2027-01-01T12:00:00Z");
+    const std::vector<fs::path> others{"cells/straight/report.json", "cells/foo/p.json", "objects/ab/thesis.txt", "cells/ab/thesis.json",
+                                       "note"};
+    for (const fs::path& other : others) {
+        fs::create_directories((store.folder() / other).parent_path());
+        write_file(store.folder() / other, "of somebody");
+        fs::last_write_time(store.folder() / other, fs::file_time_type::clock::now() - std::chrono::hours(1000));
+    }
+    EXPECT_THAT(verify_store(store), IsEmpty());
+    EXPECT_EQ(prune_store(store, {.older_than_s = 0.0}, noon_s).files, 2U) << "the cell's results and its lamp";
+    for (const fs::path& other : others)
+        EXPECT_TRUE(fs::exists(store.folder() / other)) << other;
+}
+
 TEST_F(CellStoreTest, ManyWritersAtOnceLeaveWholeCells) {
     std::vector<::pid_t> writers;
     for (int w = 0; w < 6; ++w)

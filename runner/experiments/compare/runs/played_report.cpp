@@ -91,8 +91,8 @@ PlayedResult played_result(const PlayedCell& played, const CsvFile& moments, con
     if (const std::optional<PixelErrors>& road = played.error.road; road && road->pixels > 0) {
         result.error_share = road->error.p95;
         result.error_floor_share = road->floor.p95;
-        result.frame_s = played.throughput.view_s;
     }
+    result.frame_s = played.throughput.view_s;
     return result;
 }
 
