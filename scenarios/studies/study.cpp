@@ -288,7 +288,8 @@ void refuse_unknown_cells(const Study& study, const YamlEntry& patterns) {
     const std::vector<StudyCell> cells = cells_of(study);
     for (const YamlEntry& pattern : patterns.list(1, max_entries))
         if (std::ranges::none_of(cells, [&](const StudyCell& cell) { return matches(pattern.text(), cell.name); }))
-            pattern.refuse("found '" + printable(pattern.text()) + "', which fits no cell", "a name or a pattern of cells; --list names them");
+            pattern.refuse("found '" + printable(pattern.text()) + "', which fits no cell",
+                           "a name or a pattern of cells; --list names them");
 }
 
 } // namespace
