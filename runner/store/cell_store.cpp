@@ -86,6 +86,7 @@ void CellStore::note_failure(const std::string& key, const std::string& why) con
         fs::remove(failure_path(key), ignored);
         return;
     }
+    make();
     make_folder(failure_path(key).parent_path());
     write_durably(failure_path(key), why.substr(0, 4000));
 }
@@ -134,7 +135,7 @@ void CellStore::forget(const std::string& key) const {
 std::string CellStore::refuses_writing() const {
     const fs::path trial = folder_ / fmt::format(".trial-{}", ::getpid());
     try {
-        make_folder(folder_);
+        make();
         write_durably(trial, "trial\n");
     } catch (const DeviceError& error) {
         return error.what();
