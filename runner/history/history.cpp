@@ -151,6 +151,14 @@ struct History::Tables {
                              "a number that `fernlicht history show` lists");
     }
 
+    template <class Kept> Kept& at_row(const std::map<std::int64_t, std::shared_ptr<Kept>>& all, std::int64_t number) const {
+        const auto found = all.find(number);
+        if (found == all.end())
+            throw InputError({database.file(), 0, 0, {}}, fmt::format("is damaged: row {} is missing", number),
+                             "a file that `fernlicht history add` wrote");
+        return *found->second;
+    }
+
     std::map<std::int64_t, std::shared_ptr<CellInputs>> all_sets() {
         std::map<std::int64_t, std::shared_ptr<CellInputs>> sets;
         Statement numbers(database, "SELECT number FROM input_sets");
@@ -158,7 +166,7 @@ struct History::Tables {
             sets[numbers.whole(0)] = std::make_shared<CellInputs>();
         Statement rows(database, "SELECT input_set, kind, name, hash FROM inputs ORDER BY input_set, place");
         while (rows.step())
-            sets[rows.whole(0)]->push_back({kind_of_row(database.file(), rows.text(1)), rows.text(2), rows.text(3)});
+            at_row(sets, rows.whole(0)).push_back({kind_of_row(database.file(), rows.text(1)), rows.text(2), rows.text(3)});
         return sets;
     }
 
@@ -169,7 +177,7 @@ struct History::Tables {
             results[numbers.whole(0)] = std::make_shared<NightReadings>();
         Statement rows(database, "SELECT result, name, bound, figure, why_not FROM readings ORDER BY result, name");
         while (rows.step()) {
-            NightReadings& readings = *results[rows.whole(0)];
+            NightReadings& readings = at_row(results, rows.whole(0));
             readings.emplace_hint(readings.end(), rows.text(1), value_of_row(database.file(), rows.text(2), rows.number(3), rows.text(4)));
         }
         return results;
