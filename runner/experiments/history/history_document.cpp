@@ -283,7 +283,7 @@ Section frames_section(const HistoryFindings& findings) {
 
 std::string when_of(const std::vector<Night>& nights, std::size_t night) {
     std::string when;
-    for (const std::size_t digits : {10, 16, 19}) { // date, minutes, seconds
+    for (const std::size_t digits : {10U, 16U, 19U}) { // date, minutes, seconds
         when = nights[night].played_utc.substr(0, digits);
         if (std::ranges::count_if(nights, [&](const Night& one) { return one.played_utc.starts_with(when); }) == 1)
             break;
