@@ -3,7 +3,9 @@
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/history/history_document.h"
 #include "runner/experiments/history/night_of_study.h"
+#include "runner/files/log.h"
 #include "runner/files/output_folder.h"
+#include "runner/findings/figures.h"
 #include "runner/findings/library_versions.h"
 #include "runner/findings/run_context.h"
 #include "runner/history/history.h"
@@ -91,14 +93,17 @@ int add(const HistoryFlags& flags) {
     if (!flags.note.empty() && !flags.accept)
         throw InputError({{}, 0, 0, "--note"}, "found without --accept", "both, or none");
     const std::filesystem::path file = file_of(flags);
-    const Night night = read_night(flags.folder);
+    std::string part;
+    const Night night = read_night(flags.folder, &part);
     History history(file, History::For::collecting);
     const History::Added added = history.add(night);
     if (flags.accept)
         history.accept(added.number, flags.note);
-    fmt::print("night {} of {}, {}: {} cells, {} readings; {}{} {}\n", added.number, printable(night.study), night.date(),
-               night.cells.size(), readings_in(night), flags.accept ? "accepted; " : "",
+    fmt::print("night {} of {}, {}: {}, {}; {}{} {}\n", added.number, printable(night.study), night.date(),
+               counted(night.cells.size(), "cell"), counted(readings_in(night), "reading"), flags.accept ? "accepted; " : "",
                added.is_new ? "added to" : "was there already, as it is, in", file.string());
+    if (!part.empty())
+        tell(LogLevel::warning, fmt::format("it is a part of the study: {}", part));
     return 0;
 }
 
@@ -202,8 +207,10 @@ int prune(const HistoryFlags& flags) {
     const History::Pruned pruned = History(file, History::For::collecting).prune(flags.keep, flags.before, flags.dry);
     for (const Night& night : pruned.nights)
         fmt::print("{} night {} of {}, {}\n", flags.dry ? "would remove" : "removed", night.number, printable(night.study), night.date());
-    fmt::print("{} {} nights{}; their folders stay as they are\n", flags.dry ? "would remove" : "removed", pruned.nights.size(),
-               pruned.kept_accepted > 0 ? fmt::format(", kept {} older ones that are accepted", pruned.kept_accepted) : "");
+    fmt::print("{} {}{}; their folders stay as they are\n", flags.dry ? "would remove" : "removed", counted(pruned.nights.size(), "night"),
+               pruned.kept_accepted > 0 ? fmt::format(", kept {} that {} accepted", counted(pruned.kept_accepted, "older one"),
+                                                      pruned.kept_accepted == 1 ? "is" : "are")
+                                        : "");
     return 0;
 }
 

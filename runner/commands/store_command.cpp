@@ -1,6 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
+#include "runner/findings/figures.h"
 #include "runner/store/store_upkeep.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/glob.h"
@@ -61,7 +62,7 @@ int list_store(const StoreFlags& flags) {
         bytes += cell.bytes;
         ++count;
     }
-    fmt::print("{} cells, {}\n", count, size_text(bytes));
+    fmt::print("{}, {}\n", counted(count, "cell"), size_text(bytes));
     return 0;
 }
 
@@ -70,7 +71,7 @@ int verify(const StoreFlags& flags) {
     for (const StoreDamage& one : damage)
         fmt::print("removed {}: {}\n", one.what, one.why);
     fmt::print("{}\n", damage.empty() ? "nothing is damaged"
-                                      : fmt::format("{} damaged parts were removed; studies play those cells again", damage.size()));
+                                      : fmt::format("{} removed; studies play those cells again", counted(damage.size(), "damaged part")));
     return damage.empty() ? 0 : 1;
 }
 
@@ -87,8 +88,8 @@ int prune(const StoreFlags& flags) {
                              "a number of MiB, GiB or TiB: 20GiB"));
     const double now_s = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
     const Pruned pruned = prune_store(store_of(flags), pruning, now_s);
-    fmt::print("{}{} cells and {} files, {}; {} cells stay, {}\n", flags.dry ? "would remove " : "removed ", pruned.cells, pruned.files,
-               size_text(pruned.bytes), pruned.cells_left, size_text(pruned.bytes_left));
+    fmt::print("{}{} and {}, {}; {} left, {}\n", flags.dry ? "would remove " : "removed ", counted(pruned.cells, "cell"),
+               counted(pruned.files, "file"), size_text(pruned.bytes), counted(pruned.cells_left, "cell"), size_text(pruned.bytes_left));
     return 0;
 }
 

@@ -80,20 +80,34 @@ std::optional<HistoryFindings> remember(const StudyFlags& flags, const StudyResu
     return findings;
 }
 
+/// Before somebody plans hours of work on it.
+void warn_of_unwritable(const CellStore& store, std::size_t cells_to_play) {
+    if (const std::string why = cells_to_play > 0 ? store.refuses_writing() : ""; !why.empty())
+        tell(LogLevel::warning, fmt::format("the store cannot be written here, so nothing can be played into it: {}", why));
+}
+
 /// Why each cell that the store lacks must be played.
 int explain_cells(const Study& study, const StudyOptions& options) {
     const StudyPlan plan = plan_study(study, options);
-    const auto reasons = reasons_to_play(study, plan, CellStore(options.store));
-    for (const auto& [cell, why] : reasons)
-        fmt::print("{:<40} {}\n", cell, fmt::join(why, "; "));
-    fmt::print("{} of {} cells would be played; store {}\n", reasons.size(), plan.cells.size(), options.store.string());
+    const CellStore store(options.store);
+    std::vector<std::size_t> cells;
+    for (std::size_t i = 0; i < plan.cells.size(); ++i)
+        if (const PlannedCell& one = plan.cells[i]; one.moments > 0 && (!store.find(one.key) || !store.damage(one.key).empty()))
+            cells.push_back(i);
+    const auto reasons = reasons_to_play(study, plan, cells, store);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        fmt::print("{:<40} {}\n", plan.cells[cells[i]].cell.name, fmt::join(reasons[i], "; "));
+    fmt::print("{} of {} cells would be played; store {}\n", cells.size(), plan.cells.size(), options.store.string());
+    warn_of_unwritable(store, cells.size());
     return 0;
 }
 
 /// A line of JSON for each command that plays some of the cells that the store lacks.
 int print_plan(const Study& study, const StudyOptions& options) {
     const StudyPlan plan = plan_study(study, options);
-    const std::vector<std::size_t> lacking = lacking_cells(CellStore(options.store), plan);
+    const CellStore store(options.store);
+    const std::vector<std::size_t> lacking = lacking_cells(store, plan);
+    warn_of_unwritable(store, lacking.size());
     const std::size_t per = static_cast<std::size_t>(options.per);
     for (std::size_t from = 0; from < lacking.size(); from += per) {
         const std::vector<std::size_t> some(lacking.begin() + static_cast<std::ptrdiff_t>(from),
@@ -148,7 +162,9 @@ void refuse_contradictions(const StudyFlags& flags) {
 }
 
 /// What a store takes out of its folder must not be a report.
-void refuse_mixed(const std::filesystem::path& out, const std::filesystem::path& store) {
+void refuse_store(const std::filesystem::path& out, const std::filesystem::path& store) {
+    if (std::error_code ignored; std::filesystem::exists(store, ignored) && !std::filesystem::is_directory(store, ignored))
+        throw InputError({store, 0, 0, "--store"}, "is not a folder", "a new one, or one that `fernlicht study` made");
     const std::filesystem::path of_out = std::filesystem::weakly_canonical(out), of_store = std::filesystem::weakly_canonical(store);
     const auto lies_in = [](const std::filesystem::path& inner, const std::filesystem::path& outer) {
         return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
@@ -163,7 +179,7 @@ void annotate_study(const StudyResult& result) {
     const Report suites = suites_of(result);
     for (const PlayedCell& suite : suites.played)
         for (const Verdict& verdict : suite.verdicts)
-            annotate_red(verdict, suite.drive + ": ", {result.study.file, 0, 0, {}});
+            annotate_red(verdict, suite.drive + ": ", {result.study.file, verdict.line, 0, {}});
     if (!result.interrupted.empty())
         annotate({result.study.file, 0, 0, {}}, "incomplete", result.interrupted);
 }
@@ -180,7 +196,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     StudyOptions options;
     options.folder = result_folder(flags.out, study.name);
     options.store = flags.store.empty() && (!flags.timed || !flags.history.empty()) ? default_store() : std::filesystem::path(flags.store);
-    refuse_mixed(options.folder, options.store);
+    refuse_store(options.folder, options.store);
     options.timed = flags.timed;
     options.times_too = !flags.history.empty();
     options.jobs = flags.jobs;

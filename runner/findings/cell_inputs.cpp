@@ -27,8 +27,10 @@ std::string phrase_of_change(InputKind kind, const std::string& name, const std:
     case InputKind::library:
     case InputKind::device:
         return fmt::format("{} changed: {} {} -> {}", input_kind_name(kind), name, before, now);
-    default:
-        return fmt::format("{} {} changed", input_kind_name(kind), name);
+    case InputKind::drive:
+        return fmt::format("drive {} changed", name);
+    default: // a comment in it counts as well
+        return fmt::format("{} {} changed (bytes of its file)", input_kind_name(kind), name);
     }
 }
 

@@ -25,8 +25,8 @@ const char* input_kind_name(InputKind kind);
 
 JsonMembers cell_input_members(CellInput& input);
 
-/// What differs, one phrase each: "lamp low-beam.ies changed", "program changed: renderer", "device changed: renderer llvmpipe
-/// (LLVM 15.0.6, 256 bits) -> llvmpipe (LLVM 19.1.7, 256 bits)", "lamp high-beam.ies is new". Empty where nothing does.
+/// What differs, one phrase each: "lamp low-beam.ies changed (bytes of its file)", "program changed: renderer", "device changed: renderer
+/// llvmpipe (LLVM 15.0.6, 256 bits) -> llvmpipe (LLVM 19.1.7, 256 bits)", "lamp high-beam.ies is new". Empty where nothing does.
 std::vector<std::string> input_changes(const CellInputs& before, const CellInputs& now);
 
 } // namespace fernlicht

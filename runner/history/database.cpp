@@ -64,6 +64,8 @@ Database::Database(std::filesystem::path file, For what) : file_(std::move(file)
         }
         return;
     }
+    if (std::filesystem::is_directory(file_, ignored))
+        throw InputError({file_, 0, 0, {}}, "is a folder", "a history, or the name of a new file");
     const std::filesystem::path folder = std::filesystem::absolute(file_).parent_path();
     make_folder(folder);
     const FolderLock lock(folder); // two that begin one file

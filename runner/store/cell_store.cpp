@@ -69,6 +69,14 @@ std::optional<StoredCell> CellStore::find(const std::string& key) const {
     return cell;
 }
 
+std::string CellStore::damage(const std::string& key) const {
+    std::error_code error;
+    if (!fs::exists(entry_path(key), error))
+        return "";
+    const std::optional<StoredCell> cell = read_entry(entry_path(key), key);
+    return !cell ? "its entry is damaged" : holds_object(folder_, cell->object) ? "" : "its results are missing or damaged";
+}
+
 fs::path CellStore::failure_path(const std::string& key) const { return folder_ / "failed" / key; }
 
 std::string CellStore::failure(const std::string& key) const {
@@ -86,9 +94,13 @@ void CellStore::note_failure(const std::string& key, const std::string& why) con
         fs::remove(failure_path(key), ignored);
         return;
     }
-    make();
-    make_folder(failure_path(key).parent_path());
-    write_durably(failure_path(key), why.substr(0, 4000));
+    try {
+        make();
+        make_folder(failure_path(key).parent_path());
+        write_durably(failure_path(key), why.substr(0, 4000));
+    } catch (const DeviceError&) {
+        return;
+    }
 }
 
 PackedFiles CellStore::load(const StoredCell& cell) const {

@@ -34,6 +34,9 @@ class CellStore {
 
     /// nullopt where there is none, and where its entry is damaged: it is then as if it was never there.
     std::optional<StoredCell> find(const std::string& key) const;
+    /// What is wrong with a cell that was kept, "its results are missing or damaged"; "" of one that is whole or was never there. Reads all
+    /// of it.
+    std::string damage(const std::string& key) const;
     /// Its folder. Throws InputError where it is missing or damaged.
     PackedFiles load(const StoredCell& cell) const;
     /// Keeps the cell and the input files that it names; `cell.object`, `bytes` and `files` are set here. The entry comes last.
@@ -42,7 +45,8 @@ class CellStore {
     std::vector<StoredCell> list() const;
     /// Why a cell has no results, by whoever tried to play it last; "" where nobody did, or where it has some. keep() takes it away.
     std::string failure(const std::string& key) const;
-    void note_failure(const std::string& key, const std::string& why) const; ///< "" takes it away
+    /// "" takes it away. Where the disk refuses it is lost: whoever notes it tells it, too.
+    void note_failure(const std::string& key, const std::string& why) const;
     /// So that it is played anew.
     void forget(const std::string& key) const;
     /// Why nothing can be kept here; "" where it can. Tries it.

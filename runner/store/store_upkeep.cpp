@@ -74,24 +74,9 @@ std::uint64_t size_of(const fs::path& file) {
 
 std::string sentence_name(const StoredCell& cell) { return fmt::format("cell {} of {}", printable(cell.cell), printable(cell.study)); }
 
-} // namespace
-
-std::vector<StoreDamage> verify_store(const CellStore& store) {
+/// Cells whose results are not there, and what is no entry.
+std::vector<StoreDamage> damaged_entries(const CellStore& store, bool taken_out) {
     std::vector<StoreDamage> damage;
-    std::vector<fs::path> broken;
-    {
-        const FolderLock others_may_read(store.mark(), FolderLock::For::reading);
-        for (const fs::path& path : files_of(store.folder() / "objects"))
-            if (!name_of_object(path).empty() && !is_part(path) && !holds_object(store.folder(), name_of_object(path)))
-                broken.push_back(path);
-    }
-    const FolderLock lock(store.mark());
-    for (const fs::path& path : broken) {
-        if (holds_object(store.folder(), name_of_object(path))) // written anew meanwhile
-            continue;
-        damage.push_back({"object " + name_of_object(path), "its bytes are not those that were kept"});
-        take_out(path);
-    }
     std::set<std::string> whole;
     for (const StoredCell& cell : store.list()) {
         whole.insert(cell.key);
@@ -99,19 +84,42 @@ std::vector<StoreDamage> verify_store(const CellStore& store) {
         if (fs::exists(object_path(store.folder(), cell.object), error))
             continue;
         damage.push_back({sentence_name(cell), "its results are missing or damaged; it is played again when it is asked for"});
-        store.forget(cell.key);
-        try {
+        if (taken_out) {
+            store.forget(cell.key);
             store.note_failure(cell.key, "its results in the store were damaged");
-        } catch (const DeviceError&) { // it is told here, too
-            continue;
         }
     }
     for (const fs::path& path : files_of(store.folder() / "cells"))
         if (const std::string key = key_in(path, ".json"); !key.empty() && !is_part(path) && !whole.contains(key)) {
             damage.push_back(
                 {"entry " + path.filename().string(), "is none that this version wrote; its cell is played again when it is asked for"});
-            take_out(path);
+            if (taken_out)
+                take_out(path);
         }
+    return damage;
+}
+
+} // namespace
+
+std::vector<StoreDamage> verify_store(const CellStore& store) {
+    std::vector<fs::path> broken;
+    {
+        const FolderLock others_may_read(store.mark(), FolderLock::For::reading);
+        for (const fs::path& path : files_of(store.folder() / "objects"))
+            if (!name_of_object(path).empty() && !is_part(path) && !holds_object(store.folder(), name_of_object(path)))
+                broken.push_back(path);
+    }
+    if (broken.empty() && damaged_entries(store, false).empty())
+        return {};
+    const FolderLock lock(store.mark());
+    std::vector<StoreDamage> damage;
+    for (const fs::path& path : broken) {
+        if (holds_object(store.folder(), name_of_object(path))) // written anew meanwhile
+            continue;
+        damage.push_back({"object " + name_of_object(path), "its bytes are not those that were kept"});
+        take_out(path);
+    }
+    std::ranges::move(damaged_entries(store, true), std::back_inserter(damage));
     return damage;
 }
 

@@ -8,7 +8,8 @@ namespace fernlicht {
 struct StoreDamage {
     std::string what, why; ///< "cell straight_xenon of standard-1"; "its object is missing"
 };
-/// Reads everything. What is damaged is taken out, so that it is computed anew. Throws DeviceError where the disk refuses.
+/// Reads everything. What is damaged is taken out, so that it is computed anew; a store in which nothing is need not be writable. Throws
+/// DeviceError where the disk refuses.
 std::vector<StoreDamage> verify_store(const CellStore& store);
 
 struct Pruning {

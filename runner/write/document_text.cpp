@@ -115,9 +115,12 @@ std::string document_text(const Document& document) {
     for (const Section& section : document.sections) {
         if (section.on_page_alone)
             continue;
-        text += section.title.empty() ? "" : "\n" + clean_text(section.title) + "\n";
+        std::string body;
         for (const DocumentPart& block : section.blocks)
-            text += std::visit([](const auto& part) { return text_of(part); }, block);
+            body += std::visit([](const auto& part) { return text_of(part); }, block);
+        if (body.empty() && !section.blocks.empty()) // pictures alone
+            continue;
+        text += (section.title.empty() ? "" : "\n" + clean_text(section.title) + "\n") + body;
     }
     return text;
 }

@@ -187,6 +187,7 @@ void read_study_limits(const YamlEntry& given, Study& study) {
     for (const YamlEntry& entry : given.list(0, max_entries)) {
         const YamlMap keys = entry.map(keys_of(study_limit_fields()));
         StudyLimit& limit = study.limits.emplace_back();
+        limit.line = entry.value().line;
         for (const char* const key : {"reading", "at_least", "at_most", "change_at_least", "change_at_most"})
             read_field(study_limit_fields(), key, keys, &limit);
         const bool is_change = limit.change_at_least || limit.change_at_most;

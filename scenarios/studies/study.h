@@ -42,6 +42,7 @@ struct StudyLimit {
     std::string reading;
     std::string lamp; ///< "" for every lamp; always "" for a change
     std::optional<double> at_least, at_most, change_at_least, change_at_most;
+    std::size_t line = 0; ///< in the study's file
 };
 
 struct Study {

@@ -40,9 +40,15 @@ std::size_t count_cells(const std::vector<MovedReading>& moved) {
 std::string told_moved(const HistoryFindings& findings, const std::vector<MovedReading>& moved) {
     const MovedReading& largest = moved.front();
     const std::string share = told_share(largest.share());
-    return fmt::format("{} of {}, above all {}, {}: {} → {}{}", counted(moved.size(), "reading"), counted(count_cells(moved), "cell"),
+    std::string aim;
+    const auto effect = findings.aim_effects.find({largest.cell, largest.reading});
+    if (effect != findings.aim_effects.end() && largest.before.figure() && largest.now.figure())
+        aim = fmt::format(", {} 0.1° of aim would do ({})",
+                          std::abs(*largest.now.figure() - *largest.before.figure()) > effect->second ? "more than" : "no more than",
+                          told_value(largest.reading, effect->second));
+    return fmt::format("{} of {}, above all {}, {}: {} → {}{}{}", counted(moved.size(), "reading"), counted(count_cells(moved), "cell"),
                        label_of_reading(largest.reading), place_of(findings, largest.cell), told_value(largest.reading, largest.before),
-                       told_value(largest.reading, largest.now), share.empty() ? "" : " (" + share + ")");
+                       told_value(largest.reading, largest.now), share.empty() ? "" : " (" + share + ")", aim);
 }
 
 std::string told_split(const HistoryFindings& findings, const HistoryEvent& event) {
@@ -127,12 +133,17 @@ std::vector<std::string> told_times(const HistoryFindings& findings) {
 
 std::string base_words(const HistoryFindings& findings) {
     return findings.is_accepted() ? "the accepted night of " + findings.when(findings.base)
-                                  : "the first night, " + findings.when(findings.base) + "; none is accepted";
+                                  : fmt::format("the first night, {}; none {}is accepted", findings.when(findings.base),
+                                                findings.tonight().accepted ? "before this one " : "");
 }
 
 std::string headline(const HistoryFindings& findings) {
+    const char* const accepted =
+        findings.tonight().accepted
+            ? " This night is accepted itself: later ones are compared with it, not with what it is compared with here."
+            : "";
     if (findings.nights.size() == 1)
-        return "This is the first night in the history.";
+        return fmt::format("This is the first night in the history.{}", accepted);
     const std::size_t nights = findings.nights.size() - 1 - findings.base;
     const std::string note = findings.before().note.empty() ? "" : fmt::format(" (\"{}\")", short_text(findings.before().note, 120));
     const std::string since = fmt::format("since {}{}, in {}", base_words(findings), note, counted(nights, "night"));
@@ -141,8 +152,8 @@ std::string headline(const HistoryFindings& findings) {
         for (const NightCell& cell : findings.tonight().cells)
             if (cell.failed.empty())
                 ++cells, readings += cell.readings->size();
-        return fmt::format("Nothing changed {}: {} of {} are the same to the last bit.", since, counted(readings, "reading"),
-                           counted(cells, "cell"));
+        return fmt::format("Nothing changed {}: {} of {} are the same to the last bit.{}", since, counted(readings, "reading"),
+                           counted(cells, "cell"), accepted);
     }
     std::vector<std::string> parts;
     const auto add = [&](std::size_t count, const std::string& what) {
@@ -157,7 +168,7 @@ std::string headline(const HistoryFindings& findings) {
     std::string all = parts.front();
     for (std::size_t i = 1; i < parts.size(); ++i)
         all += (i + 1 < parts.size() ? ", " : " and ") + parts[i];
-    return fmt::format("{} {}.", all, since);
+    return fmt::format("{} {}.{}", all, since, accepted);
 }
 
 Table moved_table(const std::string& name, const std::string& caption) {
@@ -270,11 +281,18 @@ Section frames_section(const HistoryFindings& findings) {
 
 } // namespace
 
-std::string HistoryFindings::when(std::size_t night) const {
-    const std::string date = nights[night].date();
-    const bool is_alone = std::ranges::count_if(nights, [&](const Night& one) { return one.date() == date; }) == 1;
-    return is_alone || nights[night].played_utc.size() < 16 ? date : date + " " + nights[night].played_utc.substr(11, 5);
+std::string when_of(const std::vector<Night>& nights, std::size_t night) {
+    std::string when;
+    for (const std::size_t digits : {10U, 16U, 19U}) { // date, minutes, seconds
+        when = nights[night].played_utc.substr(0, digits);
+        if (std::ranges::count_if(nights, [&](const Night& one) { return one.played_utc.starts_with(when); }) == 1)
+            break;
+    }
+    std::ranges::replace(when, 'T', ' ');
+    return when;
 }
+
+std::string HistoryFindings::when(std::size_t night) const { return when_of(nights, night); }
 
 std::string label_of_reading(const std::string& name) {
     if (name == timed_frame)

@@ -100,14 +100,15 @@ struct HistoryFindings : Findings {
     std::vector<HistoryEvent> events; ///< by night
     std::vector<HistoryDrift> drifts;
     HistoryTimes times;
-    std::vector<std::string> quiet;               ///< nights and inputs that changed and moved nothing
-    std::vector<std::string> absent;              ///< cells that one of both nights has not, or did not play
-    std::vector<MovedReading> since;              ///< base against tonight beyond rounding, what decides first, then the largest
-    std::map<std::string, NightReadings> replays; ///< what was played tonight to tell causes apart, by cell
+    std::vector<std::string> quiet;  ///< nights and inputs that changed and moved nothing
+    std::vector<std::string> absent; ///< cells that one of both nights has not, or did not play
+    std::vector<MovedReading> since; ///< base against tonight beyond rounding, what decides first, then the largest
+    std::map<std::pair<std::string, std::string>, double> aim_effects; ///< what 0.1° does tonight, by cell and reading; where it is known
+    std::map<std::string, NightReadings> replays;                      ///< what was played tonight to tell causes apart, by cell
     std::vector<NightFrames> frames;
     std::string no_frames; ///< why there are none, or not all
 
-    std::string when(std::size_t night) const; ///< its date, with the time where several nights have that date
+    std::string when(std::size_t night) const; ///< when_of
     const Night& tonight() const { return nights.back(); }
     const Night& before() const { return nights[base]; }
     bool is_accepted() const { return before().accepted; }
@@ -122,6 +123,9 @@ struct HistoryOptions {
 
 /// Looks at the last of the nights, all of one study, in order, at least one.
 HistoryFindings explain_nights(std::vector<Night> nights, const HistoryOptions& options = {});
+
+/// A night's date, with the time where several have that date, to the second where it must be.
+std::string when_of(const std::vector<Night>& nights, std::size_t night);
 
 /// A cell in all nights that lead to the last one: at each step back the latest earlier night of the same device class that played it;
 /// where there is none, of another. Not beyond `first`. Oldest first; empty where the last night did not play it.

@@ -88,6 +88,10 @@ HistoryFindings history_of(const std::filesystem::path& file, const StudyResult&
     nights.push_back(std::move(night));
     HistoryFindings findings = explain_nights(std::move(nights), options);
     findings.context = tonight.context;
+    for (const CellResult& cell : tonight.cells)
+        for (const auto& [key, reading] : cell.readings)
+            if (const std::optional<double> effect = by_aim(reading.sensitivity))
+                findings.aim_effects[{cell.cell.name, name_of(key)}] = *effect;
     add_frames(findings);
     return findings;
 }

@@ -59,7 +59,7 @@ void add_levels(Table& table, const std::vector<Night>& nights, const std::strin
         const TrendLevel& level = levels[i];
         const std::optional<double> share = i > 0 ? MovedReading{"", "", levels[i - 1].value, level.value}.share() : std::nullopt;
         table.rows.push_back(
-            {cell, reading, nights[level.first].date(), nights[level.last].date(),
+            {cell, reading, when_of(nights, level.first), when_of(nights, level.last),
              Cell(fmt::format("{}", level.nights), static_cast<double>(level.nights)),
              level.value.measured() ? Cell(with_bound(level.value, fmt::format("{:.7g}", *level.value.figure())), *level.value.figure())
                                     : Cell("not measured"),
@@ -92,7 +92,7 @@ void add_times(Table& table, const std::vector<Night>& nights, const std::string
             causes = changed_inputs(timing_inputs(earlier, *earlier.cell(cell)), timing_inputs(later, *later.cell(cell)));
         }
         table.rows.push_back(
-            {cell, timed_frame, nights[first].date(), nights[last].date(),
+            {cell, timed_frame, when_of(nights, first), when_of(nights, last),
              Cell(fmt::format("{}", level.count), static_cast<double>(level.count)),
              Cell(fmt::format("{:.4g} ({:.4g} to {:.4g})", level.median, level.minimum, level.maximum), level.median), "s",
              before ? Cell(fmt::format("{:+.3g}", 100.0 * (level.median / *before - 1.0)), 100.0 * (level.median / *before - 1.0))
@@ -113,18 +113,30 @@ std::string machine_in(const Night& night, const std::string& name) {
 Document trend_document(const std::vector<Night>& nights, const std::string& reading, const std::string& cells) {
     const Night& last = nights.back();
     Table table = trend_table();
-    std::set<std::string> names;
+    std::set<std::string> names{timed_frame}, cell_names;
+    bool any_cell = false;
     for (const NightCell& cell : last.cells) {
-        for (const auto& [name, value] : *cell.readings)
-            names.insert(name);
+        cell_names.insert(cell.name);
         if (!matches(cells, cell.name))
             continue;
+        any_cell = true;
+        for (const auto& [name, value] : *cell.readings)
+            names.insert(name);
         if (matches(reading, timed_frame))
             add_times(table, nights, cell.name);
         for (const auto& [name, value] : *cell.readings)
             if (matches(reading, name))
                 add_levels(table, nights, cell.name, name);
     }
+    if (!any_cell) {
+        const std::string near = nearest_name(cells, cell_names);
+        throw InputError({{}, 0, 0, "--cells"}, fmt::format("found '{}', which fits no cell of {}", printable(cells), last.date()),
+                         "a name or a pattern, such as " + (near.empty() ? *cell_names.begin() : near));
+    }
+    if (table.rows.empty() && reading == timed_frame)
+        throw InputError({{}, 0, 0, "trend"},
+                         fmt::format("found no time of the cells '{}': none was timed by itself in a night", printable(cells)),
+                         "nights of a study with timed_cells, or of --timed");
     if (table.rows.empty()) {
         const std::string near = nearest_name(reading, names);
         throw InputError(

@@ -79,13 +79,16 @@ void take_replays(Night& tonight, const std::map<std::string, NightReadings>& re
             cell.with_earlier_inputs = std::make_shared<NightReadings>(replay->second);
 }
 
-Night read_night(const std::filesystem::path& folder) {
+Night read_night(const std::filesystem::path& folder, std::string* played_in_part) {
     std::error_code ignored;
     if (is_marked_incomplete(folder))
         throw InputError({folder, 0, 0, {}}, "holds a study that did not end", "a complete one; `fernlicht study --resume` goes on");
     if (!std::filesystem::exists(folder / "study.json", ignored))
         throw InputError({folder, 0, 0, {}}, "is no folder of a study", "one that `fernlicht study` wrote");
-    return night_of_study(from_json<StudyResult>(CheckedJson::read(folder / "study.json"), study_members), folder);
+    const StudyResult result = from_json<StudyResult>(CheckedJson::read(folder / "study.json"), study_members);
+    if (played_in_part)
+        *played_in_part = result.played_in_part;
+    return night_of_study(result, folder);
 }
 
 } // namespace fernlicht

@@ -13,8 +13,9 @@ NightReadings night_readings(const CellResult& cell);
 /// report lies.
 Night night_of_study(const StudyResult& result, const std::filesystem::path& folder);
 
-/// The same of a study's folder. Throws InputError for what is no folder of a complete study.
-Night read_night(const std::filesystem::path& folder);
+/// The same of a study's folder, and what was left out of the study that night, "" for nothing. Throws InputError for what is no folder of
+/// a complete study.
+Night read_night(const std::filesystem::path& folder, std::string* played_in_part = nullptr);
 
 /// What cells read when they were played again, by name, to the night.
 void take_replays(Night& tonight, const std::map<std::string, NightReadings>& replays);

@@ -73,7 +73,7 @@ Replayed with_earlier_lamps(const Study& study, const StudyOptions& options, con
     const PlannedCell& planned = plan.cells.front();
     if (!store.find(planned.key) && !play_into(store, before, plan, planned, one))
         return {{}, "it was interrupted"};
-    CellResult result = unplayed_cell(before, plan, planned, one);
+    CellResult result = unplayed_cell(before, plan, planned);
     one.judge_cell = [](const Report&, const fs::path&) {};
     collect_cell(store, before, planned, one, result);
     return {night_readings(result), {}};

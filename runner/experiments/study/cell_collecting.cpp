@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 
 std::string folder_name_of(const PlannedCell& planned) { return "cells/" + planned.cell.name; }
 
+/// By the drive that lies in the cell's folder.
 std::string repeating(const StudyOptions& options, const PlannedCell& planned) {
     std::vector<std::string> words{options.run.command.empty() ? "fernlicht" : options.run.command.front(), "run",
                                    (options.folder / folder_name_of(planned) / planned.resolved_file).string()};
@@ -25,6 +26,8 @@ std::string repeating(const StudyOptions& options, const PlannedCell& planned) {
         words.emplace_back("--frames");
         words.push_back(frames);
     }
+    if (options.run.backend != RunOptions().backend)
+        words.insert(words.end(), {"--backend", options.run.backend});
     if (!options.run.accuracy)
         words.emplace_back("--no-accuracy");
     return shell_quoted(words);
@@ -54,14 +57,18 @@ void judge(const Drive& drive, const PlannedCell& planned, const StudyOptions& o
     add_inputs(report.context.inputs, *planned.road);
     add_inputs(report.context.inputs, *planned.others);
     judge_whole(report, run);
-    const std::string rerun = repeat_command(options.run.command, {"--only", planned.cell.name});
+    const std::string rerun = playing_anew(options, planned.cell);
     for (Verdict& verdict : played.verdicts)
         verdict.rerun = rerun;
 }
 
 } // namespace
 
-CellResult unplayed_cell(const Study& study, const StudyPlan& plan, const PlannedCell& planned, const StudyOptions& options) {
+std::string playing_anew(const StudyOptions& options, const StudyCell& cell) {
+    return repeat_command(options.run.command, {"--only", cell.name});
+}
+
+CellResult unplayed_cell(const Study& study, const StudyPlan& plan, const PlannedCell& planned) {
     CellResult cell;
     const Drive drive = cell_drive(study, planned.cell);
     cell.cell = planned.cell;
@@ -76,7 +83,6 @@ CellResult unplayed_cell(const Study& study, const StudyPlan& plan, const Planne
     cell.look_step_m = drive.seeing.visibility ? drive.seeing.visibility->step_m : 0.0;
     cell.grid_cell_m = drive.extent ? drive.extent->cell_m : cell.grid_cell_m;
     std::ranges::copy_if(drive.views, std::back_inserter(cell.maps), [](const View& view) { return view.projection == Projection::map; });
-    cell.command = repeating(options, planned);
     return cell;
 }
 
@@ -92,9 +98,10 @@ void judge_cell(const Study& study, const PlannedCell& planned, const StudyOptio
     PlayedResult played = played_result(report.played.front(), read_moments(folder, report, 0), folder_name_of(planned));
     static_cast<Steps&>(played) = result; // the drive's, not the report's
     static_cast<PlayedResult&>(result) = std::move(played);
+    result.command = repeating(options, planned);
 }
 
-void keep_what_is_told(const Study& study, const fs::path& study_folder, bool is_pictured, CellResult& cell) {
+void keep_what_is_told(const Study& study, const StudyOptions& options, bool is_pictured, CellResult& cell) {
     std::set<ReadingKey> told;
     for (const auto& [key, reading] : cell.readings)
         if (place_among(key, study.decide) ||
@@ -118,14 +125,22 @@ void keep_what_is_told(const Study& study, const fs::path& study_folder, bool is
     cell.maps = {};
     cell.series = nullptr;
     std::error_code ignored;
-    fs::remove_all(study_folder / "cells" / cell.cell.name, ignored);
+    fs::remove_all(options.folder / "cells" / cell.cell.name, ignored);
+    cell.command = playing_anew(options, cell.cell);
 }
 
 void collect_cell(const CellStore& store, const Study& study, const PlannedCell& planned, const StudyOptions& options, CellResult& result) {
     const std::optional<StoredCell> stored = store.find(planned.key);
     if (!stored)
         throw InputError({store.folder(), 0, 0, {}}, "found nothing of cell " + planned.cell.name, "what playing it gives");
-    const PackedFiles files = store.load(*stored);
+    PackedFiles files;
+    try {
+        files = store.load(*stored);
+    } catch (const InputError& damage) {
+        store.forget(planned.key);
+        throw InputError({{}, 0, 0, planned.cell.name}, fmt::format("is damaged in the store ({})", damage.what()),
+                         "it to be played again, which the next plan asks for");
+    }
     const fs::path folder = options.folder / folder_name_of(planned);
     fs::remove_all(folder);
     write_files(files, folder);

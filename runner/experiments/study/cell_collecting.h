@@ -6,7 +6,10 @@
 namespace fernlicht {
 
 /// Of a cell that was planned, before anything of it is there.
-CellResult unplayed_cell(const Study& study, const StudyPlan& plan, const PlannedCell& planned, const StudyOptions& options);
+CellResult unplayed_cell(const Study& study, const StudyPlan& plan, const PlannedCell& planned);
+
+/// The command that plays this cell of the study, where its folder is not there.
+std::string playing_anew(const StudyOptions& options, const StudyCell& cell);
 
 /// Puts the cell's files from the store into the study's folder in place of what is there, judges them, and fills in `result`. Throws
 /// InputError where the store lacks them or holds them damaged, DeviceError where the disk refuses.
@@ -14,7 +17,7 @@ void collect_cell(const CellStore& store, const Study& study, const PlannedCell&
 
 /// Of a study too large to be told whole (StudyResult::is_large): keeps what decides, what has limits, and how exact those are; takes away
 /// the cell's folder and what figures are made of, unless it is pictured.
-void keep_what_is_told(const Study& study, const std::filesystem::path& study_folder, bool is_pictured, CellResult& cell);
+void keep_what_is_told(const Study& study, const StudyOptions& options, bool is_pictured, CellResult& cell);
 
 /// The same with files that lie in the folder and are not judged.
 void judge_cell(const Study& study, const PlannedCell& planned, const StudyOptions& options, CellResult& result);

@@ -12,8 +12,11 @@
 #include "scenarios/values/trace.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <fmt/format.h>
+#include <new>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 
@@ -46,10 +49,13 @@ FilesRead inputs_of(const Report& report, const PlannedCell& planned) {
     return inputs;
 }
 
-/// Without the program's name.
+/// Without the program's name, or the runtime's words.
 std::string last_word(const WorkerEnd& end) {
-    constexpr std::string_view program = "fernlicht: ";
-    return printable(end.said.starts_with(program) ? end.said.substr(program.size()) : end.said, 400);
+    std::string said = end.said;
+    for (const std::string_view before : {"fernlicht: ", "  what():  "})
+        if (said.starts_with(before))
+            said.erase(0, before.size());
+    return printable(sentence_of_failure(said), 400);
 }
 
 void tell_cell(TraceSpan& span, const PlannedCell& planned) {
@@ -65,6 +71,14 @@ double physical_memory_mib() {
 }
 
 } // namespace
+
+std::string sentence_of_failure(const std::string& what) {
+    if (what == std::bad_alloc().what())
+        return "memory ran out";
+    if (what == std::generic_category().message(EAGAIN)) // of a thread
+        return "no thread could be started: it has as much memory, or as many threads, as it may";
+    return what;
+}
 
 bool play_into(const CellStore& store, const Study& study, const StudyPlan& plan, const PlannedCell& planned, const StudyOptions& options) {
     TraceSpan span("cell", "study");
@@ -163,9 +177,11 @@ std::map<std::size_t, PlayedInWorker> play_in_workers(const CellStore& store, co
             played.failed = "its process ended well, and the store does not have the cell: was it pruned meanwhile?";
         else {
             played.failed = store.failure(plan.cells[i].key);
-            if (played.failed.empty())
+            if (played.failed.empty()) {
                 played.failed =
                     fmt::format("its process {}{}", ending_text(end, pool.limits), end.said.empty() ? "" : ": " + last_word(end));
+                store.note_failure(plan.cells[i].key, played.failed);
+            }
             played.failed += end.said.empty() ? " (it printed nothing)" : fmt::format(" (log: logs/{}.log)", plan.cells[i].cell.name);
         }
         std::error_code ignored;

@@ -10,6 +10,9 @@ namespace fernlicht {
 /// Of a cell that was not timed.
 inline constexpr const char* no_times_beside_others = "cells beside it";
 
+/// What an exception says, in words where it is a bare name of the runtime's.
+std::string sentence_of_failure(const std::string& what);
+
 /// Plays the cell and keeps it; false where it was interrupted. Throws InputError and DeviceError.
 bool play_into(const CellStore& store, const Study& study, const StudyPlan& plan, const PlannedCell& planned, const StudyOptions& options);
 

@@ -214,6 +214,8 @@ class SlurmStudy {
 
     void end(const std::string& name, const std::string& failed) {
         progress_.ended(name, 0.0, failed); // how long its task took is the cluster's affair
+        if (const std::string& key = plan_.cells[open_.at(name).index].key; !failed.empty() && store_.failure(key).empty())
+            store_.note_failure(key, failed);
         outcome_[open_.at(name).index].failed = failed;
         open_.erase(name);
     }

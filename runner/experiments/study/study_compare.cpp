@@ -225,6 +225,27 @@ bool StudyResult::complete() const {
     return interrupted.empty() && std::ranges::all_of(cells, [](const CellResult& cell) { return cell.failed.empty(); });
 }
 
+void add_axis_warnings(StudyResult& result) {
+    for (const StudyAxis& axis : result.study.axes) {
+        std::map<std::string, std::map<std::string, std::string>> keys; // by value, then by all else
+        for (const CellResult& cell : result.cells) {
+            const StudyCell& at = cell.cell;
+            std::string value,
+                rest = fmt::format("{} {} {} {} {} {} {}", at.drive, at.lamp, at.technique, at.time_of_day, at.aim, at.voltage, at.mirror);
+            for (const AxisValue& one : at.axes)
+                (one.axis == axis.name ? value : rest += "\n") += one.value;
+            keys[value.empty() ? "the drives' own" : value][rest] = cell.key;
+        }
+        std::map<std::map<std::string, std::string>, std::vector<std::string>> alike;
+        for (const auto& [value, of_value] : keys)
+            alike[of_value].push_back(value);
+        for (const auto& [cells, values] : alike)
+            if (values.size() > 1)
+                result.warnings.push_back(fmt::format("axis {}: {} give the very same cells: nothing that is played depends on it",
+                                                      axis.name, fmt::join(values, " and ")));
+    }
+}
+
 void compare_cells(StudyResult& result) {
     result.played_in_part = played_in_part(result);
     for (const StudyComparison& comparison : result.study.comparisons)
@@ -234,8 +255,11 @@ void compare_cells(StudyResult& result) {
                     result.changes.push_back(change_of(result, tested, against, key));
     rank(result);
     judge_deciding(result);
-    for (const StudyLimit& limit : result.study.limits)
+    for (const StudyLimit& limit : result.study.limits) {
+        const auto others = static_cast<std::ptrdiff_t>(result.verdicts.size());
         limit.change_at_least || limit.change_at_most ? judge_changes(result, limit) : judge_values(result, limit);
+        std::for_each(result.verdicts.begin() + others, result.verdicts.end(), [&](Verdict& verdict) { verdict.line = limit.line; });
+    }
 }
 
 } // namespace fernlicht

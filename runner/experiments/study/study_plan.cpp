@@ -148,25 +148,26 @@ std::vector<std::size_t> lacking_cells(const CellStore& store, const StudyPlan& 
     return cells;
 }
 
-std::vector<std::pair<std::string, std::vector<std::string>>> reasons_to_play(const Study& study, const StudyPlan& plan,
-                                                                              const CellStore& store) {
+std::vector<std::vector<std::string>> reasons_to_play(const Study& study, const StudyPlan& plan, const std::vector<std::size_t>& cells,
+                                                      const CellStore& store) {
     std::map<std::string, StoredCell> latest; // by cell
+    if (cells.empty())
+        return {};
     for (StoredCell& stored : store.list())
         if (stored.study == study.name) {
             std::string cell = stored.cell;
             latest.insert_or_assign(std::move(cell), std::move(stored));
         }
-    std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
-    for (const PlannedCell& one : plan.cells) {
-        if (one.moments == 0 || store.find(one.key))
-            continue;
+    std::vector<std::vector<std::string>> reasons;
+    for (const std::size_t i : cells) {
+        const PlannedCell& one = plan.cells[i];
         const auto before = latest.find(one.cell.name);
-        const std::string failure = store.failure(one.key);
-        reasons.emplace_back(one.cell.name, !failure.empty()         ? std::vector<std::string>{failure}
-                                            : before == latest.end() ? std::vector<std::string>{"new"}
-                                                                     : input_changes(before->second.inputs, plan.inputs(one)));
-        if (reasons.back().second.empty())
-            reasons.back().second.emplace_back("what was kept is damaged");
+        std::string known = store.failure(one.key);
+        if (known.empty())
+            known = store.damage(one.key);
+        if (known.empty() && before == latest.end())
+            known = "new";
+        reasons.push_back(known.empty() ? input_changes(before->second.inputs, plan.inputs(one)) : std::vector{known});
     }
     return reasons;
 }

@@ -43,8 +43,9 @@ std::string frames_text(const TickRange& ticks);
 /// Places of the cells that are to be played and that the store lacks, or holds damaged.
 std::vector<std::size_t> lacking_cells(const CellStore& store, const StudyPlan& plan);
 
-/// Why each cell of the plan that the store lacks must be played; "new" where this study never played it.
-std::vector<std::pair<std::string, std::vector<std::string>>> reasons_to_play(const Study& study, const StudyPlan& plan,
-                                                                              const CellStore& store);
+/// Why each of these cells (places in the plan), which the store lacks or holds damaged, must be played; "new" where this study never
+/// played it.
+std::vector<std::vector<std::string>> reasons_to_play(const Study& study, const StudyPlan& plan, const std::vector<std::size_t>& cells,
+                                                      const CellStore& store);
 
 } // namespace fernlicht

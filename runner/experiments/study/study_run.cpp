@@ -8,9 +8,9 @@
 #include "runner/files/checked_json.h"
 #include "runner/files/durable_files.h"
 #include "runner/files/log.h"
-#include "runner/files/object_store.h"
 #include "runner/files/output_folder.h"
 #include "runner/play/progress.h"
+#include "runner/workers/slurm.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/glob.h"
 #include "scenarios/values/trace.h"
@@ -67,7 +67,7 @@ std::string plan_text(const Study& study, const StudyPlan& plan, const std::stri
 }
 
 /// Before a study is gone on with: what was begun is what is asked for now.
-void refuse_other_cells(const Study& study, const StudyPlan& plan, const fs::path& folder) {
+void refuse_other_cells(const Study& study, const StudyPlan& plan, const CellStore& store, const fs::path& folder) {
     const CheckedJson begun = CheckedJson::read(folder / "plan.json");
     begun.expect_schema(plan_schema, 1);
     if (const std::string name = begun.at("study").text(); name != study.name)
@@ -78,11 +78,21 @@ void refuse_other_cells(const Study& study, const StudyPlan& plan, const fs::pat
         throw InputError({folder, 0, 0, "--resume"},
                          fmt::format("was begun with {} cells, and {} are asked for now", cells.size(), plan.cells.size()),
                          "the same --only as then, or a new folder");
-    for (const PlannedCell& one : plan.cells)
-        if (!cells.has(one.cell.name) || cells.at(one.cell.name).text() != one.key)
+    const PlannedCell* other = nullptr;
+    for (const PlannedCell& one : plan.cells) {
+        if (cells.has(one.cell.name) && cells.at(one.cell.name).text() == one.key)
+            continue;
+        other = other ? other : &one;
+        // The store may know what the key of then was made of.
+        if (const auto begun_with = cells.has(one.cell.name) ? store.find(cells.at(one.cell.name).text()) : std::nullopt)
             throw InputError({folder / "cells" / one.cell.name, 0, 0, "--resume"},
-                             "found a cell that was not begun, or begun with other files, settings, another program or another machine",
+                             fmt::format("was begun otherwise ({})", fmt::join(input_changes(begun_with->inputs, plan.inputs(one)), "; ")),
                              "the study as it was begun");
+    }
+    if (other)
+        throw InputError({folder / "cells" / other->cell.name, 0, 0, "--resume"},
+                         "found a cell that was not begun, or begun with other files, settings, another program or another machine",
+                         "the study as it was begun");
 }
 
 /// Of two that go on in one folder the second is refused. Held on the mark of a study that did not end.
@@ -102,7 +112,7 @@ void begin(const Study& study, const StudyPlan& plan, const StudyOptions& option
 }
 
 /// A new folder, or with --resume that of a study that was stopped, or of one that ended, whose report is then written anew.
-OutputFolder folder_for(const Study& study, const StudyPlan& plan, const StudyOptions& options) {
+OutputFolder folder_for(const Study& study, const StudyPlan& plan, const CellStore& store, const StudyOptions& options) {
     const bool begun = fs::is_regular_file(options.folder / "plan.json");
     if (!options.resume && begun && is_marked_incomplete(options.folder))
         throw InputError({options.folder, 0, 0, "--out"}, "holds a study that did not end",
@@ -110,7 +120,7 @@ OutputFolder folder_for(const Study& study, const StudyPlan& plan, const StudyOp
     if (!options.resume)
         return OutputFolder(options.folder);
     if (begun)
-        refuse_other_cells(study, plan, options.folder);
+        refuse_other_cells(study, plan, store, options.folder);
     if (is_marked_incomplete(options.folder) || !begun)
         return OutputFolder::left_incomplete(options.folder);
     write_file(options.folder / "INCOMPLETE", "This study's report is being written anew.\n");
@@ -140,7 +150,7 @@ class Telling {
             return;
         if (result.cells.size() == 1 || !is_same_place(result.cells[result.cells.size() - 2].cell, cell.cell))
             ++places_;
-        keep_what_is_told(study_, options_.folder, places_ <= max_pictured_places, cell);
+        keep_what_is_told(study_, options_, places_ <= max_pictured_places, cell);
     }
 
   private:
@@ -193,6 +203,7 @@ void finish(StudyResult& result, const StudyOptions& options, OutputFolder& fold
     if (options.known)
         apply_known_failures(result, *options.known, options.run.today);
     add_aim_warnings(result);
+    add_axis_warnings(result);
     span.emplace("write figures and report", "write");
     result.figures = study_figures(result, options.folder);
     options.write(result);
@@ -207,17 +218,20 @@ void refuse_unwritable(const CellStore& store) {
             "the store of cells cannot be written ({}), and some cells must be played; choose another folder with --store", why));
 }
 
-/// Whether the store has what it says that it has.
-bool is_whole(const CellStore& store, const std::string& key) {
-    const std::optional<StoredCell> stored = store.find(key);
-    return stored && holds_object(store.folder(), stored->object);
+/// True where what the store has of the cell is damaged. Nobody is to wonder why it is played again.
+bool is_told_damaged(const CellStore& store, const PlannedCell& one) {
+    const std::string damage = store.damage(one.key);
+    if (!damage.empty())
+        tell(LogLevel::warning, fmt::format("cell {} is played again: in the store {} (key {})", one.cell.name, damage, one.key));
+    return !damage.empty();
 }
 
 /// Its drive is read anew, and may be gone.
 CellResult begun_cell(const Study& study, const StudyPlan& plan, const PlannedCell& one, const StudyOptions& options) {
     CellResult cell;
     cell.cell = one.cell;
-    try_cell(cell, [&] { cell = unplayed_cell(study, plan, one, options); });
+    try_cell(cell, [&] { cell = unplayed_cell(study, plan, one); });
+    cell.command = playing_anew(options, one.cell); // until there is a folder
     return cell;
 }
 
@@ -241,7 +255,8 @@ void collect_all(const CellStore& store, const Study& study, const StudyPlan& pl
             result.missing.push_back("cell " + one.cell.name);
         } else
             try_cell(cell, [&] {
-                if (!is_whole(store, one.key) && options.executor == StudyExecutor::local && !Interruption::requested()) {
+                if (options.executor == StudyExecutor::local && !Interruption::requested() &&
+                    (!store.find(one.key) || is_told_damaged(store, one))) {
                     store.forget(one.key);
                     cell.reused = false;
                     if (const auto again = play_in_workers(store, study, plan, {i}, jobs, options);
@@ -299,6 +314,21 @@ std::string time_cells(const Study& study, const StudyPlan& plan, const CellStor
     return said;
 }
 
+/// Why each cell that the store lacks is not there.
+std::map<std::string, std::string> reasons_by_key(const Study& study, const StudyPlan& plan, const CellStore& store) {
+    const std::vector<std::size_t> lacking = lacking_cells(store, plan);
+    const std::vector<std::vector<std::string>> reasons = reasons_to_play(study, plan, lacking, store);
+    std::map<std::string, std::string> by_key;
+    for (std::size_t i = 0; i < lacking.size(); ++i) {
+        const std::string& key = plan.cells[lacking[i]].key;
+        const bool was_tried = !store.failure(key).empty(), is_new = reasons[i] == std::vector<std::string>{"new"};
+        by_key[key] = was_tried ? reasons[i].front()
+                      : is_new  ? "it is not in the store: not played yet, or killed before it could say why"
+                                : fmt::format("it is not in the store as it is asked for now: {}", fmt::join(reasons[i], "; "));
+    }
+    return by_key;
+}
+
 /// Where a plan was made with other files, another program or on another class of machine, what is played here is not what it waits for.
 void refuse_others(const StudyPlan& plan, const CellStore& store, const StudyOptions& options) {
     std::string found;
@@ -332,16 +362,24 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
     const StudyPlan plan = plan_study(study, options);
     StudyResult result = begun_study(study, plan, options);
     const CellStore store(options.store);
-    const std::vector<std::size_t> to_play = lacking_cells(store, plan);
-    if (!options.timed && !to_play.empty())
+    const std::vector<std::size_t> to_play = options.timed ? std::vector<std::size_t>() : lacking_cells(store, plan);
+    if (!to_play.empty())
         refuse_unwritable(store);
-    OutputFolder folder = folder_for(study, plan, options);
+    if (!to_play.empty() && options.executor == StudyExecutor::slurm)
+        most_tasks(); // throws where no controller answers, before there is a folder
+    OutputFolder folder = folder_for(study, plan, store, options);
     const std::unique_ptr<FolderLock> alone = only_process(options.folder);
     begin(study, plan, options, result);
+    for (const std::size_t i : to_play)
+        is_told_damaged(store, plan.cells[i]);
     const Interruption listening;
     if (options.timed) {
         play_all_timed(study, plan, options, result);
         result.played_by = played_words(result, "one after another by themselves");
+        const auto untimed =
+            std::ranges::count_if(result.cells, [](const CellResult& cell) { return cell.failed.empty() && !cell.frame_s; });
+        if (untimed > 0)
+            result.played_by += fmt::format("; too few moments to time a frame were played in {} of them", untimed);
     } else {
         const Jobs jobs = jobs_for(options.jobs, plan.context, options.resources);
         const auto played = options.executor == StudyExecutor::slurm ? play_on_slurm(store, study, plan, to_play, options)
@@ -365,10 +403,11 @@ StudyResult collect_study(const Study& study, const StudyOptions& options) {
     const StudyPlan plan = plan_study(study, options);
     StudyResult result = begun_study(study, plan, options);
     const CellStore store(options.store);
-    OutputFolder folder = folder_for(study, plan, options);
+    OutputFolder folder = folder_for(study, plan, store, options);
     const std::unique_ptr<FolderLock> alone = only_process(options.folder);
     begin(study, plan, options, result);
     Telling telling(study, plan, options);
+    std::map<std::string, std::string> why_lacking = reasons_by_key(study, plan, store);
     for (const PlannedCell& one : plan.cells) {
         CellResult& cell = result.cells.emplace_back(begun_cell(study, plan, one, options));
         cell.reused = true;
@@ -376,10 +415,9 @@ StudyResult collect_study(const Study& study, const StudyOptions& options) {
             // Its drive cannot be read any more.
         } else if (one.moments == 0)
             cell.failed = no_moments(options);
-        else if (!store.find(one.key)) {
-            const std::string why = store.failure(one.key);
-            cell.failed = why.empty() ? "it is not in the store: not played yet, or killed before it could say why" : why;
-        } else
+        else if (!store.find(one.key))
+            cell.failed = why_lacking[one.key]; // or played and pruned meanwhile
+        else
             try_cell(cell, [&] { collect_cell(store, study, one, options, cell); });
         telling.add(result);
     }
@@ -405,12 +443,9 @@ bool play_into_store(const Study& study, const StudyOptions& options) {
                 return false;
         } catch (const std::exception& error) {
             all_there = false;
-            tell(LogLevel::error, fmt::format("cell {}: {}", one.cell.name, error.what()));
-            try {
-                store.note_failure(one.key, error.what());
-            } catch (const DeviceError&) { // it was told
-                continue;
-            }
+            const std::string why = sentence_of_failure(error.what());
+            tell(LogLevel::error, fmt::format("cell {}: {}", one.cell.name, why));
+            store.note_failure(one.key, why);
         }
     }
     return all_there;

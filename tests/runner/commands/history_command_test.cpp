@@ -72,8 +72,9 @@ TEST_F(HistoryCommand, FromTheFirstNightToTheCause) {
     EXPECT_THAT(printed("history trend 'reach_5lx*' --cells straight_xenon" + flag_),
                 AllOf(HasSubstr("2026-01-01  2026-01-02"), HasSubstr("inputs: lamp xenon-low.ies")));
     printed("history accept last" + flag_);
+    EXPECT_THAT(printed("history explain" + flag_), AllOf(HasSubstr("1 change since"), HasSubstr("This night is accepted itself")));
     EXPECT_THAT(printed("history prune --keep 0 --dry-run" + flag_),
-                HasSubstr("would remove 1 nights, kept 2 older ones that are accepted"));
+                HasSubstr("would remove 1 night, kept 2 older ones that are accepted"));
     EXPECT_THAT(printed("history prune --before 2026-01-03" + flag_), HasSubstr("removed night 2 of planted, 2026-01-02"));
 }
 
@@ -112,6 +113,7 @@ TEST_F(HistoryCommand, WhatCannotBeUsedGivesOneSentence) {
     EXPECT_THAT(printed("history prune" + flag_, 2), HasSubstr("found neither --keep nor --before"));
     EXPECT_THAT(printed("history export" + flag_, 2), HasSubstr("expected --csv"));
     EXPECT_THAT(printed("history trend reach_5lx_target_own" + flag_, 2), HasSubstr("such as reach_5lx_target_own_m"));
+    EXPECT_THAT(printed("history trend 'reach*' --cells strait_xenon" + flag_, 2), HasSubstr("such as straight_xenon"));
     write_file(folder_ / "n1/INCOMPLETE", "");
     EXPECT_THAT(printed("history add " + night(1) + flag_, 2), HasSubstr("holds a study that did not end"));
     EXPECT_THAT(printed("history", 2), Not(HasSubstr("bug")));

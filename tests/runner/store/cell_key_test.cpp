@@ -73,7 +73,7 @@ TEST_F(CellKey, EveryInputCountsAndSaysWhatItIs) {
             for (MountedLamp& lamp : other.lamp_sets[0].lamps)
                 lamp.file = changed;
         }
-    EXPECT_THAT(told(other), ElementsAre("lamp halogen-low.ies changed"));
+    EXPECT_THAT(told(other), ElementsAre("lamp halogen-low.ies changed (bytes of its file)"));
     EXPECT_NE(key(other), cell_key(before));
     CellSettings fewer = settings;
     fewer.last_tick = 8;
@@ -82,7 +82,7 @@ TEST_F(CellKey, EveryInputCountsAndSaysWhatItIs) {
     EXPECT_THAT(input_changes(cell_inputs(drive, key_road, key_others, settings), now), ElementsAre("setting changed: moments 0:9 -> 0:8"));
     EXPECT_THAT(input_changes(cell_inputs(drive, key_road, key_others, settings),
                               cell_inputs(drive, {{"roads/a.xodr", 3, "ab"}}, {{"models/tree.glb", 3, "bc"}}, settings)),
-                ElementsAre("road a.xodr changed", "model tree.glb changed"));
+                ElementsAre("road a.xodr changed (bytes of its file)", "model tree.glb changed (bytes of its file)"));
     RunContext context = key_context();
     context.versions[1].second = "10.1.1";
     context.gl_version = "4.5 Mesa 25.0.7";

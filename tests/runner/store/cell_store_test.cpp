@@ -71,6 +71,10 @@ TEST_F(CellStoreTest, WhatIsDamagedIsFoundAndTakenOut) {
     EXPECT_THAT(tests::refusal_of([&] { store.load(flipped); }), HasSubstr("is not the cell that was kept: its hash is "));
     EXPECT_FALSE(store.find(gone.key));
     EXPECT_FALSE(store.find(halved.key));
+    EXPECT_EQ(store.damage(flipped.key), "its results are missing or damaged");
+    EXPECT_EQ(store.damage(gone.key), "its results are missing or damaged");
+    EXPECT_EQ(store.damage(halved.key), "its entry is damaged");
+    EXPECT_EQ(store.damage(whole.key), "");
     EXPECT_THAT(verify_store(store), SizeIs(4)) << "object and cell of the first, the second's cell, the third's entry";
     EXPECT_FALSE(store.find(flipped.key));
     EXPECT_TRUE(store.find(whole.key));

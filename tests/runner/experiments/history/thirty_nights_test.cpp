@@ -337,6 +337,9 @@ TEST(HistoryCauses, NightsOfOneDateAreToldByTheirTimes) {
     again.context.started_utc = "2026-01-01T05:30:00Z";
     const HistoryFindings found = explain_nights({night_of_study(planted.play(0, {}), "/a"), night_of_study(again, "/b")});
     EXPECT_THAT(document(found).sections.front().title, "What changed since 2026-01-01 02:00");
+    StudyResult soon = planted.play(0, {});
+    soon.context.started_utc = "2026-01-01T05:30:01Z";
+    EXPECT_EQ(when_of({night_of_study(again, "/b"), night_of_study(soon, "/c")}, 1), "2026-01-01 05:30:01");
 }
 
 TEST(HistoryCauses, ThereAndBackIsTwoChangesAndNoneInSum) {

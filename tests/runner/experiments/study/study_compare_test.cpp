@@ -235,7 +235,9 @@ TEST(StudyCompare, LimitsHoldForValuesAndForChanges) {
     result.study.limits[1].change_at_most = 9.0;
     result.study.limits[2].reading = "nothing_m";
     result.study.limits[2].change_at_least = 0.0;
+    result.study.limits[2].line = 12;
     compare_cells(result);
+    EXPECT_EQ(result.verdicts.back().line, 12U);
     ASSERT_EQ(result.verdicts.size(), 3U);
     EXPECT_EQ(result.verdicts[0].kind, VerdictKind::pass);
     EXPECT_EQ(result.verdicts[1].kind, VerdictKind::fail);
@@ -243,6 +245,21 @@ TEST(StudyCompare, LimitsHoldForValuesAndForChanges) {
     EXPECT_EQ(overall(result), VerdictKind::fail);
     EXPECT_THAT(report_junit(suites_of(result)), HasSubstr("<failure"));
     EXPECT_THAT(document_text(study_summary(result)), HasSubstr("FAIL one_new: change of reach_5lx_target_own_m: 10 m, limit at most 9 m"));
+}
+
+TEST(StudyCompare, AnAxisThatMovesNothingIsNamed) {
+    StudyResult result = two_cells(40.0, 50.0);
+    result.study.axes = {{"weather.wetness", {}, {}, {}}, {"eyes_m", {}, {}, {}}};
+    const CellResult one = result.cells.front();
+    result.cells.clear();
+    for (const char* const wetness : {"0", "1"})
+        for (const char* const eyes : {"1.1", "1.2"}) {
+            result.cells.push_back(one);
+            result.cells.back().cell.axes = {{"weather.wetness", wetness}, {"eyes_m", eyes}};
+            result.cells.back().key = wetness;
+        }
+    add_axis_warnings(result);
+    EXPECT_THAT(result.warnings, testing::ElementsAre(HasSubstr("axis eyes_m: 1.1 and 1.2 give the very same cells")));
 }
 
 TEST(StudyCompare, ADecidingReadingThatNothingHasIsNotMeasured) {

@@ -134,7 +134,7 @@ TEST_F(StudyProgram, GoesOnWhereItWasStoppedAndGivesTheSameBytes) {
     EXPECT_THAT(anew.output, HasSubstr("holds a study that did not end, expected --resume to go on with it, or a new or an empty folder"));
     const Outcome other = run_program("study " + file + " --frames 0:4 --no-accuracy --resume" + store + " --out " + (folder / "out"));
     EXPECT_EQ(other.exit_code, 2) << "other moments are another study";
-    EXPECT_THAT(other.output, HasSubstr("found a cell that was not begun, or begun with other files, settings"));
+    EXPECT_THAT(other.output, HasSubstr("was begun otherwise (setting changed: moments 0:5 -> 0:4)"));
     const Outcome resumed = run_program(arguments + (folder / "out") + " --resume");
     EXPECT_EQ(resumed.exit_code, 0) << resumed.output;
     const json study = tests::checked(content_of(folder / "out/study.json"), study_members);
@@ -200,6 +200,10 @@ TEST_F(StudyProgram, WhatIsInTheStoreIsNotPlayedAgain) {
     std::string bytes = content_of(object);
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
     std::ofstream(object, std::ios::binary) << bytes;
+    EXPECT_THAT(printed(arguments + "--explain"),
+                HasSubstr("straight_old                             its results are missing or damaged\n"));
+    EXPECT_THAT(printed(arguments + "--collect --out " + (folder / "collected"), 1), HasSubstr("is damaged in the store ("));
+    EXPECT_THAT(printed(arguments + "--explain"), HasSubstr("1 of 2 cells would be played")) << "it is out of the store";
     const json third = studied("third");
     EXPECT_EQ(reused(third), std::vector<bool>({false, true}));
     EXPECT_EQ(without_times(first), without_times(third));
@@ -248,13 +252,14 @@ TEST_F(StudyProgram, CellsThatHangOrTakeTooMuchAreRedRows) {
     const auto why = [&](const std::string& limit, const std::string& out) {
         EXPECT_EQ(run_program(arguments + (folder / out) + limit).exit_code, 1);
         const json study = tests::checked(content_of(folder / (out + "/study.json")), study_members);
-        EXPECT_THAT(study.at("context").at("cells").at(0).at("command").get<std::string>(), HasSubstr(" run "));
+        EXPECT_THAT(study.at("context").at("cells").at(0).at("command").get<std::string>(), HasSubstr("--only straight_old"));
         std::string failed = study.at("cells").at(0).at("failed");
         const bool has_log = std::filesystem::exists(folder / (out + "/logs/straight_old.log"));
         EXPECT_THAT(failed, HasSubstr(has_log ? "(log: logs/straight_old.log)" : "(it printed nothing)"));
         return failed;
     };
     EXPECT_THAT(why(" --cell-minutes 0.01", "slow"), HasSubstr("s, its limit of time"));
+    EXPECT_THAT(printed(arguments.substr(0, arguments.find("--out")) + "--explain"), HasSubstr("s, its limit of time"));
     EXPECT_THAT(why(" --cell-memory-mib 40", "large"),
                 testing::AnyOf(HasSubstr("was killed by"), HasSubstr("bad_alloc"), HasSubstr("memory"), HasSubstr("exit code")));
     EXPECT_EQ(run_program(arguments + (folder / "whole")).exit_code, 0) << "nothing of it stays";
@@ -276,6 +281,8 @@ TEST_F(StudyProgram, PlannedCommandsAndACollectionGiveTheSameStudy) {
     ASSERT_EQ(run_program(arguments + "--collect --out " + (folder / "out")).exit_code, 0);
     EXPECT_EQ(without_times(json::parse(content_of(folder / "out/study.json"))),
               without_times(json::parse(content_of(folder / "whole/study.json"))));
+    EXPECT_THAT(printed("study " + file + " --frames 0:4 --no-accuracy --collect --out " + (folder / "fewer") + store, 1),
+                HasSubstr("it is not in the store as it is asked for now: setting changed: moments 0:5 -> 0:4"));
     const std::string fewer = printed("study " + file + " --frames 0:4 --no-accuracy --plan --per 2" + store);
     EXPECT_EQ(json::parse(fewer).at("cells").size(), 2U);
 }
@@ -293,6 +300,8 @@ TEST_F(StudyProgram, TimesAreOfCellsByThemselves) {
     EXPECT_TRUE(frame_s("beside").at("frame_s").is_null());
     EXPECT_THAT(content_of(folder / "beside/cells/straight_old/report.html"), HasSubstr("Times are not measured: cells beside it."));
     EXPECT_THAT(content_of(folder / "timed/cells/straight_old/times.csv"), HasSubstr("frame, median"));
+    EXPECT_THAT(printed("study " + file + " --frames 0:1 --quiet --no-accuracy --only '*old' --timed --out " + (folder / "short")),
+                HasSubstr("too few moments to time a frame were played in 1 of them"));
     EXPECT_EQ(without_times(json::parse(content_of(folder / "timed/study.json"))),
               without_times(json::parse(content_of(folder / "beside/study.json"))));
     const Outcome limited =
@@ -379,6 +388,8 @@ TEST_F(StudyProgram, RefusesBeforeAnythingIsDrawn) {
     const std::string out = " --out " + (folder / "out");
     write_file(folder / "no.db", "no history at all, but long enough to be looked at by SQLite, which wants a hundred bytes of header ...");
     refused(out + " --history " + (folder / "no.db"), "no.db: is damaged or no database");
+    refused(out + " --history " + folder.path().string(), "is a folder, expected a history, or the name of a new file");
+    EXPECT_THAT(printed("study " + file + out + " --store " + (folder / "no.db"), 2), HasSubstr("--store: is not a folder"));
     refused("--play --expect straight_old", "--expect: found 'straight_old', expected CELL=KEY, as --plan prints it");
     refused(out + " --plan", "--out: found beside --list, --explain, --plan or --play, which write no report");
     EXPECT_THAT(printed("study " + write_study_file(folder, xenon) + moments + out + " --store " + (folder / "out/store"), 2),
