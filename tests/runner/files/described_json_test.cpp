@@ -12,6 +12,7 @@
 #include "scenarios/values/errors.h"
 #include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
+#include "tests/trial.h"
 
 #include <cstdlib>
 #include <gmock/gmock.h>
