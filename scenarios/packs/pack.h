@@ -68,6 +68,7 @@ struct Floats {
 
     Floats() = default;
     constexpr explicit Floats(FloatLanes lanes_of_it) : v(lanes_of_it) {}
+    constexpr Floats(float in_each) : v(in_each - FloatLanes{}) {}
     /// The float nearest to it in every lane: literals of the light equations are doubles in C++.
     constexpr Floats(double in_each) : v(static_cast<float>(in_each) - FloatLanes{}) {}
 };
@@ -151,5 +152,29 @@ inline Floats gather(const float* table, Ints index) {
 #endif
 }
 inline Ints gather(const std::int32_t* table, Ints index) { return bits_of(gather(reinterpret_cast<const float*>(table), index)); }
+
+/// Two neighbours, table[index] and table[index + 1], for little more than one: a gather takes its time by the place.
+struct Pair {
+    Floats first, second;
+};
+inline Pair gather_pair(const float* table, Ints index) {
+#if defined(__AVX512F__)
+    const __m512i i = (__m512i)index.v;
+    const __m512 low = _mm512_castpd_ps(_mm512_i32gather_pd(_mm512_castsi512_si256(i), table, 4));
+    const __m512 high = _mm512_castpd_ps(_mm512_i32gather_pd(_mm512_extracti64x4_epi64(i, 1), table, 4));
+    const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+    return {PACK_CALL(permutex2var_ps, low, even, high),
+            PACK_CALL(permutex2var_ps, low, _mm512_add_epi32(even, _mm512_set1_epi32(1)), high)};
+#elif defined(__AVX2__)
+    const __m256i i = (__m256i)index.v;
+    const double* pairs = reinterpret_cast<const double*>(table);
+    const __m256 low = _mm256_castpd_ps(_mm256_i32gather_pd(pairs, _mm256_castsi256_si128(i), 4));
+    const __m256 high = _mm256_castpd_ps(_mm256_i32gather_pd(pairs, _mm256_extracti128_si256(i, 1), 4));
+    const auto in_order = [](__m256 a) { return Floats((FloatLanes)_mm256_permute4x64_pd(_mm256_castps_pd(a), 0xd8)); };
+    return {in_order(_mm256_shuffle_ps(low, high, 0x88)), in_order(_mm256_shuffle_ps(low, high, 0xdd))};
+#else
+    return {gather(table, index), gather(table + 1, index)};
+#endif
+}
 
 } // namespace fernlicht::packs::FERNLICHT_LEVEL

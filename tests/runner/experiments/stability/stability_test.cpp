@@ -7,10 +7,12 @@
 #include "tests/runner/program.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <gmock/gmock.h>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <set>
 #include <sstream>
 
