@@ -28,8 +28,8 @@ inline LimitSide limit_side(const LuxBounds& bounds, const std::vector<double>& 
     return low == high ? static_cast<LimitSide>(low) : undecided_side;
 }
 
-/// Row-major, like `sides`: 1 where a point within two rows and two columns, itself included, is undecided or lies on another side of a
-/// limit, and wherever a lane's edge runs across columns faster than that. Two, because a grid of half the samples is measured too.
+/// Row-major, like `sides`: 1 where a point or one of its eight neighbours is undecided or lies on another side of a limit, and where a
+/// lane's line crosses one. The same in every second row and column, which grid_errors measures.
 std::vector<unsigned char> deciding_points(const ExtentGrid& grid, const std::vector<LimitSide>& sides);
 
 /// Row-major values on the grid: exact_lx(i) at the points that decide, elsewhere a value that reaches the same limits. bounds_lx(first,

@@ -17,15 +17,22 @@ constexpr double direction_error_rad = 2e-6;
 /// An axis is cut into buckets no wider than its finest cell, up to so many.
 constexpr double most_buckets = 16384.0;
 
-/// Intensity per radian at most along one axis, by the differences between neighbouring samples.
-double steepest_cd_per_rad(const CandelaTable& table, bool vertical) {
+/// The largest differences between neighbouring samples along one axis.
+struct Steepest {
+    double cd = 0.0, cd_per_rad = 0.0;
+};
+
+Steepest steepest_of(const CandelaTable& table, bool vertical) {
     const std::vector<double>& axis = vertical ? table.v_deg : table.h_deg;
     const std::size_t stride = vertical ? table.h_deg.size() : 1;
-    double steepest = 0.0;
-    for (std::size_t i = 0; i + stride < table.cd.size(); ++i) {
-        const std::size_t sample = vertical ? i / stride : i % table.h_deg.size();
-        if (sample + 1 < axis.size())
-            steepest = std::max(steepest, std::abs(table.cd[i + stride] - table.cd[i]) / radians(axis[sample + 1] - axis[sample]));
+    std::vector<double> most_cd(axis.size() - 1);
+    for (std::size_t i = 0; i + stride < table.cd.size(); ++i)
+        if (const std::size_t cell = vertical ? i / stride : i % table.h_deg.size(); cell < most_cd.size())
+            most_cd[cell] = std::max(most_cd[cell], std::abs(table.cd[i + stride] - table.cd[i]));
+    Steepest steepest;
+    for (std::size_t cell = 0; cell < most_cd.size(); ++cell) {
+        steepest.cd = std::max(steepest.cd, most_cd[cell]);
+        steepest.cd_per_rad = std::max(steepest.cd_per_rad, most_cd[cell] / radians(axis[cell + 1] - axis[cell]));
     }
     return steepest;
 }
@@ -52,36 +59,32 @@ double buckets_over(const std::vector<double>& samples) {
 /// position belongs to another angle of the same bucket.
 LightBounds::Axis::Axis(const std::vector<double>& samples_deg) {
     const double range = radians(samples_deg.back() - samples_deg.front()), buckets = buckets_over(samples_deg), width = range / buckets;
-    const auto place = [&](double angle_rad, bool from_left) {
-        const double deg = std::clamp(samples_deg.front() + degrees(angle_rad), samples_deg.front(), samples_deg.back());
-        const auto above = from_left ? std::lower_bound(samples_deg.begin() + 1, samples_deg.end() - 1, deg - 1e-9)
-                                     : std::upper_bound(samples_deg.begin() + 1, samples_deg.end() - 1, deg + 1e-9);
-        const auto cell = static_cast<std::size_t>(above - samples_deg.begin()) - 1;
-        const double cell_deg = samples_deg[cell + 1] - samples_deg[cell];
-        return std::pair(static_cast<double>(cell) + (deg - samples_deg[cell]) / cell_deg, 1.0 / radians(cell_deg));
-    };
-    double steepest_change = 1.0, outermost_rad = 0.0;
+    std::size_t cell = 0;
     bool broken = false;
+    double steepest = 1.0 / radians(finest_step(samples_deg)), before = 0.0;
     for (double bucket = 0.0; bucket < buckets; bucket += 1.0) {
-        const auto [from, per_rad_before] = place(bucket * width, true);
-        const auto [to, per_rad_behind] = place((bucket + 1.0) * width, false);
-        const double per = (to - from) / width, begin = from - per * bucket * width;
-        start_and_per_rad.push_back(static_cast<float>(begin));
+        const double end_deg = std::min(samples_deg.front() + degrees((bucket + 1.0) * width), samples_deg.back());
+        const std::size_t first_cell = cell;
+        while (cell + 2 < samples_deg.size() && samples_deg[cell + 1] < end_deg - 1e-9)
+            ++cell;
+        const double at_end = static_cast<double>(cell) + (end_deg - samples_deg[cell]) / (samples_deg[cell + 1] - samples_deg[cell]);
+        const double per = (at_end - before) / width;
+        broken = broken || (cell != first_cell && before < static_cast<double>(cell) - 1e-6);
+        start_and_per_rad.push_back(static_cast<float>(before - per * bucket * width));
         start_and_per_rad.push_back(static_cast<float>(per));
-        steepest_change = std::max({steepest_change, per / per_rad_before, per / per_rad_behind});
-        outermost_rad = std::max(outermost_rad, to / std::min({per, per_rad_before, per_rad_behind}));
-        broken = broken || std::abs(place(bucket * width, false).second - per) > 1e-6 * per;
+        steepest = std::max(steepest, per);
+        before = at_end;
     }
     const double first_rad = radians(samples_deg.front());
-    // The angle's difference from the first is rounded twice, the bucket's number as often, which may make it the one beside, whose line
-    // then goes on too far; start, per_rad, their product and sum are rounded once each.
-    error_rad = direction_error_rad +
-                half_ulp * (std::abs(first_rad) + range + 2.0 * range * steepest_change + 2.0 * outermost_rad + 3.0 * range) +
-                (broken ? width : 0.0);
+    // The angle's difference from the first is rounded twice. The bucket's number as well, which may make it the one beside, whose line
+    // then goes on too far; start, per_rad, their product and their sum are rounded once each.
+    error_rad = direction_error_rad + half_ulp * (std::abs(first_rad) + 2.0 * range);
+    blur_rad = error_rad + (broken ? width : 0.0);
+    blur_cells = half_ulp * (2.0 * static_cast<double>(samples_deg.size()) + 5.0 * range * steepest);
     in_packs = {.first_rad = static_cast<float>(first_rad),
                 .span_rad = static_cast<float>(range),
                 .buckets_per_rad = static_cast<float>(1.0 / width),
-                .error_rad = static_cast<float>(error_rad * 1.001),
+                .error_rad = static_cast<float>(error_rad),
                 .start_and_per_rad = nullptr,
                 .last_bucket = static_cast<std::int32_t>(buckets) - 1,
                 .last_cell = static_cast<std::int32_t>(samples_deg.size()) - 2};
@@ -91,9 +94,12 @@ LightBounds::Table::Table(const CandelaTable& table)
     : h(table.h_deg), v(table.v_deg), cd(table.cd.begin(), table.cd.end()), peak_cd(*std::ranges::max_element(table.cd)) {
     const bool continuous = table.gaps.empty() && table.rule == BetweenSamples::linear_cd;
     constexpr double rounding = 1e-6; // bilinear() in float, and the samples
-    error_cd = continuous
-                   ? steepest_cd_per_rad(table, false) * h.error_rad + steepest_cd_per_rad(table, true) * v.error_rad + rounding * peak_cd
-                   : std::numeric_limits<double>::infinity();
+    error_cd = continuous ? rounding * peak_cd : std::numeric_limits<double>::infinity();
+    for (const bool vertical : {false, true}) {
+        const Steepest steepest = steepest_of(table, vertical);
+        const Axis& axis = vertical ? v : h;
+        error_cd += steepest.cd_per_rad * axis.blur_rad + steepest.cd * axis.blur_cells;
+    }
 }
 
 LightBounds::LightBounds(const Moment& moment, packs::Level level) : level_(level) {

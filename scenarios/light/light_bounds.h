@@ -32,9 +32,10 @@ class LightBounds {
     struct Axis {
         explicit Axis(const std::vector<double>& samples_deg);
 
-        double error_rad = 0.0;
-        std::vector<float> start_and_per_rad; ///< by bucket
-        packs::BeamAxis in_packs{};           ///< but for where the buckets lie
+        double error_rad = 0.0;                  ///< of an angle, beside the axis's ends
+        double blur_rad = 0.0, blur_cells = 0.0; ///< of the place between samples where its light is taken from
+        std::vector<float> start_and_per_rad;    ///< by bucket
+        packs::BeamAxis in_packs{};              ///< but for where the buckets lie
     };
     struct Table {
         explicit Table(const CandelaTable& table);
