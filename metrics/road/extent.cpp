@@ -196,8 +196,11 @@ ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bum
     grid.offset_m = columns_of(grid, parameters);
     const std::size_t columns = grid.offset_m.size();
     grid.surface.resize(grid.ahead_m.size() * columns);
+    grid.places = SurfacePlaces(grid.surface.size());
     oneapi::tbb::parallel_for(std::size_t{0}, grid.ahead_m.size(), [&](std::size_t row) {
-        route.poses(bumper_at_m + grid.ahead_m[row], grid.offset_m, {&grid.surface[row * columns], columns});
+        const std::span<Pose> surface(&grid.surface[row * columns], columns);
+        route.poses(bumper_at_m + grid.ahead_m[row], grid.offset_m, surface);
+        grid.places.put(row * columns, surface);
     });
     grid.cell_m2 = cell_areas_m2(grid);
     return grid;

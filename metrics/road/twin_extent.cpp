@@ -50,19 +50,16 @@ std::vector<double> twin_lux_near_thresholds(const ExtentGrid& grid, const Momen
         return std::vector<double>(grid.surface.size());
     const Moment lit = with_lit_lamps(moment);
     const LightBounds light(lit);
+    const SurfacePlaces own = grid.places.x_m.empty() ? SurfacePlaces(grid.surface) : SurfacePlaces();
+    const SurfacePlaces& places = grid.places.x_m.empty() ? own : grid.places;
     const double min_lx = *std::ranges::min_element(thresholds_lx);
     return lux_near_thresholds(
         grid, thresholds_lx,
         [&](std::size_t first, std::span<LuxBounds> bounds) {
-            std::vector<glm::dvec3> points_m, normals;
-            for (const Pose& pose : std::span(grid.surface).subspan(first, bounds.size())) {
-                points_m.push_back(surface == Surface::road ? pose.position_m : pose.position_m + grid.target_height_m * pose.up());
-                normals.push_back(pose.up());
-            }
             if (surface == Surface::road)
-                light.surface_lx(points_m, normals, 0.99 * min_lx, bounds);
+                light.surface_lx(places, first, 0.99 * min_lx, bounds);
             else
-                light.target_lx(points_m, bounds);
+                light.target_lx(places, first, grid.target_height_m, bounds);
         },
         [&](std::size_t i) { return twin_lx(lit, grid.surface[i], grid.target_height_m, surface); });
 }

@@ -145,42 +145,51 @@ LightBounds::LightBounds(const Moment& moment, packs::Level level) : level_(leve
     three(direct ? direct->towards() : glm::dvec3(0.0), light_.direct_towards);
 }
 
-template <class Bound> void LightBounds::bound(std::span<const glm::dvec3> points_m, std::span<const glm::dvec3> normals,
-                                               std::span<LuxBounds> bounds, Bound bound_points) const {
-    packs::BoundedLight light = light_;
-    light.lamps = lamps_.data();
-    light.lamp_count = lamps_.size();
-    packs::BoundedPoints points{};
-    for (std::size_t first = 0; first < points_m.size(); first += packs::BoundedPoints::count) {
-        const std::size_t count = std::min(packs::BoundedPoints::count, points_m.size() - first);
-        for (std::size_t i = 0; i < count; ++i) {
-            const glm::dvec3& point = points_m[first + i];
-            points.x_m[i] = point.x;
-            points.y_m[i] = point.y;
-            points.z_m[i] = point.z;
-        }
-        for (std::size_t i = 0; i < count && !normals.empty(); ++i) {
-            const glm::vec3 normal(normals[first + i]);
-            points.normal_x[i] = normal.x;
-            points.normal_y[i] = normal.y;
-            points.normal_z[i] = normal.z;
-        }
-        bound_points(light, count, points);
-        for (std::size_t i = 0; i < count; ++i)
-            bounds[first + i] = {static_cast<double>(points.low_lx[i]), static_cast<double>(points.high_lx[i])};
+SurfacePlaces::SurfacePlaces(std::size_t count) {
+    for (std::vector<double>* each : {&x_m, &y_m, &z_m})
+        each->resize(count + packs::most_lanes);
+    for (std::vector<float>* each : {&normal_x, &normal_y, &normal_z})
+        each->resize(count + packs::most_lanes);
+}
+
+void SurfacePlaces::put(std::size_t first, std::span<const Pose> surface) {
+    for (std::size_t i = 0; i < surface.size(); ++i) {
+        const glm::dvec3 &place = surface[i].position_m, &normal = surface[i].up();
+        x_m[first + i] = place.x;
+        y_m[first + i] = place.y;
+        z_m[first + i] = place.z;
+        normal_x[first + i] = static_cast<float>(normal.x);
+        normal_y[first + i] = static_cast<float>(normal.y);
+        normal_z[first + i] = static_cast<float>(normal.z);
     }
 }
 
-void LightBounds::surface_lx(std::span<const glm::dvec3> points_m, std::span<const glm::dvec3> normals, double enough_lx,
-                             std::span<LuxBounds> bounds) const {
-    bound(points_m, normals, bounds, [&](const packs::BoundedLight& light, std::size_t count, packs::BoundedPoints& points) {
-        AT_LEVEL(level_, bound_surface_lx)(light, static_cast<float>(enough_lx), count, points);
+template <class Bound> void LightBounds::bound(const SurfacePlaces& places, std::size_t first, double raised_m, std::span<LuxBounds> bounds,
+                                               Bound bound_places) const {
+    packs::BoundedLight light = light_;
+    light.lamps = lamps_.data();
+    light.lamp_count = lamps_.size();
+    packs::FoundBounds found;
+    for (std::size_t done = 0; done < bounds.size(); done += found.count) {
+        const std::size_t count = std::min(found.count, bounds.size() - done), at = first + done;
+        bound_places(light,
+                     packs::BoundedPlaces{&places.x_m[at], &places.y_m[at], &places.z_m[at], &places.normal_x[at], &places.normal_y[at],
+                                          &places.normal_z[at], static_cast<float>(raised_m)},
+                     count, found);
+        for (std::size_t i = 0; i < count; ++i)
+            bounds[done + i] = {static_cast<double>(found.low_lx[i]), static_cast<double>(found.high_lx[i])};
+    }
+}
+
+void LightBounds::surface_lx(const SurfacePlaces& places, std::size_t first, double enough_lx, std::span<LuxBounds> bounds) const {
+    bound(places, first, 0.0, bounds, [&](const auto& light, const auto& some, std::size_t count, packs::FoundBounds& found) {
+        AT_LEVEL(level_, bound_surface_lx)(light, static_cast<float>(enough_lx), some, count, found);
     });
 }
 
-void LightBounds::target_lx(std::span<const glm::dvec3> points_m, std::span<LuxBounds> bounds) const {
-    bound(points_m, {}, bounds, [&](const packs::BoundedLight& light, std::size_t count, packs::BoundedPoints& points) {
-        AT_LEVEL(level_, bound_target_lx)(light, count, points);
+void LightBounds::target_lx(const SurfacePlaces& places, std::size_t first, double height_m, std::span<LuxBounds> bounds) const {
+    bound(places, first, height_m, bounds, [&](const auto& light, const auto& some, std::size_t count, packs::FoundBounds& found) {
+        AT_LEVEL(level_, bound_target_lx)(light, some, count, found);
     });
 }
 

@@ -15,6 +15,17 @@ struct LuxBounds {
     double low_lx = 0.0, high_lx = std::numeric_limits<double>::infinity();
 };
 
+/// Places and normals of a surface, as packs of numbers read them: many times a second for one road.
+struct SurfacePlaces {
+    SurfacePlaces() = default;
+    explicit SurfacePlaces(std::span<const Pose> surface) : SurfacePlaces(surface.size()) { put(0, surface); }
+    explicit SurfacePlaces(std::size_t count);
+    void put(std::size_t first, std::span<const Pose> surface);
+
+    std::vector<double> x_m, y_m, z_m;
+    std::vector<float> normal_x, normal_y, normal_z;
+};
+
 /// The lamps of a moment, in packs of floats; the bounds hold their rounding. Nothing is known of a lamp whose table has gaps or runs in
 /// the logarithm, and of directions more than 30 degrees up or down. The same bytes on every processor.
 class LightBounds {
@@ -22,11 +33,10 @@ class LightBounds {
     explicit LightBounds(const Moment& moment, packs::Level level = packs::widest_level());
     LightBounds(const LightBounds&) = delete;
 
-    /// Bounds of surface_illuminance_lx at each point, on a surface of its normal. Where it is surely below `enough_lx`, they may be wide.
-    void surface_lx(std::span<const glm::dvec3> points_m, std::span<const glm::dvec3> normals, double enough_lx,
-                    std::span<LuxBounds> bounds) const;
-    /// Bounds of target_illuminance_lx.
-    void target_lx(std::span<const glm::dvec3> points_m, std::span<LuxBounds> bounds) const;
+    /// Bounds of surface_illuminance_lx at places from `first` on. Where it is surely below `enough_lx`, they may be wide.
+    void surface_lx(const SurfacePlaces& places, std::size_t first, double enough_lx, std::span<LuxBounds> bounds) const;
+    /// Bounds of target_illuminance_lx so high above them.
+    void target_lx(const SurfacePlaces& places, std::size_t first, double height_m, std::span<LuxBounds> bounds) const;
 
   private:
     struct Axis {
@@ -45,8 +55,8 @@ class LightBounds {
         double peak_cd = 0.0, error_cd = 0.0; ///< infinite where it cannot be told
     };
 
-    template <class Bound> void bound(std::span<const glm::dvec3> points_m, std::span<const glm::dvec3> normals,
-                                      std::span<LuxBounds> bounds, Bound bound_points) const;
+    template <class Bound>
+    void bound(const SurfacePlaces& places, std::size_t first, double raised_m, std::span<LuxBounds> bounds, Bound bound_places) const;
 
     packs::Level level_;
     std::vector<Table> tables_;             ///< one per lamp file

@@ -7,7 +7,7 @@ namespace {
 
 using photometry::vec2, photometry::vec3;
 
-constexpr float infinity = __builtin_huge_valf();
+constexpr float infinity = __builtin_huge_valf(), not_a_number = __builtin_nanf("");
 /// Of a cosine: normals and directions of floats, and their product, are off by 7 u together, u = 6e-8.
 constexpr double cosine_error = 1e-6;
 /// Of what a lamp's place on the other side of the point's plane is told by: 6 u of the distance.
@@ -19,7 +19,13 @@ constexpr double steepest_sine = 0.5;
 
 vec3 of_three(const float* in_each) { return {in_each[0], in_each[1], in_each[2]}; }
 
-/// Rounded once.
+/// Rounded once, but for what the point is raised by: 6e-8 of that.
+Floats less(double from, const double* m, const float* normal, double raised_m) {
+    alignas(sizeof(FloatLanes)) float difference[lanes];
+    for (std::size_t i = 0; i < lanes; ++i)
+        difference[i] = static_cast<float>(from - (m[i] + raised_m * static_cast<double>(normal[i])));
+    return load(difference);
+}
 Floats less(double from, const double* m) {
     alignas(sizeof(FloatLanes)) float difference[lanes];
     for (std::size_t i = 0; i < lanes; ++i)
@@ -78,18 +84,23 @@ Bounds intensity(const BoundedLamp& lamp, const vec3& from_lamp, Floats inverse_
     return {select(known, max(none, cd - error), none), select(known, cd + error, select(dark, none, infinity))};
 }
 
-template <bool on_surface> void bound(const BoundedLight& light, float enough_lx, std::size_t count, BoundedPoints& points) {
+template <bool on_surface>
+void bound(const BoundedLight& light, float enough_lx, const BoundedPlaces& places, std::size_t count, FoundBounds& found) {
     const Floats none = 0.0, slack = rounding + half_ulp * static_cast<float>(light.lamp_count);
     const Floats extinction = light.extinction_per_m;
     for (std::size_t first = 0; first < count; first += lanes) {
         const auto to = [&](const BoundedLamp& lamp) {
-            return vec3(less(lamp.position_m[0], points.x_m + first), less(lamp.position_m[1], points.y_m + first),
-                        less(lamp.position_m[2], points.z_m + first));
+            const double *x = places.x_m + first, *y = places.y_m + first, *z = places.z_m + first, *m = lamp.position_m;
+            if constexpr (on_surface)
+                return vec3(less(m[0], x), less(m[1], y), less(m[2], z));
+            const double raised_m = static_cast<double>(places.raised_m);
+            return vec3(less(m[0], x, places.normal_x + first, raised_m), less(m[1], y, places.normal_y + first, raised_m),
+                        less(m[2], z, places.normal_z + first, raised_m));
         };
         vec3 normal;
         Bounds sum{none, none};
         if constexpr (on_surface) {
-            normal = {load(points.normal_x + first), load(points.normal_y + first), load(points.normal_z + first)};
+            normal = {load(places.normal_x + first), load(places.normal_y + first), load(places.normal_z + first)};
             const Floats direct = light.direct_lx, sky = light.sky_lx;
             const Floats e = photometry::sky_illuminance(sky, normal) +
                              photometry::directional_illuminance(direct, normal, of_three(light.direct_towards));
@@ -104,14 +115,16 @@ template <bool on_surface> void bound(const BoundedLight& light, float enough_lx
             }
             most = most * (1.0 + slack);
             if (!any(!(most < enough_lx))) {
-                store(none, points.low_lx + first);
-                store(most, points.high_lx + first);
+                store(none, found.low_lx + first);
+                store(most, found.high_lx + first);
                 continue;
             }
         }
         for (std::size_t i = 0; i < light.lamp_count; ++i) {
             const vec3 to_lamp = to(light.lamps[i]);
-            const Floats inverse_d = inversesqrt(photometry::dot(to_lamp, to_lamp));
+            Floats inverse_d = inversesqrt(photometry::dot(to_lamp, to_lamp));
+            if constexpr (!on_surface) // nearer than raised, where that counts; not a number: nothing is known
+                inverse_d = select(inverse_d * places.raised_m < 1.0, inverse_d, not_a_number);
             const Floats by_distance = light.lamps[i].factor * inverse_d * inverse_d;
             Bounds share{by_distance, by_distance};
             if (light.extinction_per_m > 0.0F) {
@@ -129,17 +142,19 @@ template <bool on_surface> void bound(const BoundedLight& light, float enough_lx
                 sum.high += select(cd.high > none, cd.high * share.high, none);
             }
         }
-        store(sum.low * (1.0 - slack), points.low_lx + first);
-        store(sum.high * (1.0 + slack), points.high_lx + first);
+        store(sum.low * (1.0 - slack), found.low_lx + first);
+        store(sum.high * (1.0 + slack), found.high_lx + first);
     }
 }
 
 } // namespace
 
-void bound_surface_lx(const BoundedLight& light, float enough_lx, std::size_t count, BoundedPoints& points) {
-    bound<true>(light, enough_lx, count, points);
+void bound_surface_lx(const BoundedLight& light, float enough_lx, const BoundedPlaces& places, std::size_t count, FoundBounds& found) {
+    bound<true>(light, enough_lx, places, count, found);
 }
 
-void bound_target_lx(const BoundedLight& light, std::size_t count, BoundedPoints& points) { bound<false>(light, 0.0F, count, points); }
+void bound_target_lx(const BoundedLight& light, const BoundedPlaces& places, std::size_t count, FoundBounds& found) {
+    bound<false>(light, 0.0F, places, count, found);
+}
 
 } // namespace fernlicht::packs::FERNLICHT_LEVEL

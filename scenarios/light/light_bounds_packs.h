@@ -32,15 +32,21 @@ struct BoundedLight {
     float sky_lx, direct_lx, direct_towards[3];
 };
 
-/// So many points at once. No normals: targets that face each lamp.
-struct BoundedPoints {
+/// Points on surfaces, or raised from them along their normals: `lanes` may be read from any on.
+struct BoundedPlaces {
+    const double *x_m, *y_m, *z_m;
+    const float *normal_x, *normal_y, *normal_z;
+    float raised_m;
+};
+
+/// So many at once.
+struct FoundBounds {
     static constexpr std::size_t count = 64;
-    double x_m[count], y_m[count], z_m[count];
-    float normal_x[count], normal_y[count], normal_z[count];
     float low_lx[count], high_lx[count];
 };
 
-AT_EACH_LEVEL(void bound_surface_lx(const BoundedLight& light, float enough_lx, std::size_t count, BoundedPoints& points);
-              void bound_target_lx(const BoundedLight& light, std::size_t count, BoundedPoints& points);)
+AT_EACH_LEVEL(void bound_surface_lx(const BoundedLight& light, float enough_lx, const BoundedPlaces& places, std::size_t count,
+                                    FoundBounds& found);
+              void bound_target_lx(const BoundedLight& light, const BoundedPlaces& places, std::size_t count, FoundBounds& found);)
 
 } // namespace fernlicht::packs
