@@ -24,11 +24,15 @@ struct Steepest {
 
 Steepest steepest_of(const CandelaTable& table, bool vertical) {
     const std::vector<double>& axis = vertical ? table.v_deg : table.h_deg;
-    const std::size_t stride = vertical ? table.h_deg.size() : 1;
+    const std::size_t columns = table.h_deg.size();
     std::vector<double> most_cd(axis.size() - 1);
-    for (std::size_t i = 0; i + stride < table.cd.size(); ++i)
-        if (const std::size_t cell = vertical ? i / stride : i % table.h_deg.size(); cell < most_cd.size())
-            most_cd[cell] = std::max(most_cd[cell], std::abs(table.cd[i + stride] - table.cd[i]));
+    for (std::size_t v = 0; v + (vertical ? 1 : 0) < table.v_deg.size(); ++v) {
+        const double *here = &table.cd[v * columns], *next = here + (vertical ? columns : 1);
+        for (std::size_t h = 0; h + (vertical ? 0 : 1) < columns; ++h) {
+            double& most = most_cd[vertical ? v : h];
+            most = std::max(most, std::abs(next[h] - here[h]));
+        }
+    }
     Steepest steepest;
     for (std::size_t cell = 0; cell < most_cd.size(); ++cell) {
         steepest.cd = std::max(steepest.cd, most_cd[cell]);
