@@ -1,9 +1,10 @@
 // Every light equation of fernlicht, once. The GPU compiles this text as GLSL in float; C++ includes it in double (photometry.h),
-// so the two cannot drift and their difference is the rounding error of the GPU path.
+// so the two cannot drift and their difference is the rounding error of the GPU path; and over packs of floats (packs/photometry.h).
 //
 // The common subset: `real`, never float or double; literals with a point and no suffix; no swizzles; no samplers (pass what was
 // fetched); FN before a function, OUT(type) for results by reference; PRECISE before accumulators, so that leaving a feature out
-// cannot change the rounding of what stays. Angles in radians, lengths in metres, photometric units in the names.
+// cannot change the rounding of what stays; SELECT(condition, a, b) where points differ in the condition, `?:` and `if` where all of a pack
+// share it, as they share every bool and int. Angles in radians, lengths in metres, photometric units in the names.
 //
 // "Float: e of x, condition c.": evaluated in float, a value differs from the double one by at most e, measured by x; a relative change of an
 // argument changes it by at most c times as much, by the same measure. Domains, derivations and the search for the worst arguments:
@@ -39,9 +40,9 @@ FN real quick_atan(real y, real x) {
     real ay = abs(y);
     real ax = abs(x);
     real a = quick_atan_unit(min(ay, ax) / max(max(ay, ax), 1e-30));
-    a = ay > ax ? 0.5 * photometry_pi - a : a;
-    a = x < 0.0 ? photometry_pi - a : a;
-    return y < 0.0 ? -a : a;
+    a = SELECT(ay > ax, 0.5 * photometry_pi - a, a);
+    a = SELECT(x < 0.0, photometry_pi - a, a);
+    return SELECT(y < 0.0, -a, a);
 }
 
 // asin(s) for |s| <= 0.5 within 3e-8; beyond it stays monotone and above asin(0.5), so that a table ending below 30 degrees
@@ -70,7 +71,7 @@ FN vec2 beam_position(vec2 angles, vec4 grid) {
 // 1 where the texture knows the direction, else 0: no light is invented outside a table.
 // Float: 0 of 1, condition unbounded.
 FN real beam_known(vec2 position, vec2 count) {
-    return position.x >= 0.0 && position.y >= 0.0 && position.x <= count.x - 1.0 && position.y <= count.y - 1.0 ? 1.0 : 0.0;
+    return SELECT(position.x >= 0.0 && position.y >= 0.0 && position.x <= count.x - 1.0 && position.y <= count.y - 1.0, 1.0, 0.0);
 }
 
 // Bilinear by hand: texture units weigh with 8 fractional bits, which shows at a cut-off.
@@ -150,7 +151,7 @@ FN real textured_rl(real rl, vec3 own, vec3 combined) {
     vec3 weights = vec3(0.2126, 0.7152, 0.0722);
     real own_y = dot(own, weights);
     PRECISE real textured = rl * dot(combined, weights) / own_y;
-    return own_y > 0.0 ? textured : rl;
+    return SELECT(own_y > 0.0, textured, rl);
 }
 
 // The same with rl / Y(own) known; 0 for a black own colour.
@@ -177,7 +178,7 @@ FN real quick_observation_angle(vec3 to_lamp, vec3 to_eye) {
 // Float: 4e-05 relative while exp is above 1e-37, condition 111.
 FN real retro_luminance(real rl, real e_perp_lx, real cosine, real angle, real reference, real inverse_falloff) {
     PRECISE real l = rl * e_perp_lx * exp((reference - angle) * inverse_falloff);
-    return cosine > 0.0 ? l : 0.0;
+    return SELECT(cosine > 0.0, l, 0.0);
 }
 
 // How far `occluder` stands above the tangent plane of the point it might shade, in metres. Shadow maps compare this with a
@@ -257,7 +258,7 @@ FN real wet_mirrored(vec3 normal, vec3 to_light, vec3 to_eye, real alpha) {
     real density = a2 / (3.14159265358979323846 * spread * spread);
     real seen = 0.5 / (c_out * sqrt(a2 + (1.0 - a2) * c_in * c_in) + c_in * sqrt(a2 + (1.0 - a2) * c_out * c_out));
     real mirrored = c_in * density * seen * water_reflectance(0.5 * length_h);
-    return c_in > 0.0 && c_out > 0.0 ? mirrored : 0.0;
+    return SELECT(c_in > 0.0 && c_out > 0.0, mirrored, 0.0);
 }
 
 // Tone mappers: luminance -> 0..1, monotone, l_max -> 1. l >= 0, l_max > 0.
@@ -283,7 +284,7 @@ FN real tone_logarithmic(real l, real l_max, real s) {
 // IEC 61966-2-1, linear 0..1 -> encoded 0..1.
 // Float: 1e-06 of 1, condition 0.5.
 FN real srgb_encoded(real c) {
-    return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1.0 / 2.4) - 0.055;
+    return SELECT(c <= 0.0031308, 12.92 * c, 1.055 * pow(c, 1.0 / 2.4) - 0.055);
 }
 
 // The same within 0.01 of an 8-bit step: minimax over 1, c, c^(1/2), c^(1/4), c^(3/4), two square roots in place of a power.
@@ -292,5 +293,5 @@ FN real quick_srgb_encoded(real c) {
     real s = sqrt(c);
     real q = sqrt(s);
     real curve = 1.12269338 * s + 0.19613123 * q - 0.335514046 * s * q + 0.0813347105 * c - 0.0646108987;
-    return c <= 0.0031308 ? 12.92 * c : curve;
+    return SELECT(c <= 0.0031308, 12.92 * c, curve);
 }

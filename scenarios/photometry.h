@@ -32,9 +32,11 @@ using glm::sqrt;
 #define FN inline
 #define OUT(type) type&
 #define PRECISE
+#define SELECT(condition, a, b) ((condition) ? (a) : (b))
 #include "scenarios/photometry.glsl"
 #undef FN
 #undef OUT
 #undef PRECISE
+#undef SELECT
 
 } // namespace fernlicht::photometry

@@ -145,7 +145,14 @@ PickedGrid picked(const ExtentGrid& grid, const std::vector<double>& lx, std::si
         for (std::size_t column = 0; column < columns; column += step)
             result.lx.push_back(lx[row * grid.offset_m.size() + column]);
     }
-    result.grid.cell_m2 = cell_areas_m2(grid, step, rows, columns);
+    if (step > 1 || grid.cell_m2.empty()) {
+        result.grid.cell_m2 = cell_areas_m2(grid, step, rows, columns);
+        return result;
+    }
+    for (std::size_t row = 0; row + 1 < rows; ++row) {
+        const auto first = grid.cell_m2.begin() + static_cast<std::ptrdiff_t>(row * (grid.offset_m.size() - 1));
+        result.grid.cell_m2.insert(result.grid.cell_m2.end(), first, first + static_cast<std::ptrdiff_t>(columns - 1));
+    }
     return result;
 }
 
@@ -196,8 +203,11 @@ ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bum
     grid.offset_m = columns_of(grid, parameters);
     const std::size_t columns = grid.offset_m.size();
     grid.surface.resize(grid.ahead_m.size() * columns);
+    grid.places = SurfacePlaces(grid.surface.size());
     oneapi::tbb::parallel_for(std::size_t{0}, grid.ahead_m.size(), [&](std::size_t row) {
-        route.poses(bumper_at_m + grid.ahead_m[row], grid.offset_m, {&grid.surface[row * columns], columns});
+        const std::span<Pose> surface(&grid.surface[row * columns], columns);
+        route.poses(bumper_at_m + grid.ahead_m[row], grid.offset_m, surface);
+        grid.places.put(row * columns, surface);
     });
     grid.cell_m2 = cell_areas_m2(grid);
     return grid;
@@ -210,7 +220,9 @@ struct ReachAndArea {
     double area_m2 = 0.0;
 };
 
-std::vector<ReachAndArea> reach_and_area(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& thresholds_lx) {
+/// `measured`: extents of this very grid, where they are known.
+std::vector<ReachAndArea> reach_and_area(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& thresholds_lx,
+                                         const std::vector<LaneExtent>& measured) {
     const LitRoad road(grid, lx);
     const bool has_centre = grid.offset_m.front() <= 0.0 && grid.offset_m.back() >= 0.0;
     const std::optional<double> centre_m = has_centre ? std::optional(0.0) : std::nullopt;
@@ -218,7 +230,10 @@ std::vector<ReachAndArea> reach_and_area(const ExtentGrid& grid, const std::vect
     std::vector<ReachAndArea> results;
     for (const double limit : thresholds_lx) {
         const LitLine reach = lit_line(centre, limit);
-        results.push_back({reach.lit_at_end ? std::nullopt : std::optional(reach.last_m), LitArea(road, limit).all_m2()});
+        const auto all =
+            std::ranges::find_if(measured, [&](const LaneExtent& extent) { return extent.lane == "all" && extent.threshold_lx == limit; });
+        results.push_back({reach.lit_at_end ? std::nullopt : std::optional(reach.last_m),
+                           all != measured.end() ? all->area_m2 : LitArea(road, limit).all_m2()});
     }
     return results;
 }
@@ -239,8 +254,9 @@ std::vector<GridError> grid_errors(const ExtentGrid& grid, const std::vector<dou
         // An odd number of both, so that the coarse grid covers what the fine one covers and only the cell differs.
         const bool odd = rows % 2 == 1 && columns % 2 == 1;
         const PickedGrid trimmed = odd ? PickedGrid{} : picked(grid, lx, 1, rows - 1 + rows % 2, columns - 1 + columns % 2);
-        const std::vector<ReachAndArea> by_fine = reach_and_area(odd ? grid : trimmed.grid, odd ? lx : trimmed.lx, thresholds_lx);
-        const std::vector<ReachAndArea> by_coarse = reach_and_area(coarse.grid, coarse.lx, thresholds_lx);
+        const std::vector<ReachAndArea> by_fine =
+            odd ? reach_and_area(grid, lx, thresholds_lx, measured) : reach_and_area(trimmed.grid, trimmed.lx, thresholds_lx, {});
+        const std::vector<ReachAndArea> by_coarse = reach_and_area(coarse.grid, coarse.lx, thresholds_lx, other);
         for (std::size_t i = 0; i < thresholds_lx.size(); ++i) {
             const std::optional<double>&fine_m = by_fine[i].reach_m, &coarse_m = by_coarse[i].reach_m;
             const Value reach = fine_m && coarse_m ? Value(std::abs(*fine_m - *coarse_m)) : Value::not_measured(reach_beyond);

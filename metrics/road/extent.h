@@ -4,6 +4,7 @@
 
 #include "metrics/readings/readings.h"
 #include "scenarios/drives/play/nudge.h"
+#include "scenarios/light/light_bounds.h"
 
 #include <array>
 #include <optional>
@@ -19,6 +20,7 @@ struct ExtentGrid {
     double target_height_m = 0.0;
     /// Road surface of each cell's two triangles (lit_road.h), row-major; empty: not known yet, taken from `surface` by each measurement.
     std::vector<std::array<double, 2>> cell_m2;
+    SurfacePlaces places; ///< of `surface`; empty: not known yet
 };
 
 /// Which illuminance: on the road's surface, or on a target facing the lamps at target height.
@@ -60,8 +62,7 @@ ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bum
 std::vector<double> twin_illuminance_lx(const ExtentGrid& grid, const Moment& moment, Surface surface);
 
 /// The same for measure_extent and grid_errors, which find the same in it as long as they are asked for these limits or some of them: exact
-/// where they decide (lux_near_thresholds.h), elsewhere a value that reaches the same limits. In a quarter of the time on the road; on
-/// targets, of which more are lit, it saves little.
+/// where they decide (lux_near_thresholds.h), elsewhere a value that reaches the same limits. In a quarter of the time.
 std::vector<double> twin_lux_near_thresholds(const ExtentGrid& grid, const Moment& moment, Surface surface,
                                              const std::vector<double>& thresholds_lx);
 

@@ -8,17 +8,13 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t around = 2;
-
-/// Each of `count` values by `pick` of its own and those up to `around` times `stride` away on either side.
+/// Each of `count` values by `pick` of its own and those `stride` away on either side.
 template <class Pick>
 void spread(const LimitSide* __restrict values, LimitSide* __restrict result, std::size_t count, std::size_t stride, Pick pick) {
-    for (std::size_t away = stride; away <= around * stride && away < count; away += stride) {
-        for (std::size_t i = away; i < count; ++i)
-            result[i] = pick(result[i], values[i - away]);
-        for (std::size_t i = 0; i < count - away; ++i)
-            result[i] = pick(result[i], values[i + away]);
-    }
+    for (std::size_t i = stride; i < count; ++i)
+        result[i] = pick(result[i], values[i - stride]);
+    for (std::size_t i = 0; i + stride < count; ++i)
+        result[i] = pick(result[i], values[i + stride]);
 }
 
 template <class Pick> std::vector<LimitSide> spread_both_ways(const std::vector<LimitSide>& sides, std::size_t columns, Pick pick) {
@@ -30,42 +26,65 @@ template <class Pick> std::vector<LimitSide> spread_both_ways(const std::vector<
     return both;
 }
 
-/// Marks the samples of lanes' lines where these go on farther than to a neighbouring column: what decides there lies between points that
-/// are no neighbours.
-void mark_jumps(const ExtentGrid& grid, std::vector<unsigned char>& decides) {
-    const std::vector<double>& offsets = grid.offset_m;
-    double narrowest_m = offsets.back() - offsets.front();
-    for (std::size_t column = 0; column + 1 < offsets.size(); ++column)
-        narrowest_m = std::min(narrowest_m, offsets[column + 1] - offsets[column]);
-    const auto mark = [&](std::size_t row, double offset_m) {
-        const std::size_t left = column_left_of(offsets, offset_m);
-        decides[row * offsets.size() + left - 1] = decides[row * offsets.size() + left] = 1;
-    };
-    for (const LaneStrip& strip : lane_strips(grid))
-        for (std::size_t row = 0; row + 1 < strip.spans.size(); ++row) {
-            const std::optional<LaneSpan>&near = strip.spans[row], &far = strip.spans[row + 1];
-            if (!near || !far ||
-                (std::abs(far->left_m - near->left_m) <= narrowest_m && std::abs(far->right_m - near->right_m) <= narrowest_m))
-                continue;
-            for (const auto& [at, span] : {std::pair(row, *near), std::pair(row + 1, *far)})
-                for (const double offset_m : {span.left_m, 0.5 * (span.left_m + span.right_m), span.right_m})
-                    mark(at, offset_m);
+/// Marks the samples between which a lane's line crosses a limit from one row to the next: where it runs across columns they are no
+/// neighbours.
+void mark_lines(const ExtentGrid& grid, const std::vector<LimitSide>& sides, std::vector<unsigned char>& decides) {
+    const std::size_t columns = grid.offset_m.size();
+    const auto mark_line = [&](const LaneSpans& spans, auto offset_in) {
+        std::optional<std::size_t> before; // the sample left of the line
+        for (std::size_t row = 0; row < spans.size(); ++row) {
+            std::optional<std::size_t> here;
+            if (spans[row])
+                here = row * columns + column_left_of(grid.offset_m, offset_in(*spans[row]));
+            if (here && before) {
+                const std::size_t samples[]{*before - 1, *before, *here - 1, *here};
+                if (std::ranges::any_of(samples, [&](std::size_t sample) { return sides[sample] != sides[*here]; }))
+                    for (const std::size_t sample : samples)
+                        decides[sample] = 1;
+            }
+            before = here;
         }
+    };
+    for (const LaneStrip& strip : lane_strips(grid)) {
+        mark_line(strip.spans, [](const LaneSpan& span) { return span.left_m; });
+        mark_line(strip.spans, [](const LaneSpan& span) { return 0.5 * (span.left_m + span.right_m); });
+        mark_line(strip.spans, [](const LaneSpan& span) { return span.right_m; });
+    }
 }
 
-} // namespace
-
-std::vector<unsigned char> deciding_points(const ExtentGrid& grid, const std::vector<LimitSide>& sides) {
+std::vector<unsigned char> deciding(const ExtentGrid& grid, const std::vector<LimitSide>& sides) {
     const std::size_t columns = grid.offset_m.size();
-    if (sides.empty())
-        return {};
     const auto fewest = spread_both_ways(sides, columns, [](LimitSide a, LimitSide b) { return std::min(a, b); });
     const auto most = spread_both_ways(sides, columns, [](LimitSide a, LimitSide b) { return std::max(a, b); });
     std::vector<unsigned char> decides(sides.size());
     for (std::size_t i = 0; i < sides.size(); ++i)
         decides[i] = fewest[i] != most[i] || most[i] == undecided_side ? 1 : 0;
     if (columns > 1)
-        mark_jumps(grid, decides);
+        mark_lines(grid, sides, decides);
+    return decides;
+}
+
+} // namespace
+
+std::vector<unsigned char> deciding_points(const ExtentGrid& grid, const std::vector<LimitSide>& sides) {
+    if (sides.empty())
+        return {};
+    std::vector<unsigned char> decides = deciding(grid, sides);
+    ExtentGrid coarse; // as grid_errors has it
+    std::vector<LimitSide> coarse_sides;
+    const std::size_t columns = grid.offset_m.size();
+    for (std::size_t column = 0; column < columns; column += 2)
+        coarse.offset_m.push_back(grid.offset_m[column]);
+    for (std::size_t row = 0; row < grid.sections.size(); row += 2) {
+        coarse.sections.push_back(grid.sections[row]);
+        for (std::size_t column = 0; column < columns; column += 2)
+            coarse_sides.push_back(sides[row * columns + column]);
+    }
+    const std::vector<unsigned char> coarse_decides = deciding(coarse, coarse_sides);
+    auto at_coarse = coarse_decides.begin();
+    for (std::size_t row = 0; row < grid.sections.size(); row += 2)
+        for (std::size_t column = 0; column < columns; column += 2)
+            decides[row * columns + column] |= *at_coarse++;
     return decides;
 }
 

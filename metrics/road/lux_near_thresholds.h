@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <oneapi/tbb/parallel_for.h>
+#include <span>
 #include <vector>
 
 namespace fernlicht {
@@ -27,32 +28,34 @@ inline LimitSide limit_side(const LuxBounds& bounds, const std::vector<double>& 
     return low == high ? static_cast<LimitSide>(low) : undecided_side;
 }
 
-/// Row-major, like `sides`: 1 where a point within two rows and two columns, itself included, is undecided or lies on another side of a
-/// limit, and wherever a lane's edge runs across columns faster than that. Two, because a grid of half the samples is measured too.
+/// Row-major, like `sides`: 1 where a point or one of its eight neighbours is undecided or lies on another side of a limit, and where a
+/// lane's line crosses one. The same in every second row and column, which grid_errors measures.
 std::vector<unsigned char> deciding_points(const ExtentGrid& grid, const std::vector<LimitSide>& sides);
 
-/// Row-major values on the grid: exact_lx(i) at the points that decide, elsewhere a value that reaches the same limits. bounds_lx(i) hold
-/// exact_lx(i). measure_extent and grid_errors find the same in them as in exact values everywhere.
+/// Row-major values on the grid: exact_lx(i) at the points that decide, elsewhere a value that reaches the same limits. bounds_lx(first,
+/// bounds) fills in those of a row, which begins at that point: they hold exact_lx. measure_extent and grid_errors find the same in them as
+/// in exact values everywhere.
 template <class Bounds, class Exact> std::vector<double>
 lux_near_thresholds(const ExtentGrid& grid, const std::vector<double>& thresholds_lx, Bounds bounds_lx, Exact exact_lx) {
+    const std::size_t columns = grid.offset_m.size();
     std::vector<double> lx(grid.surface.size());
     std::vector<LimitSide> sides(lx.size());
-    const auto at_every_point = [&](auto at_point) {
-        const std::size_t columns = grid.offset_m.size();
-        oneapi::tbb::parallel_for(std::size_t{0}, grid.ahead_m.size(), [&](std::size_t row) {
-            for (std::size_t i = row * columns; i < (row + 1) * columns; ++i)
-                at_point(i);
-        });
+    const auto in_each_row = [&](auto from) {
+        oneapi::tbb::parallel_for(std::size_t{0}, grid.ahead_m.size(), [&](std::size_t row) { from(row * columns); });
     };
-    at_every_point([&](std::size_t i) {
-        const LuxBounds bounds = bounds_lx(i);
-        lx[i] = bounds.low_lx;
-        sides[i] = limit_side(bounds, thresholds_lx);
+    in_each_row([&](std::size_t first) {
+        std::vector<LuxBounds> bounds(columns);
+        bounds_lx(first, std::span(bounds));
+        for (std::size_t i = 0; i < columns; ++i) {
+            lx[first + i] = bounds[i].low_lx;
+            sides[first + i] = limit_side(bounds[i], thresholds_lx);
+        }
     });
     const std::vector<unsigned char> decides = deciding_points(grid, sides);
-    at_every_point([&](std::size_t i) {
-        if (decides[i] != 0)
-            lx[i] = exact_lx(i);
+    in_each_row([&](std::size_t first) {
+        for (std::size_t i = first; i < first + columns; ++i)
+            if (decides[i] != 0)
+                lx[i] = exact_lx(i);
     });
     return lx;
 }

@@ -50,13 +50,16 @@ std::vector<double> twin_lux_near_thresholds(const ExtentGrid& grid, const Momen
         return std::vector<double>(grid.surface.size());
     const Moment lit = with_lit_lamps(moment);
     const LightBounds light(lit);
+    const SurfacePlaces own = grid.places.x_m.empty() ? SurfacePlaces(grid.surface) : SurfacePlaces();
+    const SurfacePlaces& places = grid.places.x_m.empty() ? own : grid.places;
     const double min_lx = *std::ranges::min_element(thresholds_lx);
     return lux_near_thresholds(
         grid, thresholds_lx,
-        [&](std::size_t i) {
-            const Pose& pose = grid.surface[i];
-            return surface == Surface::road ? light.surface_lx(pose.position_m, pose.up(), 0.99 * min_lx)
-                                            : light.target_lx(pose.position_m + grid.target_height_m * pose.up());
+        [&](std::size_t first, std::span<LuxBounds> bounds) {
+            if (surface == Surface::road)
+                light.surface_lx(places, first, 0.99 * min_lx, bounds);
+            else
+                light.target_lx(places, first, grid.target_height_m, bounds);
         },
         [&](std::size_t i) { return twin_lx(lit, grid.surface[i], grid.target_height_m, surface); });
 }

@@ -65,7 +65,13 @@ std::vector<double> sampled(const Image<float>& picture, const ExtentGrid& grid,
         const auto e = [&](int dx, int dy) { return static_cast<double>(picture.at(p.x + dx, p.y + dy)); };
         return between(e(0, 0), e(1, 0), e(0, 1), e(1, 1), p.fx, p.fy);
     };
-    return lux_near_thresholds(grid, thresholds_lx, bounds, exact);
+    return lux_near_thresholds(
+        grid, thresholds_lx,
+        [&](std::size_t first, std::span<LuxBounds> of_row) {
+            for (std::size_t i = 0; i < of_row.size(); ++i)
+                of_row[i] = bounds(first + i);
+        },
+        exact);
 }
 
 } // namespace

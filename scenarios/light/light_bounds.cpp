@@ -1,8 +1,6 @@
 #include "scenarios/light/light_bounds.h"
 
-#include "scenarios/light/fog_light.h"
 #include "scenarios/light/light.h"
-#include "scenarios/photometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,134 +9,192 @@
 namespace fernlicht {
 namespace {
 
-/// quick_goniometer_angles() is within 1e-7 rad = 5.8e-6 degrees; the rest is for the rounding of both.
-constexpr double angle_error_deg = 7e-6;
-/// Of the some thirty operations between a table and an illuminance, each off by 1.1e-16 at most.
-constexpr double rounding = 1e-12;
+/// Half a unit in the last place of a float.
+constexpr double half_ulp = 6e-8;
+/// Of quick_goniometer_angles(): 1e-7 rad, and 5e-7 in float. Of its argument: axes, points and lamp_space() in float are off by 6 u of the
+/// distance, which is 6e-7 rad of an angle up to 30 degrees beside the horizon. The rest is reserve.
+constexpr double direction_error_rad = 2e-6;
+/// An axis is cut into buckets no wider than its finest cell, up to so many.
+constexpr double most_buckets = 16384.0;
 
-/// Where quick_asin_half() ends to be an arcsine.
-constexpr double steepest_sine = 0.5;
+/// The largest differences between neighbouring samples along one axis.
+struct Steepest {
+    double cd = 0.0, cd_per_rad = 0.0;
+};
 
-/// Intensity per degree at most, by the differences between neighbouring samples.
-double steepest_cd_per_deg(const CandelaTable& table) {
-    double steepest = 0.0;
-    for (std::size_t v = 0; v < table.v_deg.size(); ++v)
-        for (std::size_t h = 0; h + 1 < table.h_deg.size(); ++h)
-            steepest = std::max(steepest, std::abs(table.at(v, h + 1) - table.at(v, h)) / (table.h_deg[h + 1] - table.h_deg[h]));
-    double steepest_up = 0.0;
-    for (std::size_t v = 0; v + 1 < table.v_deg.size(); ++v) {
-        const double per_deg = 1.0 / (table.v_deg[v + 1] - table.v_deg[v]);
-        for (std::size_t h = 0; h < table.h_deg.size(); ++h)
-            steepest_up = std::max(steepest_up, std::abs(table.at(v + 1, h) - table.at(v, h)) * per_deg);
+Steepest steepest_of(const CandelaTable& table, bool vertical) {
+    const std::vector<double>& axis = vertical ? table.v_deg : table.h_deg;
+    const std::size_t columns = table.h_deg.size();
+    std::vector<double> most_cd(axis.size() - 1);
+    for (std::size_t v = 0; v + (vertical ? 1 : 0) < table.v_deg.size(); ++v) {
+        const double *here = &table.cd[v * columns], *next = here + (vertical ? columns : 1);
+        for (std::size_t h = 0; h + (vertical ? 0 : 1) < columns; ++h) {
+            double& most = most_cd[vertical ? v : h];
+            most = std::max(most, std::abs(next[h] - here[h]));
+        }
     }
-    return steepest + steepest_up;
+    Steepest steepest;
+    for (std::size_t cell = 0; cell < most_cd.size(); ++cell) {
+        steepest.cd = std::max(steepest.cd, most_cd[cell]);
+        steepest.cd_per_rad = std::max(steepest.cd_per_rad, most_cd[cell] / radians(axis[cell + 1] - axis[cell]));
+    }
+    return steepest;
+}
+
+/// As few buckets as let every sample lie between two of them, but for rounding; or as many as there may be.
+double buckets_over(const std::vector<double>& samples) {
+    const double range = samples.back() - samples.front(), finest = finest_step(samples);
+    for (const double part : {1.0, 2.0, 3.0, 4.0, 5.0}) {
+        const double buckets = std::round(range * part / finest);
+        if (buckets > most_buckets)
+            break;
+        if (std::ranges::all_of(samples, [&](double sample) {
+                const double place = (sample - samples.front()) / range * buckets;
+                return std::abs(place - std::round(place)) < 1e-6;
+            }))
+            return buckets;
+    }
+    return std::clamp(std::ceil(range / finest), 1.0, most_buckets);
 }
 
 } // namespace
 
+/// Within a bucket the position between samples runs straight from that of one end to that of the other. Where a sample lies inside, the
+/// position belongs to another angle of the same bucket.
 LightBounds::Axis::Axis(const std::vector<double>& samples_deg) {
-    for (std::size_t i = 0; i + 1 < samples_deg.size(); ++i)
-        cells.push_back({samples_deg[i], samples_deg[i + 1], 1.0 / (samples_deg[i + 1] - samples_deg[i])});
-    const std::size_t buckets = 4 * cells.size();
-    buckets_per_deg = static_cast<double>(buckets) / (samples_deg.back() - samples_deg.front());
+    const double range = radians(samples_deg.back() - samples_deg.front()), buckets = buckets_over(samples_deg), width = range / buckets;
     std::size_t cell = 0;
-    for (std::size_t bucket = 0; bucket <= buckets; ++bucket) {
-        const double from_deg = samples_deg.front() + static_cast<double>(bucket) / buckets_per_deg;
-        while (cell + 1 < cells.size() && cells[cell].to_deg <= from_deg)
+    bool broken = false;
+    double steepest = 1.0 / radians(finest_step(samples_deg)), before = 0.0;
+    for (double bucket = 0.0; bucket < buckets; bucket += 1.0) {
+        const double end_deg = std::min(samples_deg.front() + degrees((bucket + 1.0) * width), samples_deg.back());
+        const std::size_t first_cell = cell;
+        while (cell + 2 < samples_deg.size() && samples_deg[cell + 1] < end_deg - 1e-9)
             ++cell;
-        first_cell.push_back(static_cast<std::uint32_t>(cell));
+        const double at_end = static_cast<double>(cell) + (end_deg - samples_deg[cell]) / (samples_deg[cell + 1] - samples_deg[cell]);
+        const double per = (at_end - before) / width;
+        broken = broken || (cell != first_cell && before < static_cast<double>(cell) - 1e-6);
+        start_and_per_rad.push_back(static_cast<float>(before - per * bucket * width));
+        start_and_per_rad.push_back(static_cast<float>(per));
+        steepest = std::max(steepest, per);
+        before = at_end;
+    }
+    const double first_rad = radians(samples_deg.front());
+    // The angle's difference from the first is rounded twice. The bucket's number as well, which may make it the one beside, whose line
+    // then goes on too far; start, per_rad, their product and their sum are rounded once each.
+    error_rad = direction_error_rad + half_ulp * (std::abs(first_rad) + 2.0 * range);
+    blur_rad = error_rad + (broken ? width : 0.0);
+    blur_cells = half_ulp * (2.0 * static_cast<double>(samples_deg.size()) + 5.0 * range * steepest);
+    in_packs = {.first_rad = static_cast<float>(first_rad),
+                .span_rad = static_cast<float>(range),
+                .buckets_per_rad = static_cast<float>(1.0 / width),
+                .error_rad = static_cast<float>(error_rad),
+                .start_and_per_rad = nullptr,
+                .last_bucket = static_cast<std::int32_t>(buckets) - 1,
+                .last_cell = static_cast<std::int32_t>(samples_deg.size()) - 2};
+}
+
+LightBounds::Table::Table(const CandelaTable& table)
+    : h(table.h_deg), v(table.v_deg), cd(table.cd.begin(), table.cd.end()), peak_cd(*std::ranges::max_element(table.cd)) {
+    const bool continuous = table.gaps.empty() && table.rule == BetweenSamples::linear_cd;
+    constexpr double rounding = 1e-6; // bilinear() in float, and the samples
+    error_cd = continuous ? rounding * peak_cd : std::numeric_limits<double>::infinity();
+    for (const bool vertical : {false, true}) {
+        const Steepest steepest = steepest_of(table, vertical);
+        const Axis& axis = vertical ? v : h;
+        error_cd += steepest.cd_per_rad * axis.blur_rad + steepest.cd * axis.blur_cells;
     }
 }
 
-std::pair<std::size_t, double> LightBounds::Axis::place(double deg) const {
-    const auto bucket = static_cast<std::size_t>((deg - cells.front().from_deg) * buckets_per_deg);
-    std::size_t cell = first_cell[std::min(bucket, first_cell.size() - 1)];
-    while (cells[cell].to_deg <= deg && cell + 1 < cells.size())
-        ++cell;
-    return {cell, (deg - cells[cell].from_deg) * cells[cell].per_deg};
-}
-
-LightBounds::Table::Table(const CandelaTable& candela) : table(&candela), h(candela.h_deg), v(candela.v_deg) {
-    peak_cd = *std::ranges::max_element(candela.cd);
-    const bool continuous = candela.gaps.empty() && candela.rule == BetweenSamples::linear_cd;
-    error_cd = continuous ? steepest_cd_per_deg(candela) * angle_error_deg + rounding * peak_cd : std::numeric_limits<double>::infinity();
-}
-
-double LightBounds::Table::linear_cd(double h_deg, double v_deg) const {
-    const auto [column, fh] = h.place(h_deg);
-    const auto [row, fv] = v.place(v_deg);
-    const double* below = &table->cd[row * table->h_deg.size() + column];
-    const double* above = below + table->h_deg.size();
-    const double lower = below[0] + (below[1] - below[0]) * fh, upper = above[0] + (above[1] - above[0]) * fh;
-    return lower + (upper - lower) * fv;
-}
-
-LightBounds::LightBounds(const Moment& moment) : daylight_(moment.daylight), weather_(moment.weather) {
+LightBounds::LightBounds(const Moment& moment, packs::Level level) : level_(level) {
     std::map<const LampFile*, std::size_t> known;
-    for (const LitLamp& lamp : moment.lamps) {
-        if (lamp.intensity_factor == 0.0)
+    std::vector<std::size_t> table_of;
+    const auto three = [](const glm::dvec3& from, auto& to) {
+        for (int i = 0; i < 3; ++i)
+            to[i] = static_cast<std::remove_reference_t<decltype(to[i])>>(from[i]);
+    };
+    for (const LitLamp& lit : moment.lamps) {
+        if (lit.intensity_factor == 0.0)
             continue;
-        const auto [place, is_new] = known.try_emplace(lamp.file.get(), tables_.size());
+        const auto [place, is_new] = known.try_emplace(lit.file.get(), tables_.size());
         if (is_new)
-            tables_.emplace_back(lamp.file->table);
-        lamps_.push_back(
-            {lamp.pose.position_m, -lamp.pose.left(), lamp.pose.up(), lamp.pose.forward(), lamp.intensity_factor, place->second});
+            tables_.emplace_back(lit.file->table);
+        table_of.push_back(place->second);
+        packs::BoundedLamp& lamp = lamps_.emplace_back();
+        three(lit.pose.position_m, lamp.position_m);
+        three(-lit.pose.left(), lamp.right);
+        three(lit.pose.up(), lamp.up);
+        three(lit.pose.forward(), lamp.forward);
+        lamp.factor = static_cast<float>(lit.intensity_factor);
+    }
+    for (std::size_t i = 0; i < lamps_.size(); ++i) {
+        const Table& table = tables_[table_of[i]];
+        const auto axis = [](const Axis& of) {
+            packs::BeamAxis result = of.in_packs;
+            result.start_and_per_rad = of.start_and_per_rad.data();
+            return result;
+        };
+        packs::BoundedLamp& lamp = lamps_[i];
+        lamp.peak_cd = static_cast<float>(table.peak_cd);
+        lamp.error_cd = static_cast<float>(table.error_cd);
+        lamp.cd = table.cd.data();
+        lamp.columns = static_cast<std::int32_t>(table.h.in_packs.last_cell + 2);
+        lamp.h = axis(table.h);
+        lamp.v = axis(table.v);
+    }
+    const DirectLight* direct = moment.daylight.direct();
+    light_.extinction_per_m = static_cast<float>(moment.weather.extinction_per_m);
+    light_.sky_lx = static_cast<float>(moment.daylight.horizontal_illuminance_lx);
+    light_.direct_lx = direct ? static_cast<float>(direct->illuminance_lx) : 0.0F;
+    three(direct ? direct->towards() : glm::dvec3(0.0), light_.direct_towards);
+}
+
+SurfacePlaces::SurfacePlaces(std::size_t count) {
+    for (std::vector<double>* each : {&x_m, &y_m, &z_m})
+        each->resize(count + packs::most_lanes);
+    for (std::vector<float>* each : {&normal_x, &normal_y, &normal_z})
+        each->resize(count + packs::most_lanes);
+}
+
+void SurfacePlaces::put(std::size_t first, std::span<const Pose> surface) {
+    for (std::size_t i = 0; i < surface.size(); ++i) {
+        const glm::dvec3 &place = surface[i].position_m, &normal = surface[i].up();
+        x_m[first + i] = place.x;
+        y_m[first + i] = place.y;
+        z_m[first + i] = place.z;
+        normal_x[first + i] = static_cast<float>(normal.x);
+        normal_y[first + i] = static_cast<float>(normal.y);
+        normal_z[first + i] = static_cast<float>(normal.z);
     }
 }
 
-LightBounds::Intensity LightBounds::towards(const Lamp& lamp, const glm::dvec3& from_lamp, double inverse_d) const {
-    constexpr Intensity unknown{0.0, std::numeric_limits<double>::infinity()};
-    const Table& table = tables_[lamp.table];
-    const glm::dvec3 w = photometry::lamp_space(from_lamp, lamp.right, lamp.up, lamp.forward);
-    if (w.z <= 0.0)
-        return {};
-    if (!(std::abs(w.y * inverse_d) < steepest_sine))
-        return unknown;
-    const glm::dvec2 angles = photometry::quick_goniometer_angles(w, inverse_d, false);
-    const double h_deg = degrees(angles.x), v_deg = degrees(angles.y);
-    const std::vector<double>& h = table.table->h_deg;
-    const std::vector<double>& v = table.table->v_deg;
-    const double inside_deg =
-        std::min(std::min(h_deg - h.front(), h.back() - h_deg), std::min(v_deg - v.front(), v.back() - v_deg)); // negative: outside
-    if (inside_deg < -angle_error_deg)
-        return {};
-    if (!(inside_deg > angle_error_deg))
-        return unknown;
-    return {lamp.factor * table.linear_cd(h_deg, v_deg), lamp.factor * table.error_cd};
+template <class Bound> void LightBounds::bound(const SurfacePlaces& places, std::size_t first, double raised_m, std::span<LuxBounds> bounds,
+                                               Bound bound_places) const {
+    packs::BoundedLight light = light_;
+    light.lamps = lamps_.data();
+    light.lamp_count = lamps_.size();
+    packs::FoundBounds found;
+    for (std::size_t done = 0; done < bounds.size(); done += found.count) {
+        const std::size_t count = std::min(found.count, bounds.size() - done), at = first + done;
+        bound_places(light,
+                     packs::BoundedPlaces{&places.x_m[at], &places.y_m[at], &places.z_m[at], &places.normal_x[at], &places.normal_y[at],
+                                          &places.normal_z[at], static_cast<float>(raised_m)},
+                     count, found);
+        for (std::size_t i = 0; i < count; ++i)
+            bounds[done + i] = {static_cast<double>(found.low_lx[i]), static_cast<double>(found.high_lx[i])};
+    }
 }
 
-LuxBounds LightBounds::surface_lx(const glm::dvec3& point_m, const glm::dvec3& normal, double enough_lx) const {
-    const double sky_lx = daylight_illuminance_lx(daylight_, normal);
-    double max_lx = sky_lx;
-    for (const Lamp& lamp : lamps_) {
-        const glm::dvec3 to_lamp = lamp.position_m - point_m;
-        const double inverse_d2 = 1.0 / glm::dot(to_lamp, to_lamp);
-        max_lx += lamp.factor * tables_[lamp.table].peak_cd * inverse_d2 * std::sqrt(inverse_d2) * std::max(glm::dot(normal, to_lamp), 0.0);
-    }
-    max_lx *= 1.0 + rounding;
-    if (max_lx < enough_lx)
-        return {0.0, max_lx};
-    return sum(point_m, &normal, sky_lx);
+void LightBounds::surface_lx(const SurfacePlaces& places, std::size_t first, double enough_lx, std::span<LuxBounds> bounds) const {
+    bound(places, first, 0.0, bounds, [&](const auto& light, const auto& some, std::size_t count, packs::FoundBounds& found) {
+        AT_LEVEL(level_, bound_surface_lx)(light, static_cast<float>(enough_lx), some, count, found);
+    });
 }
 
-LuxBounds LightBounds::target_lx(const glm::dvec3& point_m) const { return sum(point_m, nullptr, 0.0); }
-
-LuxBounds LightBounds::sum(const glm::dvec3& point_m, const glm::dvec3* normal, double e) const {
-    double error = 0.0;
-    for (const Lamp& lamp : lamps_) {
-        const glm::dvec3 to_lamp = lamp.position_m - point_m;
-        const double inverse_d = 1.0 / std::sqrt(glm::dot(to_lamp, to_lamp));
-        const double cosine = normal ? glm::dot(*normal, to_lamp) * inverse_d : 1.0;
-        if (cosine <= 0.0)
-            continue;
-        const Intensity intensity = towards(lamp, -to_lamp, inverse_d);
-        const double share =
-            inverse_d * inverse_d * cosine * (weather_.extinction_per_m > 0.0 ? air_transmittance(weather_, 1.0 / inverse_d) : 1.0);
-        e += intensity.cd * share;
-        error += intensity.error_cd * share;
-    }
-    error += rounding * e;
-    return {std::max(e - error, 0.0), e + error};
+void LightBounds::target_lx(const SurfacePlaces& places, std::size_t first, double height_m, std::span<LuxBounds> bounds) const {
+    bound(places, first, height_m, bounds, [&](const auto& light, const auto& some, std::size_t count, packs::FoundBounds& found) {
+        AT_LEVEL(level_, bound_target_lx)(light, some, count, found);
+    });
 }
 
 } // namespace fernlicht

@@ -1,11 +1,12 @@
-// Illuminance within bounds, in two thirds of the time of light.h, or a sixth where it is surely too little: for callers that ask at many
-// points whether there is enough, and only at few of them how much.
+// Illuminance within bounds, many points at once and in a small part of the time of light.h: for callers that ask at many points whether
+// there is enough, and only at few of them how much.
 #pragma once
 
 #include "scenarios/drives/play/moment.h"
+#include "scenarios/light/light_bounds_packs.h"
 
-#include <cstdint>
 #include <limits>
+#include <span>
 
 namespace fernlicht {
 
@@ -14,56 +15,53 @@ struct LuxBounds {
     double low_lx = 0.0, high_lx = std::numeric_limits<double>::infinity();
 };
 
-/// The lamps of a moment. Refers to their files, which must outlive it. Nothing is known of a lamp whose table has gaps or runs in the
-/// logarithm, and of directions more than 30 degrees up or down.
+/// Places and normals of a surface, as packs of numbers read them: many times a second for one road.
+struct SurfacePlaces {
+    SurfacePlaces() = default;
+    explicit SurfacePlaces(std::span<const Pose> surface) : SurfacePlaces(surface.size()) { put(0, surface); }
+    explicit SurfacePlaces(std::size_t count);
+    void put(std::size_t first, std::span<const Pose> surface);
+
+    std::vector<double> x_m, y_m, z_m;
+    std::vector<float> normal_x, normal_y, normal_z;
+};
+
+/// The lamps of a moment, in packs of floats; the bounds hold their rounding. Nothing is known of a lamp whose table has gaps or runs in
+/// the logarithm, and of directions more than 30 degrees up or down. The same bytes on every processor.
 class LightBounds {
   public:
-    explicit LightBounds(const Moment& moment);
+    explicit LightBounds(const Moment& moment, packs::Level level = packs::widest_level());
+    LightBounds(const LightBounds&) = delete;
 
-    /// Bounds of surface_illuminance_lx. Where it is surely below `enough_lx`, they may be wide.
-    LuxBounds surface_lx(const glm::dvec3& point_m, const glm::dvec3& normal, double enough_lx) const;
-    /// Bounds of target_illuminance_lx.
-    LuxBounds target_lx(const glm::dvec3& point_m) const;
+    /// Bounds of surface_illuminance_lx at places from `first` on. Where it is surely below `enough_lx`, they may be wide.
+    void surface_lx(const SurfacePlaces& places, std::size_t first, double enough_lx, std::span<LuxBounds> bounds) const;
+    /// Bounds of target_illuminance_lx so high above them.
+    void target_lx(const SurfacePlaces& places, std::size_t first, double height_m, std::span<LuxBounds> bounds) const;
 
   private:
-    /// Cells of an axis, and for buckets of equal width the cell in which to begin looking.
     struct Axis {
         explicit Axis(const std::vector<double>& samples_deg);
-        /// The cell of an angle on the axis and the share of it that lies below the angle.
-        std::pair<std::size_t, double> place(double deg) const;
 
-        struct Cell {
-            double from_deg, to_deg, per_deg;
-        };
-        std::vector<Cell> cells;
-        double buckets_per_deg = 0.0;
-        std::vector<std::uint32_t> first_cell;
+        double error_rad = 0.0;                  ///< of an angle, beside the axis's ends
+        double blur_rad = 0.0, blur_cells = 0.0; ///< of the place between samples where its light is taken from
+        std::vector<float> start_and_per_rad;    ///< by bucket
+        packs::BeamAxis in_packs{};              ///< but for where the buckets lie
     };
     struct Table {
         explicit Table(const CandelaTable& table);
-        double linear_cd(double h_deg, double v_deg) const;
 
-        const CandelaTable* table;
         Axis h, v;
-        double peak_cd = 0.0;
-        double error_cd = 0.0; ///< of linear_cd at angles that are off by angle_error_deg; infinite where it cannot be told
+        std::vector<float> cd;
+        double peak_cd = 0.0, error_cd = 0.0; ///< infinite where it cannot be told
     };
-    struct Lamp {
-        glm::dvec3 position_m, right, up, forward;
-        double factor;
-        std::size_t table;
-    };
-    struct Intensity {
-        double cd = 0.0, error_cd = 0.0;
-    };
-    /// On a surface of this normal, or facing each lamp, beside `e` that is there without them.
-    LuxBounds sum(const glm::dvec3& point_m, const glm::dvec3* normal, double e) const;
-    Intensity towards(const Lamp& lamp, const glm::dvec3& from_lamp, double inverse_d) const;
 
-    std::vector<Table> tables_; ///< one per lamp file
-    std::vector<Lamp> lamps_;   ///< those that are on
-    Daylight daylight_;
-    Weather weather_;
+    template <class Bound>
+    void bound(const SurfacePlaces& places, std::size_t first, double raised_m, std::span<LuxBounds> bounds, Bound bound_places) const;
+
+    packs::Level level_;
+    std::vector<Table> tables_;             ///< one per lamp file
+    std::vector<packs::BoundedLamp> lamps_; ///< those that are on
+    packs::BoundedLight light_{};
 };
 
 } // namespace fernlicht

@@ -91,7 +91,8 @@ GLuint compile(Context& context, GLenum stage, const std::string& file, const st
 Program::Program(Context& context, const std::string& vertex_file, const std::string& fragment_file, const std::vector<Define>& defines)
     : context_(&context) {
     std::string prologue = "#version 450 core\n"
-                           "#define real float\n#define FN\n#define OUT(type) out type\n#define PRECISE precise\n";
+                           "#define real float\n#define FN\n#define OUT(type) out type\n#define PRECISE precise\n"
+                           "#define SELECT(condition, a, b) ((condition) ? (a) : (b))\n";
     for (const Define& define : defines)
         prologue += "#define " + define.name + " " + define.value + "\n";
     const GLuint vertex = compile(context, GL_VERTEX_SHADER, vertex_file, prologue + "#define STAGE_IO out\n");

@@ -34,12 +34,14 @@ using glm::sqrt;
 #define FN inline
 #define OUT(type) type&
 #define PRECISE
+#define SELECT(condition, a, b) ((condition) ? (a) : (b))
 #include "scenarios/photometry.glsl"
 
 #include "renderer/shaders/equation_calls.glsl"
 #undef FN
 #undef OUT
 #undef PRECISE
+#undef SELECT
 
 static_assert(sizeof(0.1) == sizeof(float), "compile this file with -fsingle-precision-constant");
 

@@ -17,6 +17,10 @@ namespace photometry {
 
 } // namespace photometry
 
+namespace packs {
+AT_EACH_LEVEL(void equation_values(int equation, const float* arguments, float* values, std::size_t points);)
+} // namespace packs
+
 namespace {
 
 using Kind = EquationInput::Kind;
@@ -161,6 +165,19 @@ std::array<double, 4> equation_in_double(int equation, const EquationDoubles& x)
     return {value.x, value.y, value.z, value.w};
 }
 
+std::vector<EquationValue> equation_in_packs(packs::Level level, int equation, const std::vector<EquationArguments>& points) {
+    const std::size_t padded = (points.size() + packs::most_lanes - 1) / packs::most_lanes * packs::most_lanes;
+    std::vector<float> arguments(16 * padded), values(4 * padded);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t slot = 0; slot < 16; ++slot)
+            arguments[slot * padded + i] = points[i][slot];
+    AT_LEVEL(level, equation_values)(equation, arguments.data(), values.data(), padded);
+    std::vector<EquationValue> result;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        result.push_back({values[i], values[padded + i], values[2 * padded + i], values[3 * padded + i]});
+    return result;
+}
+
 Examination examine(const Equation& equation, Device& device, double effort, std::uint64_t seed) {
     const auto many = [&](double points) { return static_cast<std::size_t>(points * effort); };
     Search search(equation, seed + static_cast<std::uint64_t>(equation.number));
@@ -168,7 +185,7 @@ Examination examine(const Equation& equation, Device& device, double effort, std
     std::vector<EquationArguments> points;
     for (std::size_t i = 0; i < many(60'000); ++i)
         points.push_back(search.anywhere());
-    Ranked in_float, on_gpu, conditions;
+    Ranked in_float, conditions;
     for (const EquationArguments& x : points)
         in_float.emplace_back(search.error(x, equation_in_float(equation.number, x)), x);
     for (std::size_t i = 0; i < points.size(); i += 4)
@@ -187,25 +204,31 @@ Examination examine(const Equation& equation, Device& device, double effort, std
             if (const double better = search.condition(next); better > condition)
                 condition = better, x = next;
         }
-    // The GPU takes them by the ten thousand: the random ones, the worst of the CPU, then generations round the worst.
-    EquationProbe probe(device, equation.number);
+    // The GPU and packs take them by the ten thousand: the random ones, the worst of the CPU, then generations round the worst.
     for (const auto& [error, x] : in_float)
         points.push_back(x);
-    for (int generation = 0; generation < 5; ++generation) {
-        const std::vector<EquationValue> values = probe.at(points);
-        for (std::size_t i = 0; i < points.size(); ++i)
-            on_gpu.emplace_back(search.error(points[i], values[i]), points[i]);
-        found.points += points.size();
-        keep_worst(on_gpu, 64);
-        points.clear();
-        for (const auto& [error, x] : on_gpu)
-            for (std::size_t i = 0; i < many(400); ++i)
-                points.push_back(search.near(x));
-    }
+    const auto climb = [&](const auto& values_at, EquationError& worst) {
+        Ranked ranked;
+        std::vector<EquationArguments> next = points;
+        for (int generation = 0; generation < 5; ++generation) {
+            const std::vector<EquationValue> values = values_at(next);
+            for (std::size_t i = 0; i < next.size(); ++i)
+                ranked.emplace_back(search.error(next[i], values[i]), next[i]);
+            found.points += next.size();
+            keep_worst(ranked, 64);
+            next.clear();
+            for (const auto& [error, x] : ranked)
+                for (std::size_t i = 0; i < many(400); ++i)
+                    next.push_back(search.near(x));
+        }
+        for (const auto& [error, x] : ranked)
+            take(worst, error, x);
+    };
+    EquationProbe probe(device, equation.number);
+    climb([&](const auto& at) { return probe.at(at); }, found.on_gpu);
+    climb([&](const auto& at) { return equation_in_packs(packs::widest_level(), equation.number, at); }, found.in_packs);
     for (const auto& [error, x] : in_float)
         take(found.in_float, error, x);
-    for (const auto& [error, x] : on_gpu)
-        take(found.on_gpu, error, x);
     for (const auto& [condition, x] : conditions)
         if (condition > found.condition)
             found.condition = condition, found.condition_at = x;

@@ -1,7 +1,8 @@
-// The light equations one by one: what they are defined for, and how exact they are in float, on the CPU and on the GPU.
+// The light equations one by one: what they are defined for, and how exact they are in float, on the CPU, over packs and on the GPU.
 #pragma once
 
 #include "renderer/equation_probe.h"
+#include "scenarios/packs/level.h"
 
 #include <functional>
 #include <span>
@@ -15,6 +16,8 @@ using EquationDoubles = std::array<double, 16>;
 /// The same text in double, as the twin computes it, and in float, rounded after each operation, with libm's functions.
 std::array<double, 4> equation_in_double(int equation, const EquationDoubles& arguments);
 EquationValue equation_in_float(int equation, const EquationArguments& arguments);
+/// And over packs of floats, with functions of their own; as many values as points.
+std::vector<EquationValue> equation_in_packs(packs::Level level, int equation, const std::vector<EquationArguments>& points);
 
 /// One argument, or three that are a unit vector.
 struct EquationInput {
@@ -59,7 +62,7 @@ struct EquationError {
     EquationArguments at{};
 };
 struct Examination {
-    EquationError in_float, on_gpu;
+    EquationError in_float, in_packs, on_gpu;
     double condition = 0.0;
     EquationArguments condition_at{};
     std::size_t points = 0;

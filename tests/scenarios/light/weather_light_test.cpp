@@ -191,40 +191,76 @@ Moment two_lamps(const CandelaTable& table) {
     return moment;
 }
 
+LuxBounds target_bounds(const Moment& moment, const glm::dvec3& point_m) {
+    LuxBounds bounds;
+    const Pose place{point_m, glm::dmat3(1.0)};
+    LightBounds(moment).target_lx(SurfacePlaces({&place, 1}), 0, 0.0, {&bounds, 1});
+    return bounds;
+}
+
+/// The same light, but that no samples lie on even steps, and with a jump narrower than any step.
+CandelaTable uneven_table() {
+    CandelaTable table = steep_table();
+    table.h_deg = {-40.0, -10.1234, -1.01, 0.0, 1e-9, 2.71828, 35.0};
+    table.v_deg = {-20.0, -5.4321, -0.6, -0.5678, 0.0, 8.0};
+    return table;
+}
+
+// In the dark, by the moon, in fog.
 TEST(LightBounds, BoundsHoldTheIlluminanceAndAreNarrow) {
-    const Moment moment = two_lamps(steep_table());
-    const LightBounds light(moment);
+    constexpr double height_m = 0.25;
+    Moment moon = two_lamps(steep_table()), fog = moon;
+    moon.daylight.moon = {1.0, 0.6, 0.25};
+    fog.weather.extinction_per_m = 0.05;
+    const Moment even = two_lamps(steep_table()), uneven = two_lamps(uneven_table());
     std::mt19937_64 chance(7);
     std::uniform_real_distribution<double> along(-5.0, 120.0), across(-40.0, 40.0), above(-3.0, 4.0), tilt(-0.3, 0.3);
-    int unknown = 0;
-    for (int i = 0; i < 200000; ++i) {
-        const glm::dvec3 point{along(chance), across(chance), above(chance)}, normal = axes_from_angles(0.3, tilt(chance), tilt(chance))[2];
-        const std::pair<LuxBounds, double> found[]{{light.surface_lx(point, normal, 0.0), surface_illuminance_lx(moment, point, normal)},
-                                                   {light.target_lx(point), target_illuminance_lx(moment, point)}};
-        for (const auto& [bounds, truth] : found) {
+    std::vector<Pose> points(70'001);
+    for (Pose& point : points)
+        point = {{along(chance), across(chance), above(chance)}, axes_from_angles(0.3, tilt(chance), tilt(chance))};
+    const SurfacePlaces places(points);
+    for (const Moment* moment : std::initializer_list<const Moment*>{&even, &moon, &fog, &uneven}) {
+        std::vector<LuxBounds> surface(points.size()), target(points.size()), narrow(points.size());
+        LightBounds(*moment).surface_lx(places, 0, 0.0, surface);
+        LightBounds(*moment).target_lx(places, 0, height_m, target);
+        std::size_t unknown = 0;
+        const auto hold = [&](const LuxBounds& bounds, double truth, const glm::dvec3& point_m) {
             if (!std::isfinite(bounds.high_lx)) {
                 ++unknown;
-                continue;
+                return;
             }
             ASSERT_LE(bounds.low_lx, truth);
             ASSERT_GE(bounds.high_lx, truth);
-            // 1e5 cd per degree of cut-off times 7e-6 degrees, of two lamps: 1 cd.
-            const double d2 = std::min(glm::dot(point - moment.lamps[0].pose.position_m, point - moment.lamps[0].pose.position_m),
-                                       glm::dot(point - moment.lamps[1].pose.position_m, point - moment.lamps[1].pose.position_m));
-            ASSERT_LE(bounds.high_lx - bounds.low_lx, 3.0 / d2);
+            double apart_m = std::numeric_limits<double>::infinity();
+            for (const LitLamp& lamp : moment->lamps)
+                apart_m = std::min(apart_m, glm::length(point_m - lamp.pose.position_m));
+            // 1e5 cd per degree of cut-off times 1.6e-4 degrees, of two lamps, and rounding.
+            if (moment != &uneven) {
+                ASSERT_LE(bounds.high_lx - bounds.low_lx, 60.0 / (apart_m * apart_m) + 2e-5 * truth);
+            }
+        };
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const glm::dvec3 &point = points[i].position_m, &normal = points[i].up(), raised = point + height_m * normal;
+            hold(surface[i], surface_illuminance_lx(*moment, point, normal), point);
+            hold(target[i], target_illuminance_lx(*moment, raised), raised);
+        }
+        EXPECT_LT(unknown, points.size() / 25) << "only what is steeper than 30 degrees or on the border of the table";
+        for (const packs::Level level : packs::levels_here()) {
+            LightBounds(*moment, level).target_lx(places, 0, height_m, narrow);
+            for (std::size_t i = 0; i < points.size(); ++i)
+                ASSERT_TRUE((narrow[i].low_lx == target[i].low_lx && narrow[i].high_lx == target[i].high_lx) ||
+                            std::isnan(target[i].low_lx));
         }
     }
-    EXPECT_LT(unknown, 8000) << "only what is steeper than 30 degrees or on the border of the table";
 }
 
 // The far right lane of a cut-off: from a degree below it to a degree above, in steps that lie within the angles' error as well.
 TEST(LightBounds, BoundsHoldAcrossACutOff) {
     const Moment moment = two_lamps(steep_table());
-    const LightBounds light(moment);
     for (const double step : {1e-3, 1e-7})
         for (int i = -1000; i <= 1000; ++i) {
             const glm::dvec3 point{60.0, 0.3, 0.65 - 57.0 * std::tan(0.01 + radians(0.55)) + step * i};
-            const LuxBounds bounds = light.target_lx(point);
+            const LuxBounds bounds = target_bounds(moment, point);
             const double truth = target_illuminance_lx(moment, point);
             ASSERT_LE(bounds.low_lx, truth);
             ASSERT_GE(bounds.high_lx, truth);
@@ -234,12 +270,13 @@ TEST(LightBounds, BoundsHoldAcrossACutOff) {
 TEST(LightBounds, KnowsTheDarkAndWhatItDoesNotKnow) {
     Moment moment = two_lamps(steep_table());
     moment.daylight.horizontal_illuminance_lx = 0.0;
-    const LuxBounds behind = LightBounds(moment).target_lx({-10.0, 0.0, 0.5}), beside = LightBounds(moment).target_lx({13.0, 30.0, 0.5});
-    EXPECT_EQ(behind.high_lx, 0.0);
-    EXPECT_EQ(beside.high_lx, 0.0) << "outside the table there is no light";
-    EXPECT_FALSE(std::isfinite(LightBounds(moment).target_lx({3.2, 0.6, 0.0}).high_lx)) << "steeper than 30 degrees";
-    EXPECT_FALSE(std::isfinite(LightBounds(moment).target_lx(moment.lamps[0].pose.position_m).high_lx)) << "in the lamp";
-    const LuxBounds far = LightBounds(moment).surface_lx({63.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 1.0);
+    EXPECT_EQ(target_bounds(moment, {-10.0, 0.0, 0.5}).high_lx, 0.0);
+    EXPECT_EQ(target_bounds(moment, {13.0, 30.0, 0.5}).high_lx, 0.0) << "outside the table there is no light";
+    EXPECT_FALSE(std::isfinite(target_bounds(moment, {3.2, 0.6, 0.0}).high_lx)) << "steeper than 30 degrees";
+    EXPECT_FALSE(std::isfinite(target_bounds(moment, moment.lamps[0].pose.position_m).high_lx)) << "in the lamp";
+    const Pose place{{63.0, 0.0, 0.0}, glm::dmat3(1.0)};
+    LuxBounds far;
+    LightBounds(moment).surface_lx(SurfacePlaces({&place, 1}), 0, 1.0, {&far, 1});
     EXPECT_EQ(far.low_lx, 0.0);
     EXPECT_LT(far.high_lx, 1.0) << "13 000 cd x 0.7 x 2 lamps x 0.65 / 60^3 = 0.055 lx at most";
 
@@ -247,7 +284,7 @@ TEST(LightBounds, KnowsTheDarkAndWhatItDoesNotKnow) {
     logarithmic.rule = BetweenSamples::log_cd;
     with_gap.gaps.assign((with_gap.h_deg.size() - 1) * (with_gap.v_deg.size() - 1), 0);
     for (const CandelaTable& table : {logarithmic, with_gap})
-        EXPECT_FALSE(std::isfinite(LightBounds(two_lamps(table)).target_lx({23.0, 0.0, 0.5}).high_lx));
+        EXPECT_FALSE(std::isfinite(target_bounds(two_lamps(table), {23.0, 0.0, 0.5}).high_lx));
 }
 
 // At the lamp's own place there is no direction and no distance: 0 / 0 in every term, and no light in the end.

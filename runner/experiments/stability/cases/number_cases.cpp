@@ -239,12 +239,13 @@ std::string text_of(const Equation& equation, const EquationArguments& x) {
 void examined(const Equation& equation, StabilityBench& bench, Found& worst) {
     const EquationBound& bound = bound_of(equation.function);
     const Examination found = examine(equation, bench.device(), bench.thorough ? 10.0 : 1.0, StabilityBench::seed);
-    const bool gpu_worse = !(found.on_gpu.error <= found.in_float.error);
-    const EquationError& worse = gpu_worse ? found.on_gpu : found.in_float;
+    const EquationError* worse = &found.in_float;
+    for (const EquationError* other : {&found.in_packs, &found.on_gpu})
+        worse = other->error <= worse->error ? worse : other;
     const std::string condition = found.condition > 1e4 ? "unbounded" : fmt::format("{:.2g}", found.condition);
-    worst.add(std::max(found.in_float.error, worse.error),
-              fmt::format("C++ {:.2g}, device {:.2g}, condition {}{}", found.in_float.error, found.on_gpu.error, condition,
-                          worse.error > 0.0 ? "; worst at " + text_of(equation, worse.at) : std::string()),
+    worst.add(worse->error,
+              fmt::format("C++ {:.2g}, packs {:.2g}, device {:.2g}, condition {}{}", found.in_float.error, found.in_packs.error,
+                          found.on_gpu.error, condition, worse->error > 0.0 ? "; worst at " + text_of(equation, worse->at) : std::string()),
               static_cast<int>(found.points));
     if (bound.condition > 0.0 && found.condition > 1.01 * bound.condition)
         worst.add(unbounded, fmt::format("condition {:.3g} at {}, stated is {:g}", found.condition, text_of(equation, found.condition_at),

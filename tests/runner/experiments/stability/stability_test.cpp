@@ -7,10 +7,12 @@
 #include "tests/runner/program.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <gmock/gmock.h>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <set>
 #include <sstream>
 
@@ -151,6 +153,25 @@ TEST(StabilityEquations, TheSearchFindsWhatFloatsLose) {
     EXPECT_GT(found.in_float.error, 1e-7);
     EXPECT_LT(found.in_float.error, 1e-6);
     EXPECT_EQ(found.in_float.at, examination().in_float.at) << "same seed, same search";
+}
+
+/// Any floats there are, infinities, denormals and what is no number among them: a wider processor computes the same bits.
+TEST(StabilityEquations, AreTheSameBitsInPacksOfEachWidth) {
+    std::mt19937 random(5);
+    std::vector<EquationArguments> points(3001);
+    for (EquationArguments& point : points)
+        for (float& argument : point)
+            argument = std::bit_cast<float>(static_cast<std::uint32_t>(random()) & (random() % 4 == 0 ? 0xff800000U : 0xffffffffU));
+    const auto bits_of = [](float value) { return std::isnan(value) ? ~0U : std::bit_cast<std::uint32_t>(value); };
+    for (const Equation& equation : equations()) {
+        const std::vector<EquationValue> narrow = equation_in_packs(packs::Level::plain, equation.number, points);
+        for (const packs::Level level : packs::levels_here()) {
+            const std::vector<EquationValue> wide = equation_in_packs(level, equation.number, points);
+            for (std::size_t i = 0; i < points.size(); ++i)
+                for (std::size_t k = 0; k < 4; ++k)
+                    ASSERT_EQ(bits_of(wide[i][k]), bits_of(narrow[i][k])) << equation.function << " at point " << i;
+        }
+    }
 }
 
 /// Sun and fog where they are hardest, on a road with a board across it.
