@@ -7,17 +7,11 @@
 #include <stdexcept>
 
 namespace fernlicht::plots {
-namespace {
-
-constexpr int zlib_level = 4; // drawings and maps have large areas of one colour
-
-}
-
-std::string png_of_pixels(const Image<Colour>& pixels) {
+std::string png_of_pixels(const Image<Colour>& pixels, int zlib) {
     if (pixels.empty() || pixels.width() > 32767 || pixels.height() > 32767)
         throw std::runtime_error("cannot encode a PNG of an empty or a huge image");
     static_assert(sizeof(Colour) == 3);
-    return encode_png({pixels.width(), pixels.height(), 8, pixels.data()}, zlib_level);
+    return encode_png({pixels.width(), pixels.height(), 8, pixels.data()}, zlib);
 }
 
 std::string png_of_svg(const std::string& svg, double scale) {
