@@ -10,15 +10,16 @@
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
+#include <OpenEXR/ImfTileDescription.h>
 #include <OpenEXR/ImfVecAttribute.h>
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <fmt/format.h>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 #include <strings.h>
 #include <thread>
@@ -27,12 +28,8 @@
 namespace fernlicht {
 namespace {
 
-/// What a part's header says of the memory that it takes.
-struct ExrPart {
-    std::int64_t width = 0, height = 0, tile_width = 0, tile_height = 0, pixel_bytes = 0;
-    unsigned compression = 0;
-    bool is_tiled = false, is_deep = false, is_known = false;
-};
+constexpr std::size_t magic_and_version = 8;
+constexpr std::uint32_t magic = 20000630, tiled = 0x200, not_flat = 0x800, several_parts = 0x1000; // bits of the version
 
 std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
     std::uint32_t value = 0;
@@ -41,77 +38,83 @@ std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
     return value;
 }
 
-/// Pixel types of a channel list: each a name, a zero, the type and 12 more bytes.
-std::int64_t bytes_of_channels(std::string_view list) {
-    std::int64_t bytes = 0;
-    while (!list.empty() && list[0] != '\0') {
-        const std::size_t end = list.find('\0');
-        if (end == std::string_view::npos || list.size() - end < 17)
-            break; // OpenEXR says what is wrong
-        bytes += little_endian(list, end + 1) == 1 ? 2 : 4;
-        list.remove_prefix(end + 17);
+/// Whether an attribute ends where OpenEXR ends reading it: of most types it reads what they take, whatever the file says.
+bool has_its_size(std::string_view type, std::string_view value) {
+    static const std::map<std::string_view, std::size_t> sizes{{"box2i", 16},
+                                                               {"box2f", 16},
+                                                               {"chromaticities", 32},
+                                                               {"compression", 1},
+                                                               {"deepImageState", 1},
+                                                               {"double", 8},
+                                                               {"envmap", 1},
+                                                               {"float", 4},
+                                                               {"int", 4},
+                                                               {"keycode", 28},
+                                                               {"lineOrder", 1},
+                                                               {"m33f", 36},
+                                                               {"m33d", 72},
+                                                               {"m44f", 64},
+                                                               {"m44d", 128},
+                                                               {"rational", 8},
+                                                               {"tiledesc", 9},
+                                                               {"timecode", 8},
+                                                               {"v2i", 8},
+                                                               {"v2f", 8},
+                                                               {"v2d", 16},
+                                                               {"v3i", 12},
+                                                               {"v3f", 12},
+                                                               {"v3d", 24}};
+    if (const auto found = sizes.find(type); found != sizes.end())
+        return value.size() == found->second;
+    if (type == "chlist") { // channels, each a name, a zero and 16 bytes, and a zero
+        for (std::size_t end = value.find('\0'); end != 0; end = value.find('\0')) {
+            if (end == std::string_view::npos || value.size() - end < 17)
+                return false;
+            value.remove_prefix(end + 17);
+        }
+        return value.size() == 1;
     }
-    return bytes;
+    if (type == "stringvector") {
+        while (value.size() >= 4 && little_endian(value, 0) <= value.size() - 4)
+            value.remove_prefix(4 + little_endian(value, 0));
+        return value.empty();
+    }
+    return type == "floatvector" ? value.size() % 4 == 0 : type != "idmanifest";
 }
 
-void take(ExrPart& part, std::string_view name, std::string_view value) {
-    const auto number = [&](std::size_t at) { return static_cast<std::int64_t>(static_cast<std::int32_t>(little_endian(value, at))); };
-    if (name == "dataWindow" && value.size() == 16) {
-        part.width = number(8) - number(0) + 1;
-        part.height = number(12) - number(4) + 1;
-    } else if (name == "tiles" && value.size() == 9) {
-        part.tile_width = little_endian(value, 0);
-        part.tile_height = little_endian(value, 4);
-    } else if (name == "compression" && value.size() == 1) {
-        part.compression = static_cast<unsigned char>(value[0]);
-    } else if (name == "channels") {
-        part.pixel_bytes = bytes_of_channels(value);
-    } else if (name == "type") {
-        part.is_tiled = value == "tiledimage" || value == "deeptile";
-        part.is_deep = value == "deepscanline" || value == "deeptile";
-        part.is_known = part.is_tiled || part.is_deep || value == "scanlineimage";
-    }
-}
-
-/// A part: attributes, each with name, zero, type, zero, size and value, up to an empty name. Nothing where one is longer than the file.
-std::optional<std::vector<ExrPart>> parts_of(std::string_view bytes) {
-    constexpr std::size_t magic_and_version = 8;
-    constexpr std::uint32_t magic = 20000630, tiled = 0x200, deep = 0x800, several_parts = 0x1000;
+/// Parts of attributes, each with name, zero, type, zero, size and value, up to an empty name.
+bool has_whole_headers(std::string_view bytes) {
     if (bytes.size() < magic_and_version || little_endian(bytes, 0) != magic)
-        return {};
-    const std::uint32_t version = little_endian(bytes, 4);
-    std::vector<ExrPart> parts;
+        return false;
+    const bool several = (little_endian(bytes, 4) & several_parts) != 0;
     std::size_t at = magic_and_version;
     do {
-        ExrPart part;
         for (std::size_t end = bytes.find('\0', at); end != at; end = bytes.find('\0', at)) {
-            if (end == std::string_view::npos)
-                return {};
-            const std::string_view name = bytes.substr(at, end - at);
-            end = bytes.find('\0', end + 1);
+            const std::size_t type = end == std::string_view::npos ? end : end + 1;
+            end = type == std::string_view::npos ? type : bytes.find('\0', type);
             if (end == std::string_view::npos || bytes.size() - end < 5)
-                return {};
+                return false;
             at = end + 5;
             const std::uint32_t size = little_endian(bytes, end + 1);
-            if (size > bytes.size() - at)
-                return {};
-            take(part, name, bytes.substr(at, size));
+            if (size > bytes.size() - at || !has_its_size(bytes.substr(type, end - type), bytes.substr(at, size)))
+                return false;
             at += size;
         }
         ++at;
-        if ((version & several_parts) == 0) { // its type may lack or be wrong
-            part.is_tiled = (version & tiled) != 0;
-            part.is_deep = (version & deep) != 0;
-            part.is_known = true;
-        }
-        parts.push_back(part);
-    } while ((version & several_parts) != 0 && at < bytes.size() && bytes[at] != '\0');
-    return parts;
+    } while (several && at < bytes.size() && bytes[at] != '\0');
+    return true;
 }
 
-std::int64_t lines_of_chunk(unsigned compression) {
-    constexpr std::int64_t lines[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256}; // in the order of OpenEXR's Compression
-    return compression < std::size(lines) ? lines[compression] : 1;
+std::int64_t lines_of_chunk(Imf::Compression compression) {
+    constexpr std::int64_t lines[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+    return static_cast<std::size_t>(compression) < std::size(lines) ? lines[compression] : 1;
+}
+
+std::int64_t bytes_of_pixel(const Imf::ChannelList& channels) {
+    std::int64_t bytes = 0;
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel)
+        bytes += channel.channel().type == Imf::HALF ? 2 : 4;
+    return bytes;
 }
 
 std::int64_t parts_in(std::int64_t whole, std::int64_t part) { return (whole - 1) / part + 1; }
@@ -133,6 +136,29 @@ class InMemory : public Imf::IStream {
     std::string_view bytes_;
     std::uint64_t at_ = 0;
 };
+
+/// As OpenEXR takes them.
+std::vector<Imf::Header> headers_of(std::string_view bytes) {
+    auto version = static_cast<int>(little_endian(bytes, 4));
+    const auto has = [version](std::uint32_t bit) { return (static_cast<std::uint32_t>(version) & bit) != 0; };
+    InMemory stream(bytes);
+    stream.seekg(magic_and_version);
+    std::vector<Imf::Header> headers;
+    do {
+        Imf::Header header;
+        header.readFrom(stream, version);
+        if (header.readsNothing())
+            break;
+        if (!has(several_parts) && !has(not_flat)) // a part's own word may be wrong
+            header.setType(has(tiled) ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
+        if (!header.hasType() || !Imf::isSupportedType(header.type()) || (headers.empty() && Imf::isDeepData(header.type())))
+            throw std::runtime_error("its pixels are neither scan lines nor tiles");
+        headers.push_back(std::move(header));
+    } while (has(several_parts));
+    if (headers.empty())
+        throw std::runtime_error("it has no picture");
+    return headers;
+}
 
 class IntoMemory : public Imf::OStream {
   public:
@@ -216,39 +242,36 @@ template <class T> Imf::Slice slice_of(Imf::PixelType type, T* pixels, const Ima
 
 } // namespace
 
-std::string why_no_exr(std::string_view bytes) {
-    const std::optional<std::vector<ExrPart>> parts = parts_of(bytes);
-    if (!parts)
-        return "it is no EXR, ends early or is damaged";
+void check_exr_headers(std::string_view bytes) {
+    if (!has_whole_headers(bytes))
+        throw std::runtime_error("it is no EXR, ends early or is damaged");
     constexpr std::int64_t max_side = std::int64_t{1} << 30, max_block = std::int64_t{1} << 27;
     constexpr std::int64_t offset_bytes = 8, best_zip = 1100; // zip's tokens are 1032 times shorter at best
     const auto file_bytes = static_cast<std::int64_t>(bytes.size());
     std::int64_t chunks = 0;
-    for (const ExrPart& part : *parts) {
-        const std::string size = fmt::format("{} x {} pixels of {} bytes", part.width, part.height, part.pixel_bytes);
-        if (part.width < 1 || part.height < 1 || part.width > max_side || part.height > max_side || part.pixel_bytes > max_block)
-            return "it claims " + size;
-        if (!part.is_known)
-            return "a part is neither scan lines nor tiles";
-        if (part.is_tiled && (part.tile_width < 1 || part.tile_height < 1))
-            return "its tiles have no size";
-        const std::int64_t width = part.is_tiled ? part.tile_width : part.width,
-                           height = part.is_tiled ? part.tile_height : lines_of_chunk(part.compression);
-        if (width > max_block / height / std::max<std::int64_t>(1, part.pixel_bytes))
-            return fmt::format("it claims blocks of {} x {} pixels of {} bytes", width, height, part.pixel_bytes);
-        chunks += parts_in(part.width, width) * parts_in(part.height, height); // at most 2^60 each, and more than the file holds ends this
-        if (chunks > file_bytes / offset_bytes)
-            return fmt::format("it claims {} in a file of {} bytes", size, bytes.size());
-        const bool in_bytes = part.compression <= Imf::ZIP_COMPRESSION && !part.is_deep;
-        if (in_bytes && part.width * part.height / best_zip > file_bytes / std::max<std::int64_t>(1, part.pixel_bytes))
-            return fmt::format("it claims {} in a file of {} bytes", size, bytes.size());
+    for (const Imf::Header& header : headers_of(bytes)) {
+        const Imath::Box2i window = header.dataWindow();
+        const std::int64_t columns = std::int64_t{window.max.x} - window.min.x + 1, rows = std::int64_t{window.max.y} - window.min.y + 1;
+        const std::int64_t pixel_bytes = bytes_of_pixel(header.channels());
+        const std::string size = fmt::format("{} x {} pixels of {} bytes", columns, rows, pixel_bytes);
+        if (columns < 1 || rows < 1 || columns > max_side || rows > max_side || pixel_bytes < 1 || pixel_bytes > max_block)
+            throw std::runtime_error("it claims " + size);
+        std::int64_t block_columns = columns, block_rows = lines_of_chunk(header.compression());
+        if (Imf::isTiled(header.type())) {
+            block_columns = header.hasTileDescription() ? header.tileDescription().xSize : 0;
+            block_rows = header.hasTileDescription() ? header.tileDescription().ySize : 0;
+        }
+        if (block_columns < 1 || block_rows < 1 || block_columns > max_block / block_rows / pixel_bytes)
+            throw std::runtime_error(fmt::format("it claims blocks of {} x {} pixels of {} bytes", block_columns, block_rows, pixel_bytes));
+        chunks += parts_in(columns, block_columns) * parts_in(rows, block_rows); // of 2^60 at most, and few of them go on
+        if (chunks > file_bytes / offset_bytes || (!Imf::isDeepData(header.type()) && header.compression() <= Imf::ZIP_COMPRESSION &&
+                                                   columns * rows / best_zip > file_bytes / pixel_bytes))
+            throw std::runtime_error(fmt::format("it claims {} in a file of {} bytes", size, bytes.size()));
     }
-    return parts->front().is_deep ? "its pixels are deep" : "";
 }
 
 ExrPicture decode_exr(std::string_view bytes, const ChooseChannels& choose) {
-    if (const std::string why = why_no_exr(bytes); !why.empty())
-        throw std::runtime_error(why);
+    check_exr_headers(bytes);
     use_all_threads();
     InMemory stream(bytes);
     Imf::MultiPartInputFile file(stream);

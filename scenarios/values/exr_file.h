@@ -34,9 +34,9 @@ using ChooseChannels = std::function<std::pair<std::size_t, std::size_t>(const E
 /// damaged, is deep or has channels of fewer pixels.
 ExrPicture decode_exr(std::string_view bytes, const ChooseChannels& choose);
 
-/// Why a header asks for more than the file can hold, "" where it does not. OpenEXR 3.1 takes the memory that a header asks for before it
-/// reads what should fill it.
-std::string why_no_exr(std::string_view bytes);
+/// Throws std::runtime_error where headers ask for more than the file can hold. OpenEXR 3.1 takes the memory that a header asks for before
+/// it reads what should fill it.
+void check_exr_headers(std::string_view bytes);
 
 using ExrAttribute = std::variant<std::string, int, double, glm::dvec3>;
 /// 32-bit float in scan lines, zip at a level of 1 to 9. Throws std::runtime_error where the library cannot.
