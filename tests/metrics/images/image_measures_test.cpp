@@ -153,6 +153,17 @@ TEST(Ciede2000, PictureByPixel) {
     EXPECT_NEAR(found.mean, 5.0, 1e-5);
     EXPECT_EQ(found.median, 0.0);
     EXPECT_EQ(found.p95, 0.0); // the 19th of 20
+    // More pairs than are remembered, each twice.
+    Image<Rgb8> many(256, 64), others(256, 64);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 256; ++x) {
+            many.at(x, y) = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y / 2), 7};
+            others.at(x, y) = {static_cast<std::uint8_t>(y / 2), 9, static_cast<std::uint8_t>(x)};
+        }
+    const auto all = ciede2000_map(many, others);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 256; ++x)
+            ASSERT_EQ(all.at(x, y), static_cast<float>(ciede2000(lab_of(many.at(x, y)), lab_of(others.at(x, y))))) << x << ' ' << y;
     EXPECT_THROW(ciede2000_map({2, 2}, {2, 3}), std::invalid_argument);
     EXPECT_THROW(ciede2000_map({}, {}), std::invalid_argument);
 }
