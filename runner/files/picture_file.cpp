@@ -51,6 +51,8 @@ void write_encoded(const std::filesystem::path& path, const std::function<std::s
 
 void write_rgb(const PngPixels& pixels, const PictureTags& tags, const std::filesystem::path& path) {
     std::vector<std::pair<std::string, std::string>> texts;
+    if (tags.icc.empty())
+        texts.emplace_back("oiio:ColorSpace", "sRGB"); // as files of earlier versions have it
     if (!tags.shown_by.empty())
         texts.emplace_back(shown_by_key, tags.shown_by);
     write_encoded(path, [&] { return encode_png(pixels, 6, tags.icc, texts); }); // docs/decisions/0004
