@@ -169,8 +169,7 @@ Image<float> flip_hdr(const Image<float>& tested, const Image<float>& reference,
 FlipSummary summary_of_flip(const Image<float>& errors) {
     if (errors.empty())
         throw std::invalid_argument("an empty map has no mean");
-    std::vector<float> sorted = errors.pixels();
-    std::ranges::sort(sorted);
+    const std::vector<float> sorted = in_order(errors.pixels());
     double sum = 0.0;
     for (const float e : sorted)
         sum += static_cast<double>(e);

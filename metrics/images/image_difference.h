@@ -132,10 +132,14 @@ Ssim ssim(const Image<float>& tested, const Image<float>& reference, double rang
 /// The least width and height for five scales: the window still fits into the coarsest.
 inline constexpr int smallest_for_ms_ssim_px = 161;
 
-/// Five scales, each half as fine as the one before (means of 2 x 2 pixels; an odd last one counts twice): contrast and structure of the
-/// first four and all of the coarsest, to the powers 0.0448, 0.2856, 0.3001, 0.2363 and 0.1333. A scale whose mean is below 0 counts as 0,
-/// since a negative number has no such power. nullopt for pictures smaller than smallest_for_ms_ssim_px either way. Throws as ssim() does.
-std::optional<double> ms_ssim(const Image<float>& tested, const Image<float>& reference, double range);
+struct SsimScales {
+    Ssim finest;
+    std::optional<double> all; ///< MS-SSIM; nothing for pictures smaller than smallest_for_ms_ssim_px either way
+};
+/// ssim(), and five scales, each half as fine as the one before (means of 2 x 2 pixels; an odd last one counts twice): contrast and
+/// structure of the first four and all of the coarsest, to the powers 0.0448, 0.2856, 0.3001, 0.2363 and 0.1333. A scale whose mean is
+/// below 0 counts as 0, since a negative number has no such power. Throws as ssim() does.
+SsimScales ssim_scales(const Image<float>& tested, const Image<float>& reference, double range);
 
 /// CIELAB: L* 0..100, a* to red, b* to yellow.
 struct Lab {

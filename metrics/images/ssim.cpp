@@ -35,38 +35,57 @@ int reflected(int i, int n) {
     return inside < n ? inside : period - inside;
 }
 
-/// Both pictures' values, squares and product, blurred.
-using Moments = std::array<double, 5>;
+/// One row of both pictures' values, squares and product, blurred; each for itself, as processors take them. What is added, and in which
+/// order, decides the last bits.
+class WindowedRow {
+  public:
+    WindowedRow(const Image<float>& a, const Image<float>& b, int y)
+        : width_(static_cast<std::size_t>(a.width())), down_(width_ + 2 * margin), across_(5 * width_) {
+        std::array<std::vector<double>, 5> moments;
+        moments.fill(std::vector<double>(width_));
+        for (int dy = -radius; dy <= radius; ++dy)
+            add_down(moments, &a.at(0, reflected(y + dy, a.height())), &b.at(0, reflected(y + dy, a.height())), weight(dy));
+        for (std::size_t k = 0; k < moments.size(); ++k)
+            blur_across(moments[k], across_.data() + k * width_);
+    }
+    const double* operator[](std::size_t moment) const { return across_.data() + moment * width_; }
 
-/// Row by row: each row's window across is taken of the eleven rows weighed down before, so nothing larger than a row is kept.
-std::vector<Moments> windowed_row(const Image<float>& a, const Image<float>& b, int y) {
-    static const auto half = window();
-    const int w = a.width(), h = a.height();
-    std::vector<Moments> down(static_cast<std::size_t>(w));
-    for (int dy = -radius; dy <= radius; ++dy) {
-        const double weight = half[static_cast<std::size_t>(std::abs(dy))];
-        const float *ra = &a.at(0, reflected(y + dy, h)), *rb = &b.at(0, reflected(y + dy, h));
-        for (int x = 0; x < w; ++x) {
-            const double va = static_cast<double>(ra[x]), vb = static_cast<double>(rb[x]);
-            Moments& m = down[static_cast<std::size_t>(x)];
-            m[0] += weight * va;
-            m[1] += weight * vb;
-            m[2] += weight * (va * va);
-            m[3] += weight * (vb * vb);
-            m[4] += weight * (va * vb);
+  private:
+    static constexpr std::size_t margin = radius;
+
+    static double weight(int offset) {
+        static const auto half = window();
+        return half[static_cast<std::size_t>(std::abs(offset))];
+    }
+
+    void add_down(std::array<std::vector<double>, 5>& moments, const float* a, const float* b, double weight) const {
+        double *__restrict m0 = moments[0].data(), *__restrict m1 = moments[1].data(), *__restrict m2 = moments[2].data(),
+                           *__restrict m3 = moments[3].data(), *__restrict m4 = moments[4].data();
+        for (std::size_t x = 0; x < width_; ++x) {
+            const double va = static_cast<double>(a[x]), vb = static_cast<double>(b[x]);
+            m0[x] += weight * va;
+            m1[x] += weight * vb;
+            m2[x] += weight * (va * va);
+            m3[x] += weight * (vb * vb);
+            m4[x] += weight * (va * vb);
         }
     }
-    std::vector<Moments> row(static_cast<std::size_t>(w));
-    for (int x = 0; x < w; ++x)
+
+    void blur_across(const std::vector<double>& from, double* to) {
+        for (std::size_t i = 0; i < down_.size(); ++i)
+            down_[i] = from[static_cast<std::size_t>(reflected(static_cast<int>(i) - radius, static_cast<int>(width_)))];
         for (int dx = -radius; dx <= radius; ++dx) {
-            const double weight = half[static_cast<std::size_t>(std::abs(dx))];
-            const Moments& from = down[static_cast<std::size_t>(reflected(x + dx, w))];
-            Moments& m = row[static_cast<std::size_t>(x)];
-            for (std::size_t k = 0; k < m.size(); ++k)
-                m[k] += weight * from[k];
+            const double w = weight(dx);
+            const double* __restrict at = down_.data() + (dx + radius);
+            double* __restrict sum = to;
+            for (std::size_t x = 0; x < width_; ++x)
+                sum[x] += w * at[x];
         }
-    return row;
-}
+    }
+
+    std::size_t width_;
+    std::vector<double> down_, across_;
+};
 
 void check(const Image<float>& tested, const Image<float>& reference, double range) {
     check_comparable(tested, reference);
@@ -91,18 +110,22 @@ Scale similarity(const Image<float>& a, const Image<float>& b, double range) {
     const double c1 = std::pow(0.01 * range, 2.0), c2 = std::pow(0.03 * range, 2.0);
     std::vector<Row> rows(static_cast<std::size_t>(a.height()));
     tbb::parallel_for(0, a.height(), [&](int y) {
-        const std::vector<Moments> blurred = windowed_row(a, b, y);
+        const WindowedRow m(a, b, y);
+        const auto width = static_cast<std::size_t>(a.width());
+        std::vector<double> wholes(width), seconds(width);
+        for (std::size_t x = 0; x < width; ++x) {
+            const double m0 = m[0][x], m1 = m[1][x];
+            const double covariance = m[4][x] - m0 * m1, variances = (m[2][x] - m0 * m0) + (m[3][x] - m1 * m1);
+            seconds[x] = (2.0 * covariance + c2) / (variances + c2);
+            wholes[x] = (2.0 * m0 * m1 + c1) / (m0 * m0 + m1 * m1 + c1) * seconds[x];
+        }
         Row& row = rows[static_cast<std::size_t>(y)];
-        for (int x = 0; x < a.width(); ++x) {
-            const Moments& m = blurred[static_cast<std::size_t>(x)];
-            const double covariance = m[4] - m[0] * m[1], variances = (m[2] - m[0] * m[0]) + (m[3] - m[1] * m[1]);
-            const double second = (2.0 * covariance + c2) / (variances + c2);
-            const double whole = (2.0 * m[0] * m[1] + c1) / (m[0] * m[0] + m[1] * m[1] + c1) * second;
-            row.whole += whole;
-            row.contrast_structure += second;
-            if (whole < row.minimum) {
-                row.minimum = whole;
-                row.minimum_x = x;
+        for (std::size_t x = 0; x < width; ++x) {
+            row.whole += wholes[x];
+            row.contrast_structure += seconds[x];
+            if (wholes[x] < row.minimum) {
+                row.minimum = wholes[x];
+                row.minimum_x = static_cast<int>(x);
             }
         }
     });
@@ -141,23 +164,30 @@ Ssim ssim(const Image<float>& tested, const Image<float>& reference, double rang
     return similarity(tested, reference, range).whole;
 }
 
-std::optional<double> ms_ssim(const Image<float>& tested, const Image<float>& reference, double range) {
+SsimScales ssim_scales(const Image<float>& tested, const Image<float>& reference, double range) {
     check(tested, reference, range);
-    if (std::min(tested.width(), tested.height()) < smallest_for_ms_ssim_px)
-        return std::nullopt;
     constexpr std::array<double, 5> powers{0.0448, 0.2856, 0.3001, 0.2363, 0.1333};
-    Image<float> a = tested, b = reference;
+    SsimScales found;
+    Image<float> halved_a, halved_b;
+    const Image<float>*a = &tested, *b = &reference;
     double product = 1.0;
     for (std::size_t i = 0; i < powers.size(); ++i) {
-        const Scale scale = similarity(a, b, range);
+        const Scale scale = similarity(*a, *b, range);
+        if (i == 0)
+            found.finest = scale.whole;
+        if (std::min(tested.width(), tested.height()) < smallest_for_ms_ssim_px)
+            return found;
         const bool coarsest = i + 1 == powers.size();
         product *= std::pow(std::max(0.0, coarsest ? scale.whole.mean : scale.contrast_structure), powers[i]);
         if (!coarsest) {
-            a = halved(a);
-            b = halved(b);
+            halved_a = halved(*a);
+            halved_b = halved(*b);
+            a = &halved_a;
+            b = &halved_b;
         }
     }
-    return product;
+    found.all = product;
+    return found;
 }
 
 } // namespace fernlicht

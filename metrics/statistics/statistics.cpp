@@ -1,9 +1,13 @@
 #include "metrics/statistics/statistics.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -154,6 +158,26 @@ double chi_squared_bound(int freedom, double false_alarm) {
     if (freedom < 1 || !(false_alarm > 0.0 && false_alarm < 1.0))
         throw std::invalid_argument("chi_squared_bound: no degrees of freedom, or a probability outside 0..1");
     return boost::math::quantile(boost::math::complement(boost::math::chi_squared(freedom), false_alarm));
+}
+
+std::vector<float> in_order(std::vector<float> errors) {
+    constexpr std::uint32_t digit_bits = 11, digits = 1U << digit_bits;
+    if (errors.size() < digits || std::ranges::any_of(errors, [](float e) { return !(e >= 0.0F) || std::signbit(e); })) {
+        std::ranges::sort(errors);
+        return errors;
+    }
+    std::vector<float> other(errors.size());
+    for (std::uint32_t shift = 0; shift < 32; shift += digit_bits) {
+        const auto digit = [shift](float e) { return std::bit_cast<std::uint32_t>(e) >> shift & (digits - 1); };
+        std::array<std::size_t, digits> place{};
+        for (const float e : errors)
+            ++place[digit(e)];
+        std::exclusive_scan(place.begin(), place.end(), place.begin(), std::size_t{0});
+        for (const float e : errors)
+            other[place[digit(e)]++] = e;
+        errors.swap(other);
+    }
+    return errors;
 }
 
 } // namespace fernlicht

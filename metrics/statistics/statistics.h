@@ -30,6 +30,9 @@ template <class Number> double quantile_of(const std::vector<Number>& ascending,
     return std::lerp(static_cast<double>(ascending[below]), static_cast<double>(ascending[above]), place - static_cast<double>(below));
 }
 
+/// Ascending; floats of 0 and above, as errors are: by their bits, in a fifth of the time that comparing takes.
+std::vector<float> in_order(std::vector<float> errors);
+
 /// By nearest rank.
 template <class Number> double by_nearest_rank(const std::vector<Number>& ascending, double share) {
     const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(ascending.size())));

@@ -6,6 +6,7 @@
 #include "runner/experiments/compare/lamps/lamp_comparison.h"
 #include "runner/experiments/compare/picture_comparison.h"
 #include "runner/experiments/compare/runs/run_comparison.h"
+#include "runner/files/log.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/library_versions.h"
 #include "runner/findings/run_context.h"
@@ -98,13 +99,18 @@ int compare_two_pictures(const CompareFlags& flags, const std::vector<std::strin
     const std::optional<StrictnessClass> strictness = strictness_of(flags);
     PicturesFound found;
     found.context = command_context(command);
+    StepTimes times;
     found.pair = read_picture_pair(flags.reference, flags.tested);
+    times.step("reading");
     const double density = pixels_per_degree(flags, found.pair.height);
     Results results(flags);
-    found.comparison = compare_pictures(found.pair, density, strictness ? &*strictness : nullptr);
+    found.comparison = compare_pictures(found.pair, density, strictness ? &*strictness : nullptr, &times);
     if (results.are_kept())
         found.pictures = draw_difference(found.comparison, found.pair, results.take());
+    times.step("drawing");
     results.finish(found, pictures_members);
+    if (!flags.json)
+        tell(LogLevel::info, times.text());
     return found.comparison.passed() ? 0 : 1;
 }
 

@@ -173,8 +173,9 @@ int tell_apart(const LampFile& lamp, const LampRequest& request) {
 } // namespace
 
 void write_lamp_picture(const plots::Figure& figure, const LampRequest& request) {
-    const std::string svg = plots::svg_of(figure);
-    write_file(request.picture, request.picture.extension() == ".png" ? plots::png_of_svg(svg) : svg);
+    const bool as_png = request.picture.extension() == ".png";
+    const std::string svg = plots::svg_of(figure, as_png ? 0 : plots::drawing_zlib);
+    write_file(request.picture, as_png ? plots::png_of_svg(svg) : svg);
 }
 
 LampFile lamp_of(const LampRequest& request) {

@@ -1,90 +1,103 @@
 #include "runner/files/picture_file.h"
 
 #include "scenarios/values/errors.h"
+#include "scenarios/values/exr_file.h"
 #include "scenarios/values/files.h"
-#include "scenarios/values/picture_decoding.h"
+#include "scenarios/values/jpeg_file.h"
+#include "scenarios/values/png_file.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
 #include <lcms2.h>
 #include <memory>
 #include <stdexcept>
-#include <system_error>
 
 namespace fernlicht {
 namespace {
 
-/// Writes beside `path` and renames into place, so that an interrupted run leaves no half picture under a good name.
-void write_whole(const std::filesystem::path& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels) {
-    std::filesystem::path part = path;
-    part.replace_extension(".part" + path.extension().string());
-    const auto fail = [&](const std::string& reason) {
-        std::error_code ignored;
-        std::filesystem::remove(part, ignored);
-        throw DeviceError(path.string() + ": cannot be written: " + reason);
-    };
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path.string());
-    if (!output)
-        fail(OIIO::geterror());
-    if (!output->open(part.string(), spec) || !output->write_image(type, pixels) || !output->close())
-        fail(output->geterror());
-    std::error_code error;
-    std::filesystem::rename(part, path, error);
-    if (error)
-        fail(error.message());
-}
+constexpr std::size_t max_values = std::size_t{1} << 28, max_file_bytes = std::size_t{1} << 30;
+constexpr const char* shown_by_key = "fernlicht:shown_by";
 
-void add_context(OIIO::ImageSpec& spec, const Moment& moment, const View& view) {
-    spec.attribute("fernlicht:view", view.name);
-    spec.attribute("fernlicht:tick", moment.tick);
-    const auto number = [&](const char* name, double value) { spec.attribute(name, OIIO::TypeDesc::DOUBLE, &value); };
-    number("fernlicht:time_s", moment.time_s);
-    number("fernlicht:distance_m", moment.distance_m);
-    number("fernlicht:speed_mps", moment.speed_mps);
-    const std::array<double, 3> position{moment.ego.position_m.x, moment.ego.position_m.y, moment.ego.position_m.z};
-    spec.attribute("fernlicht:ego_position_m", OIIO::TypeDesc(OIIO::TypeDesc::DOUBLE, 3), position.data());
-    const std::array<double, 3> forward{moment.ego.forward().x, moment.ego.forward().y, moment.ego.forward().z};
-    spec.attribute("fernlicht:ego_forward", OIIO::TypeDesc(OIIO::TypeDesc::DOUBLE, 3), forward.data());
+std::map<std::string, ExrAttribute> context_of(const Moment& moment, const View& view) {
+    std::map<std::string, ExrAttribute> context{
+        {"fernlicht:view", view.name},
+        {"fernlicht:tick", moment.tick},
+        {"fernlicht:time_s", moment.time_s},
+        {"fernlicht:distance_m", moment.distance_m},
+        {"fernlicht:speed_mps", moment.speed_mps},
+        {"fernlicht:ego_position_m", moment.ego.position_m},
+        {"fernlicht:ego_forward", moment.ego.forward()},
+        {"capDate", std::string("1970:01:01 00:00:00")}, // as files of earlier versions have it
+    };
     double near_field_m = 0.0; // pixels nearer to a lamp than this are near-field
     for (const LitLamp& lamp : moment.lamps)
         near_field_m = std::max(near_field_m, lamp.photometric_distance_m);
-    number("fernlicht:near_field_below_m", near_field_m);
+    context.emplace("fernlicht:near_field_below_m", near_field_m);
     if (view.projection == Projection::perspective)
-        number("fernlicht:vertical_fov_deg", degrees(view.vertical_fov_rad));
+        context.emplace("fernlicht:vertical_fov_deg", degrees(view.vertical_fov_rad));
+    return context;
 }
 
-constexpr const char* shown_by_key = "fernlicht:shown_by";
+void write_encoded(const std::filesystem::path& path, const std::function<std::string()>& encode) {
+    std::string bytes;
+    try {
+        bytes = encode();
+    } catch (const std::exception& error) {
+        throw DeviceError(path.string() + ": cannot be written: " + error.what());
+    }
+    write_file(path, bytes);
+}
 
-OIIO::ImageSpec png_spec(int width, int height, OIIO::TypeDesc type, const PictureTags& tags) {
-    OIIO::ImageSpec spec(width, height, 3, type);
+void write_rgb(const PngPixels& pixels, const PictureTags& tags, const std::filesystem::path& path) {
+    std::vector<std::pair<std::string, std::string>> texts;
     if (tags.icc.empty())
-        spec.attribute("oiio:ColorSpace", "sRGB");
-    else
-        spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(tags.icc.size())), tags.icc.data());
+        texts.emplace_back("oiio:ColorSpace", "sRGB"); // as files of earlier versions have it
     if (!tags.shown_by.empty())
-        spec.attribute(shown_by_key, tags.shown_by);
-    spec.attribute("png:compressionLevel", 6);
-    spec.attribute("png:filter",
-                   0x08); // none, PNG_FILTER_NONE: nights compress better and three times as fast without (docs/decisions/0004)
-    return spec;
+        texts.emplace_back(shown_by_key, tags.shown_by);
+    write_encoded(path, [&] { return encode_png(pixels, 6, tags.icc, texts); }); // docs/decisions/0004
 }
 
-void write_images(const std::vector<std::string>& names, const std::vector<const Image<float>*>& images, const Moment& moment,
-                  const View& view, const std::vector<std::pair<std::string, std::string>>& texts, const std::filesystem::path& path) {
-    OIIO::ImageSpec spec(view.width_px, view.height_px, static_cast<int>(images.size()), OIIO::TypeDesc::FLOAT);
-    spec.channelnames = names;
-    spec.attribute("compression", "zip:1"); // docs/decisions/0004: the other levels take up to half as long again for 2 % fewer bytes
-    spec.attribute("DateTime", "1970:01:01 00:00:00"); // else OpenImageIO writes the time of day, and no two runs are alike
-    add_context(spec, moment, view);
+void write_images(const std::vector<std::pair<std::string, const Image<float>*>>& images, const Moment& moment, const View& view,
+                  const std::vector<std::pair<std::string, std::string>>& texts, const std::filesystem::path& path) {
+    std::map<std::string, ExrAttribute> attributes = context_of(moment, view);
     for (const auto& [name, text] : texts)
-        spec.attribute(name, text);
-    std::vector<float> pixels(images.size() * static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px));
-    for (std::size_t c = 0; c < images.size(); ++c)
-        for (std::size_t i = 0; i < images[c]->size(); ++i)
-            pixels[i * images.size() + c] = images[c]->pixels()[i];
-    write_whole(path, spec, OIIO::TypeDesc::FLOAT, pixels.data());
+        attributes.insert_or_assign(name, text);
+    // Other levels take up to half as long again for 2 % fewer bytes (docs/decisions/0004).
+    write_encoded(path, [&] { return encode_exr(images, attributes, 1); });
+}
+
+/// Reads the file and calls `read` with its bytes; what that throws becomes a refusal.
+template <class Read> auto read_bytes(const std::filesystem::path& path, const char* expected, const Read& read)
+    -> decltype(read(std::string())) {
+    FilesRead opened;
+    const std::string bytes = read_file(path, opened, max_file_bytes, true);
+    try {
+        return read(bytes);
+    } catch (const std::exception& error) {
+        throw InputError({path, 0, 0, {}}, "cannot be read: " + printable(error.what(), 200), expected);
+    }
+}
+
+void check_size(int width, int height, std::size_t channels) {
+    if (width < 1 || height < 1 ||
+        static_cast<std::size_t>(width) * static_cast<std::size_t>(height) > max_values / std::max<std::size_t>(1, channels))
+        throw std::runtime_error(fmt::format("it claims {} x {} pixels of {} channels", width, height, channels));
+}
+
+Image<Rgb8> rgb_of(int width, int height, int channels, const std::vector<std::uint8_t>& levels) {
+    Image<Rgb8> picture(width, height);
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        const std::uint8_t* level = levels.data() + i * static_cast<std::size_t>(channels);
+        picture.pixels()[i] = channels == 3 ? Rgb8{level[0], level[1], level[2]} : Rgb8{level[0], level[0], level[0]};
+    }
+    return picture;
+}
+
+void check_display(int width, int height, int channels, int bits) {
+    if (bits != 8 || (channels != 1 && channels != 3))
+        throw std::runtime_error(fmt::format("{} channels of {} bits", channels, bits));
+    check_size(width, height, 3);
 }
 
 } // namespace
@@ -98,36 +111,30 @@ void write_exr(const Frame& frame, const Moment& moment, const View& view, const
                                                                                {"target.lx", &frame.target_lx},
                                                                                {"luminance.cdm2", &frame.luminance_cdm2},
                                                                                {"depth.m", &frame.depth_m}}};
-    std::vector<const Image<float>*> images;
-    std::vector<std::string> names;
+    std::vector<std::pair<std::string, const Image<float>*>> images;
     for (const auto& [name, image] : possible)
-        if (!image->empty()) {
-            names.emplace_back(name);
-            images.push_back(image);
-        }
-    write_images(names, images, moment, view, {}, path);
+        if (!image->empty())
+            images.emplace_back(name, image);
+    write_images(images, moment, view, {}, path);
 }
 
 void write_channels(const std::vector<PictureChannel>& channels, const Moment& moment, const View& view,
                     const std::vector<std::pair<std::string, std::string>>& texts, const std::filesystem::path& path) {
-    std::vector<const Image<float>*> images;
-    std::vector<std::string> names;
-    for (const PictureChannel& channel : channels) {
-        names.push_back(channel.name);
-        images.push_back(&channel.values);
-    }
-    write_images(names, images, moment, view, texts, path);
+    std::vector<std::pair<std::string, const Image<float>*>> images;
+    for (const PictureChannel& channel : channels)
+        images.emplace_back(channel.name, &channel.values);
+    write_images(images, moment, view, texts, path);
 }
 
 void write_png(const Image<Rgb8>& picture, const std::filesystem::path& path) { write_png(picture, PictureTags{}, path); }
 
 void write_png(const Image<Rgb8>& picture, const PictureTags& tags, const std::filesystem::path& path) {
-    write_whole(path, png_spec(picture.width(), picture.height(), OIIO::TypeDesc::UINT8, tags), OIIO::TypeDesc::UINT8, picture.data());
+    write_rgb({picture.width(), picture.height(), 8, picture.data()}, tags, path);
 }
 
 void write_png(const Image<glm::u16vec3>& codes, int bits, const PictureTags& tags, const std::filesystem::path& path) {
     if (bits == 16) {
-        write_whole(path, png_spec(codes.width(), codes.height(), OIIO::TypeDesc::UINT16, tags), OIIO::TypeDesc::UINT16, codes.data());
+        write_rgb({codes.width(), codes.height(), 16, codes.data()}, tags, path);
         return;
     }
     Image<Rgb8> picture(codes.width(), codes.height());
@@ -138,71 +145,31 @@ void write_png(const Image<glm::u16vec3>& codes, int bits, const PictureTags& ta
 }
 
 PictureTags read_png_tags(const std::filesystem::path& path) {
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
-    if (!input || std::string_view(input->format_name()) != "png")
-        throw InputError({path, 0, 0, {}}, "cannot be read: " + printable(input ? "no PNG" : OIIO::geterror(), 200), "a PNG picture");
-    PictureTags tags{std::string(input->spec().get_string_attribute(shown_by_key)), {}};
-    if (const OIIO::ParamValue* const icc = input->spec().find_attribute("ICCProfile"))
-        tags.icc.assign(static_cast<const char*>(icc->data()), static_cast<std::size_t>(icc->datasize()));
-    return tags;
+    return read_bytes(path, "a PNG picture", [](const std::string& bytes) {
+        PngHead head = decode_png_head(bytes);
+        return PictureTags{std::move(head.texts[shown_by_key]), std::move(head.icc)};
+    });
 }
 
 Image<Rgb8> read_png(const std::filesystem::path& path) {
-    const auto refuse = [&](const std::string& found) {
-        throw InputError({path, 0, 0, {}}, "cannot be read: " + printable(found.substr(0, found.find('\n')), 200),
-                         "a PNG picture of 8 bits, grey or RGB");
-    };
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
-    if (!input)
-        refuse(OIIO::geterror());
-    if (std::string_view(input->format_name()) != "png")
-        refuse(std::string("is ") + input->format_name());
-    const OIIO::ImageSpec spec = input->spec();
-    if (spec.format != OIIO::TypeDesc::UINT8 || (spec.nchannels != 1 && spec.nchannels != 3))
-        refuse(std::to_string(spec.nchannels) + " channels of " + spec.format.c_str());
-    if (spec.width <= 0 || spec.height <= 0 || spec.image_pixels() > (OIIO::imagesize_t{1} << 28) / 3)
-        refuse("it claims " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels");
-    const auto channels = static_cast<std::size_t>(spec.nchannels);
-    std::vector<std::uint8_t> levels(static_cast<std::size_t>(spec.image_pixels()) * channels);
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, levels.data()))
-        refuse(input->geterror());
-    Image<Rgb8> picture(spec.width, spec.height);
-    for (std::size_t i = 0; i < picture.size(); ++i) {
-        const std::uint8_t* level = levels.data() + i * channels;
-        picture.pixels()[i] = channels == 3 ? Rgb8{level[0], level[1], level[2]} : Rgb8{level[0], level[0], level[0]};
-    }
-    return picture;
+    return read_bytes(path, "a PNG picture of 8 bits, grey or RGB", [](const std::string& bytes) {
+        const PngPicture read =
+            decode_png(bytes, [](const PngHead& head) { check_display(head.width, head.height, head.channels, head.bits); });
+        return rgb_of(read.head.width, read.head.height, read.head.channels, read.bytes);
+    });
 }
 
 std::vector<PictureChannel> read_exr(const std::filesystem::path& path) {
-    const auto refuse = [&](const std::string& found) {
-        throw InputError({path, 0, 0, {}}, "cannot be read: " + printable(found, 200), "an EXR picture");
-    };
-    FilesRead opened;
-    std::string bytes = read_file(path, opened, std::size_t{1} << 30, true);
-    if (!has_whole_exr_header(bytes))
-        refuse("it is no EXR, ends early or is damaged");
-    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create("openexr");
-    OIIO::ImageSpec spec;
-    if (!input || !input->set_ioproxy(&memory) || !input->open(path.string(), spec))
-        refuse(input ? input->geterror() : OIIO::geterror());
-    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 ||
-        spec.image_pixels() * static_cast<OIIO::imagesize_t>(spec.nchannels) > (OIIO::imagesize_t{1} << 28))
-        refuse("it claims " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels of " +
-               std::to_string(spec.nchannels) + " channels");
-    const auto count = static_cast<std::size_t>(spec.nchannels);
-    std::vector<float> pixels(static_cast<std::size_t>(spec.image_pixels()) * count);
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
-        refuse(input->geterror());
-    std::vector<PictureChannel> channels;
-    for (std::size_t c = 0; c < count; ++c) {
-        PictureChannel channel{spec.channel_name(static_cast<int>(c)), Image<float>(spec.width, spec.height)};
-        for (std::size_t i = 0; i < channel.values.size(); ++i)
-            channel.values.pixels()[i] = pixels[i * count + c];
-        channels.push_back(std::move(channel));
-    }
-    return channels;
+    return read_bytes(path, "an EXR picture", [](const std::string& bytes) {
+        ExrPicture read = decode_exr(bytes, [](const ExrHead& head) {
+            check_size(head.width, head.height, head.channels.size());
+            return std::pair(std::size_t{0}, head.channels.size());
+        });
+        std::vector<PictureChannel> channels;
+        for (std::size_t c = 0; c < read.channels.size(); ++c)
+            channels.push_back({std::move(read.head.channels[c]), std::move(read.channels[c])});
+        return channels;
+    });
 }
 
 namespace {

@@ -3,11 +3,9 @@
 #include "scenarios/values/version.h"
 
 #include <CLI/Version.hpp>
-#include <OpenImageIO/oiioversion.h>
 #include <fmt/format.h>
 #include <glm/glm.hpp>
 #include <lcms2.h>
-#include <librsvg/rsvg.h>
 #include <nlohmann/json.hpp>
 #include <oneapi/tbb/version.h>
 #include <opencv2/core/version.hpp>
@@ -31,12 +29,13 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
         {"CLI11", CLI11_VERSION},
         {"fmt", dotted(FMT_VERSION, 10000, 100)},
         {"GLM", fmt::format("{}.{}.{}.{}", GLM_VERSION_MAJOR, GLM_VERSION_MINOR, GLM_VERSION_PATCH, GLM_VERSION_REVISION)},
-        {"librsvg", fmt::format("{}.{}.{}", rsvg_major_version, rsvg_minor_version, rsvg_micro_version)},
+        {"librsvg", FERNLICHT_LIBRSVG},
         {"Little CMS", fmt::format("{}.{}", cmsGetEncodedCMMversion() / 1000, cmsGetEncodedCMMversion() % 1000 / 10)},
         {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
         {"oneTBB", TBB_runtime_version()},
         {"OpenCV", CV_VERSION},
-        {"OpenImageIO", OIIO_VERSION_STRING},
+        {"OpenEXR", FERNLICHT_OPENEXR},
+        {"OpenImageIO", FERNLICHT_OPENIMAGEIO},
         {"SQLite", sqlite3_libversion()},
         {"xxHash", dotted(XXH_versionNumber(), 10000, 100)},
     };

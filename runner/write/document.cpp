@@ -18,8 +18,8 @@ std::string head_of(const Column& column) {
     return column.unit.empty() ? head : head + ", " + column.unit;
 }
 
-std::string plot_svg(const Plot& plot) {
-    return std::visit([](const auto& figure) { return plots::svg_of(figure); }, plot.figure);
+std::string plot_svg(const Plot& plot, int zlib) {
+    return std::visit([zlib](const auto& figure) { return plots::svg_of(figure, zlib); }, plot.figure);
 }
 
 std::string place_of(const Plot& plot) { return plot.name.find('/') == std::string::npos ? file_name_of(plot.name) : plot.name; }
@@ -40,7 +40,7 @@ void write_tables(const Document& document, const std::filesystem::path& folder,
 void write_plot(const Plot& plot, const std::filesystem::path& place) {
     std::error_code ignored; // a folder that cannot be made shows in the first file below it
     std::filesystem::create_directories(place.parent_path(), ignored);
-    const std::string svg = plot_svg(plot);
+    const std::string svg = plot_svg(plot, plot.png_alone ? 0 : plots::drawing_zlib);
     if (!plot.png_alone)
         write_file(place.string() + ".svg", svg);
     write_file(place.string() + ".png", plots::png_of_svg(svg, plot.scale));

@@ -3,6 +3,7 @@
 
 #include "runner/findings/document.h"
 #include "runner/findings/findings.h"
+#include "runner/write/plots/png.h"
 
 #include <filesystem>
 
@@ -10,7 +11,7 @@ namespace fernlicht {
 
 /// "of all share, %"
 std::string head_of(const Column& column);
-std::string plot_svg(const Plot& plot);
+std::string plot_svg(const Plot& plot, int zlib = plots::drawing_zlib); ///< plots/svg.h
 /// Where its files lie below the document's folder, without extension.
 std::string place_of(const Plot& plot);
 /// One self-contained page; plots stand in it as SVG, pictures are read below `folder`. It has a script only where something sorts or

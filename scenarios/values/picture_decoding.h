@@ -1,4 +1,4 @@
-// Pictures in memory as PNG, JPEG or EXR bytes: the only door to OpenImageIO for lamps and models.
+// Pictures in memory as PNG, JPEG or EXR bytes, as lamps and models want them.
 #pragma once
 
 #include "scenarios/values/image.h"
@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace fernlicht {
@@ -24,9 +23,6 @@ struct DecodedPicture {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgba; ///< rows from the top
 };
-/// Whether no attribute of an OpenEXR header says that it is longer than the file: OpenEXR 3.1 takes the memory that it asks for before
-/// it reads it.
-bool has_whole_exr_header(std::string_view bytes);
 
 /// PNG or JPEG within a file; `key` says where in it. Throws InputError: not decodable, or more than `max_pixels`.
 DecodedPicture decode_picture(const std::filesystem::path& file, const std::string& key, const std::string& bytes, std::size_t max_pixels);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for_each.h>
 
 namespace fernlicht {
 namespace {
@@ -47,7 +48,7 @@ std::string names_of(const PicturePair& pair) {
 
 class DifferencePictures {
   public:
-    DifferencePictures(const PicturePair& pair, const TakePlot& take) : take_(take), names_(names_of(pair)) {}
+    explicit DifferencePictures(const PicturePair& pair) : names_(names_of(pair)) {}
 
     void display(const PicturePair& pair, const LayerComparison& layer) {
         const Pixels a = pixels_of(pair.reference_display), b = pixels_of(pair.tested_display);
@@ -81,7 +82,10 @@ class DifferencePictures {
         histogram(prefix, layer);
     }
 
-    std::vector<std::string> finish() { return std::move(drawn_); }
+    std::vector<std::string> finish(const TakePlot& take) {
+        oneapi::tbb::parallel_for_each(plots_, take);
+        return std::move(drawn_);
+    }
 
   private:
     static std::string plain(const std::string& channel) {
@@ -92,12 +96,12 @@ class DifferencePictures {
     }
 
     void sheet(const std::string& name, Sheet sheet) {
-        take_({.name = name, .figure = std::move(sheet), .png_alone = true});
+        plots_.push_back({.name = name, .figure = std::move(sheet), .png_alone = true});
         drawn_.push_back(name + ".png");
     }
     /// What is made of lines is kept as lines, too.
     void lines(const std::string& name, decltype(Plot::figure) figure) {
-        take_({.name = name, .figure = std::move(figure)});
+        plots_.push_back({.name = name, .figure = std::move(figure)});
         drawn_.insert(drawn_.end(), {name + ".png", name + ".svg"});
     }
 
@@ -188,21 +192,21 @@ class DifferencePictures {
         lines(prefix + "histogram", std::move(figure));
     }
 
-    const TakePlot& take_;
     std::string names_;
+    std::vector<Plot> plots_;
     std::vector<std::string> drawn_;
 };
 
 } // namespace
 
 std::vector<std::string> draw_difference(const PictureComparison& comparison, const PicturePair& pair, const TakePlot& take) {
-    DifferencePictures pictures(pair, take);
+    DifferencePictures pictures(pair);
     if (pair.is_display())
         pictures.display(pair, comparison.layers.at(0));
     for (std::size_t i = 0; i < pair.linear.size(); ++i)
         if (pair.linear[i].unit == "lx" || pair.linear[i].unit == "cd/m2") // light; a difference of depths is told in numbers
             pictures.linear(pair.linear[i], comparison.layers.at(i));
-    return pictures.finish();
+    return pictures.finish(take);
 }
 
 } // namespace fernlicht

@@ -30,11 +30,11 @@ void add_psnr(Values& values, double psnr_db, double peak, const std::string& un
 }
 
 void add_structure(Values& values, const Image<float>& tested, const Image<float>& reference, double range) {
-    const Ssim found = ssim(tested, reference, range);
-    add(values, "ssim", "", found.mean);
-    add(values, "ssim_least", "", found.minimum, found.minimum_x, found.minimum_y);
-    if (const std::optional<double> scales = ms_ssim(tested, reference, range))
-        add(values, "ms_ssim", "", *scales);
+    const SsimScales found = ssim_scales(tested, reference, range);
+    add(values, "ssim", "", found.finest.mean);
+    add(values, "ssim_least", "", found.finest.minimum, found.finest.minimum_x, found.finest.minimum_y);
+    if (found.all)
+        add(values, "ms_ssim", "", *found.all);
     else
         add_not_measured(values, "ms_ssim", "",
                          fmt::format("five scales need {0} x {0} pixels at least, found {1} x {2}", smallest_for_ms_ssim_px, tested.width(),
@@ -104,7 +104,7 @@ void judge(LayerComparison& layer, const StrictnessNode& tree, const std::vector
     }
 }
 
-LayerComparison compare_display(const PicturePair& pair, double pixels_per_degree, const StrictnessClass* strictness) {
+LayerComparison compare_display(const PicturePair& pair, double pixels_per_degree, const StrictnessClass* strictness, StepTimes& times) {
     const Image<Rgb8>&tested = pair.tested_display, &reference = pair.reference_display;
     LayerComparison layer{.name = "display", .unit = "levels"};
     const DisplayDifference found = compare_displays(tested, reference);
@@ -115,16 +115,20 @@ LayerComparison compare_display(const PicturePair& pair, double pixels_per_degre
     add(layer.values, "mean_difference_r", "levels", found.mean_signed[0]);
     add(layer.values, "mean_difference_g", "levels", found.mean_signed[1]);
     add(layer.values, "mean_difference_b", "levels", found.mean_signed[2]);
+    times.step("errors");
     const Image<float> tested_luma = luma_of(tested), reference_luma = luma_of(reference);
     add_structure(layer.values, tested_luma, reference_luma, 255.0);
+    times.step("SSIM");
     layer.colours = ciede2000_map(tested, reference);
     add_colours(layer.values, layer.colours);
+    times.step("CIEDE2000");
     if (const std::string why = why_no_flip_at(pixels_per_degree); !why.empty()) {
         add_not_measured(layer.values, "flip_mean", "", why);
     } else {
         layer.flip = flip_ldr(tested, reference, pixels_per_degree);
         add_flip(layer.values, layer.flip);
     }
+    times.step("FLIP");
     std::vector<Image<float>> tested_channels, reference_channels;
     for (int c = 0; c < 3; ++c) {
         tested_channels.push_back(channel_of(tested, c));
@@ -132,8 +136,10 @@ LayerComparison compare_display(const PicturePair& pair, double pixels_per_degre
     }
     layer.difference = largest_difference(tested_channels, reference_channels);
     layer.histogram = error_histogram(tested_channels, reference_channels);
+    times.step("histogram");
     if (strictness)
         judge(layer, strictness->display, tested_channels, reference_channels);
+    times.step("strictness");
     return layer;
 }
 
@@ -165,7 +171,7 @@ void add_luminance_flip(LayerComparison& layer, const LinearPair& pair, double p
     add(layer.values, "flip_exposures", "", exposures.count);
 }
 
-LayerComparison compare_linear(const LinearPair& pair, double pixels_per_degree, const StrictnessClass* strictness) {
+LayerComparison compare_linear(const LinearPair& pair, double pixels_per_degree, const StrictnessClass* strictness, StepTimes& times) {
     LayerComparison layer{.name = pair.name, .unit = pair.unit};
     const ImageDifference found = compare_images(pair.tested, pair.reference, 0.0, 0.0);
     const double peak = peak_of(pair.reference);
@@ -175,16 +181,21 @@ LayerComparison compare_linear(const LinearPair& pair, double pixels_per_degree,
     add(layer.values, "percent_different", "%", found.percent_over);
     layer.difference = subtracted(pair.tested, pair.reference);
     add(layer.values, "mean_difference", pair.unit, mean_of(layer.difference));
+    times.step("errors");
     if (peak > 0.0)
         add_structure(layer.values, decades_of(pair.tested, peak), decades_of(pair.reference, peak), decades_below_peak);
     else
         for (const char* name : {"ssim", "ms_ssim"})
             add_not_measured(layer.values, name, "", "the reference has no light, so no range");
+    times.step("SSIM");
     if (pair.unit == "cd/m2" && pixels_per_degree > 0.0)
         add_luminance_flip(layer, pair, pixels_per_degree);
+    times.step("FLIP");
     layer.histogram = error_histogram({pair.tested}, {pair.reference});
+    times.step("histogram");
     if (strictness)
         judge(layer, strictness->linear, {pair.tested}, {pair.reference});
+    times.step("strictness");
     return layer;
 }
 
@@ -200,6 +211,23 @@ std::optional<double> value_in(const LayerComparison& layer, const std::string& 
     return found ? found->value : std::nullopt;
 }
 
+void StepTimes::step(const char* name) {
+    const auto now = std::chrono::steady_clock::now();
+    auto found = std::ranges::find(ms_, name, &std::pair<std::string, double>::first);
+    if (found == ms_.end())
+        found = ms_.insert(found, {name, 0.0});
+    found->second += std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+}
+
+std::string StepTimes::text() const {
+    std::string text;
+    for (const auto& [name, ms] : ms_)
+        if (ms >= 0.5)
+            text += fmt::format("{}{} {:.0f} ms", text.empty() ? "" : ", ", name, ms);
+    return text;
+}
+
 bool PictureComparison::passed() const {
     return std::ranges::all_of(layers, [](const LayerComparison& layer) { return !layer.strictness || layer.strictness->passed; });
 }
@@ -210,18 +238,19 @@ std::string why_no_flip_at(double pixels_per_degree) {
                                                         min_pixels_per_degree, max_pixels_per_degree);
 }
 
-PictureComparison compare_pictures(const PicturePair& pair, double pixels_per_degree, const StrictnessClass* strictness) {
+PictureComparison compare_pictures(const PicturePair& pair, double pixels_per_degree, const StrictnessClass* strictness, StepTimes* told) {
+    StepTimes untold, &times = told ? *told : untold;
     PictureComparison comparison;
     comparison.pixels_per_degree = pixels_per_degree;
     comparison.strictness_name = strictness ? strictness->name : "";
     if (pair.is_display())
-        comparison.layers.push_back(compare_display(pair, pixels_per_degree, strictness));
+        comparison.layers.push_back(compare_display(pair, pixels_per_degree, strictness, times));
     const bool has_luminance = std::ranges::any_of(pair.linear, [](const LinearPair& linear) { return linear.unit == "cd/m2"; });
     if (strictness && !pair.is_display() && !has_luminance && has_leaf(strictness->linear, StrictnessNode::Kind::mean_flip))
         throw InputError({pair.tested, 0, 0, {}}, "has no luminance",
                          "a picture that has FLIP, as the class " + strictness->name + " asks for it");
     for (const LinearPair& linear : pair.linear)
-        comparison.layers.push_back(compare_linear(linear, pixels_per_degree, strictness));
+        comparison.layers.push_back(compare_linear(linear, pixels_per_degree, strictness, times));
     return comparison;
 }
 

@@ -7,6 +7,7 @@
 #include "runner/findings/document.h"
 #include "runner/findings/findings.h"
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <utility>
@@ -48,6 +49,17 @@ const ComparedValue* find_in(const LayerComparison& layer, const std::string& na
 /// Its value; nullopt where it was not measured.
 std::optional<double> value_in(const LayerComparison& layer, const std::string& name);
 
+/// What the steps of a comparison took, each since the one before; a step that comes again adds up.
+class StepTimes {
+  public:
+    void step(const char* name);
+    std::string text() const; ///< "SSIM 21 ms, FLIP 16 ms"
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+    std::vector<std::pair<std::string, double>> ms_;
+};
+
 struct PictureComparison {
     double pixels_per_degree = 0.0;
     std::string strictness_name; ///< "" for none
@@ -78,7 +90,8 @@ std::string why_no_flip_at(double pixels_per_degree);
 /// dynamic range. What a picture cannot have (MS-SSIM of a small one, PSNR of two alike) is not measured, with the reason. Throws
 /// InputError where a mask does not fit. Linear pictures that nobody looks at (maps) have 0 pixels per degree and no FLIP; where FLIP is
 /// not taken at the pixels per degree of others, it is not measured.
-PictureComparison compare_pictures(const PicturePair& pair, double pixels_per_degree, const StrictnessClass* strictness);
+PictureComparison compare_pictures(const PicturePair& pair, double pixels_per_degree, const StrictnessClass* strictness,
+                                   StepTimes* times = nullptr);
 
 /// Draws what shows the difference, for a folder of its own; the names of the files there.
 std::vector<std::string> draw_difference(const PictureComparison& comparison, const PicturePair& pair, const TakePlot& take);

@@ -1,6 +1,6 @@
 #include "runner/experiments/compare/picture_pair.h"
 
-#include "runner/files/picture_file.h"
+#include "runner/files/other_picture.h"
 #include "runner/files/same_display.h"
 #include "scenarios/values/errors.h"
 
@@ -10,11 +10,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fstream>
+#include <oneapi/tbb/parallel_invoke.h>
 
 namespace fernlicht {
 namespace {
 
-enum class Format { png, exr, other };
+enum class Format { png, exr, other, none };
 
 Format format_of(const std::filesystem::path& path) {
     std::error_code ignored;
@@ -28,14 +29,23 @@ Format format_of(const std::filesystem::path& path) {
     const std::string_view start(bytes.data(), bytes.size());
     if (start == "\x89PNG")
         return Format::png;
-    return start == "\x76\x2f\x31\x01" ? Format::exr : Format::other;
+    if (start == "\x76\x2f\x31\x01")
+        return Format::exr;
+    return is_other_picture(path) ? Format::other : Format::none;
 }
 
-Format picture_format(const std::filesystem::path& path) {
-    const Format format = format_of(path);
-    if (format == Format::other)
-        throw InputError({path, 0, 0, {}}, "is neither a PNG nor an EXR picture", "two pictures of one kind");
-    return format;
+OtherPicture read_picture(const std::filesystem::path& path) {
+    switch (format_of(path)) {
+    case Format::png:
+        return {read_png(path), {}};
+    case Format::exr:
+        return {{}, read_exr(path)};
+    case Format::other:
+        return read_other_picture(path);
+    case Format::none:
+        break;
+    }
+    throw InputError({path, 0, 0, {}}, "is neither a PNG nor an EXR picture, nor named as another", "two pictures of one kind");
 }
 
 std::string size_text(int width, int height) { return fmt::format("{} x {} pixels", width, height); }
@@ -67,8 +77,7 @@ std::string names_of(const std::vector<PictureChannel>& channels) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-void read_linear(PicturePair& pair, bool common_alone) {
-    std::vector<PictureChannel> reference = read_exr(pair.reference), tested = read_exr(pair.tested);
+void take_linear(PicturePair& pair, std::vector<PictureChannel> reference, std::vector<PictureChannel> tested, bool common_alone) {
     pair.width = reference[0].values.width();
     pair.height = reference[0].values.height();
     check_sizes(pair, tested[0].values.width(), tested[0].values.height());
@@ -96,24 +105,28 @@ PicturePair read_picture_pair(const std::filesystem::path& reference, const std:
     PicturePair pair;
     pair.reference = reference;
     pair.tested = tested;
-    const Format format = picture_format(reference);
-    if (picture_format(tested) != format)
-        throw InputError({tested, 0, 0, {}}, format == Format::png ? "is an EXR picture" : "is a PNG picture",
-                         format == Format::png ? "a PNG as the reference" : "an EXR as the reference");
-    if (format == Format::exr) {
-        read_linear(pair, common_alone);
+    OtherPicture a, b;
+    oneapi::tbb::parallel_invoke([&] { a = read_picture(reference); }, [&] { b = read_picture(tested); });
+    const auto kind = [](const OtherPicture& picture) {
+        return picture.display.empty() ? "an EXR picture or another one of numbers" : "a PNG or another picture of 8 bits";
+    };
+    if (a.display.empty() != b.display.empty())
+        throw InputError({tested, 0, 0, {}}, std::string("is ") + kind(b), std::string(kind(a)) + " as the reference");
+    if (a.display.empty()) {
+        take_linear(pair, std::move(a.linear), std::move(b.linear), common_alone);
         return pair;
     }
-    if (const std::string note = check_shown_alike({reference, "A"}, {tested, "B"}, "the reference"); !note.empty())
-        pair.notes.push_back(note);
-    pair.reference_display = read_png(reference);
-    pair.tested_display = read_png(tested);
+    if (format_of(reference) == Format::png && format_of(tested) == Format::png)
+        if (const std::string note = check_shown_alike({reference, "A"}, {tested, "B"}, "the reference"); !note.empty())
+            pair.notes.push_back(note);
+    pair.reference_display = std::move(a.display);
+    pair.tested_display = std::move(b.display);
     pair.width = pair.reference_display.width();
     pair.height = pair.reference_display.height();
     check_sizes(pair, pair.tested_display.width(), pair.tested_display.height());
     return pair;
 }
 
-bool is_picture(const std::filesystem::path& path) { return format_of(path) != Format::other; }
+bool is_picture(const std::filesystem::path& path) { return format_of(path) != Format::none; }
 
 } // namespace fernlicht

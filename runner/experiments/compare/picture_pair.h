@@ -17,7 +17,7 @@ struct LinearPair {
     Image<float> reference, tested;
 };
 
-/// Either display pictures (PNG) or linear ones (EXR), of one size.
+/// Either display pictures (PNG; 8 bits) or linear ones (EXR), of one size.
 struct PicturePair {
     std::filesystem::path reference, tested;
     int width = 0, height = 0;
@@ -28,11 +28,13 @@ struct PicturePair {
     bool is_display() const { return !reference_display.empty(); }
 };
 
-/// Told apart by their first bytes. Throws InputError naming the file: missing, neither PNG nor EXR, cut short, one of each, other sizes,
-/// other channels, values that are not finite. With `common_alone`, channels that one EXR alone has are left out and named instead.
+/// PNG and EXR are told by their first bytes, others by their extension. Throws InputError naming the file: missing, no picture, cut short,
+/// one of each kind, other sizes, other channels, values that are not finite. With `common_alone`, channels that one EXR alone has are left
+/// out and named instead.
 PicturePair read_picture_pair(const std::filesystem::path& reference, const std::filesystem::path& tested, bool common_alone = false);
 
-/// Whether a file begins like a PNG or an EXR. Throws InputError where it cannot be read.
+/// Whether a file begins like a PNG or an EXR, or has the extension of another format that OpenImageIO reads. Throws InputError where it
+/// cannot be read.
 bool is_picture(const std::filesystem::path& path);
 
 } // namespace fernlicht

@@ -32,6 +32,7 @@ std::string path_of(const Polyline& points) {
 /// Adds mark by mark.
 struct SvgText {
     std::string svg;
+    int zlib;
 
     void operator()(const Drawing::Line& mark) {
         const Stroke& stroke = mark.stroke;
@@ -89,7 +90,7 @@ struct SvgText {
                            "xlink:href=\"data:image/png;base64,",
                            px(std::abs(mark.width)), px(std::abs(mark.height)), px(mark.left), px(mark.top), mark.width < 0.0 ? -1 : 1,
                            mark.height < 0.0 ? -1 : 1);
-        svg += base64(png_of_pixels(mark.pixels)) + "\"/>\n";
+        svg += base64(png_of_pixels(mark.pixels, zlib)) + "\"/>\n";
     }
 
     void operator()(const Drawing::Window& mark) {
@@ -102,12 +103,13 @@ struct SvgText {
 
 } // namespace
 
-std::string svg_of(const Drawing& drawing) {
+std::string svg_of(const Drawing& drawing, int zlib) {
     SvgText text{
         fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{0}\" height=\"{1}\" "
                     "viewBox=\"0 0 {0} {1}\" role=\"img\" "
                     "font-family=\"'DejaVu Sans','Liberation Sans',Helvetica,Arial,sans-serif\">\n",
-                    px(drawing.width), px(drawing.height))};
+                    px(drawing.width), px(drawing.height)),
+        zlib};
     if (!drawing.title.empty())
         text.svg += "<title>" + xml_text(drawing.title) + "</title>\n";
     for (const Drawing::Mark& mark : drawing.marks)

@@ -66,7 +66,7 @@ void draw_legend(Drawing& canvas, const SheetLegend& legend, double left, double
 
 } // namespace
 
-std::string plots::svg_of(const Sheet& sheet) {
+std::string plots::svg_of(const Sheet& sheet, int zlib) {
     const Image<Colour>& first = sheet.panels.at(0).pixels;
     const double scale = first.width() < min_width_px   ? std::ceil(static_cast<double>(min_width_px) / first.width())
                          : first.width() > max_width_px ? static_cast<double>(max_width_px) / first.width()
@@ -92,7 +92,7 @@ std::string plots::svg_of(const Sheet& sheet) {
         draw_panel(canvas, sheet.panels[i], edge_px + static_cast<double>(i) * (width + gap_px), top, scale, letters);
     if (sheet.legend)
         draw_legend(canvas, *sheet.legend, edge_px + across + 14.0, top, height, letters);
-    return svg_of(canvas);
+    return svg_of(canvas, zlib);
 }
 
 } // namespace fernlicht

@@ -9,9 +9,11 @@
 namespace fernlicht::plots {
 
 /// 8-bit RGB, sRGB encoded. The same pixels give the same bytes. Throws std::runtime_error when the image is empty or too large (32767).
-std::string png_of_pixels(const Image<Colour>& pixels);
+inline constexpr int drawing_zlib = 4; ///< drawings and maps have large areas of one colour
+std::string png_of_pixels(const Image<Colour>& pixels, int zlib = drawing_zlib);
 
-/// The drawing at `scale` times its own size in pixels. Throws std::invalid_argument with librsvg's reason when it is no valid SVG.
+/// The drawing at `scale` times its own size in pixels. Throws std::invalid_argument with librsvg's reason when it is no valid SVG,
+/// DeviceError where the module is missing.
 std::string png_of_svg(const std::string& svg, double scale = 1.0);
 
 /// RFC 4648, with padding.

@@ -316,7 +316,7 @@ class Inside {
 
 } // namespace
 
-std::string svg_of(const Figure& f) {
+std::string svg_of(const Figure& f, int zlib) {
     check(f.x);
     check(f.y);
     if (f.colour_bar)
@@ -332,10 +332,10 @@ std::string svg_of(const Figure& f) {
     draw_heading(canvas, f, legend, area);
     if (f.colour_bar)
         draw_colour_bar(canvas, *f.colour_bar, area);
-    return svg_of(canvas);
+    return svg_of(canvas, zlib);
 }
 
-std::string svg_of(const FiguresBeside& figures) {
+std::string svg_of(const FiguresBeside& figures, int zlib) {
     const auto& [left, right] = figures;
     const auto placed = [](std::string svg, double x) {
         return svg.replace(svg.find("<svg "), 5, fmt::format("<svg x=\"{}\" y=\"0\" ", x));
@@ -343,8 +343,8 @@ std::string svg_of(const FiguresBeside& figures) {
     return fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n<rect width=\"{0}\" "
         "height=\"{1}\" fill=\"#ffffff\"/>\n{2}{3}</svg>\n",
-        left.width_px + right.width_px, std::max(left.height_px, right.height_px), placed(svg_of(left), 0.0),
-        placed(svg_of(right), left.width_px));
+        left.width_px + right.width_px, std::max(left.height_px, right.height_px), placed(svg_of(left, zlib), 0.0),
+        placed(svg_of(right, zlib), left.width_px));
 }
 
 } // namespace fernlicht::plots

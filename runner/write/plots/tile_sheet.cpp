@@ -95,7 +95,7 @@ void draw_tiles(Drawing& canvas, const TileSection& section, double top) {
 
 } // namespace
 
-std::string plots::svg_of(const TileSheet& sheet) {
+std::string plots::svg_of(const TileSheet& sheet, int zlib) {
     double height_px = 0.0;
     for (const TileSection& section : sheet.sections)
         height_px += section_height(section);
@@ -110,7 +110,7 @@ std::string plots::svg_of(const TileSheet& sheet) {
         draw_tiles(canvas, section, top + over_tiles(section));
         top += section_height(section);
     }
-    return svg_of(canvas);
+    return svg_of(canvas, zlib);
 }
 
 } // namespace fernlicht

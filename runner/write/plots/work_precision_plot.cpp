@@ -230,7 +230,7 @@ double draw_list(Drawing& canvas, const WorkPrecision& diagram, const std::vecto
 
 } // namespace
 
-std::string plots::svg_of(const WorkPrecision& diagram) {
+std::string plots::svg_of(const WorkPrecision& diagram, int zlib) {
     const std::vector<Standing> standing = standings(diagram.rows);
     const double list_bottom = top_px + line_px * static_cast<double>(diagram.rows.size()) + 8.0,
                  height = std::max(min_height_px, list_bottom - top_px), total_width = list_px + 500.0,
@@ -250,7 +250,7 @@ std::string plots::svg_of(const WorkPrecision& diagram) {
                 draw_row(canvas, ground, diagram.rows[i], front);
     draw_numbers(canvas, ground, diagram);
     draw_list(canvas, diagram, standing);
-    return svg_of(canvas);
+    return svg_of(canvas, zlib);
 }
 
 } // namespace fernlicht

@@ -51,19 +51,19 @@ TEST(Ssim, IsOpenCVsOnEachChannel) {
 
 TEST(Ssim, AnyNumberOfThreadsGivesTheSameBytes) {
     const auto a = luma_of(made_scene(200, 170)), b = luma_of(disturbed(made_scene(200, 170), 25, 4));
-    const double whole = ssim(b, a, 255.0).mean, scales = *ms_ssim(b, a, 255.0);
+    const double whole = ssim(b, a, 255.0).mean, scales = *ssim_scales(b, a, 255.0).all;
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     EXPECT_EQ(ssim(b, a, 255.0).mean, whole);
-    EXPECT_EQ(*ms_ssim(b, a, 255.0), scales);
+    EXPECT_EQ(*ssim_scales(b, a, 255.0).all, scales);
 }
 
 TEST(MsSsim, OfTheSameAndOfOppositePictures) {
     const auto luma = luma_of(made_scene(170, 161));
-    EXPECT_DOUBLE_EQ(*ms_ssim(luma, luma, 255.0), 1.0);
+    EXPECT_DOUBLE_EQ(*ssim_scales(luma, luma, 255.0).all, 1.0);
     const auto small = luma_of(made_scene(170, 160));
-    EXPECT_FALSE(ms_ssim(small, small, 255.0));
+    EXPECT_FALSE(ssim_scales(small, small, 255.0).all);
     // Even pictures stay even at every scale and have contrast and structure of 1: only the coarsest scale's luminance counts, to 0.1333.
-    EXPECT_NEAR(*ms_ssim({161, 161, 110.0F}, {161, 161, 100.0F}, 255.0), std::pow(22006.5025 / 22106.5025, 0.1333), 1e-12);
+    EXPECT_NEAR(*ssim_scales({161, 161, 110.0F}, {161, 161, 100.0F}, 255.0).all, std::pow(22006.5025 / 22106.5025, 0.1333), 1e-12);
     // A chessboard of single pixels is grey from the second scale on: against its negative, contrast and structure of the finest scale are
     // near -1 and count as 0, and so does the product.
     Image<float> board(162, 162), negative(162, 162);
@@ -73,14 +73,14 @@ TEST(MsSsim, OfTheSameAndOfOppositePictures) {
             negative.at(x, y) = 250.0F - board.at(x, y);
         }
     EXPECT_LT(ssim(negative, board, 255.0).mean, -0.9);
-    EXPECT_EQ(*ms_ssim(negative, board, 255.0), 0.0);
+    EXPECT_EQ(*ssim_scales(negative, board, 255.0).all, 0.0);
 }
 
 // The four finer scales see a chessboard of 2 x 2 pixels less and less: moved by noise of single pixels alone, MS-SSIM forgives more than
 // SSIM.
 TEST(MsSsim, ForgivesFineNoise) {
     const auto luma = luma_of(made_scene(176, 176)), noisy = luma_of(disturbed(made_scene(176, 176), 60, 9));
-    EXPECT_GT(*ms_ssim(noisy, luma, 255.0), ssim(noisy, luma, 255.0).mean);
+    EXPECT_GT(*ssim_scales(noisy, luma, 255.0).all, ssim(noisy, luma, 255.0).mean);
 }
 
 struct Pair {
@@ -153,6 +153,17 @@ TEST(Ciede2000, PictureByPixel) {
     EXPECT_NEAR(found.mean, 5.0, 1e-5);
     EXPECT_EQ(found.median, 0.0);
     EXPECT_EQ(found.p95, 0.0); // the 19th of 20
+    // More pairs than are remembered, each twice.
+    Image<Rgb8> many(256, 64), others(256, 64);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 256; ++x) {
+            many.at(x, y) = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y / 2), 7};
+            others.at(x, y) = {static_cast<std::uint8_t>(y / 2), 9, static_cast<std::uint8_t>(x)};
+        }
+    const auto all = ciede2000_map(many, others);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 256; ++x)
+            ASSERT_EQ(all.at(x, y), static_cast<float>(ciede2000(lab_of(many.at(x, y)), lab_of(others.at(x, y))))) << x << ' ' << y;
     EXPECT_THROW(ciede2000_map({2, 2}, {2, 3}), std::invalid_argument);
     EXPECT_THROW(ciede2000_map({}, {}), std::invalid_argument);
 }

@@ -1,6 +1,7 @@
 #include "metrics/statistics/statistics.h"
 #include "metrics/statistics/work_precision.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -43,6 +44,18 @@ TEST(Spread, QuantilesLieBetweenOrderStatistics) {
 }
 
 // 1, 1, 2, 4, 9: median 2, distances 1 1 0 2 7.
+TEST(InOrder, AsComparingPutsThem) {
+    std::vector<float> errors{0.0F, 1e-40F, 3e38F, 0.5F};
+    for (int i = 0; i < 5000; ++i)
+        errors.push_back(std::ldexp(static_cast<float>(i * 7919 % 5003), i % 90 - 60));
+    for (const float odd : {1.0F, -0.0F, -2.0F}) {
+        errors.push_back(odd);
+        std::vector<float> sorted = errors;
+        std::ranges::sort(sorted);
+        EXPECT_EQ(in_order(errors), sorted);
+    }
+}
+
 TEST(MedianAbsoluteDeviation, OfAHandful) {
     EXPECT_FALSE(median_absolute_deviation({}));
     EXPECT_EQ(median_absolute_deviation({4.0, 1.0, 9.0, 2.0, 1.0}), 1.0);

@@ -1,0 +1,63 @@
+// fernlicht-svg.so: drawings to pixels.
+#include "runner/write/plots/svg_module.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <librsvg/rsvg.h>
+#include <memory>
+#include <stdexcept>
+
+namespace fernlicht::plots {
+namespace {
+
+using CairoSurface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
+using Handle = std::unique_ptr<RsvgHandle, decltype(&g_object_unref)>;
+
+void check(cairo_status_t status, const char* doing) {
+    if (status != CAIRO_STATUS_SUCCESS)
+        throw std::runtime_error(std::string(doing) + ": " + cairo_status_to_string(status));
+}
+
+std::invalid_argument invalid_svg(GError* error) {
+    const std::string reason = error ? error->message : "unknown reason";
+    g_clear_error(&error);
+    return std::invalid_argument("not a drawable SVG: " + reason);
+}
+
+} // namespace
+
+extern "C" __attribute__((visibility("default"))) void fernlicht_draw_svg(const std::string& svg, double scale, Image<Colour>& pixels) {
+    GError* error = nullptr;
+    const Handle handle(rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()), svg.size(), &error), &g_object_unref);
+    if (!handle)
+        throw invalid_svg(error);
+    double width = 0.0, height = 0.0;
+    if (!rsvg_handle_get_intrinsic_size_in_pixels(handle.get(), &width, &height))
+        throw std::invalid_argument("not a drawable SVG: it has no size in pixels");
+    const int columns = std::max(1, static_cast<int>(std::lround(width * scale)));
+    const int rows = std::max(1, static_cast<int>(std::lround(height * scale)));
+    const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, columns, rows), &cairo_surface_destroy);
+    check(cairo_surface_status(surface.get()), "cannot make a picture");
+    const Context context(cairo_create(surface.get()), &cairo_destroy);
+    cairo_set_source_rgb(context.get(), 1.0, 1.0, 1.0);
+    cairo_paint(context.get());
+    const RsvgRectangle viewport{0.0, 0.0, static_cast<double>(columns), static_cast<double>(rows)};
+    if (!rsvg_handle_render_document(handle.get(), context.get(), &viewport, &error))
+        throw invalid_svg(error);
+    check(cairo_status(context.get()), "cannot draw an SVG");
+    cairo_surface_flush(surface.get());
+    pixels = Image<Colour>(columns, rows);
+    const unsigned char* const drawn = cairo_image_surface_get_data(surface.get());
+    const std::ptrdiff_t stride = cairo_image_surface_get_stride(surface.get());
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < columns; ++x) {
+            std::uint32_t rgb = 0;
+            std::memcpy(&rgb, drawn + y * stride + std::ptrdiff_t{4} * x, sizeof rgb);
+            pixels.at(x, y) = {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8), static_cast<std::uint8_t>(rgb)};
+        }
+}
+
+} // namespace fernlicht::plots

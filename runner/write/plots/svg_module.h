@@ -1,0 +1,14 @@
+// What the module fernlicht-svg does: it alone is linked with librsvg and cairo.
+#pragma once
+
+#include "runner/findings/plots/colour.h"
+#include "scenarios/values/image.h"
+
+#include <string>
+
+namespace fernlicht::plots {
+
+/// The drawing on white at `scale` times its own size. Throws std::invalid_argument with librsvg's reason when it is no valid SVG.
+extern "C" using DrawSvg = void(const std::string& svg, double scale, Image<Colour>& pixels);
+
+} // namespace fernlicht::plots
