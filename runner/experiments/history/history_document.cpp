@@ -138,10 +138,7 @@ std::string base_words(const HistoryFindings& findings) {
 }
 
 std::string headline(const HistoryFindings& findings) {
-    const char* const accepted =
-        findings.tonight().accepted
-            ? " This night is accepted itself: later ones are compared with it, not with what it is compared with here."
-            : "";
+    const char* const accepted = findings.tonight().accepted ? " This night is accepted itself: later ones are compared with it." : "";
     if (findings.nights.size() == 1)
         return fmt::format("This is the first night in the history.{}", accepted);
     const std::size_t nights = findings.nights.size() - 1 - findings.base;

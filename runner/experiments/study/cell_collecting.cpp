@@ -138,8 +138,7 @@ void collect_cell(const CellStore& store, const Study& study, const PlannedCell&
         files = store.load(*stored);
     } catch (const InputError& damage) {
         store.forget(planned.key);
-        throw InputError({{}, 0, 0, planned.cell.name}, fmt::format("is damaged in the store ({})", damage.what()),
-                         "it to be played again, which the next plan asks for");
+        throw DeviceError(fmt::format("its results in the store are damaged, and it must be played again ({})", damage.what()));
     }
     const fs::path folder = options.folder / folder_name_of(planned);
     fs::remove_all(folder);

@@ -12,7 +12,7 @@ CellResult unplayed_cell(const Study& study, const StudyPlan& plan, const Planne
 std::string playing_anew(const StudyOptions& options, const StudyCell& cell);
 
 /// Puts the cell's files from the store into the study's folder in place of what is there, judges them, and fills in `result`. Throws
-/// InputError where the store lacks them or holds them damaged, DeviceError where the disk refuses.
+/// InputError where the store lacks them, DeviceError where it holds them damaged (they are taken out) or the disk refuses.
 void collect_cell(const CellStore& store, const Study& study, const PlannedCell& planned, const StudyOptions& options, CellResult& result);
 
 /// Of a study too large to be told whole (StudyResult::is_large): keeps what decides, what has limits, and how exact those are; takes away

@@ -3,6 +3,7 @@
 #include "metrics/readings/reading_labels.h"
 #include "runner/findings/run_context.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
 
 #include <algorithm>
 #include <array>
@@ -179,6 +180,14 @@ void judge_changes(StudyResult& result, const StudyLimit& limit) {
              repeat_command(result.call)});
 }
 
+std::string readings_text(const CellResult& cell) {
+    std::string text;
+    for (const auto& [key, reading] : cell.readings)
+        if (!is_time(key))
+            text += fmt::format("{} {} {}\n", name_of(key), static_cast<int>(reading.value.kind()), reading.value.figure().value_or(0.0));
+    return content_hash(text.data(), text.size());
+}
+
 /// "9", or "9 to 30" where cells differ.
 std::string range_over(const std::vector<CellResult>& cells, int CellResult::*count) {
     const auto [least, most] = std::ranges::minmax_element(cells, {}, count);
@@ -227,21 +236,22 @@ bool StudyResult::complete() const {
 
 void add_axis_warnings(StudyResult& result) {
     for (const StudyAxis& axis : result.study.axes) {
-        std::map<std::string, std::map<std::string, std::string>> keys; // by value, then by all else
+        std::map<std::string, std::map<std::string, std::string>> read; // by value, then by all else
         for (const CellResult& cell : result.cells) {
             const StudyCell& at = cell.cell;
             std::string value,
                 rest = fmt::format("{} {} {} {} {} {} {}", at.drive, at.lamp, at.technique, at.time_of_day, at.aim, at.voltage, at.mirror);
             for (const AxisValue& one : at.axes)
                 (one.axis == axis.name ? value : rest += "\n") += one.value;
-            keys[value.empty() ? "the drives' own" : value][rest] = cell.key;
+            read[value.empty() ? "the drives' own" : value][rest] = cell.failed.empty() ? readings_text(cell) : cell.cell.name;
         }
         std::map<std::map<std::string, std::string>, std::vector<std::string>> alike;
-        for (const auto& [value, of_value] : keys)
+        for (const auto& [value, of_value] : read)
             alike[of_value].push_back(value);
         for (const auto& [cells, values] : alike)
             if (values.size() > 1)
-                result.warnings.push_back(fmt::format("axis {}: {} give the very same cells: nothing that is played depends on it",
+                result.warnings.push_back(fmt::format("axis {}: {} read the same in every cell, to the last bit: nothing that was "
+                                                      "measured depends on it",
                                                       axis.name, fmt::join(values, " and ")));
     }
 }

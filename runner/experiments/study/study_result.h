@@ -84,7 +84,7 @@ void apply_known_failures(StudyResult& result, const KnownFailures& known, const
 /// Lamps whose beams stand outside the band of UN R48, each once.
 void add_aim_warnings(StudyResult& result);
 
-/// Axes of which several values give the very same cells.
+/// Axes of which several values read the same in every cell.
 void add_axis_warnings(StudyResult& result);
 
 /// What was played in part; the comparisons, ranking and limits of what was played.

@@ -256,10 +256,10 @@ TEST(StudyCompare, AnAxisThatMovesNothingIsNamed) {
         for (const char* const eyes : {"1.1", "1.2"}) {
             result.cells.push_back(one);
             result.cells.back().cell.axes = {{"weather.wetness", wetness}, {"eyes_m", eyes}};
-            result.cells.back().key = wetness;
+            put(result.cells.back(), "reach_5lx_target_own_m", *wetness == '0' ? 40.0 : 50.0);
         }
     add_axis_warnings(result);
-    EXPECT_THAT(result.warnings, testing::ElementsAre(HasSubstr("axis eyes_m: 1.1 and 1.2 give the very same cells")));
+    EXPECT_THAT(result.warnings, testing::ElementsAre(HasSubstr("axis eyes_m: 1.1 and 1.2 read the same in every cell")));
 }
 
 TEST(StudyCompare, ADecidingReadingThatNothingHasIsNotMeasured) {

@@ -202,7 +202,7 @@ TEST_F(StudyProgram, WhatIsInTheStoreIsNotPlayedAgain) {
     std::ofstream(object, std::ios::binary) << bytes;
     EXPECT_THAT(printed(arguments + "--explain"),
                 HasSubstr("straight_old                             its results are missing or damaged\n"));
-    EXPECT_THAT(printed(arguments + "--collect --out " + (folder / "collected"), 1), HasSubstr("is damaged in the store ("));
+    EXPECT_THAT(printed(arguments + "--collect --out " + (folder / "collected"), 1), HasSubstr("its results in the store are damaged"));
     EXPECT_THAT(printed(arguments + "--explain"), HasSubstr("1 of 2 cells would be played")) << "it is out of the store";
     const json third = studied("third");
     EXPECT_EQ(reused(third), std::vector<bool>({false, true}));
