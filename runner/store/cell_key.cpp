@@ -95,7 +95,8 @@ CellInputs machine_inputs(const RunContext& context, bool accuracy) {
     inputs.push_back({InputKind::device, "driver", context.gl_version});
     inputs.push_back({InputKind::device, "renderer", device.gl_renderer});
     // The reference's rays differ where pictures do not.
-    inputs.push_back({InputKind::device, "SIMD", accuracy ? context.cpu.substr(context.cpu.rfind('(') + 1) : device.simd});
+    const std::size_t open = context.cpu.rfind('('), close = context.cpu.rfind(')');
+    inputs.push_back({InputKind::device, "SIMD", accuracy ? context.cpu.substr(open + 1, close - open - 1) : device.simd});
     return inputs;
 }
 
