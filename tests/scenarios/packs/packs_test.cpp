@@ -7,10 +7,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace fernlicht {
+namespace fernlicht::packs::plain {
 namespace {
-
-using namespace packs::plain;
 
 /// The worst over a sweep, by the measure of the truth.
 double worst_of(const std::function<Floats(Floats)>& function, const std::function<double(double)>& truth, double from, double to,
@@ -88,4 +86,4 @@ TEST(Packs, LanesAreTakenAndFoundBySelf) {
 }
 
 } // namespace
-} // namespace fernlicht
+} // namespace fernlicht::packs::plain
