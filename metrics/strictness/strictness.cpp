@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 
 namespace fernlicht {
 namespace {
@@ -219,6 +222,28 @@ double ErrorHistogram::edge(int i) { return edges().at(static_cast<std::size_t>(
 
 std::size_t ErrorHistogram::pixels() const { return std::accumulate(counts.begin(), counts.end(), equal); }
 
+namespace {
+
+void add_pixel(ErrorHistogram& histogram, const std::vector<Image<float>>& tested, const std::vector<Image<float>>& reference,
+               std::size_t i) {
+    double difference = 0.0;
+    for (std::size_t c = 0; c < tested.size(); ++c) {
+        const double d = std::abs(static_cast<double>(tested[c].pixels()[i]) - static_cast<double>(reference[c].pixels()[i]));
+        if (!std::isfinite(d))
+            throw std::invalid_argument("a picture holds a value that is not finite");
+        difference = std::max(difference, d);
+    }
+    if (difference == 0.0) {
+        ++histogram.equal;
+        return;
+    }
+    const auto above = std::upper_bound(edges().begin(), edges().end(), difference);
+    const auto bin = std::clamp<std::ptrdiff_t>(above - edges().begin() - 1, 0, ErrorHistogram::bins - 1);
+    ++histogram.counts[static_cast<std::size_t>(bin)];
+}
+
+} // namespace
+
 ErrorHistogram error_histogram(const std::vector<Image<float>>& tested, const std::vector<Image<float>>& reference) {
     if (tested.empty() || tested.size() != reference.size())
         throw std::invalid_argument("pictures of different channels cannot be compared");
@@ -226,25 +251,20 @@ ErrorHistogram error_histogram(const std::vector<Image<float>>& tested, const st
         for (const Image<float>* image : {&tested[c], &reference[c]})
             if (image->width() != tested[0].width() || image->height() != tested[0].height())
                 throw std::invalid_argument("pictures of different sizes cannot be compared");
-    ErrorHistogram histogram;
-    histogram.counts.assign(ErrorHistogram::bins, 0);
-    for (std::size_t i = 0; i < tested[0].size(); ++i) {
-        double difference = 0.0;
-        for (std::size_t c = 0; c < tested.size(); ++c) {
-            const double d = std::abs(static_cast<double>(tested[c].pixels()[i]) - static_cast<double>(reference[c].pixels()[i]));
-            if (!std::isfinite(d))
-                throw std::invalid_argument("a picture holds a value that is not finite");
-            difference = std::max(difference, d);
-        }
-        if (difference == 0.0) {
-            ++histogram.equal;
-            continue;
-        }
-        const auto above = std::upper_bound(edges().begin(), edges().end(), difference);
-        const auto bin = std::clamp<std::ptrdiff_t>(above - edges().begin() - 1, 0, ErrorHistogram::bins - 1);
-        ++histogram.counts[static_cast<std::size_t>(bin)];
-    }
-    return histogram;
+    using Range = tbb::blocked_range<std::size_t>;
+    const auto add = [&](const Range& pixels, ErrorHistogram histogram) {
+        for (std::size_t i = pixels.begin(); i != pixels.end(); ++i)
+            add_pixel(histogram, tested, reference, i);
+        return histogram;
+    };
+    const auto both = [](ErrorHistogram a, const ErrorHistogram& b) {
+        a.equal += b.equal;
+        std::ranges::transform(a.counts, b.counts, a.counts.begin(), std::plus{});
+        return a;
+    };
+    ErrorHistogram none;
+    none.counts.assign(ErrorHistogram::bins, 0);
+    return tbb::parallel_reduce(Range(0, tested[0].size(), 8192), none, add, both);
 }
 
 } // namespace fernlicht

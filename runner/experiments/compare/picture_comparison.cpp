@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 namespace fernlicht {
 namespace {
@@ -129,11 +130,11 @@ LayerComparison compare_display(const PicturePair& pair, double pixels_per_degre
         add_flip(layer.values, layer.flip);
     }
     times.step("FLIP");
-    std::vector<Image<float>> tested_channels, reference_channels;
-    for (int c = 0; c < 3; ++c) {
-        tested_channels.push_back(channel_of(tested, c));
-        reference_channels.push_back(channel_of(reference, c));
-    }
+    std::vector<Image<float>> tested_channels(3), reference_channels(3);
+    oneapi::tbb::parallel_for(0, 3, [&](int c) {
+        tested_channels[static_cast<std::size_t>(c)] = channel_of(tested, c);
+        reference_channels[static_cast<std::size_t>(c)] = channel_of(reference, c);
+    });
     layer.difference = largest_difference(tested_channels, reference_channels);
     layer.histogram = error_histogram(tested_channels, reference_channels);
     times.step("histogram");

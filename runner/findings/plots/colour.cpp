@@ -52,8 +52,21 @@ Colour lamp_colour(std::size_t n) {
     return colours[n % colours.size()];
 }
 
-Colour sequential(double t) {
-    t = std::clamp(t, 0.0, 1.0);
+namespace {
+
+constexpr double steps = 4096.0; // 16 times as fine as a level of 8 bits
+
+/// Of each step from 0 to 1: maps ask for each of their pixels, and a colour takes several powers.
+std::vector<Colour> stepwise(Colour (*colour)(double)) {
+    std::vector<Colour> all;
+    for (int i = 0; i <= static_cast<int>(steps); ++i)
+        all.push_back(colour(i / steps));
+    return all;
+}
+
+std::size_t step_of(double t) { return static_cast<std::size_t>(std::max(0.0, std::min(1.0, t)) * steps + 0.5); } // no number: 1
+
+Colour sequential_at(double t) {
     // Within what sRGB can show at each hue (least, 0.092, in the blue-greens): a clipped component would draw an edge that the data
     // do not have.
     const double warm = std::clamp((t - 0.4) / 0.6, 0.0, 1.0);
@@ -61,10 +74,22 @@ Colour sequential(double t) {
     return from_oklch(between(0.20, 0.94, t), chroma, between(300.0, 105.0, t));
 }
 
-Colour diverging(double t) {
-    t = std::clamp(t, -1.0, 1.0);
+Colour diverging_at(double place) {
+    const double t = 2.0 * place - 1.0;
     const double strength = std::abs(t);
     return from_oklch(between(0.96, 0.45, strength), 0.13 * std::min(1.0, 1.4 * strength), t < 0.0 ? 250.0 : 50.0);
+}
+
+} // namespace
+
+Colour sequential(double t) {
+    static const std::vector<Colour> all = stepwise(sequential_at);
+    return all[step_of(t)];
+}
+
+Colour diverging(double t) {
+    static const std::vector<Colour> all = stepwise(diverging_at);
+    return all[step_of(0.5 * t + 0.5)];
 }
 
 double luminance(Colour c) { return 0.2126 * decoded(c.r) + 0.7152 * decoded(c.g) + 0.0722 * decoded(c.b); }

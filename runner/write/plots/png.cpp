@@ -23,14 +23,15 @@ std::string png_of_svg(const std::string& svg, double scale) {
 
 std::string base64(const std::string& bytes) {
     static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
+    std::string text((bytes.size() + 2) / 3 * 4, '=');
+    char* next = text.data();
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         std::uint32_t triple = 0;
         for (std::size_t k = 0; k < 3; ++k)
             triple = triple << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += i + k <= bytes.size() ? digits[triple >> (18 - 6 * k) & 63u] : '=';
+        for (std::size_t k = 0; k < 4; ++k, ++next)
+            if (i + k <= bytes.size())
+                *next = digits[triple >> (18 - 6 * k) & 63u];
     }
     return text;
 }

