@@ -119,7 +119,9 @@ void Triangles::make(std::uint32_t id, packs::PassTriangle& to) const {
                 weights[k][i] = e[i][k] / det;
         put(across / det, to.nearness);
     }
-    if (n[0] == n[1] && n[0] == n[2]) {
+    to.flat = n[0] == n[1] && n[0] == n[2];
+    if (to.flat) {
+        n[0] = glm::normalize(n[0]);
         for (int i = 0; i < 3; ++i) {
             to.normal[3 * i] = to.normal[3 * i + 1] = 0.0F;
             to.normal[3 * i + 2] = static_cast<float>(n[0][i]);
@@ -231,6 +233,12 @@ void CpuLight::draw(const DrawnPicture& picture, const DrawnSurfaces& surfaces, 
     to.is_map = camera.is_map;
     to.visible = reinterpret_cast<const std::int32_t*>(picture.visible.data());
     to.lamps = lamps.data();
+    const auto shines = [](const DrawnLamp& lamp) { return lamp.lamp->intensity_factor > 0.0; };
+    const auto first = std::ranges::find_if(picture.lamps, shines);
+    if (first != picture.lamps.end() && std::ranges::all_of(picture.lamps, [&](const DrawnLamp& lamp) {
+            return !shines(lamp) || lamp.lamp->colour.linear_srgb == first->lamp->colour.linear_srgb;
+        }))
+        to.colour_of_all = lamps[static_cast<std::size_t>(first - picture.lamps.begin())].colour;
     to.lamp_count = static_cast<std::int32_t>(lamps.size());
     to.sky_lx = static_cast<float>(picture.sky_lx);
     put(to_camera.direction({0.0, 0.0, 1.0}), to.upwards);

@@ -8,8 +8,8 @@
 #include "scenarios/values/scene.h"
 
 #include <array>
-#include <map>
 #include <glm/gtc/quaternion.hpp>
+#include <map>
 #include <span>
 
 namespace fernlicht {

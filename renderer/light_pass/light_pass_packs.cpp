@@ -18,12 +18,28 @@ Floats in_row(const float* row, const vec3& p) { return row[0] * p.x + row[1] * 
 
 /// What the pixels of a pack show.
 struct Shown {
-    Mask seen;
+    Mask seen, curved;                      ///< curved: with a normal that is not yet of unit length
+    std::int32_t all_of = 0;                ///< id that every pixel has; 0: none
+    const PassMaterial* material = nullptr; ///< of that
     vec3 nearness, normal_x, normal_y, normal_z, albedo, emission, tint;
     Floats nearest, farthest, rl, retro_reference, retro_inverse_falloff;
     Ints mesh;
-    bool lit, shadowed, retroreflecting, emissive;
+    bool lit, shadowed, retroreflecting, emissive, any_curved;
 };
+
+void show_material(Shown& s, Mask here, const PassMaterial& m, Ints texels) {
+    vec3 albedo = in_all(m.albedo);
+    Floats rl = m.rl;
+    if (m.texture_mode >= 0) {
+        const auto channel = [texels](int shift) { return to_floats((texels >> shift) & Ints(255)) * (1.0 / 255.0); };
+        albedo = photometry::combined_reflectance(m.texture_mode, albedo, vec4(channel(0), channel(8), channel(16), channel(24)),
+                                                  in_all(m.blend));
+        rl = photometry::textured_rl_at(m.rl_per_y, albedo);
+    }
+    s.albedo = select(here, albedo, s.albedo);
+    if (m.retroreflecting)
+        s.rl = select(here, rl, s.rl);
+}
 
 void show(Shown& s, Mask here, const PassTriangle& t, Ints texels) {
     const PassMaterial& m = *t.material;
@@ -36,19 +52,14 @@ void show(Shown& s, Mask here, const PassTriangle& t, Ints texels) {
     put(s.nearest, t.nearest);
     put(s.farthest, t.farthest);
     s.mesh = select(here, Ints(t.mesh), s.mesh);
-    vec3 albedo = in_all(m.albedo);
-    Floats rl = m.rl;
-    if (m.texture_mode >= 0) {
-        const auto channel = [texels](int shift) { return to_floats((texels >> shift) & Ints(255)) * (1.0 / 255.0); };
-        albedo = photometry::combined_reflectance(m.texture_mode, albedo, vec4(channel(0), channel(8), channel(16), channel(24)),
-                                                  in_all(m.blend));
-        rl = photometry::textured_rl_at(m.rl_per_y, albedo);
+    if (!t.flat) {
+        s.curved = s.curved || here;
+        s.any_curved = true;
     }
-    s.albedo = select(here, albedo, s.albedo);
+    show_material(s, here, m, texels);
     s.lit = s.lit || t.lit;
     s.shadowed = s.shadowed || t.shadowed;
     if (m.retroreflecting) {
-        s.rl = select(here, rl, s.rl);
         put(s.retro_reference, m.retro_reference);
         put(s.retro_inverse_falloff, m.retro_inverse_falloff);
         put_three(s.tint, m.tint);
@@ -71,6 +82,10 @@ Floats intensity_towards(const PassLamp& lamp, const vec3& w, Floats inverse_d) 
     const Ints column = to_ints(min(columns - 1.0, max(none, at.x))), row = to_ints(min(rows - 1.0, max(none, at.y)));
     const std::int32_t stride = static_cast<std::int32_t>(lamp.count[0]) + 1;
     const Ints first = row * Ints(stride) + column;
+    // The next row of pixels looks further down, while these come from far.
+    for (const std::size_t lane : {std::size_t{0}, lanes - 1})
+        if (const std::int32_t below = first.v[lane] - stride; below > 0)
+            __builtin_prefetch(lamp.cd + below);
     const Pair lower = gather_pair(lamp.cd, first), upper = gather_pair(lamp.cd + stride, first);
     const Floats cd = lamp.factor * photometry::bilinear(lower.first, lower.second, upper.first, upper.second,
                                                          vec2(at.x - to_floats(column), at.y - to_floats(row)));
@@ -105,9 +120,10 @@ Floats visibility(const PassShadow& shadow, const vec3& p, Mask asked) {
     return select(w > none, seen, all);
 }
 
+/// What lamps bring: lux, and what retroreflection makes of it; in colour where they differ in it.
 struct Light {
-    Floats illuminance = 0.0, target = 0.0;
-    vec3 light{0.0, 0.0, 0.0};
+    Floats illuminance = 0.0, target = 0.0, returned = 0.0;
+    vec3 coloured{0.0, 0.0, 0.0}, returned_coloured{0.0, 0.0, 0.0};
 };
 
 void add_lamp(Light& sum, const PassPicture& picture, const PassLamp& lamp, const Shown& s, const vec3& p, const vec3& n, bool seen) {
@@ -123,18 +139,17 @@ void add_lamp(Light& sum, const PassPicture& picture, const PassLamp& lamp, cons
             e_perp = select(lit, e_perp, none);
             const Floats e = select(lit, e_perp * cosine, none);
             sum.illuminance += e;
-            if (seen) {
-                const vec3 colour = in_all(lamp.colour);
-                sum.light =
-                    sum.light + colour * vec3(photometry::diffuse_luminance(s.albedo.x, e), photometry::diffuse_luminance(s.albedo.y, e),
-                                              photometry::diffuse_luminance(s.albedo.z, e));
-                if (s.retroreflecting) {
-                    const vec3 to_eye = picture.is_map ? vec3(none, none, -1.0) : vec3(none - p.x, none - p.y, none - p.z);
-                    const Floats angle = photometry::quick_observation_angle(vec3(none - v.x, none - v.y, none - v.z), to_eye);
-                    sum.light = sum.light +
-                                colour * s.tint *
-                                    photometry::retro_luminance(s.rl, e_perp, cosine, angle, s.retro_reference, s.retro_inverse_falloff);
-                }
+            const vec3 colour = in_all(lamp.colour);
+            if (seen && picture.colour_of_all == nullptr)
+                sum.coloured = sum.coloured + colour * e;
+            if (seen && s.retroreflecting) {
+                const vec3 to_eye = picture.is_map ? vec3(none, none, -1.0) : vec3(none - p.x, none - p.y, none - p.z);
+                const Floats angle = photometry::quick_observation_angle(vec3(none - v.x, none - v.y, none - v.z), to_eye);
+                const Floats l = photometry::retro_luminance(s.rl, e_perp, cosine, angle, s.retro_reference, s.retro_inverse_falloff);
+                if (picture.colour_of_all == nullptr)
+                    sum.returned_coloured = sum.returned_coloured + colour * l;
+                else
+                    sum.returned += l;
             }
         }
     }
@@ -216,41 +231,68 @@ void put_nothing(const PassPicture& picture, Place at) {
         put(Ints(0), picture.ids + at.first, at.count);
 }
 
-void light_pack(const PassPicture& picture, void* triangles, Place at, Ints ids, Ints texels, Floats x, Floats y) {
-    const Floats none = 0.0, one = 1.0;
-    Shown s{};
-    s.seen = !(ids == Ints(0));
-    if (!any(s.seen)) {
-        put_nothing(picture, at);
-        return;
-    }
+/// `s`: of the pack before.
+void show_pack(Shown& s, const PassPicture& picture, void* triangles, Ints ids, Ints texels) {
     std::int32_t all[lanes];
     store(ids, all);
+    const Mask as_first = ids == Ints(all[0]);
+    const bool alike = !any(!as_first);
+    if (alike && all[0] == s.all_of) {
+        if (s.material->texture_mode >= 0)
+            show_material(s, as_first, *s.material, texels);
+        return;
+    }
+    s = Shown{};
+    s.seen = !(ids == Ints(0));
     for (Mask left = s.seen; any(left);) {
         const std::int32_t id = all[first_lane(left)];
         const Mask here = ids == Ints(id);
-        show(s, here, picture.triangle(triangles, id), texels);
+        const PassTriangle& triangle = picture.triangle(triangles, id);
+        show(s, here, triangle, texels);
+        s.material = triangle.material;
         left = left && !here;
     }
+    s.all_of = alike ? all[0] : 0;
+}
+
+void light_pack(const PassPicture& picture, const Shown& s, Place at, Floats x, Floats y) {
+    const Floats none = 0.0, one = 1.0;
     const Floats near = s.nearness.x * x + s.nearness.y * y + s.nearness.z;
     const Floats depth = min(s.farthest, max(s.nearest, picture.is_map ? near : one / near));
     const vec3 p = picture.is_map ? vec3(x, y, depth) : vec3(x * depth, y * depth, depth);
-    const auto of_place = [&](const vec3& row) { return row.x * x + row.y * y + row.z; };
-    const vec3 normal(of_place(s.normal_x), of_place(s.normal_y), of_place(s.normal_z));
-    const vec3 n = normal * inversesqrt(dot(normal, normal));
+    vec3 n(s.normal_x.z, s.normal_y.z, s.normal_z.z);
+    if (s.any_curved) {
+        const auto of_place = [&](const vec3& row) { return row.x * x + row.y * y + row.z; };
+        const vec3 normal(of_place(s.normal_x), of_place(s.normal_y), of_place(s.normal_z));
+        n = select(s.curved, normal * inversesqrt(dot(normal, normal)), n);
+    }
     const bool seen = picture.colour != nullptr || picture.luminance != nullptr || picture.light != nullptr;
     Light sum;
     if (s.lit)
         for (std::int32_t i = 0; i < picture.lamp_count; ++i)
             add_lamp(sum, picture, picture.lamps[i], s, p, n, seen);
+    const auto diffuse = [&](const vec3& lux) {
+        return vec3(photometry::diffuse_luminance(s.albedo.x, lux.x), photometry::diffuse_luminance(s.albedo.y, lux.y),
+                    photometry::diffuse_luminance(s.albedo.z, lux.z));
+    };
+    vec3 light(none, none, none);
+    if (s.lit && seen) {
+        if (picture.colour_of_all != nullptr) {
+            const vec3 colour = in_all(picture.colour_of_all);
+            sum.coloured = colour * sum.illuminance;
+            sum.returned_coloured = colour * sum.returned;
+        }
+        light = diffuse(sum.coloured);
+        if (s.retroreflecting)
+            light = light + s.tint * sum.returned_coloured;
+    }
     if (picture.sky_lx > 0.0F) {
         const Floats e = photometry::sky_illuminance(picture.sky_lx, {none, none, dot(n, in_all(picture.upwards))});
         sum.illuminance += e;
-        sum.light = sum.light + vec3(photometry::diffuse_luminance(s.albedo.x, e), photometry::diffuse_luminance(s.albedo.y, e),
-                                     photometry::diffuse_luminance(s.albedo.z, e));
+        light = light + diffuse({e, e, e});
     }
     if (s.emissive)
-        sum.light = sum.light + s.emission;
+        light = light + s.emission;
     if (picture.illuminance != nullptr)
         put(select(s.seen, sum.illuminance, none), picture.illuminance + at.first, at.count);
     if (picture.target != nullptr)
@@ -261,14 +303,14 @@ void light_pack(const PassPicture& picture, void* triangles, Place at, Ints ids,
         put(select(s.seen, s.mesh, Ints(0)), picture.ids + at.first, at.count);
     if (!seen)
         return;
-    const Floats luminance = 0.2126 * sum.light.x + 0.7152 * sum.light.y + 0.0722 * sum.light.z, sky = picture.sky_luminance;
+    const Floats luminance = 0.2126 * light.x + 0.7152 * light.y + 0.0722 * light.z, sky = picture.sky_luminance;
     if (picture.luminance != nullptr)
         put(select(s.seen, luminance, sky), picture.luminance + at.first, at.count);
     if (picture.light != nullptr)
-        put_light(picture, at, select(s.seen, sum.light, vec3(sky, sky, sky)));
+        put_light(picture, at, select(s.seen, light, vec3(sky, sky, sky)));
     if (picture.colour != nullptr) {
         const Mask bright = s.seen && luminance > none;
-        const vec3 shown = select(bright, sum.light * (toned(picture, luminance) / luminance), vec3(none, none, none));
+        const vec3 shown = select(bright, light * (toned(picture, luminance) / luminance), vec3(none, none, none));
         const Ints rgb = encoded(shown.x) | encoded(shown.y) << 8 | encoded(shown.z) << 16;
         put_colour(picture, at, select(s.seen, rgb, background(picture)));
     }
@@ -280,6 +322,7 @@ void light_rows(const PassPicture& picture, void* triangles, std::int32_t first_
     float lane_numbers[lanes];
     for (std::size_t i = 0; i < lanes; ++i)
         lane_numbers[i] = static_cast<float>(i);
+    Shown shown{};
     const Floats lane = load(lane_numbers), x_first = picture.x_first, x_step = picture.x_step;
     for (std::int32_t row = first_row; row < end_row; ++row) {
         const Floats y = picture.y_first + picture.y_step * row;
@@ -294,8 +337,12 @@ void light_rows(const PassPicture& picture, void* triangles, std::int32_t first_
                 visible = last;
             }
             const IntPair pixels = load_pairs(visible);
-            const Floats x = x_first + x_step * (static_cast<float>(column) + lane);
-            light_pack(picture, triangles, at, pixels.first, pixels.second, x, y);
+            if (!any(!(pixels.first == Ints(0)))) {
+                put_nothing(picture, at);
+                continue;
+            }
+            show_pack(shown, picture, triangles, pixels.first, pixels.second);
+            light_pack(picture, shown, at, x_first + x_step * (static_cast<float>(column) + lane), y);
         }
     }
 }

@@ -21,6 +21,7 @@ struct PassTriangle {
     float normal[9];         ///< rows . (X, Y, 1): of any length
     const PassMaterial* material;
     std::int32_t mesh;
+    bool flat; ///< one normal, of unit length
     bool lit, shadowed;
 };
 
@@ -49,6 +50,7 @@ struct PassPicture {
     const std::int32_t* visible; ///< id and texel (8 bits each: r, g, b, a) of each pixel
     const PassLamp* lamps;
     std::int32_t lamp_count;
+    const float* colour_of_all; ///< of lamps; nullptr: they differ
     float sky_lx, upwards[3];
     // What is wanted; nullptr: nothing of it.
     unsigned char* colour;
