@@ -11,10 +11,12 @@ constexpr std::array names{std::pair(LightPass::automatic, std::string_view("aut
 
 /// By class of device, as measured (docs/benchmarks.md), never by a clock: the same machine always draws the same bytes.
 struct OfClass {
-    bool software; ///< GL runs on the CPU
+    bool software;       ///< GL runs on the CPU
+    packs::Level widest; ///< of the CPU's packs
     LightPass pass;
 };
-constexpr std::array classes{OfClass{true, LightPass::cpu}, OfClass{false, LightPass::shader}};
+constexpr std::array classes{OfClass{true, packs::Level::avx512, LightPass::cpu}, OfClass{true, packs::Level::avx2, LightPass::cpu},
+                             OfClass{true, packs::Level::plain, LightPass::shader}};
 
 } // namespace
 
@@ -33,11 +35,12 @@ std::string_view light_pass_name(LightPass pass) {
 }
 
 LightPass light_pass_for(const DeviceInfo& device, LightPass wish) {
-    if (wish == LightPass::automatic)
-        for (const OfClass& of : classes)
-            if (of.software == device.software)
-                return of.pass;
-    return wish;
+    if (wish != LightPass::automatic)
+        return wish;
+    for (const OfClass& of : classes)
+        if (of.software == device.software && of.widest == packs::widest_level())
+            return of.pass;
+    return LightPass::shader;
 }
 
 } // namespace fernlicht

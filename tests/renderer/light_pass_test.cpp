@@ -19,7 +19,7 @@ Scene varied_scene() {
     lantern.emission_cdm2 = {5.0F, 3.0F, 1.0F};
     SurfaceTexture picture{"noise", 16, 16, {}};
     for (int i = 0; i < 16 * 16 * 4; ++i)
-        picture.rgba.push_back(static_cast<std::uint8_t>(i * 2654435761U >> 24));
+        picture.rgba.push_back(static_cast<std::uint8_t>(static_cast<unsigned>(i) * 2654435761U >> 24));
     Scene scene{.materials = {road, board, lantern, post},
                 .meshes = {quads("road", 0, {40, 0, 0}, {{{-45, -30, 0}, {80, -30, 0}, {80, 30, 0}, {-45, 30, 0}}}),
                            quads("board", 1, {38, 3, 2}, {{{0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}}}),
