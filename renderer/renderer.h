@@ -7,6 +7,7 @@
 #include "renderer/technique.h"
 #include "scenarios/drives/play/frame.h"
 #include "scenarios/drives/shadow_settings.h"
+#include "scenarios/packs/level.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/scene.h"
 
@@ -16,6 +17,17 @@ namespace fernlicht {
 
 /// plain: the pixels are fetched at once. overlapped: they travel while the GPU and the caller go on.
 enum class ReadBack { plain, overlapped };
+
+/// Where `photometric` computes light. shader: in the fragment shader. cpu: GL draws what is visible, the CPU lights each pixel once
+/// (light_pass/). automatic: as the device's class has it.
+enum class LightPass { automatic, shader, cpu };
+inline constexpr const char* light_pass_names = "auto, shader or cpu";
+/// Throws InputError naming --light-pass.
+LightPass light_pass_named(std::string_view name);
+/// "auto", "shader", "cpu"
+std::string_view light_pass_name(LightPass pass);
+/// What automatic stands for; others are what they are.
+LightPass light_pass_for(const DeviceInfo& device, LightPass wish);
 
 struct RendererSettings {
     std::string technique = "photometric";
@@ -34,7 +46,9 @@ struct RendererSettings {
     ReadBack read_back = ReadBack::plain;
     bool profile = false;   ///< finish after each pass and time it; slower, so never together with frame times
     bool gpu_clock = false; ///< time passes by GL_TIME_ELAPSED; only where check_timer() has found it right
-    int fog_samples = 32;   ///< along a ray and for each lamp, where there is fog (docs/daylight.md: error and run time)
+    LightPass light_pass = LightPass::automatic;
+    packs::Level light_level = packs::widest_level(); ///< of the CPU's light; all levels give the same bytes
+    int fog_samples = 32; ///< along a ray and for each lamp, where there is fog (docs/daylight.md: error and run time)
 };
 
 /// What drawing took, counted.
@@ -97,6 +111,12 @@ class Renderer {
         long long used = 0, drawn = 0;
     };
     ShadowMapsUsed shadow_maps_used() const;
+    /// Of all pictures of `photometric` drawn so far.
+    struct LightPassesUsed {
+        long long shader = 0, cpu = 0;
+        std::string why_shader; ///< of the last that the CPU was meant to light
+    };
+    LightPassesUsed light_passes_used() const;
 
   private:
     struct State;

@@ -13,6 +13,8 @@ namespace {
 constexpr std::size_t max_lamps_by_vertex = 4;
 /// Of the sky behind fog: beyond all that is drawn.
 constexpr double background_m = 5000.0;
+/// Vertices that a float counts, and as many in a picture's list.
+constexpr std::size_t max_numbered = std::size_t{1} << 23;
 
 /// Headlamps bring less to a road: bounds beyond this say nothing.
 constexpr double max_useful_bound_lx = 1000.0;
@@ -53,11 +55,67 @@ void set_weather_uniforms(const GladGLContext& gl, const Program& program, const
 } // namespace
 
 PhotometricLighting::PhotometricLighting(Context& context, const Scene& scene, const RendererSettings& settings, bool pruned)
-    : context_(context), settings_(settings), pruned_(pruned), scene_(context, scene, false), beams_(context, settings.beams),
+    : context_(context), settings_(settings), pruned_(pruned),
+      scene_(context, scene, false, light_pass_for(context.info, settings.light_pass) == LightPass::cpu), beams_(context, settings.beams),
       shadows_(make_shadows(context, scene_, settings.shadows, {settings.target_height_m, pruned, settings.shadow_eye})),
       traffic_(context, scene_, beams_, settings.traffic_levels, pruned), lamps_in_fog_(context, beams_, pruned),
       faces_(context, settings.tone_mapper), list_(context, scene_),
-      block_(make_buffer(context, std::vector<Packed>(max_lamps), GL_DYNAMIC_STORAGE_BIT)) {}
+      block_(make_buffer(context, std::vector<Packed>(max_lamps), GL_DYNAMIC_STORAGE_BIT)) {
+    if (light_pass_for(context.info, settings.light_pass) == LightPass::cpu)
+        cpu_light_.emplace(scene, settings.tone_mapper, settings.target_height_m, settings.sources, settings.light_level);
+}
+
+std::string PhotometricLighting::why_shader(const Shot& shot) const {
+    const Moment& moment = shot.moment;
+    if (!context_.info.software)
+        return "a GPU looks textures up in finer steps than the CPU is told of";
+    if (scene_.surfaces().corners.size() > max_numbered)
+        return fmt::format("the scene has more than {} vertices", max_numbered);
+    if (!moment.other_lamps.empty())
+        return "lamps of others";
+    if (has_weather(moment))
+        return "sun, moon, fog and water";
+    if (shadows_ && !shadows_->has_look_ups())
+        return fmt::format("{}: they are marked in the picture", shadows_->title());
+    return "";
+}
+
+const Program& PhotometricLighting::visible_program(bool textured, bool moving) {
+    if (const auto known = visible_programs_.find({textured, moving}); known != visible_programs_.end())
+        return known->second;
+    std::vector<Program::Define> d{{"TEXTURED", flag(textured)}};
+    if (moving)
+        d.push_back({"MOVING", "1"});
+    return visible_programs_.try_emplace({textured, moving}, Program(context_, "visible.vert.glsl", "visible.frag.glsl", d)).first->second;
+}
+
+void PhotometricLighting::use_visible(const Features& features, const Shot& shot) {
+    const Program& program = visible_program(features.surface.texture > 0, features.surface.moving);
+    program.use();
+    program.set("clip_from_ego", glm::mat4(shot.camera.clip_from_ego));
+}
+
+void PhotometricLighting::light_visible(const Shot& shot, const std::vector<Group>& groups) {
+    std::vector<DrawnPiece>& pieces = list_.drawn_pieces();
+    std::size_t next = 0;
+    bool shadowed = false;
+    for (const Group& group : groups)
+        for (std::size_t i = 0; i < group.pieces.size(); ++i, ++next) {
+            pieces[next].lit = group.lit;
+            pieces[next].shadowed = group.shadowed;
+            shadowed = shadowed || group.shadowed;
+        }
+    const bool looked_up = shadows_ && shadowed && !lamps_.empty() && (!pruned_ || shadows_->needed());
+    const std::span<const ShadowLookUp> look_ups = looked_up ? shadows_->look_ups() : std::span<const ShadowLookUp>();
+    std::vector<DrawnLamp> lamps;
+    for (std::size_t i = 0; i < lamps_.size(); ++i)
+        lamps.push_back({&lamps_[i], &lamp_beams_[i]->grid, lamp_beams_[i]->steep, looked_up ? &look_ups[i] : nullptr});
+    if (!shot.lit)
+        shot.lit.emplace();
+    cpu_light_->draw({shot.camera, shot.targets.width(), shot.targets.height(), visible_, pieces, lamps, shot.moment.ego.position_m,
+                      shot.moment.daylight.horizontal_illuminance_lx, shot.sky_luminance_cdm2, shot.background, shot.outputs},
+                     scene_.surfaces(), *shot.lit);
+}
 
 void PhotometricLighting::set_lamps(const Shot& shot) {
     lamps_ = shining(shot.moment, !pruned_);
@@ -303,10 +361,14 @@ void PhotometricLighting::draw(const Shot& shot) {
         shot.clock.end();
     }
     shot.clock.begin("scene");
-    shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
+    const bool on_cpu = cpu_light_ && why_shader(shot).empty();
+    if (on_cpu)
+        shot.targets.begin_visible();
+    else
+        shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
     if (!traffic_shadows_)
         groups = groups_for(shot);
-    list_.start(shot.moment.ego.position_m, scene_.moves() || traffic_.any());
+    list_.start(shot.moment.ego.position_m, scene_.moves() || traffic_.any(), on_cpu);
     for (const Group& group : groups)
         list_.add(group.pieces, traffic_.any() ? &traffic_.lists() : nullptr);
     list_.upload();
@@ -319,7 +381,10 @@ void PhotometricLighting::draw(const Shot& shot) {
     for (std::size_t g = 0; g < groups.size(); ++g) {
         groups[g].traffic = groups[g].traffic && traffic_.any();
         const Features f = features_of(shot, groups[g], sun_needs_);
-        use(variant(f, shot.outputs), shot);
+        if (on_cpu)
+            use_visible(f, shot);
+        else
+            use(variant(f, shot.outputs), shot);
         list_.draw(static_cast<int>(g));
         shot.work.draws += static_cast<int>(groups[g].pieces.size());
         shot.work.lamps = std::max(shot.work.lamps, static_cast<int>(f.beams.size()));
@@ -330,11 +395,22 @@ void PhotometricLighting::draw(const Shot& shot) {
                              (f.sun > 1 ? 1 : 0) + (f.traffic_shadows ? 1 : 0);
         shot.work.samplers = std::max(shot.work.samplers, textures);
     }
-    draw_background(shot);
-    if (settings_.sources)
-        faces_.draw(shot);
+    if (!on_cpu) {
+        shot.lit.reset();
+        draw_background(shot);
+        if (settings_.sources)
+            faces_.draw(shot);
+    }
     context_.check("rendering the scene");
     shot.clock.end();
+    if (on_cpu) {
+        shot.clock.begin("reading what is visible");
+        shot.targets.read_visible(visible_);
+        shot.clock.end();
+        shot.clock.begin("light");
+        light_visible(shot, groups);
+        shot.clock.end();
+    }
     ++shot.work.passes;
     shot.work.calls += static_cast<int>(groups.size());
     shot.work.triangles += list_.triangles();
@@ -370,6 +446,18 @@ void PhotometricLighting::prepare(const Shot& shot) {
         faces_.compile(shot);
         lamps_in_fog_.set(shot.moment, shot.camera);
         lamps_in_fog_.bind();
+    }
+    if (cpu_light_ && why_shader(shot).empty()) {
+        shot.targets.begin_visible();
+        for (const SurfaceClass& surface : scene_.classes())
+            for (const bool moving : {surface.moving, false}) { // unpruned drawing takes what is out of view for plain
+                Features f = features_of(shot, {surface, true, true, false, false, {}}, 0);
+                f.surface.moving = moving;
+                use_visible(f, shot);
+                list_.draw_nothing(shot.moment.ego.position_m, scene_.moves());
+            }
+        context_.check("compiling variants");
+        return;
     }
     const int max_sun = sun_needs_ == 0 ? 0 : shadows_ && (!scene_.flat() || !pruned_) ? 2 : 1;
     for (const SurfaceClass& surface : scene_.classes())

@@ -21,6 +21,8 @@ class PhotometricLighting : public Lighting {
     void prepare(const Shot& shot) override;
     std::optional<double> beam_error(const LampFile& lamp) const override { return beams_.error_of_peak(lamp); }
     std::vector<PrunedFeature> pruned() const override { return pruned_features_; }
+    /// Why the shader lights such a picture though the CPU was to; "" where the CPU does.
+    std::string why_shader(const Shot& shot) const override;
 
   private:
     /// A set of features is a shader variant.
@@ -55,6 +57,9 @@ class PhotometricLighting : public Lighting {
     const Compiled& variant(const Features& features, const FrameOutputs& outputs);
     void use(const Compiled& v, const Shot& shot) const;
     void compile(const Features& features, const Shot& shot);
+    const Program& visible_program(bool textured, bool moving);
+    void use_visible(const Features& features, const Shot& shot);
+    void light_visible(const Shot& shot, const std::vector<Group>& groups);
     Features background_features(const Shot& shot) const;
     void draw_background(const Shot& shot);
     void note_what_is_left_out(const Shot& shot, const std::vector<Group>& groups);
@@ -73,6 +78,9 @@ class PhotometricLighting : public Lighting {
     int sun_needs_ = 0;             ///< as Features::sun
     DrawList list_;
     std::map<Features, Compiled> variants_;
+    std::optional<CpuLight> cpu_light_;                         ///< where the CPU is to light
+    std::map<std::pair<bool, bool>, Program> visible_programs_; ///< textured, moving
+    std::vector<std::uint32_t> visible_;
     std::vector<LitLamp> lamps_;
     std::vector<const Beam*> lamp_beams_;
     std::vector<Packed> packed_;

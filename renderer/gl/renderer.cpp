@@ -78,6 +78,8 @@ struct Renderer::State {
     int programs_before;
     std::unique_ptr<gl::Lighting> lighting;
     std::list<KnownTargets> targets; ///< used last stands first
+    std::optional<Frame> lit;        ///< the picture drawn last, where the CPU lit it
+    LightPassesUsed light_passes;
     ShadowMapsUsed shadow_maps;
     void add(const Work& work) {
         shadow_maps.used += work.shadow_maps;
@@ -105,7 +107,13 @@ Work Renderer::State::shoot(const Moment& moment, const View& view, const FrameO
     const Camera camera = camera_of(moment, view);
     const std::shared_ptr<gl::Targets> target = targets_for(view, outputs);
     Work work;
-    (*lighting.*take)({moment, view, outputs, camera, *target, glm::vec3(grey), static_cast<float>(sky_luminance), clock, work});
+    const gl::Shot shot{moment, view, outputs, camera, *target, glm::vec3(grey), static_cast<float>(sky_luminance), clock, work, lit};
+    (*lighting.*take)(shot);
+    if (take == &gl::Lighting::draw) {
+        ++(lit ? light_passes.cpu : light_passes.shader);
+        if (!lit && light_pass_for(context.info, settings.light_pass) == LightPass::cpu)
+            light_passes.why_shader = lighting->why_shader(shot);
+    }
     return work;
 }
 
@@ -144,6 +152,13 @@ Pending Renderer::submit(const Moment& moment, const View& view, const FrameOutp
     const Clock::time_point start = Clock::now();
     PassClock passes(s.context, s.settings.profile, s.settings.gpu_clock);
     s.add(s.shoot(moment, view, outputs, passes));
+    if (s.lit) {
+        const auto frame = std::make_shared<Frame>(std::move(*s.lit));
+        s.lit.reset();
+        frame->cpu_s = seconds_since(start);
+        frame->pass_s = passes.seconds();
+        return [frame] { return std::move(*frame); };
+    }
     const std::shared_ptr<gl::Targets> targets = s.targets_for(view, outputs);
     if (s.settings.read_back == ReadBack::overlapped) {
         const auto reading = std::make_shared<gl::Targets::Reading>(targets->start_read());
@@ -192,6 +207,7 @@ Work Renderer::count(const Moment& moment, const View& view, const FrameOutputs&
 
 std::vector<PrunedFeature> Renderer::pruned() const { return state_->lighting->pruned(); }
 std::optional<double> Renderer::beam_error(const LampFile& lamp) const { return state_->lighting->beam_error(lamp); }
+Renderer::LightPassesUsed Renderer::light_passes_used() const { return state_->light_passes; }
 Renderer::ShadowMapsUsed Renderer::shadow_maps_used() const { return state_->shadow_maps; }
 
 int Renderer::compiled_programs() const { return state_->context.compiled_programs - state_->programs_before; }

@@ -23,6 +23,7 @@ struct BenchFlags {
     const OutputFormat* tables = nullptr;
     std::vector<std::string> techniques;
     std::optional<int> count;
+    LightPass light_pass = LightPass::automatic;
     int rounds = 21;
     std::uint64_t seed = 1;
     bool quiet = false;
@@ -45,6 +46,7 @@ int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
     request.rounds = flags.rounds;
     request.seed = flags.seed;
     request.backend = flags.backend;
+    request.light_pass = flags.light_pass;
     request.folder = result_folder(flags.out, "bench");
     request.command = command;
     request.quiet = flags.quiet;
@@ -75,6 +77,7 @@ void add_bench_command(CLI::App& app, const std::vector<std::string>& command, s
     add_seed_flag(*sub, flags->seed, "seed of the order in each round");
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT (default: the drive's)");
     sub->add_option("--backend", flags->backend, backend_names);
+    add_light_pass_flag(*sub, flags->light_pass);
     sub->add_option("--out", flags->out, "new or empty folder for the results");
     add_tables_flag(*sub, flags->tables);
     sub->add_flag("--quiet", flags->quiet, "show no progress");

@@ -79,6 +79,12 @@ void add_seed_flag(CLI::App& command, std::uint64_t& seed, const char* text) {
     command.add_option("--seed", seed, text)->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))->capture_default_str();
 }
 
+void add_light_pass_flag(CLI::App& command, LightPass& pass) {
+    command.add_option_function<std::string>(
+        "--light-pass", [&pass](const std::string& name) { pass = light_pass_named(name); },
+        fmt::format("where photometric computes light: {}", light_pass_names));
+}
+
 void add_tables_flag(CLI::App& command, const OutputFormat*& tables) {
     std::string known;
     for (const OutputFormat& format : output_formats())

@@ -51,6 +51,8 @@ std::vector<std::pair<std::string, std::filesystem::path>> lamps_of(const std::v
 void add_recipe_flag(CLI::App& command, std::filesystem::path& recipe);
 
 void add_seed_flag(CLI::App& command, std::uint64_t& seed, const char* text);
+/// --light-pass auto, shader or cpu.
+void add_light_pass_flag(CLI::App& command, LightPass& pass);
 /// --tables, the same for all commands that write a document: any format that has tables. What is none is refused while flags are parsed.
 void add_tables_flag(CLI::App& command, const OutputFormat*& tables);
 /// A flag for each format of whole documents (--markdown), for commands that print one; at most one of

@@ -167,6 +167,7 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
         "--shadows", [flags](const std::string& method) { flags->shadows = method; }, // a function: it hears of an empty text, too
         "shadow method; `fernlicht techniques` lists them");
     sub->add_option("--backend", flags->options.backend, backend_names);
+    add_light_pass_flag(*sub, flags->options.light_pass);
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
     sub->add_option("--frames", flags->frames, "FIRST:LAST: play these moments only, counted from 0");
     sub->add_option("--capture", flags->capture, "all: store every moment");

@@ -126,6 +126,22 @@ inline bool any(Mask mask) {
 #endif
 }
 
+/// Of a mask that has one.
+inline std::size_t first_lane(Mask mask) {
+#if defined(__AVX512F__)
+    return static_cast<std::size_t>(__builtin_ctz(_mm512_test_epi32_mask((__m512i)mask.v, (__m512i)mask.v)));
+#elif defined(__AVX2__)
+    return static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(_mm256_movemask_ps((__m256)mask.v))));
+#elif defined(__SSE2__)
+    return static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(_mm_movemask_ps((__m128)mask.v))));
+#else
+    std::size_t lane = 0;
+    while (mask.v[lane] == 0)
+        ++lane;
+    return lane;
+#endif
+}
+
 // Memory: `lanes` numbers from there on, of any alignment; or for each lane the one at its own index, which must be within the table.
 inline Floats load(const float* from) {
     Floats a;
@@ -136,6 +152,22 @@ inline Ints load(const std::int32_t* from) {
     Ints a;
     __builtin_memcpy(&a.v, from, sizeof a.v);
     return a;
+}
+struct IntPair {
+    Ints first, second;
+};
+/// Of `lanes` pairs that lie one behind another.
+inline IntPair load_pairs(const std::int32_t* from) {
+    const IntLanes low = load(from).v, high = load(from + lanes).v;
+#if defined(__AVX512F__)
+    return {Ints(__builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30)),
+            Ints(__builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31))};
+#elif defined(__AVX2__)
+    return {Ints(__builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14)),
+            Ints(__builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15))};
+#else
+    return {Ints(__builtin_shufflevector(low, high, 0, 2, 4, 6)), Ints(__builtin_shufflevector(low, high, 1, 3, 5, 7))};
+#endif
 }
 inline void store(Floats a, float* to) { __builtin_memcpy(to, &a.v, sizeof a.v); }
 inline void store(Ints a, std::int32_t* to) { __builtin_memcpy(to, &a.v, sizeof a.v); }

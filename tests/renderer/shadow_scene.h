@@ -65,9 +65,10 @@ inline View map_for_shadows(double ahead_m, double beside_m, int per_m) {
     return map_view(ahead_m, 0.0, beside_m, static_cast<int>(2.0 * beside_m) * per_m, static_cast<int>(ahead_m) * per_m);
 }
 
+/// By the shader, which has all methods: what no shadow falls on is then the same to the byte.
 inline Frame drawn_with(Device& device, const Scene& scene, const Moment& moment, const View& view, ShadowMethod method,
                         const char* technique = "photometric") {
-    RendererSettings settings{.technique = technique, .shadows = {.method = method}};
+    RendererSettings settings{.technique = technique, .shadows = {.method = method}, .light_pass = LightPass::shader};
     Renderer renderer(device, scene, settings);
     return renderer.draw(moment, view, all_results);
 }

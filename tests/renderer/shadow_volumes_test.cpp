@@ -267,7 +267,7 @@ TEST_F(ShadowVolumesTest, TexturesAreMadeWhenSomethingFirstCasts) {
     for (LitLamp& lamp : away.lamps)
         lamp.pose.axes = axes_from_angles(pi, 0.0, 0.0); // backwards, where nothing stands
     const View view = driver_for_shadows();
-    RendererSettings settings{.shadows = {.method = ShadowMethod::none}};
+    RendererSettings settings{.shadows = {.method = ShadowMethod::none}, .light_pass = LightPass::shader};
     Renderer none(device_, scene, settings);
     const std::size_t least = none.count(near, view, all_results).texture_bytes;
     for (const ShadowMethod method : {ShadowMethod::volumes, ShadowMethod::planar, ShadowMethod::under_car}) {

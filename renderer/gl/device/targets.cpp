@@ -82,6 +82,32 @@ void Targets::begin(const glm::vec3& background, float sky_luminance_cdm2) {
     gl.ClearNamedFramebufferfv(framebuffer_, GL_DEPTH, 0, &far_away);
 }
 
+void Targets::begin_visible() {
+    const GladGLContext& gl = context_.gl;
+    if (visible_ == 0) {
+        visible_ = make_texture(context_, GL_RG32UI, width_, height_);
+        visible_framebuffer_ = make_framebuffer(context_);
+        gl.NamedFramebufferTexture(visible_framebuffer_, GL_COLOR_ATTACHMENT0, visible_, 0);
+        gl.NamedFramebufferTexture(visible_framebuffer_, GL_DEPTH_ATTACHMENT, depth_, 0);
+        context_.check("making targets");
+    }
+    gl.BindFramebuffer(GL_FRAMEBUFFER, visible_framebuffer_);
+    gl.Viewport(0, 0, width_, height_);
+    const GLuint nothing[4] = {0, 0, 0, 0};
+    const float far_away = 0.0F;
+    gl.ClearNamedFramebufferuiv(visible_framebuffer_, GL_COLOR, 0, nothing);
+    gl.ClearNamedFramebufferfv(visible_framebuffer_, GL_DEPTH, 0, &far_away);
+}
+
+void Targets::read_visible(std::vector<std::uint32_t>& pixels) {
+    const GladGLContext& gl = context_.gl;
+    pixels.resize(std::size_t{2} * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, visible_framebuffer_);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl.ReadPixels(0, 0, width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT, pixels.data());
+    context_.check("reading what is visible");
+}
+
 std::size_t Targets::bytes_of(Result result) const {
     return std::size_t{result == light ? 16U : 4U} * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
 }

@@ -15,6 +15,11 @@ class Targets {
 
     /// Binds, sets the viewport and clears: everything 0, colour to `background`, luminance and light to the sky's.
     void begin(const glm::vec3& background, float sky_luminance_cdm2);
+    /// The same for visible.frag.glsl: which triangle a pixel shows, and its texel.
+    void begin_visible();
+    void read_visible(std::vector<std::uint32_t>& pixels);
+    int width() const { return width_; }
+    int height() const { return height_; }
     /// Reads every wanted result; waits for the drawing to finish.
     Frame read();
 
@@ -45,6 +50,8 @@ class Targets {
     Framebuffer framebuffer_;
     std::vector<Texture> textures_;
     Texture depth_;
+    Framebuffer visible_framebuffer_; ///< from the first begin_visible() on
+    Texture visible_;
 };
 
 } // namespace fernlicht::gl

@@ -29,8 +29,10 @@ DrawList::DrawList(Context& context, const SceneBuffers& scene)
       place_buffer_(make_buffer(context, std::vector<glm::vec4>(scene.pieces().size() + 1), GL_DYNAMIC_STORAGE_BIT)),
       command_buffer_(make_buffer(context, std::vector<Command>(scene.pieces().size() + 1), GL_DYNAMIC_STORAGE_BIT)) {}
 
-void DrawList::start(const glm::dvec3& ego_m, bool extras) {
+void DrawList::start(const glm::dvec3& ego_m, bool extras, bool numbered) {
     with_extras_ = extras;
+    numbered_ = numbered;
+    drawn_pieces_.clear();
     extras_.clear();
     if (extras && extra_buffer_ == 0)
         extra_buffer_ = make_buffer(context_, std::vector<PieceExtra>(scene_.pieces().size() + 1), GL_DYNAMIC_STORAGE_BIT);
@@ -47,7 +49,15 @@ int DrawList::add(std::span<const std::uint32_t> pieces, const std::vector<Piece
         const Piece& piece = scene_.pieces()[index];
         commands_.push_back({piece.index_count, 1, piece.first_index, piece.base_vertex, static_cast<GLuint>(places_.size())});
         // The id that a pixel shows is the mesh's place in the scene + 1, exact in a float up to 16 million meshes.
-        places_.emplace_back(glm::vec3(piece.origin_m - ego_m_), static_cast<float>(piece.mesh + 1));
+        float number = static_cast<float>(piece.mesh + 1);
+        if (numbered_) {
+            const DrawnPiece* const before = drawn_pieces_.empty() ? nullptr : &drawn_pieces_.back();
+            const std::uint32_t first = before == nullptr ? 1 : before->first_id + before->corners;
+            drawn_pieces_.push_back({first, static_cast<std::uint32_t>(piece.base_vertex), piece.vertex_count, piece.origin_m - ego_m_,
+                                     turn_of(piece), piece.mesh});
+            number = static_cast<float>(static_cast<std::int64_t>(first) - piece.base_vertex);
+        }
+        places_.emplace_back(glm::vec3(piece.origin_m - ego_m_), number);
         triangles_ += piece.index_count / 3;
         if (with_extras_) {
             extras_.push_back(traffic != nullptr ? (*traffic)[index] : PieceExtra{});

@@ -21,8 +21,8 @@ class DrawList {
     DrawList(Context& context, const SceneBuffers& scene);
 
     /// Empties the list; positions from now on are relative to the car at `ego_m`.
-    /// `extras`: what moves is among them, or lists of lamps go with them.
-    void start(const glm::dvec3& ego_m, bool extras = false);
+    /// `extras`: what moves is among them, or lists of lamps go with them. `numbered`: drawn by visible.vert.glsl, as drawn_pieces() says.
+    void start(const glm::dvec3& ego_m, bool extras = false, bool numbered = false);
     /// Appends one call that draws these pieces (indices in SceneBuffers::pieces()); returns its number.
     /// `traffic`: lists by piece of the scene.
     int add(std::span<const std::uint32_t> pieces, const std::vector<PieceExtra>* traffic = nullptr);
@@ -35,6 +35,8 @@ class DrawList {
     void draw_nothing(const glm::dvec3& ego_m, bool extras);
 
     std::uint64_t triangles() const { return triangles_; }
+    /// Of a numbered list, in its order; whether lamps and shadows reach them is not said.
+    std::vector<DrawnPiece>& drawn_pieces() { return drawn_pieces_; }
 
   private:
     struct Command {
@@ -51,7 +53,8 @@ class DrawList {
     std::vector<glm::vec4> places_;
     std::vector<Command> commands_;
     std::vector<PieceExtra> extras_;
-    bool with_extras_ = false;
+    bool with_extras_ = false, numbered_ = false;
+    std::vector<DrawnPiece> drawn_pieces_;
     std::vector<Call> calls_;
     Buffer place_buffer_, command_buffer_, extra_buffer_;
     std::uint64_t triangles_ = 0;

@@ -20,7 +20,8 @@ struct Shot {
     glm::vec3 background; ///< the sky as it is shown
     float sky_luminance_cdm2 = 0.0F;
     PassClock& clock;
-    Work& work; ///< counted up
+    Work& work;                ///< counted up
+    std::optional<Frame>& lit; ///< what the CPU lights goes here, over what it held, and nothing to `targets`; else it is emptied
 };
 
 class Lighting {
@@ -31,6 +32,7 @@ class Lighting {
     virtual void prepare(const Shot& shot) = 0;
     /// What the last drawn shot did not need.
     virtual std::vector<PrunedFeature> pruned() const = 0;
+    virtual std::string why_shader(const Shot&) const { return ""; }
     /// Of the beam as it is drawn with against its table, relative to the peak; nullopt where no beam of one lamp is drawn with.
     virtual std::optional<double> beam_error(const LampFile& lamp) const = 0;
 };

@@ -93,7 +93,7 @@ struct Box {
 
 } // namespace
 
-SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) : context_(context) {
+SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded, bool lit_by_cpu) : context_(context) {
     std::vector<GpuVertex> vertices;
     std::vector<GLuint> indices;
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
@@ -145,9 +145,17 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
             // A vertex is copied for each material that uses it, so that the material can travel with it.
             std::map<std::pair<std::uint32_t, std::uint32_t>, GLuint> copied;
             glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
-            for (const auto& corner : corners) {
-                const auto [it, fresh] = copied.try_emplace(corner, static_cast<GLuint>(copied.size()));
+            std::vector<bool> is_last; ///< of a triangle, by vertex of the piece
+            for (std::size_t k = 0; k < corners.size(); ++k) {
+                const auto& corner = corners[k];
+                const bool ends = lit_by_cpu && k % 3 == 2;
+                auto [it, fresh] = copied.try_emplace(corner, static_cast<GLuint>(is_last.size()));
+                if (ends && !fresh && is_last[it->second]) {
+                    it->second = static_cast<GLuint>(is_last.size());
+                    fresh = true;
+                }
                 if (fresh) {
+                    is_last.push_back(false);
                     const Vertex& vertex = mesh.vertices.at(corner.first);
                     vertices.push_back({vertex.position_m, vertex.normal, corner.second, vertex.uv});
                     piece.min_up = std::min(piece.min_up, static_cast<double>(vertex.normal.z));
@@ -155,7 +163,16 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
                     high = glm::max(high, glm::dvec3(vertex.position_m));
                 }
                 indices.push_back(it->second);
+                if (ends) {
+                    is_last[it->second] = true;
+                    const auto before = [&](std::size_t back) {
+                        return indices[indices.size() - back] + static_cast<std::uint32_t>(piece.base_vertex);
+                    };
+                    surfaces_.others.resize(vertices.size());
+                    surfaces_.others[before(1)] = {before(3), before(2)};
+                }
             }
+            piece.vertex_count = static_cast<GLuint>(is_last.size());
             piece.centre_m = 0.5 * (low + high);
             piece.radius_m = 0.5 * glm::length(high - low);
             piece.lowest_m = mesh.origin_m.z + low.z;
@@ -191,6 +208,9 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded) :
             pieces_.push_back(piece);
         }
     }
+    if (lit_by_cpu)
+        for (const GpuVertex& v : vertices)
+            surfaces_.corners.push_back({v.position_m, v.normal, v.material});
     flat_ = resting_.empty() && (pieces_.empty() || highest - lowest < flat_within_m);
     find_bridges();
     std::vector<GpuMaterial> materials;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "renderer/gl/device/objects.h"
+#include "renderer/light_pass/light_pass.h"
 #include "scenarios/drives/play/moment.h"
 #include "scenarios/values/scene.h"
 
@@ -40,6 +41,7 @@ struct Piece {
     std::uint32_t mesh = 0; ///< index in the scene
     GLuint first_index = 0, index_count = 0;
     GLint base_vertex = 0;
+    GLuint vertex_count = 0;
     std::size_t first_plane = 0, planes = 0; ///< ground only: of its triangles, in SceneBuffers::planes()
     Corners corners_m;                       ///< of a box round it that lies along its longest extent; relative to the origin
     int body = -1;                           ///< of its mesh
@@ -73,7 +75,8 @@ inline constexpr double farthest_drawn_m = 2000.0;
 class SceneBuffers {
   public:
     /// `encoded`: colours and textures are put through the sRGB curve, for techniques that light pictures instead of reflectances.
-    SceneBuffers(Context& context, const Scene& scene, bool encoded);
+    /// `lit_by_cpu`: surfaces() are kept, and each triangle gets a last corner of its own, by which pixels name it.
+    SceneBuffers(Context& context, const Scene& scene, bool encoded, bool lit_by_cpu = false);
 
     const std::vector<Piece>& pieces() const { return pieces_; }
     /// Puts the pieces of bodies where the moment has them; what is not visible or not there is left out of near().
@@ -95,6 +98,7 @@ class SceneBuffers {
     /// 0, what else goes with them (DrawList::Extra).
     void bind(GLuint places, GLuint extras = 0) const;
     bool has(bool (*property)(const SurfaceClass&)) const;
+    const DrawnSurfaces& surfaces() const { return surfaces_; }
 
     /// All vertices lie in one horizontal plane, so that nothing can stand in a beam.
     bool flat() const { return flat_; }
@@ -112,6 +116,7 @@ class SceneBuffers {
     std::vector<glm::vec4> planes_;
     std::vector<GroundTriangle> ground_;
     std::vector<SurfaceClass> classes_;
+    DrawnSurfaces surfaces_;
     std::map<Cell, std::vector<std::uint32_t>> cells_; ///< pieces by where their centre is
     double largest_radius_m_ = 0.0;
     mutable std::optional<Cell> near_cell_;

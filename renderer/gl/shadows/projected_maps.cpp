@@ -194,7 +194,7 @@ void ProjectedMaps::draw(const Shot& shot) {
     shot.clock.begin("shadow maps");
     const std::vector<MapPlan> plans = plan(shot);
     const glm::dvec3 ego_m = casters_.ego_m();
-    std::vector<glm::dmat4> textures_from_ego;
+    textures_from_ego_.clear();
     for (std::size_t i = 0; i < plans.size(); ++i) {
         Kept& kept = kept_[name_of(i)];
         if (kept.texture == 0)
@@ -202,6 +202,7 @@ void ProjectedMaps::draw(const Shot& shot) {
         if (!stands(kept, plans[i], casters_.lamps()[i])) {
             kept.plan = plans[i];
             kept.drawn = true;
+            kept.on_cpu_stands = false;
             kept.placed.clear();
             for (const std::uint32_t k : kept.plan.pieces)
                 kept.placed.emplace_back(scene_.pieces()[k].origin_m, scene_.pieces()[k].turn);
@@ -209,14 +210,36 @@ void ProjectedMaps::draw(const Shot& shot) {
             kept.ego_m = ego_m;
             draw_map(kept, shot);
         }
-        textures_from_ego.push_back(texture_from_ego(kept.plan, ego_m));
+        textures_from_ego_.push_back(texture_from_ego(kept.plan, ego_m));
         context_.gl.BindTextureUnit(shadow_unit(i), kept.texture);
     }
     shot.work.shadow_maps += static_cast<int>(plans.size() * places_.size());
     from_lamps_.clear();
     for (std::size_t i = 0; i < lamps_.size(); ++i)
-        from_lamps_.emplace_back(textures_from_ego[std::min(i, plans.size() - 1)] * ego_from_lamp_space(lamps_[i].pose, ego_m));
+        from_lamps_.emplace_back(textures_from_ego_[std::min(i, plans.size() - 1)] * ego_from_lamp_space(lamps_[i].pose, ego_m));
     shot.clock.end();
+}
+
+std::span<const ShadowLookUp> ProjectedMaps::look_ups() {
+    look_ups_.assign(lamps_.size(), {});
+    for (std::size_t i = 0; i < lamps_.size(); ++i) {
+        const std::size_t map = std::min(i, textures_from_ego_.size() - 1);
+        Kept& kept = kept_[name_of(map)];
+        if (!kept.on_cpu_stands)
+            kept.on_cpu.read(context_, kept.texture, settings_, static_cast<int>(places_.size()),
+                             {0, settings_.width, 0, settings_.height});
+        kept.on_cpu_stands = true;
+        ShadowLookUp& look_up = look_ups_[i];
+        look_up.texture_from_ego = textures_from_ego_[map];
+        look_up.near_m = shadow_near_m;
+        look_up.tolerance_m = settings_.tolerance_m;
+        const glm::dmat4 from_lamp = textures_from_ego_[map] * ego_from_lamp_space(lamps_[i].pose, casters_.ego_m());
+        look_up.shifts.clear();
+        for (const glm::dvec2& place : places_)
+            look_up.shifts.emplace_back(place.x * glm::dvec2(from_lamp[0]) + place.y * glm::dvec2(from_lamp[1]));
+        kept.on_cpu.tell(look_up);
+    }
+    return look_ups_;
 }
 
 void ProjectedMaps::set_uniforms(const Program& program) const {

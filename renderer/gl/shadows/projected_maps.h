@@ -5,7 +5,7 @@
 #pragma once
 
 #include "renderer/gl/scene/draw_list.h"
-#include "renderer/gl/shadows/shadows.h"
+#include "renderer/gl/shadows/map_on_cpu.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -53,6 +53,8 @@ class ProjectedMaps : public Shadows {
     void compile(const Shot& shot) override;
     std::vector<Program::Define> defines(const std::vector<const Beam*>& beams) const override;
     void set_uniforms(const Program& program) const override;
+    std::span<const ShadowLookUp> look_ups() override;
+    bool has_look_ups() const override { return true; }
     std::size_t texture_bytes() const override;
     const char* title() const override { return "shadow maps"; }
 
@@ -74,6 +76,8 @@ class ProjectedMaps : public Shadows {
         std::vector<std::pair<glm::dvec3, glm::vec4>> placed; ///< origin and turn of each piece
         std::uint64_t scene_placed = 0;
         glm::dvec3 ego_m{0.0};
+        MapOnCpu on_cpu;
+        bool on_cpu_stands = false; ///< what is drawn is read back
     };
     std::string name_of(std::size_t lamp) const;
     bool stands(const Kept& kept, const MapPlan& plan, const LampCasters& lamp) const;
@@ -85,7 +89,9 @@ class ProjectedMaps : public Shadows {
     DepthPass pass_;
     std::map<std::string, Kept> kept_; ///< by the lamps' names
     std::vector<LitLamp> lamps_;
+    std::vector<glm::dmat4> textures_from_ego_; ///< one a map
     std::vector<glm::mat4> from_lamps_;
+    std::vector<ShadowLookUp> look_ups_;
 };
 
 /// Every lamp's shadows fall as from midway, which is a parallax: behind a caster at z_c, at z, an edge lies (z / z_c - 1) times the lamp's

@@ -1,6 +1,7 @@
 #include "renderer/gl/shadows/shadow_maps.h"
 
 #include "renderer/gl/device/program.h"
+#include "renderer/gl/shadows/projected_maps.h"
 #include "renderer/renderer.h"
 
 #include <algorithm>
@@ -35,6 +36,7 @@ void ShadowMaps::draw(const Shot& shot) {
         }
         pass_.end("rendering shadow maps");
         drawn_ = std::move(now);
+        on_cpu_stands_ = false;
     }
     for (std::size_t i = 0; i < lamps.size(); ++i)
         context_.gl.BindTextureUnit(shadow_unit(i), textures_[i]);
@@ -59,6 +61,32 @@ std::vector<Program::Define> ShadowMaps::defines(const std::vector<const Beam*>&
             {"SHADOW_TOLERANCE", literal(settings_.tolerance_m)},
             {"SHADOW_SPREAD", literal(spread)},
             {"SHADOW_WINDOWS", windows}};
+}
+
+double ShadowMaps::spread() const {
+    double spread = 0.0;
+    for (const LampCasters& lamp : casters_.lamps())
+        spread = std::max(spread, 1.5 * texel_tangent(lamp.window, settings_));
+    return spread;
+}
+
+std::span<const ShadowLookUp> ShadowMaps::look_ups() {
+    const std::vector<LampCasters>& lamps = casters_.lamps();
+    on_cpu_.resize(std::max(on_cpu_.size(), lamps.size()));
+    look_ups_.assign(lamps.size(), {});
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+        const LampCasters& lamp = lamps[i];
+        if (!on_cpu_stands_)
+            on_cpu_[i].read(context_, textures_[i], settings_, 1, drawn_texels(lamp, settings_));
+        const MapPlan plan{lamp.lamp.pose, window_homography(lamp.window, settings_.width, settings_.height), spread(), {}, {}};
+        ShadowLookUp& look_up = look_ups_[i];
+        look_up.texture_from_ego = texture_from_ego(plan, casters_.ego_m());
+        look_up.near_m = shadow_near_m;
+        look_up.tolerance_m = settings_.tolerance_m;
+        on_cpu_[i].tell(look_up);
+    }
+    on_cpu_stands_ = true;
+    return look_ups_;
 }
 
 std::size_t ShadowMaps::texture_bytes() const {

@@ -5,7 +5,7 @@
 
 #include "renderer/gl/device/objects.h"
 #include "renderer/gl/scene/draw_list.h"
-#include "renderer/gl/shadows/shadows.h"
+#include "renderer/gl/shadows/map_on_cpu.h"
 
 #include <string>
 
@@ -19,10 +19,14 @@ class ShadowMaps : public Shadows {
     void draw(const Shot& shot) override;
     void compile(const Shot& shot) override;
     std::vector<Program::Define> defines(const std::vector<const Beam*>& beams) const override;
+    std::span<const ShadowLookUp> look_ups() override;
+    bool has_look_ups() const override { return true; }
     std::size_t texture_bytes() const override;
     const char* title() const override { return "shadow maps"; }
 
   private:
+    double spread() const; ///< what look-ups are raised by over their distance along the axis
+
     DepthPass pass_;
     std::vector<Texture> textures_;
     struct Drawn {
@@ -32,6 +36,9 @@ class ShadowMaps : public Shadows {
         std::uint64_t placed = 0;
         bool operator==(const Drawn&) const = default;
     } drawn_; ///< what the textures hold
+    std::vector<MapOnCpu> on_cpu_;
+    bool on_cpu_stands_ = false; ///< drawn_ is read back
+    std::vector<ShadowLookUp> look_ups_;
 };
 
 struct ShadowTextureAsked {

@@ -34,6 +34,9 @@ class Shadows {
     virtual std::vector<Program::Define> defines(const std::vector<const Beam*>& beams) const = 0;
     /// Of such a variant, once it is in use.
     virtual void set_uniforms(const Program&) const {}
+    /// What draw() drew, read back for the CPU: one a lamp, until the next draw(). Empty: the method is looked up by shaders alone.
+    virtual std::span<const ShadowLookUp> look_ups() { return {}; }
+    virtual bool has_look_ups() const { return false; }
     virtual std::size_t texture_bytes() const = 0;
     /// What a report calls it where a moment does not need it: "shadow maps".
     virtual const char* title() const = 0;

@@ -55,12 +55,14 @@ BenchResult described(const BenchRequest& request, const Stage& stage, const Lam
 }
 
 /// Each technique with a renderer of its own, compiled for all moments and its work counted.
-std::vector<TimedTechnique> take_part(const std::vector<Technique>& rows, Device& device, const Stage& stage, const View& view,
-                                      const std::vector<Moment>& moments, std::deque<Renderer>& renderers, BenchResult& result) {
+std::vector<TimedTechnique> take_part(const std::vector<Technique>& rows, LightPass wish, Device& device, const Stage& stage,
+                                      const View& view, const std::vector<Moment>& moments, std::deque<Renderer>& renderers,
+                                      BenchResult& result) {
     std::vector<TimedTechnique> timed_techniques;
     for (const Technique& row : rows) {
         RendererSettings settings = settings_for(stage.drive, {});
         settings.technique = row.name;
+        settings.light_pass = wish;
         BenchedTechnique& benched = result.techniques.emplace_back();
         benched.row = row;
         timed_techniques.push_back(timed_frames(renderers.emplace_back(device, stage.scene, settings), moments, view, benched.work));
@@ -157,7 +159,8 @@ BenchResult run_bench(const BenchRequest& request) {
     result.gpu_not_measured = clock_refused(device);
 
     std::deque<Renderer> renderers;
-    const std::vector<TimedTechnique> timed_techniques = take_part(rows, device, stage, view, moments, renderers, result);
+    const std::vector<TimedTechnique> timed_techniques =
+        take_part(rows, request.light_pass, device, stage, view, moments, renderers, result);
     time_rounds(timed_techniques, request, device, result);
     request.write(result);
     if (result.interrupted.empty()) {

@@ -11,7 +11,8 @@ struct BenchRequest : ExperimentRequest<BenchResult> {
     Drive drive;
     std::string lamp_set;                ///< "": the drive's first
     std::vector<std::string> techniques; ///< empty: all. The reference takes part in any case
-    std::optional<int> moments;          ///< nullopt: default_bench_moments, or all of a drive that has fewer
+    LightPass light_pass = LightPass::automatic;
+    std::optional<int> moments; ///< nullopt: default_bench_moments, or all of a drive that has fewer
     int rounds = 21;
     std::uint64_t seed = 1;
     TakePlot write_plot; ///< takes the contact sheet, after what was found

@@ -113,11 +113,18 @@ PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& 
     const int last_tick = std::min(options.ticks.last, tick_count(stage.drive) - 1);
     played.bus = bus_report(stage.drive, lamp_set, std::max(0, options.ticks.first), last_tick);
     played.input_hashes = input_hashes(stage.drive, lamp_set, stage.network.opened, std::max(0, options.ticks.first), last_tick);
+    if (options.light_pass != LightPass::automatic) // else the device's class has it
+        played.input_hashes.emplace_back("light pass", light_pass_name(options.light_pass));
     if (const int late = renderer.compiled_programs() - compiled; late > 0)
         played.notes.push_back(
             fmt::format("{} shader variants were compiled during the drive: times of their first frames include that", late));
     for (const PrunedFeature& left : renderer.pruned())
         played.left_out.push_back(left.what + ": " + left.why);
+    if (const Renderer::LightPassesUsed lit = renderer.light_passes_used(); lit.cpu > 0 || !lit.why_shader.empty())
+        played.left_out.push_back(
+            lit.why_shader.empty()
+                ? std::string("light by the fragment shader: the CPU lights each visible pixel once")
+                : fmt::format("light on the CPU, in {} of {} pictures: {}", lit.shader, lit.cpu + lit.shader, lit.why_shader));
     const Renderer::ShadowMapsUsed maps = renderer.shadow_maps_used();
     if (const long long kept = (maps.used - maps_before.used) - (maps.drawn - maps_before.drawn); kept > 0)
         played.left_out.push_back(
@@ -420,7 +427,8 @@ Report run_drives(const std::vector<Drive>& drives, const RunOptions& options) {
     std::optional<TraceSpan> opening(std::in_place, "open device", "run");
     Device device = open_device(options.backend);
     check_sanity(device);
-    const RendererSettings settings = settings_for(device, options.profile);
+    RendererSettings settings = settings_for(device, options.profile);
+    settings.light_pass = options.light_pass;
     opening.reset();
     tell(LogLevel::debug, fmt::format("rendering by {}, {}", device.info().backend, device.info().gl_renderer),
          {{"backend", device.info().backend}, {"renderer", device.info().gl_renderer}});

@@ -1,6 +1,7 @@
 // A whole run: each drive with each of its lamp sets, on one device, into one report.
 #pragma once
 
+#include "renderer/renderer.h"
 #include "runner/findings/document.h"
 #include "runner/judge/known_failures.h"
 #include "runner/play/play.h"
@@ -12,6 +13,7 @@ namespace fernlicht {
 struct RunOptions {
     std::string backend = "auto";
     std::filesystem::path folder; ///< for the report; made when all input is read and the device is found sane
+    LightPass light_pass = LightPass::automatic;
     TickRange ticks;
     bool quiet = false;
     bool profile = false;            ///< time each pass by finishing after it; frame times are then not representative

@@ -279,7 +279,7 @@ TEST_F(BeamTexture, MessagesNameWhatIsMissing) {
     EXPECT_THAT(refusal("x.png", plain, options_for(-1, 25, -1, 1, -1, 1)), HasSubstr("texture scale: found -1"));
     EXPECT_THAT(refusal("x.png", plain, options_for(1, 0, -1, 1, -1, 1)), HasSubstr("texture distance: found 0"));
     EXPECT_THAT(refusal("x.png", plain, options_for(std::nan(""), 25, -1, 1, -1, 1)), HasSubstr("found nan"));
-    EXPECT_THAT(refusal("x.png", Png(1, 4, 1, {1, 2, 3, 4}).bytes()), HasSubstr("has 1 x 4 x 1 pixels"));
+    EXPECT_THAT(refusal("x.png", Png(1, 4, 1, {1, 2, 3, 4}).bytes()), HasSubstr("has 1 x 4 pixels"));
     EXPECT_THAT(refusal("x.png", "\x89PNG nonsense"), HasSubstr("x.png: ends early or is damaged, expected a PNG or EXR picture"));
     EXPECT_THAT(refusal("x.png", plain.substr(0, plain.size() - 1)), HasSubstr("ends early"));
     EXPECT_THAT(refusal("x.exr", "\x76\x2f\x31\x01 nonsense"), HasSubstr("ends early or is damaged"));

@@ -1,0 +1,138 @@
+// Light on the CPU is that of the fragment shader, whatever the packs' width; what it does not do is lit by the shader.
+#include "tests/renderer/reference/rooms.h"
+#include "tests/renderer/shadow_scene.h"
+
+#include <algorithm>
+
+namespace fernlicht {
+namespace {
+
+/// A road whose normals turn, with a texture, a sign, a lantern and a post.
+Scene varied_scene() {
+    Material road = lambert(0.1), board = lambert(0.3, SurfaceKind::board), lantern = lambert(0.2, SurfaceKind::object),
+             post = lambert(0.2, SurfaceKind::object);
+    road.retro_rl = 0.0145F;
+    road.texture = 0;
+    road.texture_mode = TextureMode::decal;
+    board.retro_rl = 180.0F;
+    board.retro_rgb = {1.0F, 0.8F, 0.1F};
+    lantern.emission_cdm2 = {5.0F, 3.0F, 1.0F};
+    SurfaceTexture picture{"noise", 16, 16, {}};
+    for (int i = 0; i < 16 * 16 * 4; ++i)
+        picture.rgba.push_back(static_cast<std::uint8_t>(static_cast<unsigned>(i) * 2654435761U >> 24));
+    Scene scene{.materials = {road, board, lantern, post},
+                .meshes = {quads("road", 0, {40, 0, 0}, {{{-45, -30, 0}, {80, -30, 0}, {80, 30, 0}, {-45, 30, 0}}}),
+                           quads("board", 1, {38, 3, 2}, {{{0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}}}),
+                           quads("lantern", 2, {35, -4, 1}, {{{0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}}}),
+                           quads("post", 3, {15, 0.5, 0}, {{{0, 0.3, 0}, {0, -0.3, 0}, {0, -0.3, 1}, {0, 0.3, 1}}})},
+                .textures = {picture}};
+    float turn = -0.02F;
+    for (Vertex& vertex : scene.meshes[0].vertices) {
+        vertex.normal = glm::normalize(glm::vec3(turn, 0.5F * turn, 1.0F));
+        turn += 0.013F;
+        vertex.uv = {0.25F * vertex.position_m.x, 0.25F * vertex.position_m.y};
+    }
+    return scene;
+}
+
+Moment night(double sky_lx, bool one_colour) {
+    Moment moment;
+    moment.daylight.horizontal_illuminance_lx = sky_lx;
+    const std::vector<double> angles = tests::steps(-25.0, 25.0, 0.5);
+    const auto beam = tests::file_of(
+        tests::table_of(angles, angles, [](double h, double v) { return 15000.0 * std::exp(-0.005 * h * h - 0.02 * v * v); }));
+    for (const double side : {0.6, -0.6}) {
+        LampColour colour;
+        if (side > 0.0 && !one_colour)
+            colour.linear_srgb = {1.2, 0.95, 0.89};
+        moment.lamps.push_back(
+            {side > 0.0 ? "left" : "right", beam, {{3.5, side, 0.65}, axes_from_angles(0.0, -0.01, 0.0)}, 1.0, colour, 0.0});
+    }
+    return moment;
+}
+
+class LightPassTest : public DeviceTest {
+  protected:
+    void SetUp() override {
+        if (!device_.info().software)
+            GTEST_SKIP() << "a GPU's shaders light";
+    }
+    Frame draw(const Moment& moment, const View& view, RendererSettings settings, Renderer::LightPassesUsed* used = nullptr) {
+        settings.tone_mapper.l_max_cdm2 = 20.0;
+        Renderer renderer(device_, scene_, settings);
+        FrameOutputs outputs = all_results;
+        outputs.light = true;
+        Frame frame = renderer.draw(moment, view, outputs);
+        if (used != nullptr)
+            *used = renderer.light_passes_used();
+        return frame;
+    }
+    Scene scene_ = varied_scene();
+};
+
+/// Share of pixels where the two differ by more than that share of the larger.
+double share_beyond(const std::vector<float>& a, const std::vector<float>& b, float share) {
+    std::size_t beyond = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        beyond += std::abs(a[i] - b[i]) <= share * std::max(std::abs(a[i]), std::abs(b[i])) ? 0U : 1U;
+    return static_cast<double>(beyond) / static_cast<double>(a.size());
+}
+
+TEST_F(LightPassTest, IsTheShadersLight) {
+    for (const View& view : {driver_view(203, 120, 40.0), map_view(60.0, 5.0, 20.0, 131, 90)})
+        for (const ShadowMethod method :
+             {ShadowMethod::none, ShadowMethod::map, ShadowMethod::one_map, ShadowMethod::light_space_map, ShadowMethod::soft_map})
+            for (const bool one_colour : {true, false}) {
+                const Moment moment = night(method == ShadowMethod::map ? 0.0 : 1.5, one_colour);
+                const std::string what = view.name + ", " + std::string(name(method));
+                Renderer::LightPassesUsed by_shader, by_cpu;
+                const RendererSettings settings{.shadows = {.method = method, .width = 256, .height = 128}, .light_pass = LightPass::cpu};
+                RendererSettings other = settings;
+                other.light_pass = LightPass::shader;
+                const Frame cpu = draw(moment, view, settings, &by_cpu), shader = draw(moment, view, other, &by_shader);
+                EXPECT_EQ(by_cpu.cpu, 1) << what << by_cpu.why_shader;
+                EXPECT_EQ(by_shader.shader, 1) << what;
+                EXPECT_EQ(cpu.ids, shader.ids) << what;
+                EXPECT_EQ(share_beyond(cpu.depth_m.pixels(), shader.depth_m.pixels(), 1e-4F), 0.0) << what;
+                // Shadows' edges fall to either side.
+                EXPECT_LT(share_beyond(cpu.illuminance_lx.pixels(), shader.illuminance_lx.pixels(), 3e-4F), 2e-3) << what;
+                EXPECT_LT(share_beyond(cpu.target_lx.pixels(), shader.target_lx.pixels(), 3e-4F), 2e-3) << what;
+                EXPECT_LT(share_beyond(cpu.luminance_cdm2.pixels(), shader.luminance_cdm2.pixels(), 1e-3F), 2e-3) << what;
+                EXPECT_GT(*std::ranges::max_element(cpu.illuminance_lx.pixels()), 1.0F) << what;
+                int far_off = 0;
+                for (std::size_t i = 0; i < cpu.colour.size(); ++i) {
+                    const Rgb8 a = cpu.colour.pixels()[i], b = shader.colour.pixels()[i];
+                    far_off += std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}) > 1 ? 1 : 0;
+                }
+                EXPECT_LT(far_off, 30) << what;
+            }
+}
+
+TEST_F(LightPassTest, GivesTheSameBytesAtEveryWidth) {
+    const Moment moment = night(0.7, false);
+    const View view = driver_view(203, 120, 40.0); // no multiple of any width
+    RendererSettings settings{.light_pass = LightPass::cpu};
+    const Frame widest = draw(moment, view, settings);
+    for (const packs::Level level : packs::levels_here()) {
+        settings.light_level = level;
+        const Frame frame = draw(moment, view, settings);
+        expect_same_frames(frame, widest, std::to_string(static_cast<int>(level)));
+        EXPECT_EQ(frame.light, widest.light);
+    }
+}
+
+TEST_F(LightPassTest, SaysWhyTheShaderLights) {
+    Moment foggy = night(0.0, true);
+    foggy.weather.extinction_per_m = 0.02;
+    const View view = driver_view(32, 24, 40.0);
+    Renderer::LightPassesUsed used;
+    expect_same_frames(draw(foggy, view, {.light_pass = LightPass::cpu}, &used), draw(foggy, view, {.light_pass = LightPass::shader}),
+                       "fog");
+    EXPECT_EQ(used.shader, 1);
+    EXPECT_NE(used.why_shader, "");
+    draw(night(0.0, true), view, {.shadows = {.method = ShadowMethod::volumes}, .light_pass = LightPass::cpu}, &used);
+    EXPECT_NE(used.why_shader, "");
+}
+
+} // namespace
+} // namespace fernlicht
