@@ -171,8 +171,8 @@ Floats toned(const PassPicture& picture, Floats l) {
     return picture.tone_kind == 1 ? photometry::tone_rational(l, l_max, s) : photometry::tone_logarithmic(l, l_max, s);
 }
 
-/// 8 bits.
-Ints encoded(Floats share) { return to_ints(photometry::quick_srgb_encoded(clamp(share, 0.0, 1.0)) * 255.0 + 0.5); }
+/// 8 bits; of what is no number 0.
+Ints encoded(Floats share) { return to_ints(photometry::quick_srgb_encoded(min(1.0, max(0.0, share))) * 255.0 + 0.5); }
 
 /// `count` of the pack's numbers; a whole pack at once.
 template <class Pack, class Number> void put(Pack pack, Number* to, std::int32_t count) {

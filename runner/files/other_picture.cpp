@@ -26,7 +26,7 @@ OtherPicture read_other_picture(const std::filesystem::path& path) {
     OtherPicture picture;
     try {
         read(path, std::size_t{1} << 28, picture);
-    } catch (const std::runtime_error& error) {
+    } catch (const std::exception& error) {
         throw InputError({path, 0, 0, {}}, "cannot be read: " + printable(error.what(), 200), "a picture, grey or RGB, or of numbers");
     }
     return picture;

@@ -9,6 +9,9 @@
 namespace fernlicht {
 namespace {
 
+/// Some ten are usual; each takes as long as the whole picture.
+constexpr int max_scans = 500;
+
 class JpegReader {
   public:
     explicit JpegReader(std::string_view bytes) {
@@ -20,6 +23,11 @@ class JpegReader {
         };
         errors_.output_message = [](j_common_ptr) {};
         jpeg_create_decompress(&jpeg_);
+        progress_.progress_monitor = [](j_common_ptr jpeg) {
+            if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number > max_scans)
+                throw std::runtime_error("it has more scans than any camera writes");
+        };
+        jpeg_.progress = &progress_;
         jpeg_mem_src(&jpeg_, reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<unsigned long>(bytes.size()));
     }
     JpegReader(const JpegReader&) = delete;
@@ -56,6 +64,7 @@ class JpegReader {
 
   private:
     jpeg_error_mgr errors_{};
+    jpeg_progress_mgr progress_{};
     jpeg_decompress_struct jpeg_{};
     bool is_cmyk_ = false;
 };

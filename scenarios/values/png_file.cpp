@@ -20,6 +20,8 @@ class PngReader {
         info_ = png_ ? png_create_info_struct(png_) : nullptr;
         if (!info_)
             throw std::runtime_error("no memory");
+        png_set_chunk_malloc_max(png_, 4U << 20U); // texts and profiles inflate before sizes are checked
+        png_set_chunk_cache_max(png_, 64);
         png_set_read_fn(png_, this, [](png_structp png, png_bytep to, std::size_t count) {
             std::string_view& left = static_cast<PngReader*>(png_get_io_ptr(png))->left_;
             if (count > left.size())

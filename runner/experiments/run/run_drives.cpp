@@ -85,6 +85,7 @@ PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& 
     prepare(renderer, stage.drive, stage.route, lamp_set, options.ticks);
     const int compiled = renderer.compiled_programs();
     const Renderer::ShadowMapsUsed maps_before = renderer.shadow_maps_used();
+    const Renderer::LightPassesUsed lit_before = renderer.light_passes_used();
     const std::string label = stage.drive.name + ", " + lamp_set.name;
     Progress progress(label, ticks_to_play(stage.drive, options.ticks), options.quiet);
     PlayOptions play_options;
@@ -113,18 +114,18 @@ PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& 
     const int last_tick = std::min(options.ticks.last, tick_count(stage.drive) - 1);
     played.bus = bus_report(stage.drive, lamp_set, std::max(0, options.ticks.first), last_tick);
     played.input_hashes = input_hashes(stage.drive, lamp_set, stage.network.opened, std::max(0, options.ticks.first), last_tick);
-    if (options.light_pass != LightPass::automatic) // else the device's class has it
+    if (options.light_pass == LightPass::cpu) // auto is the shader everywhere
         played.input_hashes.emplace_back("light pass", light_pass_name(options.light_pass));
     if (const int late = renderer.compiled_programs() - compiled; late > 0)
         played.notes.push_back(
             fmt::format("{} shader variants were compiled during the drive: times of their first frames include that", late));
     for (const PrunedFeature& left : renderer.pruned())
         played.left_out.push_back(left.what + ": " + left.why);
-    if (const Renderer::LightPassesUsed lit = renderer.light_passes_used(); lit.cpu > 0 || !lit.why_shader.empty())
-        played.left_out.push_back(
-            lit.why_shader.empty()
-                ? std::string("light by the fragment shader: the CPU lights each visible pixel once")
-                : fmt::format("light on the CPU, in {} of {} pictures: {}", lit.shader, lit.cpu + lit.shader, lit.why_shader));
+    const Renderer::LightPassesUsed lit = renderer.light_passes_used();
+    if (const long long by_cpu = lit.cpu - lit_before.cpu, by_shader = lit.shader - lit_before.shader; by_shader == 0 && by_cpu > 0)
+        played.left_out.emplace_back("light by the fragment shader: the CPU lights each visible pixel once");
+    else if (by_shader > 0 && !lit.why_shader.empty())
+        played.left_out.push_back(fmt::format("light on the CPU, in {} of {} pictures: {}", by_shader, by_cpu + by_shader, lit.why_shader));
     const Renderer::ShadowMapsUsed maps = renderer.shadow_maps_used();
     if (const long long kept = (maps.used - maps_before.used) - (maps.drawn - maps_before.drawn); kept > 0)
         played.left_out.push_back(

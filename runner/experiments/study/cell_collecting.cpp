@@ -113,7 +113,7 @@ void keep_what_is_told(const Study& study, const StudyOptions& options, bool is_
                                                  of.surface == key.surface && of.subject == key.subject;
                                       }));
     };
-    std::erase_if(cell.readings, [&](const auto& reading) { return !is_told(reading.first); });
+    cell.has_all_readings = std::erase_if(cell.readings, [&](const auto& reading) { return !is_told(reading.first); }) == 0;
     cell.inputs.clear();
     cell.inputs.shrink_to_fit();
     if (is_pictured || std::ranges::any_of(cell.verdicts, is_red))

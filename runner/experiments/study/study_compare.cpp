@@ -235,6 +235,8 @@ bool StudyResult::complete() const {
 }
 
 void add_axis_warnings(StudyResult& result) {
+    if (std::ranges::any_of(result.cells, [](const CellResult& cell) { return cell.failed.empty() && !cell.has_all_readings; }))
+        return;
     for (const StudyAxis& axis : result.study.axes) {
         std::map<std::string, std::map<std::string, std::string>> read; // by value, then by all else
         for (const CellResult& cell : result.cells) {

@@ -20,6 +20,7 @@ struct CellResult : PlayedResult {
     std::string failed;                      ///< why there is no report; "" when there is one
     CellInputs inputs;                       ///< what decides its figures
     std::string key;                         ///< under which the store has it
+    bool has_all_readings = true;            ///< else what is told of a large study alone
     bool is_kept = true;                     ///< its folder is below the study's
     bool reused = false;                     ///< taken from the store as an earlier call left it there
     std::string command;                     ///< that repeats it

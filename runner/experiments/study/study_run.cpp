@@ -321,10 +321,11 @@ std::map<std::string, std::string> reasons_by_key(const Study& study, const Stud
     std::map<std::string, std::string> by_key;
     for (std::size_t i = 0; i < lacking.size(); ++i) {
         const std::string& key = plan.cells[lacking[i]].key;
-        const bool was_tried = !store.failure(key).empty(), is_new = reasons[i] == std::vector<std::string>{"new"};
-        by_key[key] = was_tried ? reasons[i].front()
-                      : is_new  ? "it is not in the store: not played yet, or killed before it could say why"
-                                : fmt::format("it is not in the store as it is asked for now: {}", fmt::join(reasons[i], "; "));
+        const std::string failure = store.failure(key);
+        const bool is_new = reasons[i] == std::vector<std::string>{"new"};
+        by_key[key] = !failure.empty() ? failure
+                      : is_new         ? "it is not in the store: not played yet, or killed before it could say why"
+                                       : fmt::format("it is not in the store as it is asked for now: {}", fmt::join(reasons[i], "; "));
     }
     return by_key;
 }
@@ -416,7 +417,7 @@ StudyResult collect_study(const Study& study, const StudyOptions& options) {
         } else if (one.moments == 0)
             cell.failed = no_moments(options);
         else if (!store.find(one.key))
-            cell.failed = why_lacking[one.key]; // or played and pruned meanwhile
+            cell.failed = why_lacking.contains(one.key) ? why_lacking[one.key] : "it was in the store and is gone: damaged, or pruned";
         else
             try_cell(cell, [&] { collect_cell(store, study, one, options, cell); });
         telling.add(result);
