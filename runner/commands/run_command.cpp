@@ -76,8 +76,7 @@ InputError::Where place_of(const Verdict& verdict, const std::string& name, cons
     const auto drive = std::ranges::find(drives, name, &Drive::name);
     if (drive == drives.end())
         return {};
-    const auto limit = std::ranges::find(drive->limits, verdict.name, &Limit::reading);
-    return {drive->file, limit == drive->limits.end() ? 0 : limit->line, 0, {}};
+    return {drive->file, verdict.line, 0, {}};
 }
 
 /// What is not plainly green, one line each, and how many there are of each kind.

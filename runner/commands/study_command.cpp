@@ -52,7 +52,7 @@ void write_study(const StudyResult& result, const std::filesystem::path& folder,
     if (history)
         paper.sections.insert(paper.sections.begin(), changes_section(*history));
     write_json(folder / "study.json", result, study_members);
-    write_file(folder / "study.csv", study_csv(result));
+    write_file(folder / "study.csv", [&](const TakePiece& take) { study_csv(result, take); });
     std::vector<std::string> papers;
     for (const OutputFormat& format : output_formats())
         if (format.for_papers)
@@ -90,10 +90,7 @@ void warn_of_unwritable(const CellStore& store, std::size_t cells_to_play) {
 int explain_cells(const Study& study, const StudyOptions& options) {
     const StudyPlan plan = plan_study(study, options);
     const CellStore store(options.store);
-    std::vector<std::size_t> cells;
-    for (std::size_t i = 0; i < plan.cells.size(); ++i)
-        if (const PlannedCell& one = plan.cells[i]; one.moments > 0 && (!store.find(one.key) || !store.damage(one.key).empty()))
-            cells.push_back(i);
+    const std::vector<std::size_t> cells = lacking_cells(store, plan, true);
     const auto reasons = reasons_to_play(study, plan, cells, store);
     for (std::size_t i = 0; i < cells.size(); ++i)
         fmt::print("{:<40} {}\n", plan.cells[cells[i]].cell.name, fmt::join(reasons[i], "; "));
@@ -174,12 +171,16 @@ void refuse_store(const std::filesystem::path& out, const std::filesystem::path&
                          "a folder outside --out, and --out outside it");
 }
 
-/// All by the study's file, which is the user's own; its drives may be shipped ones.
+/// Limits where they are set; all else by the study's file, which is the user's own: its drives may be shipped ones.
 void annotate_study(const StudyResult& result) {
     const Report suites = suites_of(result);
-    for (const PlayedCell& suite : suites.played)
-        for (const Verdict& verdict : suite.verdicts)
-            annotate_red(verdict, suite.drive + ": ", {result.study.file, verdict.line, 0, {}});
+    for (std::size_t i = 0; i < suites.played.size(); ++i)
+        for (const Verdict& verdict : suites.played[i].verdicts)
+            annotate_red(verdict, suites.played[i].drive + ": ",
+                         {verdict.line > 0 && i < result.cells.size() ? result.study.drives[result.cells[i].cell.drive] : result.study.file,
+                          verdict.line,
+                          0,
+                          {}});
     if (!result.interrupted.empty())
         annotate({result.study.file, 0, 0, {}}, "incomplete", result.interrupted);
 }

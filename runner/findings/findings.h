@@ -53,7 +53,7 @@ struct Verdict {
     std::string rerun; ///< command that repeats just this
     Expectation expectation = Expectation::none;
     std::string known = {}; ///< the list's entry in a sentence; "" where it is not listed
-    std::size_t line = 0;   ///< of the limit, in the study's file; 0: of no such limit
+    std::size_t line = 0;   ///< of the limit, in the drive's or the study's file; 0: of no such limit
 };
 
 /// What turns a run red: whatever is not green and not known, and what is green against expectation.

@@ -84,8 +84,10 @@ Verdict judge(const Limit& limit, const Readings& readings) {
 
 std::vector<Verdict> judge_limits(const Drive& drive, const Readings& readings) {
     std::vector<Verdict> verdicts;
-    for (const Limit& limit : drive.limits)
+    for (const Limit& limit : drive.limits) {
         verdicts.push_back(judge(limit, readings));
+        verdicts.back().line = limit.line;
+    }
     return verdicts;
 }
 

@@ -106,7 +106,18 @@ PicturePair read_picture_pair(const std::filesystem::path& reference, const std:
     pair.reference = reference;
     pair.tested = tested;
     OtherPicture a, b;
-    oneapi::tbb::parallel_invoke([&] { a = read_picture(reference); }, [&] { b = read_picture(tested); });
+    std::exception_ptr bad; // of the second: of two bad pictures the first is told
+    oneapi::tbb::parallel_invoke(
+        [&] {
+            try {
+                b = read_picture(tested);
+            } catch (...) {
+                bad = std::current_exception();
+            }
+        },
+        [&] { a = read_picture(reference); });
+    if (bad)
+        std::rethrow_exception(bad);
     const auto kind = [](const OtherPicture& picture) {
         return picture.display.empty() ? "an EXR picture or another one of numbers" : "a PNG or another picture of 8 bits";
     };

@@ -46,9 +46,9 @@ std::string told_moved(const HistoryFindings& findings, const std::vector<MovedR
         aim = fmt::format(", {} 0.1° of aim would do ({})",
                           std::abs(*largest.now.figure() - *largest.before.figure()) > effect->second ? "more than" : "no more than",
                           told_value(largest.reading, effect->second));
-    return fmt::format("{} of {}, above all {}, {}: {} → {}{}{}", counted(moved.size(), "reading"), counted(count_cells(moved), "cell"),
-                       label_of_reading(largest.reading), place_of(findings, largest.cell), told_value(largest.reading, largest.before),
-                       told_value(largest.reading, largest.now), share.empty() ? "" : " (" + share + ")", aim);
+    return fmt::format("{} of {}, above all {}, {}: {}{}{}", counted(moved.size(), "reading"), counted(count_cells(moved), "cell"),
+                       label_of_reading(largest.reading), place_of(findings, largest.cell),
+                       told_step(largest.reading, largest.before, largest.now), share.empty() ? "" : " (" + share + ")", aim);
 }
 
 std::string told_split(const HistoryFindings& findings, const HistoryEvent& event) {
@@ -60,7 +60,7 @@ std::string told_split(const HistoryFindings& findings, const HistoryEvent& even
         return fmt::format("; what the {} did and what the inputs did cannot be told apart: {}", others, told.why_not);
     const auto step = [](const ToldApart::Part& part, const Value& from, const Value& to) {
         const std::string share = told_share(MovedReading{part.reading, "", from, to}.share());
-        return share.empty() ? told_value(part.reading, from) + " → " + told_value(part.reading, to) : share;
+        return share.empty() ? told_step(part.reading, from, to) : share;
     };
     const auto by_program = [](const ToldApart::Part& part) { return MovedReading{"", "", part.before, part.with_earlier_inputs}.size(); };
     const auto by_inputs = [](const ToldApart::Part& part) { return MovedReading{"", "", part.with_earlier_inputs, part.now}.size(); };
@@ -298,11 +298,21 @@ std::string label_of_reading(const std::string& name) {
     return key ? reading_label(*key) : short_text(name, 80);
 }
 
-std::string told_value(const std::string& reading, const Value& value) {
+std::string told_value(const std::string& reading, const Value& value, int digits) {
     if (!value.measured())
         return "not measured";
     const std::optional<ReadingKey> key = key_of(reading);
-    return with_bound(value, four_digits(*value.figure())) + (reading == timed_frame ? " s" : key ? unit_suffix(unit_of(*key)) : "");
+    return with_bound(value, digits == 4 ? four_digits(*value.figure()) : fmt::format("{:.{}g}", *value.figure(), digits)) +
+           (reading == timed_frame ? " s"
+            : key                  ? unit_suffix(unit_of(*key))
+                                   : "");
+}
+
+std::string told_step(const std::string& reading, const Value& before, const Value& now) {
+    int digits = 4;
+    while (digits < 17 && before != now && told_value(reading, before, digits) == told_value(reading, now, digits))
+        ++digits;
+    return told_value(reading, before, digits) + " → " + told_value(reading, now, digits);
 }
 
 std::string told_share(const std::optional<double>& share) {

@@ -37,7 +37,9 @@ void export_csv(const std::vector<Night>& nights, const std::function<void(const
 /// "reach at 5 lx on a target, own lane"; "time a frame"; a name of an older fernlicht as it is.
 std::string label_of_reading(const std::string& name);
 /// With its unit: "40.25 m", "> 200 m", "not measured".
-std::string told_value(const std::string& reading, const Value& value);
+std::string told_value(const std::string& reading, const Value& value, int digits = 4);
+/// "40.25 m → 41.1 m", with as many digits as it takes to tell two values apart.
+std::string told_step(const std::string& reading, const Value& before, const Value& now);
 /// "+2.31 %", "+0.00012 %"; "" where there is none.
 std::string told_share(const std::optional<double>& share);
 

@@ -48,7 +48,7 @@ CellInputs machine_of(const RunContext& context) {
 
 } // namespace
 
-NightReadings night_readings(const CellResult& cell) {
+NightReadings night_readings(const ReadingsOfCell& cell) {
     NightReadings readings;
     for (const auto& [key, reading] : cell.readings)
         if (!is_time(key))
@@ -68,7 +68,7 @@ Night night_of_study(const StudyResult& result, const std::filesystem::path& fol
             cell.cell.technique < result.study.techniques.size() ? result.study.techniques[cell.cell.technique] : "";
         night.cells.push_back({cell.cell.name, cell.drive, result.study.lamps[cell.cell.lamp].name, technique,
                                condition_of(result, cell.cell), cell.failed, std::make_shared<CellInputs>(cell.inputs),
-                               std::make_shared<NightReadings>(night_readings(cell)), nullptr, cell.frame_s});
+                               std::make_shared<NightReadings>(night_readings(all_readings(result, cell))), nullptr, cell.frame_s});
     }
     return night;
 }

@@ -7,7 +7,7 @@
 namespace fernlicht {
 
 /// What a cell read of its whole drive, without times of the machine.
-NightReadings night_readings(const CellResult& cell);
+NightReadings night_readings(const ReadingsOfCell& cell);
 
 /// Readings of whole drives, without times of the machine; frame times of cells that were played this night. `folder` is where the study's
 /// report lies.

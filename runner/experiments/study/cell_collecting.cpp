@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <set>
 
 namespace fernlicht {
 namespace {
@@ -101,28 +100,14 @@ void judge_cell(const Study& study, const PlannedCell& planned, const StudyOptio
     result.command = repeating(options, planned);
 }
 
-void keep_what_is_told(const Study& study, const StudyOptions& options, bool is_pictured, CellResult& cell) {
-    std::set<ReadingKey> told;
-    for (const auto& [key, reading] : cell.readings)
-        if (place_among(key, study.decide) ||
-            std::ranges::any_of(study.limits, [&](const StudyLimit& limit) { return limit.reading == name_of(key); }))
-            told.insert(key);
-    const auto is_told = [&](const ReadingKey& key) {
-        return told.contains(key) || (is_uncertainty(key) && std::ranges::any_of(told, [&](const ReadingKey& of) {
-                                          return of.quantity == key.quantity && of.lane == key.lane && of.threshold == key.threshold &&
-                                                 of.surface == key.surface && of.subject == key.subject;
-                                      }));
-    };
-    cell.has_all_readings = std::erase_if(cell.readings, [&](const auto& reading) { return !is_told(reading.first); }) == 0;
-    cell.inputs.clear();
-    cell.inputs.shrink_to_fit();
-    if (is_pictured || std::ranges::any_of(cell.verdicts, is_red))
-        return;
-    cell.is_kept = false;
+void drop_pictures(const StudyOptions& options, bool keeps_folder, CellResult& cell) {
     cell.frames = {};
     cell.reaches = {};
     cell.glares = {};
     cell.maps = {};
+    if (keeps_folder || std::ranges::any_of(cell.verdicts, is_red))
+        return;
+    cell.is_kept = false;
     cell.series = nullptr;
     std::error_code ignored;
     fs::remove_all(options.folder / "cells" / cell.cell.name, ignored);

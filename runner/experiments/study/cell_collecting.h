@@ -15,11 +15,10 @@ std::string playing_anew(const StudyOptions& options, const StudyCell& cell);
 /// InputError where the store lacks them, DeviceError where it holds them damaged (they are taken out) or the disk refuses.
 void collect_cell(const CellStore& store, const Study& study, const PlannedCell& planned, const StudyOptions& options, CellResult& result);
 
-/// Of a study too large to be told whole (StudyResult::is_large): keeps what decides, what has limits, and how exact those are; takes away
-/// the cell's folder and what figures are made of, unless it is pictured.
-void keep_what_is_told(const Study& study, const StudyOptions& options, bool is_pictured, CellResult& cell);
-
 /// The same with files that lie in the folder and are not judged.
 void judge_cell(const Study& study, const PlannedCell& planned, const StudyOptions& options, CellResult& result);
+
+/// Of a cell that is not pictured: takes away what figures are made of, and its folder unless it is kept or red.
+void drop_pictures(const StudyOptions& options, bool keeps_folder, CellResult& cell);
 
 } // namespace fernlicht

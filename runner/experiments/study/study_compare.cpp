@@ -1,6 +1,7 @@
 #include "runner/experiments/study/study_result.h"
 
 #include "metrics/readings/reading_labels.h"
+#include "runner/experiments/run/run_report.h"
 #include "runner/findings/run_context.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -9,6 +10,7 @@
 #include <array>
 #include <fmt/format.h>
 #include <map>
+#include <ranges>
 #include <set>
 #include <string_view>
 #include <tuple>
@@ -25,16 +27,19 @@ double noise_between(const StudyResult& result, const std::string& tested, const
     return noise;
 }
 
-Change change_of(const StudyResult& result, std::size_t tested, std::size_t against, const ReadingKey& key) {
-    Change change;
-    const CellResult &now = result.cells[tested], &before = result.cells[against];
-    const double noise = noise_between(result, result.lamp_of(tested), result.lamp_of(against));
-    static_cast<ReadingChange&>(change) = change_of_reading(key, now, before, noise);
-    change.id = fmt::format("c{}", result.changes.size());
-    change.tested = tested;
-    change.against = against;
-    change.decides = place_among(key, result.study.decide).has_value();
-    return change;
+/// Hands over all changes, two cells' readings at a time in memory.
+void compute_changes(const StudyResult& result, const std::function<void(Change)>& take) {
+    std::size_t number = 0;
+    for (const StudyComparison& comparison : result.study.comparisons) {
+        const double noise = noise_between(result, comparison.tested, comparison.against);
+        for (const auto& [tested, against] : result.pairs_of(comparison)) {
+            const ReadingsOfCell now = all_readings(result, result.cells[tested]), before = all_readings(result, result.cells[against]);
+            for (const auto& [key, reading] : now.readings)
+                if (!is_uncertainty(key) && !is_time(key) && before.readings.contains(key))
+                    take({change_of_reading(key, now, before, noise), fmt::format("c{}", number++), tested, against,
+                          place_among(key, result.study.decide).has_value()});
+        }
+    }
 }
 
 /// Of each deciding reading its largest real change, and of these the three largest.
@@ -63,15 +68,6 @@ Verdict verdict_on(const std::string& name, const Value& value, const std::strin
                     : VerdictKind::fail,
             name, fmt::format("{}{}, limit {}", with_bound(value, fmt::format("{:.4g}", *value.figure())), unit_suffix(unit), limits),
             rerun};
-}
-
-/// Of all cells that were played.
-std::set<ReadingKey> keys_in(const StudyResult& result) {
-    std::set<ReadingKey> keys;
-    for (const CellResult& cell : result.cells)
-        for (const auto& [key, reading] : cell.readings)
-            keys.insert(key);
-    return keys;
 }
 
 std::string no_such_reading(const std::string& name, const std::set<ReadingKey>& keys) {
@@ -126,7 +122,7 @@ template <class Fits> std::string why_unmeasured(const StudyResult& result, Fits
 /// A reading that the study names and that nothing has decides nothing, and must not look as if it had not changed. Of the usual ones a
 /// drive need not have all.
 void judge_deciding(StudyResult& result) {
-    const std::set<ReadingKey> keys = keys_in(result);
+    const std::set<ReadingKey>& keys = result.keys;
     if (result.study.decide == decides_by_default() || keys.empty()) // cells that were not played say so themselves
         return;
     for (const std::string& name : result.study.decide) {
@@ -139,21 +135,21 @@ void judge_deciding(StudyResult& result) {
                     how_to_ask(name, keys));
         else if (const std::string why = why_unmeasured(result, fits); !why.empty())
             missing("no cell measured it: " + why);
-        else if (!result.changes.empty() && std::ranges::none_of(result.changes, fits, &ReadingChange::reading))
+        else if (result.changes.size() + result.changes_elsewhere > 0 &&
+                 std::ranges::none_of(result.changes, fits, &ReadingChange::reading))
             missing("no two cells were compared by it: it is a time, says how exact another is, or one lamp alone has it");
     }
 }
 
 void judge_values(StudyResult& result, const StudyLimit& limit) {
     const auto key = key_of(limit.reading);
-    const std::set<ReadingKey> keys = keys_in(result);
     for (const CellResult& cell : result.cells) {
         if (!limit.lamp.empty() && result.study.lamps[cell.cell.lamp].name != limit.lamp)
             continue;
         const auto found = key ? cell.readings.find(*key) : cell.readings.end();
         const bool known = found != cell.readings.end();
         const Value value = known ? found->second.value
-                                  : Value::not_measured(cell.failed.empty() ? no_such_reading(limit.reading, keys)
+                                  : Value::not_measured(cell.failed.empty() ? no_such_reading(limit.reading, result.keys)
                                                                             : "the cell was not played: " + cell.failed);
         result.verdicts.push_back(verdict_on(cell.cell.name + ": " + limit.reading, value, known ? unit_of(*key) : "", limit.at_least,
                                              limit.at_most, repeat_command(result.call, {"--only", cell.cell.name})));
@@ -172,7 +168,7 @@ void judge_changes(StudyResult& result, const StudyLimit& limit) {
             cell.cell.name + ": change of " + limit.reading, change.change(), change.unit(), limit.change_at_least, limit.change_at_most,
             repeat_command(result.call, {"--only", cell.cell.name + "," + result.cells[change.against].cell.name})));
     }
-    const std::set<ReadingKey> keys = keys_in(result);
+    const std::set<ReadingKey>& keys = result.keys;
     if (!found)
         result.verdicts.push_back(
             {VerdictKind::not_measured, "change of " + limit.reading,
@@ -180,7 +176,9 @@ void judge_changes(StudyResult& result, const StudyLimit& limit) {
              repeat_command(result.call)});
 }
 
-std::string readings_text(const CellResult& cell) {
+std::string hash_of_readings(const CellResult& cell) {
+    if (!cell.has_all_readings)
+        return cell.hash_of_readings;
     std::string text;
     for (const auto& [key, reading] : cell.readings)
         if (!is_time(key))
@@ -230,13 +228,43 @@ std::vector<std::pair<std::size_t, std::size_t>> StudyResult::pairs_of(const Stu
     return pairs;
 }
 
+ReadingsOfCell all_readings(const StudyResult& result, const CellResult& cell) {
+    if (cell.has_all_readings || !result.tells_all)
+        return cell;
+    ReadingsOfCell all = whole_drive_readings(read_report(result.folder / "cells" / cell.cell.name).played.front());
+    static_cast<Steps&>(all) = cell;
+    return all;
+}
+
+void each_change(const StudyResult& result, const std::function<void(const Change&)>& take) {
+    if (result.changes_elsewhere > 0)
+        compute_changes(result, take);
+    else
+        std::ranges::for_each(result.changes, take);
+}
+
+void keep_told_readings(StudyResult& result, CellResult& cell) {
+    std::ranges::copy(std::views::keys(cell.readings), std::inserter(result.keys, result.keys.end()));
+    cell.hash_of_readings = hash_of_readings(cell);
+    std::set<std::tuple<Quantity, std::string, ReadingSurface, std::string, Threshold>> told;
+    const auto what_of = [](const ReadingKey& key) { return std::tuple(key.quantity, key.subject, key.surface, key.lane, key.threshold); };
+    const auto is_told = [&](const ReadingKey& key) {
+        return place_among(key, result.study.decide) ||
+               std::ranges::any_of(result.study.limits, [&](const StudyLimit& limit) { return limit.reading == name_of(key); });
+    };
+    for (const ReadingKey& key : std::views::keys(cell.readings))
+        if (is_told(key))
+            told.insert(what_of(key));
+    cell.has_all_readings = std::erase_if(cell.readings, [&](const auto& reading) {
+                                return !is_told(reading.first) && !(is_uncertainty(reading.first) && told.contains(what_of(reading.first)));
+                            }) == 0;
+}
+
 bool StudyResult::complete() const {
     return interrupted.empty() && std::ranges::all_of(cells, [](const CellResult& cell) { return cell.failed.empty(); });
 }
 
 void add_axis_warnings(StudyResult& result) {
-    if (std::ranges::any_of(result.cells, [](const CellResult& cell) { return cell.failed.empty() && !cell.has_all_readings; }))
-        return;
     for (const StudyAxis& axis : result.study.axes) {
         std::map<std::string, std::map<std::string, std::string>> read; // by value, then by all else
         for (const CellResult& cell : result.cells) {
@@ -245,7 +273,7 @@ void add_axis_warnings(StudyResult& result) {
                 rest = fmt::format("{} {} {} {} {} {} {}", at.drive, at.lamp, at.technique, at.time_of_day, at.aim, at.voltage, at.mirror);
             for (const AxisValue& one : at.axes)
                 (one.axis == axis.name ? value : rest += "\n") += one.value;
-            read[value.empty() ? "the drives' own" : value][rest] = cell.failed.empty() ? readings_text(cell) : cell.cell.name;
+            read[value.empty() ? "the drives' own" : value][rest] = cell.failed.empty() ? hash_of_readings(cell) : cell.cell.name;
         }
         std::map<std::map<std::string, std::string>, std::vector<std::string>> alike;
         for (const auto& [value, of_value] : read)
@@ -260,11 +288,14 @@ void add_axis_warnings(StudyResult& result) {
 
 void compare_cells(StudyResult& result) {
     result.played_in_part = played_in_part(result);
-    for (const StudyComparison& comparison : result.study.comparisons)
-        for (const auto& [tested, against] : result.pairs_of(comparison))
-            for (const auto& [key, reading] : result.cells[tested].readings)
-                if (!is_uncertainty(key) && !is_time(key) && result.cells[against].readings.contains(key))
-                    result.changes.push_back(change_of(result, tested, against, key));
+    for (const CellResult& cell : result.cells)
+        std::ranges::copy(std::views::keys(cell.readings), std::inserter(result.keys, result.keys.end()));
+    compute_changes(result, [&](Change change) {
+        if (result.cells[change.tested].readings.contains(change.reading) && result.cells[change.against].readings.contains(change.reading))
+            result.changes.push_back(std::move(change));
+        else
+            ++result.changes_elsewhere;
+    });
     rank(result);
     judge_deciding(result);
     for (const StudyLimit& limit : result.study.limits) {

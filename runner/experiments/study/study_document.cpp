@@ -259,8 +259,7 @@ Section views_section(const StudyResult& result) {
     Section section{"What the driver sees", {}};
     for (const StudyComparison& pair : result.study.comparisons) {
         std::vector<std::pair<std::size_t, std::size_t>> pairs = result.pairs_of(pair);
-        if (!result.study.axes.empty() || result.cells.size() > most_told_cells)
-            pairs.resize(std::min(pairs.size(), max_pictured_places));
+        pairs.resize(std::min(pairs.size(), max_pictured_places));
         for (const auto& [tested, against] : pairs)
             for (const StoredFrame& now : result.cells[tested].frames)
                 for (const StoredFrame& before : result.cells[against].frames)
@@ -312,13 +311,12 @@ Document document(const StudyResult& result, const std::vector<std::string>& pap
                                                  {"figures/work-precision", &cells}})
             if (figure.plot.name.starts_with(beginning))
                 section->blocks.emplace_back(figure.plot);
-    if (result.cells.size() > most_told_cells)
+    if (!result.tells_all)
         cells.blocks.emplace_back(
             fmt::format("Of so many cells ({}) only readings that decide or have limits are told, and the reports are "
                         "kept of those that are pictured or red: `fernlicht study --only NAME` collects any other from the store.",
                         result.cells.size()));
-    if ((!result.study.axes.empty() || result.cells.size() > most_told_cells) &&
-        result.cells.size() > max_pictured_places * result.study.lamps.size())
+    if (result.cells.size() > max_pictured_places * result.study.lamps.size())
         cells.blocks.emplace_back(
             fmt::format("Pictures are of the first {} places; the others' are in the reports of their cells.", max_pictured_places));
     if (!result.played_by.empty())
@@ -414,32 +412,28 @@ Document study_paper(const StudyResult& result) {
     return {result.study.title, {section}};
 }
 
-std::string study_csv(const StudyResult& result) {
+void study_csv(const StudyResult& result, const TakePiece& take) {
     const std::vector<AxisValue> axes = result.cells.empty() ? std::vector<AxisValue>{} : result.cells.front().cell.axes;
     std::string csv = "id,new,against,drive,technique,condition,reading,unit,old_value,new_value,change,uncertainty,by_tenth_degree,by_"
                       "tenth_flux,by_10mm,by_75kg,by_noise,kind,decides,"
                       "new_cell,old_cell,why_not,old_bound,new_bound,change_bound";
     for (const AxisValue& axis : axes)
         csv += "," + csv_text(axis.axis);
-    csv += "\r\n";
-    for (const Change& c : result.changes) {
+    take(csv + "\r\n");
+    each_change(result, [&](const Change& c) {
         const CellResult &now = result.cells[c.tested], &before = result.cells[c.against];
-        csv +=
-            csv_line(c.id, csv_text(result.study.lamps[now.cell.lamp].name), csv_text(result.study.lamps[before.cell.lamp].name),
-                     csv_text(now.drive), csv_text(result.study.techniques[now.cell.technique]), csv_text(now.cell.condition),
-                     csv_text(name_of(c.reading)), csv_text(c.unit()), csv_number(c.old_value.figure()), csv_number(c.new_value.figure()),
-                     csv_number(c.change().figure()), csv_number(c.uncertainty), csv_number(c.aim_effect), csv_number(c.flux_effect),
-                     csv_number(c.height_effect), csv_number(c.load_effect), csv_number(c.noise_effect), change_name(c.kind),
-                     c.decides ? "yes" : "no", csv_text(now.cell.name), csv_text(before.cell.name), csv_text(c.reason_unknown),
-                     bound_name(c.old_value), bound_name(c.new_value), bound_name(c.change()));
-        if (axes.empty())
-            continue;
+        csv = csv_line(c.id, csv_text(result.study.lamps[now.cell.lamp].name), csv_text(result.study.lamps[before.cell.lamp].name),
+                       csv_text(now.drive), csv_text(result.study.techniques[now.cell.technique]), csv_text(now.cell.condition),
+                       csv_text(name_of(c.reading)), csv_text(c.unit()), csv_number(c.old_value.figure()), csv_number(c.new_value.figure()),
+                       csv_number(c.change().figure()), csv_number(c.uncertainty), csv_number(c.aim_effect), csv_number(c.flux_effect),
+                       csv_number(c.height_effect), csv_number(c.load_effect), csv_number(c.noise_effect), change_name(c.kind),
+                       c.decides ? "yes" : "no", csv_text(now.cell.name), csv_text(before.cell.name), csv_text(c.reason_unknown),
+                       bound_name(c.old_value), bound_name(c.new_value), bound_name(c.change()));
         csv.resize(csv.size() - 2); // before the line's end
         for (const AxisValue& axis : now.cell.axes)
             csv += "," + csv_text(axis.value);
-        csv += "\r\n";
-    }
-    return csv;
+        take(csv + "\r\n");
+    });
 }
 
 } // namespace fernlicht

@@ -16,12 +16,12 @@ Document study_paper(const StudyResult& result);
 
 /// study.schema.json describes it. What differs from call to call stands under `context`.
 JsonMembers study_members(StudyResult& result); ///< of its JSON; what was played does not come back
-/// RFC 4180: one line a change.
-std::string study_csv(const StudyResult& result);
+/// RFC 4180: one line a change, piece by piece.
+void study_csv(const StudyResult& result, const TakePiece& take);
 /// The verdicts as those of a run: one suite a cell, and one of the study's own limits.
 Report suites_of(const StudyResult& result);
 
-/// Of studies with axes, pictures are of the first so many places.
+/// Pictures are of the first so many places: a page shows no thousands.
 inline constexpr std::size_t max_pictured_places = 48;
 /// Of more cells only what decides or has limits is told, and the folders are kept of those that are pictured or red.
 inline constexpr std::size_t most_told_cells = 500;

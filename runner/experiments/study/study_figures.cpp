@@ -255,8 +255,7 @@ std::vector<StudyFigure> study_figures(const StudyResult& result, const std::fil
     std::vector<StudyFigure> figures;
     add_lamp_differences(result, figures);
     std::vector<std::vector<std::size_t>> groups = groups_of(result);
-    if (!result.study.axes.empty() || result.cells.size() > most_told_cells) // a page shows no thousands of pictures
-        groups.resize(std::min(groups.size(), max_pictured_places));
+    groups.resize(std::min(groups.size(), max_pictured_places));
     for (const auto& [surface, threshold_lx] : plotted_reaches(result))
         for (const std::vector<std::size_t>& group : groups)
             add_reach(result, group, surface, threshold_lx, figures);

@@ -116,13 +116,14 @@ JsonMembers cell_reading_members(Reading& reading) {
     return joined({{"name", reading.key}, {"value", value}, {"unit", reading.unit()}}, when(!value.measured(), {{"not_measured", reason}}));
 }
 
-JsonMembers study_cell_members(CellResult& cell, Study& study) {
+JsonMembers study_cell_members(CellResult& cell, StudyResult& result) {
     StudyCell& at = cell.cell;
+    Study& study = result.study;
     StudyConditions& conditions = study.conditions;
     const auto readings = through(
-        [&cell] {
+        [&cell, &result] {
             Readings all;
-            for (const auto& [key, reading] : cell.readings)
+            for (const auto& [key, reading] : all_readings(result, cell).readings)
                 all.push_back(reading);
             return all;
         },
@@ -169,6 +170,17 @@ JsonMembers study_members(StudyResult& result) {
     const auto cells = std::make_shared<PlacesByName::element_type>(), ids = std::make_shared<PlacesByName::element_type>();
     const auto by_id = [&result, ids](std::size_t& change) { return place_read_before(result.changes, ids, change, &Change::id); };
     const auto change = [&result, cells](Change& one) { return study_change_members(one, result, cells); };
+    JsonPart changes = json_part(result.changes, change);
+    if (result.changes_elsewhere > 0) {
+        changes.each = [&result, change](const std::function<void(nlohmann::ordered_json)>& take) {
+            each_change(result, [&](Change one) { take(json_part(one, change).write()); });
+        };
+        changes.write = [each = changes.each] {
+            nlohmann::ordered_json list = nlohmann::ordered_json::array();
+            each([&](nlohmann::ordered_json one) { list.push_back(std::move(one)); });
+            return list;
+        };
+    }
     const auto figure = [&result, cells](StudyFigure& one) { return study_figure_members(one, result, cells); };
     JsonPart lamps = json_part(result.lamps, lamp_comparison_members);
     lamps.read = [&result, read = lamps.read](const CheckedJson& json) {
@@ -190,9 +202,9 @@ JsonMembers study_members(StudyResult& result) {
                    {"largest_changes", in_turn(2, json_part(result.largest, by_id))},
                    {"lamps", lamps},
                    {"verdicts", result.verdicts, verdict_members},
-                   {"changes", in_turn(1, json_part(result.changes, change))},
+                   {"changes", in_turn(1, changes)},
                    {"figures", in_turn(1, json_part(result.figures, figure))},
-                   {"cells", result.cells, [&result](CellResult& cell) { return study_cell_members(cell, result.study); }},
+                   {"cells", result.cells, [&result](CellResult& cell) { return study_cell_members(cell, result); }},
                    {"context", study_context_members(result)}},
                   when(!result.lamp_files.empty(), {{"lamp_files", result.lamp_files, lamp_file_members}}));
 }

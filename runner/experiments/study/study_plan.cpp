@@ -140,10 +140,11 @@ std::string frames_text(const TickRange& ticks) {
     return fmt::format("{}:{}", ticks.first, ticks.last);
 }
 
-std::vector<std::size_t> lacking_cells(const CellStore& store, const StudyPlan& plan) {
+std::vector<std::size_t> lacking_cells(const CellStore& store, const StudyPlan& plan, bool damaged_too) {
     std::vector<std::size_t> cells;
     for (std::size_t i = 0; i < plan.cells.size(); ++i)
-        if (plan.cells[i].moments > 0 && !store.find(plan.cells[i].key))
+        if (const PlannedCell& one = plan.cells[i];
+            one.moments > 0 && (!store.find(one.key) || (damaged_too && !store.damage(one.key).empty())))
             cells.push_back(i);
     return cells;
 }

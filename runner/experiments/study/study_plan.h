@@ -40,8 +40,9 @@ StudyPlan plan_study(const Study& study, const StudyOptions& options);
 /// As `--frames` takes it; "" for all moments.
 std::string frames_text(const TickRange& ticks);
 
-/// Places of the cells that are to be played and that the store lacks, or holds damaged.
-std::vector<std::size_t> lacking_cells(const CellStore& store, const StudyPlan& plan);
+/// Places of the cells that are to be played and that the store lacks; with `damaged_too`, which reads the whole store, also of those that
+/// it holds damaged.
+std::vector<std::size_t> lacking_cells(const CellStore& store, const StudyPlan& plan, bool damaged_too = false);
 
 /// Why each of these cells (places in the plan), which the store lacks or holds damaged, must be played; "new" where this study never
 /// played it.

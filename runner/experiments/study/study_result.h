@@ -10,6 +10,8 @@
 #include "runner/judge/known_failures.h"
 #include "scenarios/studies/study.h"
 
+#include <set>
+
 namespace fernlicht {
 
 struct CellResult : PlayedResult {
@@ -20,7 +22,8 @@ struct CellResult : PlayedResult {
     std::string failed;                      ///< why there is no report; "" when there is one
     CellInputs inputs;                       ///< what decides its figures
     std::string key;                         ///< under which the store has it
-    bool has_all_readings = true;            ///< else what is told of a large study alone
+    bool has_all_readings = true;            ///< else those that are told alone: all_readings()
+    std::string hash_of_readings;            ///< of all, times apart, where it has not all
     bool is_kept = true;                     ///< its folder is below the study's
     bool reused = false;                     ///< taken from the store as an earlier call left it there
     std::string command;                     ///< that repeats it
@@ -58,9 +61,13 @@ struct StudyResult : Findings {
     std::string played_in_part;    ///< "9 of 660 moments of each drive were played (--frames 0:8)"; "" where all of all cells were
     std::vector<CellResult> cells;
     std::vector<LampComparison> lamps;
-    std::vector<Change> changes;      ///< all readings, in the order of comparisons, cells and names
-    std::vector<std::size_t> largest; ///< at most three of `changes`: the largest real ones, each reading once
-    std::vector<Verdict> verdicts;    ///< the study's own limits
+    std::filesystem::path folder;      ///< with the reports of its cells
+    bool tells_all = true;             ///< else it is too large: readings that are not told are left out of all that is written
+    std::set<ReadingKey> keys;         ///< of all readings of all cells
+    std::vector<Change> changes;       ///< of readings that both cells have, in the order of comparisons, cells and names
+    std::size_t changes_elsewhere = 0; ///< of readings that lie in reports alone: each_change()
+    std::vector<std::size_t> largest;  ///< at most three of `changes`: the largest real ones, each reading once
+    std::vector<Verdict> verdicts;     ///< the study's own limits
     std::vector<StudyFigure> figures;
     std::vector<std::string> warnings;       ///< of the list of known failures
     std::vector<CheckedLampFile> lamp_files; ///< as their check found them before the first frame
@@ -74,6 +81,15 @@ struct StudyResult : Findings {
 
 /// Cells of everything but the lamp alike.
 bool is_same_place(const StudyCell& a, const StudyCell& b);
+
+/// What a cell read that is told, from its report where it has not all; steps are the drive's.
+ReadingsOfCell all_readings(const StudyResult& result, const CellResult& cell);
+
+/// Hands over every change of every reading, those that `changes` lacks computed anew, two reports at a time in memory.
+void each_change(const StudyResult& result, const std::function<void(const Change&)>& take);
+
+/// Leaves what decides, has limits, or tells how exact those are: a cell has more than a thousand readings, and a study many cells.
+void keep_told_readings(StudyResult& result, CellResult& cell);
 
 /// As of a run (report.h): fail if a limit or a baseline was exceeded, flaky, not_measured if anything is missing (a cell that failed,
 /// too), else pass.

@@ -139,24 +139,23 @@ void add_lanes(const Study& study, StudyResult& result) {
     }
 }
 
-/// Keeps of a large study what is told of it, cell by cell as they are collected.
+/// Keeps what is told of a study, cell by cell as they are collected: of a large one no more than a few pictures.
 class Telling {
   public:
-    Telling(const Study& study, const StudyPlan& plan, const StudyOptions& options)
-        : study_(study), options_(options), is_large_(plan.cells.size() > most_told_cells) {}
+    explicit Telling(const StudyOptions& options) : options_(options) {}
     void add(StudyResult& result) {
         CellResult& cell = result.cells.back();
-        if (!is_large_)
-            return;
+        keep_told_readings(result, cell);
+        if (!result.tells_all)
+            cell.inputs = {};
         if (result.cells.size() == 1 || !is_same_place(result.cells[result.cells.size() - 2].cell, cell.cell))
             ++places_;
-        keep_what_is_told(study_, options_, places_ <= max_pictured_places, cell);
+        if (places_ > max_pictured_places)
+            drop_pictures(options_, result.tells_all, cell);
     }
 
   private:
-    const Study& study_;
     const StudyOptions& options_;
-    bool is_large_;
     std::size_t places_ = 0;
 };
 
@@ -164,6 +163,8 @@ class Telling {
 StudyResult begun_study(const Study& study, const StudyPlan& plan, const StudyOptions& options) {
     StudyResult result;
     result.study = study;
+    result.folder = options.folder;
+    result.tells_all = plan.cells.size() <= most_told_cells;
     result.context = plan.context;
     result.call = options.run.command;
     result.only = fmt::format("{}", fmt::join(options.only, ","));
@@ -238,7 +239,7 @@ CellResult begun_cell(const Study& study, const StudyPlan& plan, const PlannedCe
 /// From the store, in the order of the plan. What turns out to be damaged there is played once more.
 void collect_all(const CellStore& store, const Study& study, const StudyPlan& plan, const StudyOptions& options,
                  const std::map<std::size_t, PlayedInWorker>& played, const Jobs& jobs, StudyResult& result) {
-    Telling telling(study, plan, options);
+    Telling telling(options);
     for (std::size_t i = 0; i < plan.cells.size(); ++i) {
         const PlannedCell& one = plan.cells[i];
         CellResult& cell = result.cells.emplace_back(begun_cell(study, plan, one, options));
@@ -407,7 +408,7 @@ StudyResult collect_study(const Study& study, const StudyOptions& options) {
     OutputFolder folder = folder_for(study, plan, store, options);
     const std::unique_ptr<FolderLock> alone = only_process(options.folder);
     begin(study, plan, options, result);
-    Telling telling(study, plan, options);
+    Telling telling(options);
     std::map<std::string, std::string> why_lacking = reasons_by_key(study, plan, store);
     for (const PlannedCell& one : plan.cells) {
         CellResult& cell = result.cells.emplace_back(begun_cell(study, plan, one, options));

@@ -6,6 +6,7 @@
 #include "runner/findings/plots/isolines.h"
 #include "scenarios/values/image.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,7 +34,9 @@ struct Band {
 
 /// A picture stretched between axis values: its left column begins at x_left, its top row at y_top. Linear axes only.
 struct Raster {
-    Image<Colour> pixels;
+    Raster(Image<Colour> picture, double left, double right, double top, double bottom)
+        : pixels(std::make_shared<const Image<Colour>>(std::move(picture))), x_left(left), x_right(right), y_top(top), y_bottom(bottom) {}
+    std::shared_ptr<const Image<Colour>> pixels; ///< of all copies: a page's figures would hold them four times
     double x_left = 0.0, x_right = 1.0, y_top = 1.0, y_bottom = 0.0;
 };
 

@@ -184,7 +184,7 @@ class Inside {
 
     void draw(const Raster& r) {
         const Point top_left = place({r.x_left, r.y_top}), bottom_right = place({r.x_right, r.y_bottom});
-        c_.picture(top_left.x, top_left.y, bottom_right.x - top_left.x, bottom_right.y - top_left.y, r.pixels);
+        c_.picture(top_left.x, top_left.y, bottom_right.x - top_left.x, bottom_right.y - top_left.y, *r.pixels);
     }
 
     /// Where a limit is missing the band is interrupted like a line.

@@ -144,9 +144,15 @@ TEST(Messages, AnnotationsNameFileAndLineOfALimit) {
     const std::string said = run_shell("cd " + folder.path().string() + " && '" FERNLICHT_BINARY "' run d.yaml" + three_moments +
                                        "--quiet --annotate github --out out")
                                  .output;
-    EXPECT_THAT(said, AllOf(HasSubstr(fmt::format("::error file=d.yaml,line={},title=FAIL ", line)),
-                            HasSubstr("limit at least 900 m%0Arepeat with: ")))
-        << said;
+    const auto at_limit = HasSubstr(fmt::format("::error file=d.yaml,line={},title=FAIL ", line));
+    EXPECT_THAT(said, AllOf(at_limit, HasSubstr("limit at least 900 m%0Arepeat with: ")));
+    std::ofstream(folder / "s.yaml") << "fernlicht_study: 1\nlamps: {a: {low: " << library_file("lamps/halogen-low.ies")
+                                     << "}}\ndrives: [d.yaml]\nresolution_px: [96, 72]\n";
+    EXPECT_THAT(run_shell("cd " + folder.path().string() +
+                          " && '" FERNLICHT_BINARY
+                          "' study s.yaml --frames 0:2 --no-accuracy --quiet --annotate github --store store --out study")
+                    .output,
+                at_limit);
     std::ofstream(drive, std::ios::app) << "nonsense: 1\n";
     EXPECT_THAT(run_program("run " + drive + " --annotate github").output, HasSubstr("::error file="));
 }

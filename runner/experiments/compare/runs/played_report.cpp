@@ -18,13 +18,6 @@ std::vector<double> figures_in(const CsvFile& moments, std::size_t column) {
     return figures;
 }
 
-/// Of one play: its standard deviation times Student's t, two-sided, 5 %.
-void read_repeats(const PlayedCell& played, PlayedResult& result) {
-    for (const ReadingSpread& spread : played.repeats.spread)
-        if (spread.count > 1 && spread.tick < 0)
-            result.by_repeats[spread.key] = student_bound(spread.count - 1, 0.05, 1) * std::sqrt(spread.variance);
-}
-
 void read_reaches(const CsvFile& moments, PlayedResult& result) {
     for (std::size_t column = 0; column < moments.heads.size(); ++column) {
         const auto key = key_of(moments.heads[column]);
@@ -73,8 +66,20 @@ ReadingKey ReachOverDrive::key() const {
             .statistic = Statistic::median};
 }
 
+ReadingsOfCell whole_drive_readings(const PlayedCell& played) {
+    ReadingsOfCell result;
+    for (const Reading& reading : played.readings)
+        if (reading.tick < 0)
+            result.readings.emplace(reading.key, reading);
+    for (const ReadingSpread& spread : played.repeats.spread) // of one play: its standard deviation times Student's t, two-sided, 5 %
+        if (spread.count > 1 && spread.tick < 0)
+            result.by_repeats[spread.key] = student_bound(spread.count - 1, 0.05, 1) * std::sqrt(spread.variance);
+    return result;
+}
+
 PlayedResult played_result(const PlayedCell& played, const CsvFile& moments, const std::string& folder) {
     PlayedResult result;
+    static_cast<ReadingsOfCell&>(result) = whole_drive_readings(played);
     result.drive = played.drive;
     result.lamp_set = played.lamp_set;
     result.aims = played.aims;
@@ -82,10 +87,6 @@ PlayedResult played_result(const PlayedCell& played, const CsvFile& moments, con
     result.verdicts = played.verdicts;
     for (const StoredFrame& frame : played.frames)
         result.frames.push_back({frame.tick, frame.time_s, frame.view, file_below(folder, frame.png), file_below(folder, frame.exr)});
-    for (const Reading& reading : played.readings)
-        if (reading.tick < 0)
-            result.readings.emplace(reading.key, reading);
-    read_repeats(played, result);
     read_reaches(moments, result);
     read_glares(played, moments, result);
     if (const std::optional<PixelErrors>& road = played.error.road; road && road->pixels > 0) {

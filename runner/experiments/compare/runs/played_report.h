@@ -34,6 +34,9 @@ struct PlayedResult : ReadingsOfCell {
     std::optional<double> frame_s;                        ///< a driver's view
 };
 
+/// Of one that was played: steps of the drive apart, which a report does not hold.
+ReadingsOfCell whole_drive_readings(const PlayedCell& played);
+
 /// Of one that was played; its frames' paths begin with `folder` ("" for none), its moments are those of read_moments().
 PlayedResult played_result(const PlayedCell& played, const CsvFile& moments, const std::string& folder);
 

@@ -367,6 +367,12 @@ TEST(HistoryCauses, WhatWasNotPlayedOrNotMeasuredIsSaid) {
     EXPECT_THAT(text, AllOf(HasSubstr("→ not measured"), HasSubstr("none is accepted"), Not(HasSubstr("nan"))));
 }
 
+TEST(HistoryDocument, AStepHasAsManyDigitsAsTellItsEndsApart) {
+    EXPECT_EQ(told_step("reach_5lx_target_own_m", 40.25, 41.1), "40.25 m → 41.1 m");
+    EXPECT_EQ(told_step("area_5lx_road_own_m2", 167.4312, 167.4329), "167.431 m² → 167.433 m²");
+    EXPECT_EQ(told_step("area_5lx_road_own_m2", 167.4, Value::at_least(167.4)), "167.4 m² → > 167.4 m²");
+}
+
 TEST(HistoryTrend, LevelsWithTheirNightsAndCauses) {
     PlantedNights planted(1);
     std::vector<Night> nights;

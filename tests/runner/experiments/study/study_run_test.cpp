@@ -1,5 +1,6 @@
 // Whole studies through the program.
 #include "runner/experiments/study/study_document.h"
+#include "runner/experiments/study/study_run.h"
 #include "runner/files/durable_files.h"
 #include "runner/files/object_store.h"
 #include "runner/history/database.h"
@@ -40,6 +41,20 @@ void open_page(const TemporaryFolder& folder) {
     EXPECT_GT(opened.links.size(), 10U);
 }
 
+/// With every reading in memory.
+StudyResult filled(StudyResult result) {
+    for (CellResult& cell : result.cells) {
+        static_cast<ReadingsOfCell&>(cell) = all_readings(result, cell);
+        cell.has_all_readings = true;
+    }
+    result.changes.clear();
+    result.changes_elsewhere = 0;
+    result.largest.clear();
+    result.verdicts.clear();
+    compare_cells(result);
+    return result;
+}
+
 json without_times(json study) {
     study.erase("context");
     return study;
@@ -59,6 +74,25 @@ struct StudyProgram : testing::Test {
     }
     std::string xenon = "{low: " + library_file("lamps/xenon-low.ies") + ", source: arc}";
 };
+
+TEST_F(StudyProgram, TellsReadingsThatItDoesNotKeepInMemory) {
+    const std::string file = write_study_file(folder, xenon, "limits: [{reading: area_5lx_road_own_m2, at_least: 1}]\n");
+    ASSERT_EQ(run_program("study " + file + quick + "--out " + (folder / "out")).exit_code, 0);
+    StudyOptions options{.folder = folder / "again", .store = folder / "store"};
+    options.run.ticks = {0, 5};
+    options.run.accuracy = false;
+    options.judge_cell = [](const Report&, const std::filesystem::path&) {};
+    options.write = [](const StudyResult& found) {
+        ASSERT_EQ(found.cells.size(), 2U);
+        ASSERT_EQ(found.cells.front().failed, "");
+        EXPECT_THAT(found.cells.front().readings.size(), testing::AllOf(testing::Gt(3U), testing::Lt(found.keys.size() / 5)));
+        const StudyResult whole = filled(found);
+        EXPECT_EQ(whole.changes.size(), found.changes.size() + found.changes_elsewhere);
+        EXPECT_LT(found.changes.size(), whole.changes.size() / 5);
+        EXPECT_EQ(json_text(as_json(found, study_members)), json_text(as_json(whole, study_members)));
+    };
+    collect_study(read_study(file), options);
+}
 
 TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
     const std::string file = write_study_file(folder, xenon);

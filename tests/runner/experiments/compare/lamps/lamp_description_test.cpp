@@ -104,7 +104,7 @@ TEST(IsocandelaDiagram, ShowsTheBeamWithItsLines) {
     }
     EXPECT_THAT(labels, testing::IsSupersetOf({"0.5 lx", "1 lx", "5 lx", "20 lx"}));
     // Above the left cut-off it is darker than below it.
-    const Image<plots::Colour>& pixels = f.rasters.front().pixels;
+    const Image<plots::Colour>& pixels = *f.rasters.front().pixels;
     const auto at = [&](double h, double v) {
         return plots::luminance(pixels.at(static_cast<int>((h - f.x.from) / (f.x.to - f.x.from) * pixels.width()),
                                           static_cast<int>((f.y.to - v) / (f.y.to - f.y.from) * pixels.height())));
@@ -122,7 +122,7 @@ TEST(IsocandelaDiagram, ADarkLampIsAnEmptyDiagramThatSaysSo) {
 TEST(IsocandelaDiagram, OutsideTheTableIsGrey) {
     const LampFile lamp = even_lamp(3.0, 3.0);
     const plots::Figure f = plots::isocandela_diagram(lamp.table, "small", plots::AngleWindow{-10.0, 10.0, -10.0, 10.0});
-    const Image<plots::Colour>& pixels = f.rasters.front().pixels;
+    const Image<plots::Colour>& pixels = *f.rasters.front().pixels;
     EXPECT_EQ(pixels.at(0, 0), (plots::Colour{225, 225, 225}));
     EXPECT_NE(pixels.at(pixels.width() / 2, pixels.height() / 2), (plots::Colour{225, 225, 225}));
 }
