@@ -69,8 +69,10 @@ Database::Database(std::filesystem::path file, For what) : file_(std::move(file)
     const std::filesystem::path folder = std::filesystem::absolute(file_).parent_path();
     make_folder(folder);
     const FolderLock lock(folder); // two that begin one file
+    const bool is_new = !std::filesystem::exists(file_, ignored) || std::filesystem::file_size(file_, ignored) == 0;
     open(true, false);
-    if (text_of("PRAGMA journal_mode") == "wal" || whole_of("SELECT count(*) FROM sqlite_schema") == 0)
+    // One with a rollback journal has been tried, though it may not hold anything yet; its first process may be at work.
+    if (is_new || text_of("PRAGMA journal_mode") == "wal")
         try_write_ahead();
     run("PRAGMA synchronous=FULL");
 }

@@ -1,6 +1,7 @@
 // The file of nights: what goes in comes back, from every version, from two writers, and where the disk or the file is odd.
 #include "runner/history/database.h"
 #include "runner/history/history.h"
+#include "tests/runner/program.h"
 #include "tests/trial.h"
 
 #include <algorithm>
@@ -239,6 +240,12 @@ TEST(HistoryFile, WhereWriteAheadLoggingDoesNotWorkARollbackJournalDoes) {
     const std::filesystem::path folder = new_folder();
     std::filesystem::create_directory(folder / "new.db-shm");
     expect_both_land(folder / "new.db", "delete");
+    // The second process leaves the journal alone where the first one found out, and may be writing.
+    std::filesystem::create_directory(folder / "begun.db-shm");
+    const Database first(folder / "begun.db", Database::For::writing);
+    const std::string begun = content_of(folder / "begun.db");
+    const Database second(folder / "begun.db", Database::For::writing);
+    EXPECT_TRUE(content_of(folder / "begun.db") == begun);
     // A file that was made elsewhere and moved here.
     History(folder / "moved.db", History::For::collecting).add(night_of(1));
     std::filesystem::create_directory(folder / "moved.db-shm");
