@@ -141,6 +141,8 @@ Document document(const BenchResult& result) {
     section.blocks.emplace_back(fmt::format("{} through {}; {}, {} cores; load average {} before, {} after.", context.gl_renderer,
                                             context.backend, context.cpu, result.cores, load_text(result.load_before),
                                             load_text(result.load_after)));
+    if (!result.lit_by.empty())
+        section.blocks.emplace_back(fmt::format("Light of photometric by {}.", result.lit_by));
     if (!result.gpu_not_measured.empty())
         section.blocks.emplace_back(fmt::format("GPU times are not measured: {}.", result.gpu_not_measured));
     for (const std::string& warning : bench_warnings(result))

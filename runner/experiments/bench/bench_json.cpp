@@ -33,7 +33,8 @@ Json settings_json(const BenchResult& result) {
             {"rounds_planned", result.rounds_planned},
             {"rounds_done", result.orders.size()},
             {"warm_up_plays_dropped", result.warm_up_plays},
-            {"reference", reference_technique}};
+            {"reference", reference_technique},
+            {"lit_by", result.lit_by.empty() ? Json(nullptr) : Json(result.lit_by)}};
 }
 
 Json with_text(PairedRatio ratio) { return JsonPart(joined(ratio_members(ratio), JsonMembers{{"text", verdict_text(ratio)}})).write(); }

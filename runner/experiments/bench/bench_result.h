@@ -30,6 +30,7 @@ struct BenchResult : Findings {
     std::size_t rounds_planned = 0, warm_up_plays = 0;
     std::vector<std::vector<std::size_t>> orders; ///< of each round done, into `techniques`
     std::string gpu_not_measured;                 ///< why; "" where it was
+    std::string lit_by;                           ///< who computed the light of `photometric`, and why; "" where it did not take part
     std::vector<BenchedTechnique> techniques;
 };
 

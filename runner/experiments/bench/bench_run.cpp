@@ -70,6 +70,18 @@ std::vector<TimedTechnique> take_part(const std::vector<Technique>& rows, LightP
     return timed_techniques;
 }
 
+/// "the fragment shader".
+std::string lit_by(const BenchResult& result, const std::deque<Renderer>& renderers) {
+    const auto found = std::ranges::find(result.techniques, "photometric", [](const BenchedTechnique& one) { return one.row.name; });
+    if (found == result.techniques.end())
+        return "";
+    const Renderer::LightPassesUsed used = renderers[static_cast<std::size_t>(found - result.techniques.begin())].light_passes_used();
+    const std::string shader = "the fragment shader" + (used.why_shader.empty() ? "" : " (" + used.why_shader + ")");
+    return used.shader == 0 ? "the CPU, each visible pixel once"
+           : used.cpu == 0  ? shader
+                            : fmt::format("the CPU, {} of {} pictures by {}", used.shader, used.cpu + used.shader, shader);
+}
+
 /// Holds the rounds and puts their samples into the result, with who else used the machine meanwhile.
 void time_rounds(const std::vector<TimedTechnique>& timed_techniques, const BenchRequest& request, Device& device, BenchResult& result) {
     TimingClocks clocks = real_clocks();
@@ -162,6 +174,7 @@ BenchResult run_bench(const BenchRequest& request) {
     const std::vector<TimedTechnique> timed_techniques =
         take_part(rows, request.light_pass, device, stage, view, moments, renderers, result);
     time_rounds(timed_techniques, request, device, result);
+    result.lit_by = lit_by(result, renderers);
     request.write(result);
     if (result.interrupted.empty()) {
         ContactSheet sheet = new_sheet(stage, lamp_set, moments[moments.size() / 2]);

@@ -68,8 +68,12 @@ TEST(BenchRun, LeavesRawSamplesOfEveryRound) {
         EXPECT_TRUE(std::filesystem::exists(folder.path() / "out" / name)) << name;
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/INCOMPLETE"));
 
-    printed(small_bench + "--techniques photometric,photometric-naive --seed 3 --out " + (folder / "again"));
-    EXPECT_EQ(json::parse(content_of(folder / "again/bench.json")).at("orders"), bench.at("orders"));
+    EXPECT_EQ(bench.at("settings").at("lit_by"), "the fragment shader");
+
+    printed(small_bench + "--techniques photometric,photometric-naive --seed 3 --light-pass cpu --out " + (folder / "again"));
+    const json again = json::parse(content_of(folder / "again/bench.json"));
+    EXPECT_EQ(again.at("orders"), bench.at("orders"));
+    EXPECT_EQ(again.at("settings").at("lit_by"), "the CPU, each visible pixel once");
     EXPECT_EQ(run_program(small_bench + "--out " + (folder / "again")).exit_code, 2) << "not over another's files";
 }
 
