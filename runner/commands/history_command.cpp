@@ -28,7 +28,7 @@ struct HistoryFlags {
     std::string history, folder, study, night, reading, cells = "*", note, drift = "0.5%", before, out;
     std::optional<std::size_t> keep;
     const OutputFormat* tables = nullptr;
-    bool accept = false, dry = false, csv = false, force = false;
+    bool accept = false, withdraw = false, fails_on_change = false, dry = false, csv = false, force = false;
     std::vector<std::string> command;
 };
 
@@ -109,9 +109,28 @@ int add(const HistoryFlags& flags) {
 
 int accept_night(const HistoryFlags& flags) {
     const std::vector<Night> nights = nights_of_study(flags);
-    const Night& night = nights[place_of_night(nights, flags.night)];
-    History(file_of(flags), History::For::collecting).accept(night.number, flags.note);
-    fmt::print("accepted night {} of {}, {}: later nights are compared with it\n", night.number, printable(night.study), night.date());
+    const std::size_t place = place_of_night(nights, flags.night);
+    const Night& night = nights[place];
+    History history(file_of(flags), History::For::collecting);
+    const std::string name = fmt::format("night {} of {}, {}", night.number, printable(night.study), night.date());
+    if (flags.withdraw) {
+        if (!night.accepted)
+            throw InputError({{}, 0, 0, "--withdraw"}, "found " + name + ", which is not accepted",
+                             "a night that `fernlicht history show` lists as accepted");
+        history.withdraw(night.number);
+        fmt::print("{}, is not accepted any more\n", name);
+        return 0;
+    }
+    history.accept(night.number, flags.note);
+    const auto newer = std::find_if(nights.rbegin(), nights.rend() - static_cast<std::ptrdiff_t>(place + 1),
+                                    [](const Night& one) { return one.accepted; });
+    fmt::print(
+        "accepted {}: {}\n", name,
+        newer == nights.rend() - static_cast<std::ptrdiff_t>(place + 1)
+            ? "later nights are compared with it"
+            : fmt::format("nights up to {} are compared with it; night {} is accepted, too, and nights after that one are compared with "
+                          "that (`accept --withdraw {}` takes it back)",
+                          newer->number, newer->number, newer->number));
     return 0;
 }
 
@@ -192,7 +211,8 @@ int explain(const HistoryFlags& flags) {
     HistoryFindings findings = explain_nights(std::move(nights), {.drift_bound = share_of("--drift", flags.drift)});
     findings.context = context_of(flags);
     add_frames(findings);
-    return tell(flags, document(findings), findings);
+    const int told = tell(flags, document(findings), findings);
+    return flags.fails_on_change && !findings.nothing_changed() ? 1 : told;
 }
 
 int prune(const HistoryFlags& flags) {
@@ -255,6 +275,7 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
     CLI::App* accepting = add_action("accept", "compare later nights with this one", accept_night);
     accepting->add_option("NIGHT", flags->night, night_words)->required();
     accepting->add_option("--note", flags->note, "why, in one sentence");
+    accepting->add_flag("--withdraw", flags->withdraw, "take an acceptance back");
     add_study(accepting, one_study);
     CLI::App* showing = add_action("show", "list the nights, or show one", show);
     showing->add_option("NIGHT", flags->night, night_words);
@@ -267,6 +288,7 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
     explaining->add_option("NIGHT", flags->night, "the night to explain: last, a number or a date (default: last)");
     explaining->add_option("--drift", flags->drift, "tell of a drift when its sum exceeds this; each step is smaller")
         ->capture_default_str();
+    explaining->add_flag("--fail-on-change", flags->fails_on_change, "exit code 1 where anything changed since the last accepted night");
     add_study(explaining, one_study);
     for (CLI::App* sub : {trending, explaining}) {
         sub->add_option("--out", flags->out, page);

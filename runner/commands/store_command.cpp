@@ -71,7 +71,8 @@ int verify(const StoreFlags& flags) {
     for (const StoreDamage& one : damage)
         fmt::print("removed {}: {}\n", one.what, one.why);
     fmt::print("{}\n", damage.empty() ? "nothing is damaged"
-                                      : fmt::format("{} removed; studies play those cells again", counted(damage.size(), "damaged part")));
+                                      : fmt::format("{} removed; cells that are named above are played again",
+                                                    counted(damage.size(), "damaged part")));
     return damage.empty() ? 0 : 1;
 }
 

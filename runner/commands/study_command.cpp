@@ -37,7 +37,7 @@ struct StudyFlags {
     std::optional<double> cell_minutes, cell_memory_mib;
     std::optional<int> cell_cores;
     std::string executor = "local", partition, gpus;
-    bool timed = false, explain = false, plan = false, play = false, collect = false;
+    bool timed = false, fails_on_change = false, explain = false, plan = false, play = false, collect = false;
 };
 
 int list_cells(const std::vector<StudyCell>& cells) {
@@ -77,6 +77,8 @@ std::optional<HistoryFindings> remember(const StudyFlags& flags, const StudyResu
     Night tonight = night_of_study(result, options.folder);
     take_replays(tonight, findings.replays);
     History(flags.history, History::For::collecting).add(tonight);
+    if (!result.played_in_part.empty())
+        tell(LogLevel::warning, fmt::format("{}: what is added is a part of the study: {}", flags.history, result.played_in_part));
     return findings;
 }
 
@@ -132,6 +134,8 @@ StudyResources resources_of(const StudyFlags& flags, const Study& study) {
 }
 
 void refuse_contradictions(const StudyFlags& flags) {
+    if (flags.fails_on_change && flags.history.empty())
+        throw InputError({{}, 0, 0, "--fail-on-change"}, "found without --history", "both");
     const int ways = flags.explain + flags.plan + flags.play + flags.collect + flags.list;
     if (ways > 1)
         throw InputError({{}, 0, 0, "study"}, "found several of --list, --explain, --plan, --play and --collect", "one of them");
@@ -190,7 +194,11 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     const Study study = read_study(flags.file);
     if (flags.list) {
         refuse_unaimable(study);
-        return list_cells(chosen_cells(study, items_of("--only", flags.only)));
+        refuse_unknown_readings(study);
+        const std::vector<StudyCell> cells = chosen_cells(study, items_of("--only", flags.only));
+        for (const StudyCell& cell : cells)
+            cell_drive(study, cell); // throws for what a drive refuses
+        return list_cells(cells);
     }
     if (flags.resume && flags.out.empty())
         throw InputError({{}, 0, 0, "--resume"}, "found no --out beside it", "the folder to go on in");
@@ -256,7 +264,8 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     trace.finish();
     if (!no_history.empty())
         throw DeviceError("the report is written, but not into the history: " + no_history);
-    return overall(result) == VerdictKind::pass ? 0 : 1;
+    const bool fails = flags.fails_on_change && findings && !findings->nothing_changed();
+    return overall(result) == VerdictKind::pass && !fails ? 0 : 1;
 }
 
 } // namespace
@@ -290,6 +299,7 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_option("--gpus", flags->gpus, "of the cluster for each cell, as --gres has it: gpu:1");
     sub->add_option("--history", flags->history,
                     "lead with what changed since the last accepted night of this history, and add tonight to it");
+    sub->add_flag("--fail-on-change", flags->fails_on_change, "with --history: exit code 1 where anything changed since that night");
     sub->add_flag("--explain", flags->explain, "say why each cell must be played that the store lacks, and play none");
     sub->add_flag("--plan", flags->plan, "print a command for each cell that the store lacks, a line of JSON each, and play none");
     sub->add_option("--per", flags->per, "cells for each command of --plan, and for each task of a cluster (default: 1)")

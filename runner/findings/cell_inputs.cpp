@@ -28,7 +28,7 @@ std::string phrase_of_change(InputKind kind, const std::string& name, const std:
     case InputKind::device:
         return fmt::format("{} changed: {} {} -> {}", input_kind_name(kind), name, before, now);
     case InputKind::drive:
-        return fmt::format("drive {} changed", name);
+        return fmt::format("drive {} changed as it is played (its file, or what the study sets in it)", name);
     default: // a comment in it counts as well
         return fmt::format("{} {} changed (bytes of its file)", input_kind_name(kind), name);
     }

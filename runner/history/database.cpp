@@ -35,6 +35,8 @@ constexpr int wait_ms = 60'000;
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
         throw DeviceError(fmt::format("{}: another process has been writing for {} s", printable(file.string(), 400), wait_ms / 1000));
+    case SQLITE_IOERR:
+        throw DeviceError(fmt::format("{}: {} (is its disk full?)", printable(file.string(), 400), says));
     default:
         throw DeviceError(fmt::format("{}: {}", printable(file.string(), 400), says));
     }

@@ -258,6 +258,13 @@ void History::accept(std::int64_t number, const std::string& note) {
     transaction.commit();
 }
 
+void History::withdraw(std::int64_t number) {
+    Transaction transaction(tables_->database);
+    tables_->refuse_unknown(number);
+    Statement(tables_->database, "UPDATE nights SET accepted = 0, note = '' WHERE number = ?1").bind(1, number).run();
+    transaction.commit();
+}
+
 std::vector<Night> History::nights(const std::string& study) const {
     Database& database = tables_->database;
     database.run("BEGIN"); // what others add meanwhile is not seen in part

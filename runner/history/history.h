@@ -69,6 +69,7 @@ class History {
     Added add(const Night& night);
     /// Throws InputError where there is no such night.
     void accept(std::int64_t number, const std::string& note);
+    void withdraw(std::int64_t number); ///< as if it had not been accepted
     /// In the order in which they were played; of all studies for "".
     std::vector<Night> nights(const std::string& study = "") const;
 

@@ -34,10 +34,23 @@ JsonMembers stored_cell_members(StoredCell& cell) {
             {"files", cell.files, kept_file_members}};
 }
 
-/// An entry whose text was changed does not name itself by its key any more, or is no entry.
+/// The entry's text ends with a hash of what comes before.
+constexpr std::string_view before_hash = ",\"xxh128\":\"", after_hash = "\"}\n";
+
+std::string with_hash(std::string object) {
+    object.pop_back();
+    return object + std::string(before_hash) + content_hash(object.data(), object.size()) + std::string(after_hash);
+}
+
+/// nullopt for an entry whose text was changed, for another cell's, and for what is none.
 std::optional<StoredCell> read_entry(const fs::path& path, const std::string& key) {
     try {
-        const CheckedJson json = CheckedJson::read(path);
+        FilesRead opened;
+        const std::string text = read_file(path, opened, std::size_t{1} << 24, true);
+        const std::size_t at = text.rfind(before_hash);
+        if (at == std::string::npos || with_hash(text.substr(0, at) + "}") != text)
+            return std::nullopt;
+        const CheckedJson json = CheckedJson::parse(text, path);
         json.expect_schema(cell_schema, cell_version);
         StoredCell cell = from_json<StoredCell>(json, stored_cell_members);
         if (cell.key == key && cell.object.size() == 32)
@@ -121,7 +134,7 @@ void CellStore::keep(StoredCell cell, const PackedFiles& files, const FilesRead&
     cell.object = put_object(folder_, content);
     cell.bytes = content.size();
     make_folder(entry_path(cell.key).parent_path());
-    write_durably(entry_path(cell.key), as_json(cell, stored_cell_members).dump() + "\n");
+    write_durably(entry_path(cell.key), with_hash(as_json(cell, stored_cell_members).dump()));
     note_failure(cell.key, "");
 }
 
@@ -158,6 +171,10 @@ std::string CellStore::refuses_writing() const {
 }
 
 void CellStore::make() const {
+    std::error_code ignored;
+    if (!fs::exists(mark(), ignored) && fs::is_directory(folder_, ignored) && !fs::is_empty(folder_, ignored))
+        throw InputError({folder_, 0, 0, "--store"}, "is a folder with other files in it",
+                         "a new or empty one, or one that `fernlicht study` made");
     make_folder(folder_);
     std::ofstream(mark(), std::ios::app); // what is written next says what a disk refuses
 }

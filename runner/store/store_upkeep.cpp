@@ -74,19 +74,30 @@ std::uint64_t size_of(const fs::path& file) {
 
 std::string sentence_name(const StoredCell& cell) { return fmt::format("cell {} of {}", printable(cell.cell), printable(cell.study)); }
 
-/// Cells whose results are not there, and what is no entry.
+/// Why a cell must be played again; "" where all of it is there.
+std::string missing_of(const CellStore& store, const StoredCell& cell) {
+    std::error_code error;
+    if (!fs::exists(object_path(store.folder(), cell.object), error))
+        return "its results are missing or damaged";
+    for (const auto& [name, hash] : cell.files)
+        if (!fs::exists(object_path(store.folder(), hash), error))
+            return "the input file " + printable(name) + " that is kept with it is missing or damaged";
+    return {};
+}
+
+/// Cells of which something is not there, and what is no entry.
 std::vector<StoreDamage> damaged_entries(const CellStore& store, bool taken_out) {
     std::vector<StoreDamage> damage;
     std::set<std::string> whole;
     for (const StoredCell& cell : store.list()) {
         whole.insert(cell.key);
-        std::error_code error;
-        if (fs::exists(object_path(store.folder(), cell.object), error))
+        const std::string missing = missing_of(store, cell);
+        if (missing.empty())
             continue;
-        damage.push_back({sentence_name(cell), "its results are missing or damaged; it is played again when it is asked for"});
+        damage.push_back({sentence_name(cell), missing + "; it is played again when it is asked for"});
         if (taken_out) {
             store.forget(cell.key);
-            store.note_failure(cell.key, "its results in the store were damaged");
+            store.note_failure(cell.key, "in the store " + missing);
         }
     }
     for (const fs::path& path : files_of(store.folder() / "cells"))

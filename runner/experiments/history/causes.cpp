@@ -27,6 +27,26 @@ HashesByInput hashes_of(const CellInputs& inputs) {
     return hashes;
 }
 
+constexpr const char* conditions_name = "conditions";
+constexpr const char* changed = "changed";
+
+/// A drive as it is played differs from lamp to lamp, so its hash would make one change several; and where the study set something else in
+/// it, that is the change.
+InputChanges without_drive_hashes(InputChanges changes, const NightCell& before, const NightCell& now) {
+    const auto is_played_otherwise = [](const InputChange& change) {
+        return change.kind == InputKind::drive && !change.before.empty() && !change.now.empty();
+    };
+    const auto first = std::ranges::remove_if(changes, is_played_otherwise);
+    if (first.empty())
+        return changes;
+    const std::string drive = first.begin()->name;
+    changes.erase(first.begin(), first.end());
+    changes.push_back(before.condition != now.condition ? InputChange{InputKind::setting, conditions_name, before.condition, now.condition}
+                                                        : InputChange{InputKind::drive, drive, changed, changed});
+    std::ranges::sort(changes);
+    return changes;
+}
+
 /// Of a night that kept no hashes.
 bool is_version(const std::string& value) { return !value.empty() && value.size() < 32; }
 
@@ -71,7 +91,13 @@ std::string phrase_of(const InputChange& change) {
         if (is_version(change.before) || is_version(change.now))
             return fmt::format("{} {} → {}", name, change.before, change.now);
         return "sources in " + name;
+    case InputKind::drive: // its hash is that of the drive as it is played, which no file has
+        return change.before.empty() == change.now.empty() ? "drive " + name + " as it is played"
+                                                           : fmt::format("drive {} {}", name, change.before.empty() ? "is new" : "is gone");
     case InputKind::setting:
+        if (change.name == conditions_name)
+            return fmt::format("conditions {} → {}", short_text(change.before, 120), short_text(change.now, 120));
+        [[fallthrough]];
     case InputKind::library:
     case InputKind::device: {
         const auto told = [](const std::string& value) { return value.empty() ? "none" : short_text(value, 60); };
@@ -123,7 +149,9 @@ CellInputs timing_inputs(const Night& night, const NightCell& cell) {
 InputChanges changes_between(const Night& earlier, const NightCell& before, const Night& later, const NightCell& now) {
     static const NightCell without_inputs;
     const bool kept = !before.inputs->empty() && !now.inputs->empty();
-    return changed_inputs(deciding_inputs(earlier, kept ? before : without_inputs), deciding_inputs(later, kept ? now : without_inputs));
+    return without_drive_hashes(
+        changed_inputs(deciding_inputs(earlier, kept ? before : without_inputs), deciding_inputs(later, kept ? now : without_inputs)),
+        before, now);
 }
 
 std::string device_class_of(const CellInputs& inputs) {

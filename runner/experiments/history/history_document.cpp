@@ -23,9 +23,9 @@ const NightCell& night_cell(const Night& night, const std::string& name) {
     return cell ? *cell : none;
 }
 
-/// "xenon on straight, night, aim -1 %, 13.2 V".
-std::string place_of(const HistoryFindings& findings, const std::string& cell) {
-    const NightCell& one = night_cell(findings.tonight(), cell);
+/// As it was in that night: "xenon on straight, night, aim -1 %, 13.2 V".
+std::string place_of(const Night& night, const std::string& cell) {
+    const NightCell& one = night_cell(night, cell);
     return one.name.empty() ? cell : fmt::format("{} on {}{}{}", one.lamp, one.drive, one.condition.empty() ? "" : ", ", one.condition);
 }
 
@@ -37,7 +37,7 @@ std::size_t count_cells(const std::vector<MovedReading>& moved) {
 }
 
 /// "24 readings of 6 cells, above all reach at 5 lx ..., xenon on straight: 40.2 m → 41.1 m (+2.31 %)".
-std::string told_moved(const HistoryFindings& findings, const std::vector<MovedReading>& moved) {
+std::string told_moved(const HistoryFindings& findings, const Night& night, const std::vector<MovedReading>& moved) {
     const MovedReading& largest = moved.front();
     const std::string share = told_share(largest.share());
     std::string aim;
@@ -46,9 +46,12 @@ std::string told_moved(const HistoryFindings& findings, const std::vector<MovedR
         aim = fmt::format(", {} 0.1° of aim would do ({})",
                           std::abs(*largest.now.figure() - *largest.before.figure()) > effect->second ? "more than" : "no more than",
                           told_value(largest.reading, effect->second));
-    return fmt::format("{} of {}, above all {}, {}: {}{}{}", counted(moved.size(), "reading"), counted(count_cells(moved), "cell"),
-                       label_of_reading(largest.reading), place_of(findings, largest.cell),
-                       told_step(largest.reading, largest.before, largest.now), share.empty() ? "" : " (" + share + ")", aim);
+    const std::optional<ReadingKey> key = key_of(largest.reading); // what decides stands first
+    const bool decides = night.decide.empty() || (key && place_among(*key, night.decide));
+    return fmt::format("{} of {}, {} {}, {}: {}{}{}", counted(moved.size(), "reading"), counted(count_cells(moved), "cell"),
+                       decides ? "above all" : "none that decides; the largest is", label_of_reading(largest.reading),
+                       place_of(night, largest.cell), told_step(largest.reading, largest.before, largest.now),
+                       share.empty() ? "" : " (" + share + ")", aim);
 }
 
 std::string told_split(const HistoryFindings& findings, const HistoryEvent& event) {
@@ -79,7 +82,7 @@ std::string told_split(const HistoryFindings& findings, const HistoryEvent& even
                                                                         : "the " + others + " alone moved them";
     return fmt::format("; told apart by {}, played with that night's {} and the inputs before: {} ({}); the other order cannot be played: "
                        "the earlier program is gone",
-                       place_of(findings, told.cell), others, verdict, parts);
+                       place_of(findings.nights[event.night], told.cell), others, verdict, parts);
 }
 
 std::string told_causes(const HistoryFindings& findings, const HistoryEvent& event) {
@@ -92,7 +95,7 @@ std::string told_causes(const HistoryFindings& findings, const HistoryEvent& eve
 std::string told_event(const HistoryFindings& findings, const HistoryEvent& event) {
     std::string text = findings.when(event.night) + ": " + told_causes(findings, event) + "; ";
     if (!event.moved.empty())
-        text += told_moved(findings, event.moved);
+        text += told_moved(findings, findings.nights[event.night], event.moved);
     if (event.within_rounding > 0)
         text += fmt::format("{}{} within rounding{}", event.moved.empty() ? "" : "; ",
                             event.moved.empty()
@@ -109,7 +112,8 @@ std::string told_drift(const HistoryFindings& findings, const HistoryDrift& drif
                                    ? fmt::format("beyond {} since {}", told_percent(findings.drift_bound), findings.when(*drift.exceeded))
                                    : fmt::format("not beyond {} so far", told_percent(findings.drift_bound));
     return fmt::format("{} to {}: drift in {} nights; {}, {}; {}", findings.when(drift.nights.front()), findings.when(drift.nights.back()),
-                       drift.nights.size(), told_moved(findings, drift.moved), beyond, phrase_of(drift.causes));
+                       drift.nights.size(), told_moved(findings, findings.nights[drift.nights.back()], drift.moved), beyond,
+                       phrase_of(drift.causes));
 }
 
 /// All of one night with the same causes in one sentence.
@@ -124,9 +128,10 @@ std::vector<std::string> told_times(const HistoryFindings& findings) {
         std::string by = told_share(least->ratio - 1.0);
         if (changes.size() > 1)
             by += " to " + told_share(most->ratio - 1.0);
-        told.push_back(fmt::format("{}: time a frame of {} {} (p at most {:.2g}); {}", findings.when(key.first),
-                                   changes.size() == 1 ? place_of(findings, changes.front().cell) : counted(changes.size(), "cell"), by, p,
-                                   phrase_of(key.second)));
+        told.push_back(
+            fmt::format("{}: time a frame of {} {} (p at most {:.2g}); {}", findings.when(key.first),
+                        changes.size() == 1 ? place_of(findings.nights[key.first], changes.front().cell) : counted(changes.size(), "cell"),
+                        by, p, phrase_of(key.second)));
     }
     return told;
 }
@@ -172,9 +177,8 @@ Table moved_table(const std::string& name, const std::string& caption) {
     return {name, caption, columns_of("night<|cause<|lamp<|route<|reading<|before|now|unit<|change [%]"), {}};
 }
 
-void add_moved_row(Table& table, const HistoryFindings& findings, const std::string& night, const std::string& cause,
-                   const MovedReading& moved) {
-    const NightCell& cell = night_cell(findings.tonight(), moved.cell);
+void add_moved_row(Table& table, const Night& in, const std::string& night, const std::string& cause, const MovedReading& moved) {
+    const NightCell& cell = night_cell(in, moved.cell);
     const auto value = [](const Value& one) {
         return one.measured() ? Cell(with_bound(one, four_digits(*one.figure())), *one.figure()) : Cell("not measured");
     };
@@ -187,10 +191,10 @@ void add_moved_row(Table& table, const HistoryFindings& findings, const std::str
          share ? Cell(fmt::format("{}{}", *share < 0 ? "−" : "+", four_digits(100.0 * std::abs(*share))), 100.0 * *share) : Cell("")});
 }
 
-void add_moved_rows(Table& table, const HistoryFindings& findings, const std::string& night, const std::string& cause,
+void add_moved_rows(Table& table, const Night& in, const std::string& night, const std::string& cause,
                     const std::vector<MovedReading>& moved) {
     for (std::size_t i = 0; i < std::min(most_rows, moved.size()); ++i)
-        add_moved_row(table, findings, night, cause, moved[i]);
+        add_moved_row(table, in, night, cause, moved[i]);
 }
 
 Section readings_section(const HistoryFindings& findings) {
@@ -199,15 +203,16 @@ Section readings_section(const HistoryFindings& findings) {
         "moved", fmt::format("Of each change {} readings, what decides first, then the largest; `fernlicht history trend` shows the others",
                              most_rows));
     for (const HistoryEvent& event : findings.events)
-        add_moved_rows(table, findings, findings.when(event.night), causes_of(event.causes), event.moved);
+        add_moved_rows(table, findings.nights[event.night], findings.when(event.night), causes_of(event.causes), event.moved);
     for (const HistoryDrift& drift : findings.drifts)
-        add_moved_rows(table, findings, "from " + findings.when(drift.nights.front()), "drift: " + causes_of(drift.causes), drift.moved);
+        add_moved_rows(table, findings.nights[drift.nights.back()], "from " + findings.when(drift.nights.front()),
+                       "drift: " + causes_of(drift.causes), drift.moved);
     if (!table.rows.empty())
         section.blocks.emplace_back(std::move(table));
     Table since = moved_table("since", fmt::format("In sum: tonight off {}", base_words(findings)));
     since.columns.erase(since.columns.begin(), since.columns.begin() + 2);
     for (std::size_t i = 0; i < std::min(most_since, findings.since.size()); ++i) {
-        add_moved_row(since, findings, "", "", findings.since[i]);
+        add_moved_row(since, findings.tonight(), "", "", findings.since[i]);
         since.rows.back().erase(since.rows.back().begin(), since.rows.back().begin() + 2);
     }
     since.off_terminal = since.folded = true;
@@ -221,11 +226,11 @@ Section apart_section(const HistoryFindings& findings) {
     for (const HistoryEvent& event : findings.events) {
         if (!event.told_apart || event.told_apart->parts.empty())
             continue;
-        Table table{
-            fmt::format("apart-{}", section.blocks.size() + 1),
-            fmt::format("{}, {}: {}", findings.when(event.night), place_of(findings, event.told_apart->cell), phrase_of(event.causes)),
-            columns_of("reading<|before|new program, inputs before|now|unit<"),
-            {}};
+        Table table{fmt::format("apart-{}", section.blocks.size() + 1),
+                    fmt::format("{}, {}: {}", findings.when(event.night), place_of(findings.nights[event.night], event.told_apart->cell),
+                                phrase_of(event.causes)),
+                    columns_of("reading<|before|new program, inputs before|now|unit<"),
+                    {}};
         const std::vector<ToldApart::Part>& parts = event.told_apart->parts;
         for (std::size_t i = 0; i < std::min(most_rows, parts.size()); ++i) {
             const auto value = [](const Value& one) {
@@ -256,7 +261,7 @@ Section times_section(const HistoryFindings& findings) {
         counted(times.cells, "cell"), counted(times.nights, "night"), orders_of_change + 1, 100.0 * times.rate));
     Table table{"times", "", columns_of("night<|lamp<|route<|time a frame [%]|p|cause<"), {}};
     for (const HistoryTimes::Change& change : times.changes) {
-        const NightCell& cell = night_cell(findings.tonight(), change.cell);
+        const NightCell& cell = night_cell(findings.nights[change.night], change.cell);
         table.rows.push_back({findings.when(change.night), cell.lamp, cell.drive + (cell.condition.empty() ? "" : ", " + cell.condition),
                               Cell(signed_figure(100.0 * (change.ratio - 1.0), 1), 100.0 * (change.ratio - 1.0)),
                               Cell(fmt::format("{:.2g}", change.p), change.p), phrase_of(change.causes)});

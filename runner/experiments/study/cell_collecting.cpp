@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace fernlicht {
 namespace {
@@ -85,11 +86,17 @@ CellResult unplayed_cell(const Study& study, const StudyPlan& plan, const Planne
     return cell;
 }
 
+std::string changed_since(const Drive& drive, const PlannedCell& planned) {
+    const std::vector<std::string> changes =
+        input_changes(planned.own_inputs, cell_inputs(drive, *planned.road, *planned.others, planned.settings));
+    return changes.empty() ? "" : fmt::format("{} while the study was played; start it again", fmt::join(changes, ", "));
+}
+
 void judge_cell(const Study& study, const PlannedCell& planned, const StudyOptions& options, CellResult& result) {
     const fs::path folder = options.folder / folder_name_of(planned);
     const Drive drive = cell_drive(study, planned.cell);
-    if (cell_inputs(drive, *planned.road, *planned.others, planned.settings) != planned.own_inputs)
-        throw InputError({drive.file, 0, 0, {}}, "changed, or its lamps did, while the study was played", "files that stay as they are");
+    if (const std::string changed = changed_since(drive, planned); !changed.empty())
+        throw DeviceError(changed);
     Report report = report_of_cell(folder);
     judge(drive, planned, options, folder, report);
     write_file(folder / planned.resolved_file, write_drive(drive));

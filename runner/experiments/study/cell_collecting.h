@@ -11,6 +11,9 @@ CellResult unplayed_cell(const Study& study, const StudyPlan& plan, const Planne
 /// The command that plays this cell of the study, where its folder is not there.
 std::string playing_anew(const StudyOptions& options, const StudyCell& cell);
 
+/// "lamp xenon-low.ies changed (bytes of its file) while the study was played; start it again"; "" where nothing did.
+std::string changed_since(const Drive& drive, const PlannedCell& planned);
+
 /// Puts the cell's files from the store into the study's folder in place of what is there, judges them, and fills in `result`. Throws
 /// InputError where the store lacks them, DeviceError where it holds them damaged (they are taken out) or the disk refuses.
 void collect_cell(const CellStore& store, const Study& study, const PlannedCell& planned, const StudyOptions& options, CellResult& result);

@@ -34,8 +34,12 @@ std::string nothing_compared(const StudyResult& result) {
     if (deciding > 0)
         return fmt::format("Nothing could be compared: of none of {} changes of deciding readings is it known how exact they are.",
                            deciding);
-    return result.changes.empty() ? "Nothing could be compared: no two lamps were played under the same conditions."
-                                  : "Nothing could be compared: no deciding reading is in two cells that are compared.";
+    const auto played = std::ranges::count(result.cells, "", &CellResult::failed);
+    return result.changes.size() + result.changes_elsewhere > 0
+               ? "Nothing could be compared: no deciding reading is in two cells that are compared."
+           : played < std::ssize(result.cells)
+               ? fmt::format("Nothing could be compared: {} of {} cells were played.", played, result.cells.size())
+               : "Nothing could be compared: no two lamps were played under the same conditions.";
 }
 
 std::string lamps_of(const StudyResult& result, const Change& change) {

@@ -179,7 +179,23 @@ CellInputs StudyPlan::inputs(const PlannedCell& cell) const {
     return all;
 }
 
+void refuse_unknown_readings(const Study& study) {
+    const auto refuse = [&](const std::string& name, std::size_t line, const char* key) {
+        if (name.find_first_of("*?") != std::string::npos || key_of(name))
+            return;
+        const std::string nearest = nearest_name(name, decides_by_default());
+        throw InputError({study.file, line, 0, key}, fmt::format("found '{}', which is no reading's name", printable(name)),
+                         nearest.empty() ? "one that `fernlicht readings` lists"
+                                         : "one that `fernlicht readings` lists, such as " + nearest);
+    };
+    for (const std::string& name : study.decide)
+        refuse(name, 0, "decide");
+    for (const StudyLimit& limit : study.limits)
+        refuse(limit.reading, limit.line, "limits");
+}
+
 StudyPlan plan_study(const Study& study, const StudyOptions& options) {
+    refuse_unknown_readings(study);
     const TraceSpan span("plan", "study");
     StudyPlan plan;
     KnownStage stage;

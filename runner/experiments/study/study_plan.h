@@ -37,6 +37,9 @@ struct StudyPlan {
 /// played.
 StudyPlan plan_study(const Study& study, const StudyOptions& options);
 
+/// Throws InputError for a name among `decide` and `limits` that no reading can have. plan_study asks for it, too.
+void refuse_unknown_readings(const Study& study);
+
 /// As `--frames` takes it; "" for all moments.
 std::string frames_text(const TickRange& ticks);
 

@@ -249,9 +249,13 @@ void collect_all(const CellStore& store, const Study& study, const StudyPlan& pl
             // Its drive cannot be read any more.
         } else if (one.moments == 0)
             cell.failed = no_moments(options);
-        else if (found != played.end() && !found->second.failed.empty())
-            cell.failed = found->second.failed;
-        else if (Interruption::requested() && !store.find(one.key)) {
+        else if (found != played.end() && !found->second.failed.empty()) {
+            cell.failed = found->second.failed; // where files changed meanwhile that is why, and not what the process saw of it
+            try_cell(cell, [&] {
+                if (const std::string changed = changed_since(cell_drive(study, one.cell), one); !changed.empty())
+                    cell.failed = changed;
+            });
+        } else if (Interruption::requested() && !store.find(one.key)) {
             cell.failed = "not reached";
             result.missing.push_back("cell " + one.cell.name);
         } else

@@ -71,11 +71,23 @@ TEST_F(HistoryCommand, FromTheFirstNightToTheCause) {
     EXPECT_THAT(printed("history explain 2026-01-02" + flag_), HasSubstr("Nothing changed"));
     EXPECT_THAT(printed("history trend 'reach_5lx*' --cells straight_xenon" + flag_),
                 AllOf(HasSubstr("2026-01-01  2026-01-02"), HasSubstr("inputs: lamp xenon-low.ies")));
+    EXPECT_EQ(run_program("history explain --fail-on-change" + flag_).exit_code, 1);
     printed("history accept last" + flag_);
     EXPECT_THAT(printed("history explain" + flag_), AllOf(HasSubstr("1 change since"), HasSubstr("This night is accepted itself")));
     EXPECT_THAT(printed("history prune --keep 0 --dry-run" + flag_),
                 HasSubstr("would remove 1 night, kept 2 older ones that are accepted"));
     EXPECT_THAT(printed("history prune --before 2026-01-03" + flag_), HasSubstr("removed night 2 of planted, 2026-01-02"));
+}
+
+TEST_F(HistoryCommand, AnAcceptanceIsTakenBack) {
+    for (const int number : {0, 1})
+        printed("history add " + night(number) + (number == 1 ? " --accept" : "") + flag_);
+    EXPECT_THAT(printed("history accept 1" + flag_),
+                HasSubstr("night 2 is accepted, too, and nights after that one are compared with that"));
+    EXPECT_THAT(printed("history accept 2 --withdraw" + flag_), HasSubstr("night 2 of planted, 2026-01-02, is not accepted any more"));
+    EXPECT_THAT(printed("history explain" + flag_), HasSubstr("since the accepted night of 2026-01-01"));
+    EXPECT_EQ(run_program("history explain --fail-on-change" + flag_).exit_code, 0);
+    EXPECT_THAT(printed("history accept 2 --withdraw" + flag_, 2), HasSubstr("which is not accepted"));
 }
 
 TEST_F(HistoryCommand, ThePageHasLinesAndFramesSideBySide) {

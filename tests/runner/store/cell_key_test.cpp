@@ -62,7 +62,7 @@ TEST_F(CellKey, EveryInputCountsAndSaysWhatItIs) {
     EXPECT_THAT(told(drive), IsEmpty());
     Drive other = drive;
     other.lamp_sets[0].lamps[0].pitch_rad += 1e-9;
-    EXPECT_THAT(told(other), ElementsAre("drive straight.yaml changed"));
+    EXPECT_THAT(told(other), ElementsAre("drive straight.yaml changed as it is played (its file, or what the study sets in it)"));
     EXPECT_NE(key(other), cell_key(before));
     other = drive;
     for (LampSource& source : other.lamp_sources)

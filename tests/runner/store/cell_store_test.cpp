@@ -41,9 +41,9 @@ struct CellStoreTest : testing::Test {
     }
     static void flip_bit(const fs::path& file) {
         std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
-        stream.seekg(20);
+        stream.seekg(3);
         const char byte = static_cast<char>(stream.get() ^ 4);
-        stream.seekp(20);
+        stream.seekp(3);
         stream.put(byte);
     }
 };
@@ -80,6 +80,43 @@ TEST_F(CellStoreTest, WhatIsDamagedIsFoundAndTakenOut) {
     EXPECT_TRUE(store.find(whole.key));
     EXPECT_THAT(verify_store(store), IsEmpty());
     EXPECT_EQ(keep(1).object, flipped.object) << "computed anew";
+}
+
+TEST_F(CellStoreTest, NoBitOfAnEntryIsReadFlipped) {
+    const StoredCell kept = keep(1);
+    const fs::path entry = store.folder() / "cells/aa" / (kept.key.substr(2) + ".json");
+    const std::string text = content_of(entry);
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        std::string flipped = text;
+        flipped[at] = static_cast<char>(flipped[at] ^ 1);
+        write_file(entry, flipped);
+        EXPECT_FALSE(store.find(kept.key)) << at;
+    }
+    write_file(entry, text);
+    EXPECT_EQ(store.find(kept.key)->inputs, kept.inputs);
+}
+
+/// The history plays lamps of earlier nights out of the store.
+TEST_F(CellStoreTest, ACellWhoseInputIsGoneIsPlayedAgain) {
+    const StoredCell kept = keep(1);
+    flip_bit(object_path(store.folder(), kept.files[0].second));
+    std::vector<std::string> told;
+    for (const StoreDamage& one : verify_store(store))
+        told.push_back(one.what + ": " + one.why);
+    EXPECT_THAT(told,
+                ElementsAre("object " + kept.files[0].second + ": its bytes are not those that were kept",
+                            "cell cell 1 of s: the input file lamp.ies that is kept with it is missing or damaged; it is played again "
+                            "when it is asked for"));
+    EXPECT_FALSE(store.find(kept.key));
+    EXPECT_EQ(get_object(store.folder(), keep(1).files[0].second, "lamp"), "lamp of s");
+}
+
+TEST_F(CellStoreTest, IsBuiltAmongNobodysFiles) {
+    fs::create_directory(folder / "theirs");
+    write_file(folder / "theirs/thesis.txt", "text");
+    EXPECT_THAT(tests::refusal_of([&] { CellStore(folder / "theirs").new_workplace("a"); }),
+                HasSubstr("is a folder with other files in it"));
+    EXPECT_EQ(files_below(folder / "theirs").size(), 1U);
 }
 
 TEST_F(CellStoreTest, PrunesByAgeSizeAndStudy) {

@@ -309,6 +309,29 @@ TEST(HistoryCauses, NightsThatKeptNoInputsKnowProgramAndMachine) {
     EXPECT_THAT(document_text(document(found)), HasSubstr("program: fernlicht 0.1 → 0.2 (what went in was not kept)"));
 }
 
+/// A drive as it is played differs from lamp to lamp: one edit of its file is one change, and what the study sets is told as that.
+TEST(HistoryCauses, ADriveThatIsPlayedOtherwiseIsOneChange) {
+    PlantedNights planted(7);
+    World brighter;
+    brighter.program_area = 1.1;
+    std::vector<Night> nights;
+    for (int i = 0; i < 3; ++i) {
+        StudyResult result = planted.play(i, i == 1 ? brighter : World{});
+        for (CellResult& cell : result.cells) {
+            cell.cell.condition = i < 2 ? "night, aim -1 %" : "night, aim -1.1 %";
+            std::erase_if(cell.inputs, [](const CellInput& input) { return input.kind == InputKind::program; });
+            cell.inputs.push_back({InputKind::drive, "straight.yaml", fmt::format("{}{:031}", i, cell.cell.lamp)});
+        }
+        nights.push_back(night_of_study(result, "/n"));
+    }
+    const HistoryFindings found = explain_nights(nights);
+    ASSERT_EQ(found.events.size(), 2U);
+    EXPECT_THAT(phrase_of(found.events[0].causes), HasSubstr("drive straight.yaml as it is played"));
+    EXPECT_EQ(phrase_of(found.events[1].causes), "inputs: conditions night, aim -1 % → night, aim -1.1 %");
+    const std::string text = document_text(document(found));
+    EXPECT_THAT(text, AllOf(HasSubstr("on country, night, aim -1 %: "), HasSubstr("on country, night, aim -1.1 %: "))) << text;
+}
+
 TEST(HistoryCauses, AnUncertaintyMayMoveByRoundingOfItsReading) {
     PlantedNights planted(7);
     World program;

@@ -384,14 +384,15 @@ TEST_F(StudyProgram, AFinishedStudyIsReportedAgainFromItsCells) {
     const Outcome again = run_program("study " + (folder / "study.yaml") + quick + out + " --resume");
     EXPECT_EQ(again.exit_code, 0) << again.output;
     EXPECT_EQ(content_of(folder / "out/study.csv"), first);
-    // Judged anew: a deciding reading that is misspelt, over the same cells.
-    const std::string misspelt = write_study_file(folder, xenon, "decide: [reach_1lx_tarket_own_m]\n");
-    const Outcome red = run_program("study " + misspelt + quick + out + " --resume");
+    // Judged anew: a deciding reading that no drive measures, over the same cells.
+    const std::string unmeasured = write_study_file(folder, xenon, "decide: [reach_7lx_target_own_m]\n");
+    const Outcome red = run_program("study " + unmeasured + quick + out + " --resume");
     EXPECT_EQ(red.exit_code, 1);
-    EXPECT_THAT(red.output, HasSubstr("NOT MEASURED deciding reading reach_1lx_tarket_own_m: there is no reading of this name; the "
-                                      "nearest name is reach_1lx_target_own_m"));
+    EXPECT_THAT(red.output, testing::AllOf(HasSubstr("NOT MEASURED deciding reading reach_7lx_target_own_m: there is no reading of this "
+                                                     "name; the nearest name is reach_"),
+                                           HasSubstr("no deciding reading is in two cells that are compared")));
     EXPECT_EQ(without_command(content_of(folder / "out/cells/straight_old/report.json")), cell) << "played again";
-    const Outcome other = run_program("study " + misspelt + " --frames 0:4 --quiet --no-accuracy --resume" + store + out);
+    const Outcome other = run_program("study " + unmeasured + " --frames 0:4 --quiet --no-accuracy --resume" + store + out);
     EXPECT_EQ(other.exit_code, 2) << "other moments are another study";
     EXPECT_FALSE(std::filesystem::exists(folder / "out/INCOMPLETE")) << "nothing was begun";
 }
@@ -410,6 +411,14 @@ TEST_F(StudyProgram, OneProcessAtATimeGoesOnInAFolder) {
 }
 
 TEST_F(StudyProgram, RefusesBeforeAnythingIsDrawn) {
+    for (const char* more : {"decide: [reach_3lx_tarket_own_m]\n", "limits: [{reading: reach_3lx_tarket_own_m, at_least: 1}]\n"})
+        for (const char* how : {" --list", " --explain", ""})
+            EXPECT_THAT(
+                printed("study " + write_study_file(folder, xenon, more) + how + store, 2),
+                HasSubstr("found 'reach_3lx_tarket_own_m', which is no reading's name, expected one that `fernlicht readings` lists, "
+                          "such as reach_3lx_target_own_m"));
+    EXPECT_THAT(printed("study " + write_study_file(folder, xenon, "axes: {weather.wetness: [0, 7]}\n") + " --list", 2),
+                HasSubstr("wetness"));
     const std::string file = write_study_file(folder, xenon, "techniques: [fotometric]\n");
     const Outcome run = run_program("study " + file + quick + "--out " + (folder / "out"));
     EXPECT_EQ(run.exit_code, 2) << run.output;
