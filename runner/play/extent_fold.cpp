@@ -142,11 +142,15 @@ View map_over(const ExtentGrid& grid, const Moment& moment) {
     return view;
 }
 
+void place_pixels(ExtentDrawing& drawing) {
+    drawing.pixels = places_of(drawing.grid, drawing.view, drawing.moment);
+    drawing.view.looked_at = boxes_of(drawing.pixels, drawing.view.height_px);
+}
+
 ExtentDrawing ExtentFold::draw(const Moment& moment, const Draw& draw) const {
     ExtentDrawing drawing{moment, make_extent_grid(route_, moment, drive_.bumper_m, *drive_.extent), {}, {}, {}, false};
     drawing.view = map_over(drawing.grid, moment);
-    drawing.pixels = places_of(drawing.grid, drawing.view, moment);
-    drawing.view.looked_at = boxes_of(drawing.pixels, drawing.view.height_px);
+    place_pixels(drawing);
     if (!moment.other_lamps.empty())
         drawing.moment.other_lamps.clear(); // reach is the own lamps'
     drawing.frame = draw(drawing.moment, drawing.view, {.illuminance = true, .target = true})();

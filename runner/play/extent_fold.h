@@ -27,6 +27,9 @@ struct ExtentDrawing {
     bool nudged = false; ///< whether the twin is asked for what nudges do
 };
 
+/// After its view: where the grid's points lie in it, and so where anybody looks.
+void place_pixels(ExtentDrawing& drawing);
+
 class ExtentFold {
   public:
     /// The drive must ask for an extent. Drive and route must outlive the fold. `nudges`: of which the twin tells the effect.
