@@ -97,7 +97,12 @@ double worst_at_samples(const CandelaTable& table, const BeamTexture& texture, c
         for (std::size_t y = 0; y < v.count; ++y)
             up.push_back(static_cast<double>(y));
     double worst = 0.0;
+    std::vector<double> across_deg;
+    for (const double texels : across)
+        across_deg.push_back(h.at(texels));
+    IntensityAcross true_cd(table, across_deg);
     for (std::size_t j = 0; j < up.size(); ++j) {
+        const std::vector<double>& truth_cd = true_cd.at(v.at(up[j]));
         const std::size_t y = std::min(static_cast<std::size_t>(up[j]), v.count - 2), columns = j < own_up ? across.size() : own_across;
         const double fy = up[j] - static_cast<double>(y);
         for (std::size_t i = 0; i < columns; ++i) {
@@ -106,7 +111,7 @@ double worst_at_samples(const CandelaTable& table, const BeamTexture& texture, c
             const auto texel = [&](std::size_t row, std::size_t column) { return static_cast<double>(texture.cd[row * h.count + column]); };
             const double drawn = (texel(y, x) * (1.0 - fx) + texel(y, x + 1) * fx) * (1.0 - fy) +
                                  (texel(y + 1, x) * (1.0 - fx) + texel(y + 1, x + 1) * fx) * fy;
-            worst = std::max(worst, std::abs(drawn - intensity_cd(table, h.at(across[i]), v.at(up[j]))));
+            worst = std::max(worst, std::abs(drawn - truth_cd[i]));
         }
     }
     return worst;
@@ -115,13 +120,18 @@ double worst_at_samples(const CandelaTable& table, const BeamTexture& texture, c
 double worst_error(const CandelaTable& table, const BeamTexture& texture, const Axis& h, const Axis& v) {
     double worst = worst_at_samples(table, texture, h, v); // exact for linear_cd; the middles of texels are for log_cd
     const std::size_t skip_v = std::max<std::size_t>(1, h.count * v.count / 400'000);
-    for (std::size_t y = 0; y + 1 < v.count; y += skip_v)
+    std::vector<double> middles_deg;
+    for (std::size_t x = 0; x + 1 < h.count; ++x)
+        middles_deg.push_back(h.at(static_cast<double>(x) + 0.5));
+    IntensityAcross true_cd(table, middles_deg);
+    for (std::size_t y = 0; y + 1 < v.count; y += skip_v) {
+        const std::vector<double>& truth_cd = true_cd.at(v.at(static_cast<double>(y) + 0.5));
         for (std::size_t x = 0; x + 1 < h.count; ++x) {
             const auto texel = [&](std::size_t row, std::size_t column) { return static_cast<double>(texture.cd[row * h.count + column]); };
             const double middle = 0.25 * (texel(y, x) + texel(y, x + 1) + texel(y + 1, x) + texel(y + 1, x + 1));
-            const double truth = intensity_cd(table, h.at(static_cast<double>(x) + 0.5), v.at(static_cast<double>(y) + 0.5));
-            worst = std::max(worst, std::abs(middle - truth));
+            worst = std::max(worst, std::abs(middle - truth_cd[x]));
         }
+    }
     return worst;
 }
 
@@ -137,10 +147,13 @@ BeamTexture sampled(const CandelaTable& table, const Axis& h, const Axis& v, int
     texture.cd.reserve(h.count * v.count);
     // The last texel may lie a rounding error beyond the table's edge, where the table is dark: stay inside.
     const auto inside = [](double angle, const std::vector<double>& axis) { return std::clamp(angle, axis.front(), axis.back()); };
+    std::vector<double> h_deg;
+    for (std::size_t x = 0; x < h.count; ++x)
+        h_deg.push_back(inside(h.at(static_cast<double>(x)), table.h_deg));
+    IntensityAcross across(table, h_deg);
     for (std::size_t y = 0; y < v.count; ++y)
-        for (std::size_t x = 0; x < h.count; ++x)
-            texture.cd.push_back(static_cast<float>(
-                intensity_cd(table, inside(h.at(static_cast<double>(x)), table.h_deg), inside(v.at(static_cast<double>(y)), table.v_deg))));
+        for (const double cd : across.at(inside(v.at(static_cast<double>(y)), table.v_deg)))
+            texture.cd.push_back(static_cast<float>(cd));
     texture.scale_cd = static_cast<double>(*std::ranges::max_element(texture.cd));
     if (bits < 32 && texture.scale_cd > 0.0) {
         const double step_cd = texture.scale_cd / largest_step(bits);

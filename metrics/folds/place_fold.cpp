@@ -26,11 +26,9 @@ constexpr BoardPlace boards[] = {{ReadingPlace::right, Across::right_edge, -2.0,
                                  {ReadingPlace::overhead, Across::own_centre, 0.0, 5.5}};
 
 /// The moment without lamps that a crest of the road hides from a point.
-Moment reaching(const Moment& moment, const Route& route, double to_m, const glm::dvec3& point) {
+Moment reaching(const Moment& moment, const RoadBetween& road, const glm::dvec3& point) {
     Moment lit = moment;
-    std::erase_if(lit.lamps, [&](const LitLamp& lamp) {
-        return lamp.intensity_factor == 0.0 || road_hides(route, moment.distance_m, to_m, lamp.pose.position_m, point);
-    });
+    std::erase_if(lit.lamps, [&](const LitLamp& lamp) { return lamp.intensity_factor == 0.0 || road.hides(lamp.pose.position_m, point); });
     return lit;
 }
 
@@ -85,11 +83,12 @@ void PlaceFold::add(const Moment& moment) {
             say(there && unknown.empty() ? std::optional<double>(value()) : std::nullopt, there ? "in some moment: " + unknown : no_place);
         };
         const CrossSection section = route_.cross_section(at_m);
+        const RoadBetween road(route_, moment.distance_m, at_m);
         if (asked.kerb) {
             const std::optional<double> edge_m = on_route ? offset_across_m(section, Across::right_edge) : std::nullopt;
             const Pose surface = route_.pose(at_m, edge_m.value_or(0.0));
             const glm::dvec3 above = surface.position_m + kerb_target_m * surface.up();
-            const Moment low = reaching(moment, route_, at_m, surface.position_m), high = reaching(moment, route_, at_m, above);
+            const Moment low = reaching(moment, road, surface.position_m), high = reaching(moment, road, above);
             const RoadLight by_film = light_by_road(high, route_, at_m, above);
             say_there(edge_m.has_value(), "", [&] { return surface_illuminance_lx(low, surface.position_m, surface.up()); });
             say_there(edge_m.has_value(), by_film.unknown, [&] { return target_illuminance_lx(high, above) + facing_lx(by_film.patches); });
@@ -100,7 +99,7 @@ void PlaceFold::add(const Moment& moment) {
             const std::optional<double> from_m = on_route ? offset_across_m(section, place.from) : std::nullopt;
             const Pose surface = route_.pose(at_m, from_m.value_or(0.0) + place.left_m);
             const glm::dvec3 point = surface.position_m + place.above_m * surface.up(), face = -surface.forward();
-            const Moment lit = reaching(moment, route_, at_m, point);
+            const Moment lit = reaching(moment, road, point);
             const RoadLight by_film = light_by_road(lit, route_, at_m, point);
             say_there(from_m.has_value(), by_film.unknown,
                       [&] { return surface_illuminance_lx(lit, point, face) + illuminance_by_road_lx(by_film.patches, point, face); });
@@ -113,7 +112,7 @@ void PlaceFold::add(const Moment& moment) {
         for (const double RouteLane::*side : {&RouteLane::right_m, &RouteLane::left_m}) {
             const bool there = on_route && own != section.lanes.end();
             const Pose surface = route_.pose(at_m, there ? *own.*side : 0.0);
-            const Moment lit = reaching(moment, route_, at_m, surface.position_m);
+            const Moment lit = reaching(moment, road, surface.position_m);
             say_there(there, "", [&] { return seen_luminance(lit, surface.position_m, surface.up(), marking_, eye_m).photopic_cdm2; });
         }
     }
@@ -221,7 +220,8 @@ std::optional<double> offset_across_m(const CrossSection& section, Across across
 }
 
 std::optional<Pose> place_on_road(const Route& route, Across across, double along_m) {
-    const std::optional<double> offset_m = offset_across_m(route.cross_section(along_m), across);
+    const std::optional<double> offset_m =
+        across == Across::own_centre ? 0.0 : offset_across_m(route.cross_section(along_m), across); // which takes its time
     return offset_m ? std::optional(route.pose(along_m, *offset_m)) : std::nullopt;
 }
 

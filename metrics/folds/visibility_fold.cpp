@@ -57,8 +57,9 @@ double VisibilityFold::dark_cdm2(const Moment& moment) const {
     return std::max(drive_.seeing.visibility->dark_cdm2, moment.daylight.horizontal_illuminance_lx / pi);
 }
 
-std::vector<VisibilityFold::Square> VisibilityFold::squares(const Moment& moment, const LaneAhead& lane, double along_m, const Stand& stand,
-                                                            const glm::dvec3& eye_m) const {
+std::vector<VisibilityFold::Square> VisibilityFold::squares(const Moment& moment, const Ahead& ahead, double along_m,
+                                                            const Stand& stand) const {
+    const glm::dvec3& eye_m = ahead.eye.at_m;
     std::vector<Square> all;
     const std::optional<Pose> foot = place_on_road(route_, stand.across, along_m);
     if (!foot)
@@ -71,9 +72,9 @@ std::vector<VisibilityFold::Square> VisibilityFold::squares(const Moment& moment
         square.middle_m = middle;
         square.face = -foot->forward();
         square.size_arcmin = arc_minutes_of(stand.size_m, glm::distance(eye_m, middle));
-        square.hidden = lane.hides(eye_m, middle);
+        square.hidden = ahead.lane.hides(ahead.eye, middle);
         square.no_mirror = no_mirror;
-        if (const std::optional<Pose> road = lane.behind(eye_m, middle)) {
+        if (const std::optional<Pose> road = ahead.lane.behind(ahead.eye, middle)) {
             square.on_road = true;
             square.behind_m = road->position_m;
             square.background_cdm2 = surface_luminance(moment, road->position_m, road->up(), road_, eye_m).photopic_cdm2;
@@ -89,9 +90,11 @@ std::vector<VisibilityFold::Square> VisibilityFold::squares(const Moment& moment
         if (square.unknown.empty())
             square.unknown = square.no_mirror;
         if (!square.hidden && square.unknown.empty()) {
-            Moment reaching = moment;
-            std::erase_if(reaching.lamps, [&](const LitLamp& lamp) { return lane.hides(lamp.pose.position_m, middle); });
-            square.illuminance_lx = surface_illuminance_lx(reaching, middle, square.face);
+            const auto hidden = [&](const LaneAhead::Origin& lamp) { return ahead.lane.hides(lamp, middle); };
+            if (std::ranges::none_of(ahead.lamps, hidden)) // as nearly everywhere, without a copy
+                square.illuminance_lx = surface_illuminance_lx(moment, middle, square.face);
+            else
+                square.illuminance_lx = surface_illuminance_lx(reaching(moment, ahead, middle), middle, square.face);
         }
         all.push_back(square);
         if (!all.front().unknown.empty())
@@ -100,19 +103,27 @@ std::vector<VisibilityFold::Square> VisibilityFold::squares(const Moment& moment
     return all;
 }
 
-VisibilityFold::Added VisibilityFold::added(const Moment& moment, const LaneAhead& lane, const glm::dvec3& eye_m, double along_m,
-                                            const Square& square) const {
-    const auto air = [&](const glm::dvec3& to_m) { return lamps_airlight(moment, to_m, eye_m).photopic_cdm2; };
+/// The moment without lamps that the lane hides from a point.
+Moment VisibilityFold::reaching(const Moment& moment, const Ahead& ahead, const glm::dvec3& point_m) {
+    Moment lit = moment;
+    lit.lamps.clear();
+    for (std::size_t i = 0; i < moment.lamps.size(); ++i)
+        if (!ahead.lane.hides(ahead.lamps[i], point_m))
+            lit.lamps.push_back(moment.lamps[i]);
+    return lit;
+}
+
+VisibilityFold::Added VisibilityFold::added(const Moment& moment, const Ahead& ahead, double along_m, const Square& square) const {
+    const auto air = [&](const glm::dvec3& to_m) { return lamps_airlight(moment, to_m, ahead.eye.at_m).photopic_cdm2; };
     Added added{air(square.middle_m), air(square.behind_m), 0.0};
     if (moment.weather.wetness > 0.0 && !square.hidden) {
-        Moment reaching = moment;
-        std::erase_if(reaching.lamps, [&](const LitLamp& lamp) { return lane.hides(lamp.pose.position_m, square.middle_m); });
-        added[2] = illuminance_by_road_lx(light_by_road(reaching, route_, along_m, square.middle_m).patches, square.middle_m, square.face);
+        const Moment lit = reaching(moment, ahead, square.middle_m);
+        added[2] = illuminance_by_road_lx(light_by_road(lit, route_, along_m, square.middle_m).patches, square.middle_m, square.face);
     }
     return added;
 }
 
-void VisibilityFold::add_weather(const Moment& moment, const LaneAhead& lane, const glm::dvec3& eye_m, std::vector<Place>& places) const {
+void VisibilityFold::add_weather(const Moment& moment, const Ahead& ahead, std::vector<Place>& places) const {
     if (!(moment.weather.extinction_per_m > 0.0) && !(moment.weather.wetness > 0.0))
         return;
     const auto squares_of = [](const Place& place) { return place.squares.size(); };
@@ -121,7 +132,7 @@ void VisibilityFold::add_weather(const Moment& moment, const LaneAhead& lane, co
     for (std::size_t i = 0; i < most; ++i) {
         const auto fill = [&](std::size_t place, const Added& added) {
             Square& square = places[place].squares[i];
-            const double way_m = glm::distance(eye_m, square.middle_m), far = glm::distance(eye_m, square.behind_m);
+            const double way_m = glm::distance(ahead.eye.at_m, square.middle_m), far = glm::distance(ahead.eye.at_m, square.behind_m);
             square.left = air_transmittance(moment.weather, way_m);
             square.veil_cdm2 = added[0] + sky_airlight_cdm2(moment.daylight, moment.weather, way_m);
             square.background_cdm2 = square.on_road
@@ -146,7 +157,7 @@ void VisibilityFold::add_weather(const Moment& moment, const LaneAhead& lane, co
             if (i >= squares_of(places[k]) || !places[k].squares[i].unknown.empty() ||
                 (goes_on && alike(k, k + 1) && places[k].ahead_m < added_spacing * places[from].ahead_m))
                 continue;
-            const Added here = added(moment, lane, eye_m, places[k].along_m, places[k].squares[i]);
+            const Added here = added(moment, ahead, places[k].along_m, places[k].squares[i]);
             for (std::size_t between = from + 1; goes_on && between < k; ++between) {
                 const double share = (places[between].ahead_m - places[from].ahead_m) / (places[k].ahead_m - places[from].ahead_m);
                 Added there{};
@@ -181,15 +192,15 @@ Value VisibilityFold::level(const std::vector<Square>& squares, const Visibility
     return clearest ? Value(*clearest) : Value::not_measured(reason);
 }
 
-void VisibilityFold::add_stand(const Moment& lit, const LaneAhead& lane, const glm::dvec3& eye_m, double bumper_m, Stand& stand) const {
+void VisibilityFold::add_stand(const Moment& lit, const Ahead& ahead, double bumper_m, Stand& stand) const {
     const VisibilityParameters& asked = *drive_.seeing.visibility;
     const double room_m = std::min(asked.ahead_m, route_.length_m() - bumper_m);
     std::vector<Place> places;
     for (std::size_t k = 1; static_cast<double>(k) * asked.step_m <= room_m; ++k) {
         const double ahead_m = static_cast<double>(k) * asked.step_m;
-        places.push_back({ahead_m, bumper_m + ahead_m, squares(lit, lane, bumper_m + ahead_m, stand, eye_m)});
+        places.push_back({ahead_m, bumper_m + ahead_m, squares(lit, ahead, bumper_m + ahead_m, stand)});
     }
-    add_weather(lit, lane, eye_m, places);
+    add_weather(lit, ahead, places);
     std::vector<std::vector<LineSample>> lines(stand.sights.size());
     for (const Place& place : places)
         for (std::size_t i = 0; i < lines.size(); ++i)
@@ -215,8 +226,8 @@ void VisibilityFold::add_stand(const Moment& lit, const LaneAhead& lane, const g
     for (std::size_t d = 0; d < asked.distances_m.size(); ++d) {
         const double along_m = bumper_m + asked.distances_m[d];
         const bool ends = along_m > route_.length_m();
-        std::vector<Place> there{{asked.distances_m[d], along_m, ends ? std::vector<Square>{} : squares(lit, lane, along_m, stand, eye_m)}};
-        add_weather(lit, lane, eye_m, there);
+        std::vector<Place> there{{asked.distances_m[d], along_m, ends ? std::vector<Square>{} : squares(lit, ahead, along_m, stand)}};
+        add_weather(lit, ahead, there);
         const std::vector<Square>& seen = there.front().squares;
         for (Sight& sight : stand.sights) {
             const Value now = !seen.empty() ? level(seen, *sight.target)
@@ -232,19 +243,18 @@ void VisibilityFold::add_stand(const Moment& lit, const LaneAhead& lane, const g
 }
 
 /// The road that the driver sees behind a place a hand above the own lane's centre.
-void VisibilityFold::add_background(const Moment& lit, const LaneAhead& lane, const glm::dvec3& eye_m, double along_m,
-                                    Background& background) const {
+void VisibilityFold::add_background(const Moment& lit, const Ahead& ahead, double along_m, Background& background) const {
     if (along_m > route_.length_m()) {
         background.missing = "the route ends nearer than this in some moment";
         return;
     }
     const Pose place = route_.pose(along_m);
-    const std::optional<Pose> road = lane.behind(eye_m, place.position_m + background_above_m * place.up());
+    const std::optional<Pose> road = ahead.lane.behind(ahead.eye, place.position_m + background_above_m * place.up());
     if (!road) {
         background.missing = "the line of sight does not meet the road in some moment";
         return;
     }
-    const SurfaceLuminance seen = seen_luminance(lit, road->position_m, road->up(), road_, eye_m);
+    const SurfaceLuminance seen = seen_luminance(lit, road->position_m, road->up(), road_, ahead.eye.at_m);
     background.photopic.push_back(seen.photopic_cdm2);
     if (seen.photopic_cdm2 > 0.0 && lit.daylight.horizontal_illuminance_lx == 0.0)
         background.mesopic.push_back(mesopic_luminance(seen.photopic_cdm2, seen.scotopic_cdm2 / seen.photopic_cdm2).luminance_cdm2);
@@ -255,14 +265,16 @@ void VisibilityFold::add(const Moment& moment) {
     Moment lit = moment;
     std::erase_if(lit.lamps, [](const LitLamp& lamp) { return lamp.intensity_factor == 0.0; });
     const double bumper_m = moment.distance_m + drive_.bumper_m;
-    const LaneAhead lane(route_, bumper_m, asked.ahead_m + known_behind_m, asked.step_m);
-    const glm::dvec3 eye_m = to_parent(moment.ego, driver_eye_m(drive_));
+    Ahead ahead{LaneAhead(route_, bumper_m, asked.ahead_m + known_behind_m, asked.step_m), {}, {}};
+    ahead.eye = ahead.lane.origin(to_parent(moment.ego, driver_eye_m(drive_)));
+    for (const LitLamp& lamp : lit.lamps)
+        ahead.lamps.push_back(ahead.lane.origin(lamp.pose.position_m));
     ticks_.push_back(moment.tick);
     along_m_.push_back(moment.distance_m);
     for (Stand& stand : stands_)
-        add_stand(lit, lane, eye_m, bumper_m, stand);
+        add_stand(lit, ahead, bumper_m, stand);
     for (std::size_t d = 0; d < backgrounds_.size(); ++d)
-        add_background(lit, lane, eye_m, bumper_m + asked.distances_m[d], backgrounds_[d]);
+        add_background(lit, ahead, bumper_m + asked.distances_m[d], backgrounds_[d]);
 }
 
 Readings VisibilityFold::readings() const {

@@ -68,16 +68,23 @@ class VisibilityFold {
     /// What the weather adds to one square: light in the air before it and before what is behind it, light by way of a wet road.
     using Added = std::array<double, 3>;
 
+    /// The lane as one moment's driver and lamps see it.
+    struct Ahead {
+        LaneAhead lane;
+        LaneAhead::Origin eye;
+        std::vector<LaneAhead::Origin> lamps; ///< of the moment
+    };
+
     /// As it stands that far along the route, in clear air and by the lamps' own light.
-    std::vector<Square> squares(const Moment& moment, const LaneAhead& lane, double along_m, const Stand& stand,
-                                const glm::dvec3& eye_m) const;
+    std::vector<Square> squares(const Moment& moment, const Ahead& ahead, double along_m, const Stand& stand) const;
     /// What air and water take and add, places from near to far.
-    void add_weather(const Moment& moment, const LaneAhead& lane, const glm::dvec3& eye_m, std::vector<Place>& places) const;
-    Added added(const Moment& moment, const LaneAhead& lane, const glm::dvec3& eye_m, double along_m, const Square& square) const;
+    void add_weather(const Moment& moment, const Ahead& ahead, std::vector<Place>& places) const;
+    Added added(const Moment& moment, const Ahead& ahead, double along_m, const Square& square) const;
+    static Moment reaching(const Moment& moment, const Ahead& ahead, const glm::dvec3& point_m);
     double dark_cdm2(const Moment& moment) const;
     Value level(const std::vector<Square>& squares, const VisibilityTarget& target) const;
-    void add_stand(const Moment& lit, const LaneAhead& lane, const glm::dvec3& eye_m, double bumper_m, Stand& stand) const;
-    void add_background(const Moment& lit, const LaneAhead& lane, const glm::dvec3& eye_m, double ahead_m, Background& background) const;
+    void add_stand(const Moment& lit, const Ahead& ahead, double bumper_m, Stand& stand) const;
+    void add_background(const Moment& lit, const Ahead& ahead, double ahead_m, Background& background) const;
 
     const Drive& drive_;
     const Route& route_;

@@ -129,32 +129,43 @@ double angle_between_deg(const glm::dvec3& a, const glm::dvec3& b) {
     return degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
 
-bool road_hides(const Route& route, double from_m, double to_m, const glm::dvec3& from, const glm::dvec3& to) {
+RoadBetween::RoadBetween(const Route& route, double from_m, double to_m) : route_(route) {
     const int steps = static_cast<int>(std::ceil((to_m - from_m) / step_m));
     for (int k = 1; k < steps; ++k) {
         const double at_m = from_m + k * (to_m - from_m) / steps;
-        const Pose centre = route.pose(at_m);
+        const Route::Cut across = route.cut(at_m);
+        cuts_.push_back({at_m, across, Route::pose(across, 0.0)});
+    }
+}
+
+bool RoadBetween::hides(const glm::dvec3& from, const glm::dvec3& to) const {
+    return std::ranges::any_of(cuts_, [&](const Cut& cut) {
+        const Pose& centre = cut.centre;
         const double along = glm::dot(to - from, centre.forward());
         const double share = glm::dot(centre.position_m - from, centre.forward()) / along;
         if (!(share > 0.0 && share < 1.0))
-            continue; // the line does not pass this cross-section between its ends
+            return false; // the line does not pass this cross-section between its ends
         const glm::dvec3 passing = from + share * (to - from);
         const double left_m = glm::dot(passing - centre.position_m, centre.left());
-        const Pose below = route.pose(at_m, left_m);
+        const Pose below = Route::pose(cut.across, left_m);
         if (glm::dot(passing - below.position_m, below.up()) >= 0.0)
-            continue;
-        const CrossSection section = route.cross_section(at_m);
-        if (left_m <= section.paved_left_m && left_m >= section.paved_right_m)
-            return true;
-    }
-    return false;
+            return false;
+        const CrossSection section = route_.cross_section(cut.at_m);
+        return left_m <= section.paved_left_m && left_m >= section.paved_right_m;
+    });
 }
 
 std::vector<SeenLamp> lamps_over_road(const Moment& moment, const Route& route, double to_m, const glm::dvec3& point_m) {
     std::vector<SeenLamp> seen = seen_lamps(moment, point_m);
-    for (SeenLamp& lamp : seen)
-        if (lamp.facing_lx > 0.0 && road_hides(route, moment.distance_m, to_m, lamp.position_m, point_m))
+    std::optional<RoadBetween> road;
+    for (SeenLamp& lamp : seen) {
+        if (!(lamp.facing_lx > 0.0))
+            continue;
+        if (!road)
+            road.emplace(route, moment.distance_m, to_m);
+        if (road->hides(lamp.position_m, point_m))
             lamp.facing_lx = 0.0;
+    }
     return seen;
 }
 

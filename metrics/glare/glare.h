@@ -17,6 +17,7 @@
 #include "metrics/readings/value.h"
 #include "scenarios/drives/play/moment.h"
 #include "scenarios/drives/seeing_parameters.h"
+#include "scenarios/roads/route.h"
 
 #include <string_view>
 #include <vector>
@@ -78,10 +79,24 @@ GlareSource mirrored_source(const SeenLamp& lamp, const glm::dvec3& mirror_m, do
 /// Angle between two directions in degrees, well-conditioned near 0.
 double angle_between_deg(const glm::dvec3& a, const glm::dvec3& b);
 
-/// True where the paved road between two distances along the route rises above the straight line from `from` to `to`: a crest that hides a
-/// lamp. Looked at every 2 m; a crest of 1000 m radius stands 0.5 mm out between two such places. Ground beside the pavement, trees and
-/// houses are not asked.
-bool road_hides(const Route& route, double from_m, double to_m, const glm::dvec3& from, const glm::dvec3& to);
+/// The paved road between two distances along a route, cut every 2 m; a crest of 1000 m radius stands 0.5 mm out between two cuts. For
+/// callers that ask it of several lines. The route must outlive it.
+class RoadBetween {
+  public:
+    RoadBetween(const Route& route, double from_m, double to_m);
+    /// True where it rises above the straight line from `from` to `to`: a crest that hides a lamp. Ground beside the pavement, trees and
+    /// houses are not asked.
+    bool hides(const glm::dvec3& from, const glm::dvec3& to) const;
+
+  private:
+    struct Cut {
+        double at_m;
+        Route::Cut across;
+        Pose centre;
+    };
+    const Route& route_;
+    std::vector<Cut> cuts_;
+};
 
 /// seen_lamps() of a moment on the route, those dark that a crest between them and a point so far along hides.
 std::vector<SeenLamp> lamps_over_road(const Moment& moment, const Route& route, double to_m, const glm::dvec3& point_m);

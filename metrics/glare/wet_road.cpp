@@ -142,8 +142,11 @@ RoadLight light_by_road(const Moment& moment, const Route& route, double to_m, c
 
 RoadLight light_over_road(const Moment& moment, const Route& route, double to_m, const glm::dvec3& point_m) {
     RoadLight light = light_by_road(moment, route, to_m, point_m);
+    if (light.patches.empty())
+        return light;
+    const RoadBetween road(route, moment.distance_m, to_m);
     for (std::size_t i = 0; i < light.patches.size(); i += streak_patches)
-        if (road_hides(route, moment.distance_m, to_m, moment.lamps[i / streak_patches].pose.position_m, point_m))
+        if (road.hides(moment.lamps[i / streak_patches].pose.position_m, point_m))
             for (std::size_t k = 0; k < streak_patches; ++k)
                 light.patches[i + k].facing_lx = 0.0;
     return light;

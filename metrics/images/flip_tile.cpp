@@ -1,19 +1,12 @@
 #include "metrics/images/flip_tile.h"
 
 #include "metrics/images/quick_powers.h"
+#include "scenarios/packs/level.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-
-// The function is compiled for several widths of vectors, and the right one chosen when the program starts; sanitizers cannot instrument
-// that. No width changes a bit: nothing is summed across a vector, nothing is contracted.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define FERNLICHT_WIDEST __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define FERNLICHT_WIDEST
-#endif
 
 namespace fernlicht::flip {
 namespace {

@@ -72,7 +72,7 @@ void set_reach(LaneExtent& extent, const LitLine& centre, const LitLine& left_ed
 }
 
 LaneExtent extent_of_lane(const LitRoad& road, const LaneStrip& strip, const LaneLines& lines, const std::vector<AcrossCut>& cuts,
-                          double threshold_lx, const LitArea& area) {
+                          double threshold_lx, const LitArea& area, LitArea::CutCells& cut_cells) {
     LaneExtent extent;
     extent.threshold_lx = threshold_lx;
     extent.lane = strip.name;
@@ -82,7 +82,7 @@ LaneExtent extent_of_lane(const LitRoad& road, const LaneStrip& strip, const Lan
     for (const AcrossCut& cut : cuts)
         if (const std::optional<LaneSpan> span = span_at(road, strip.spans, cut.at_m))
             extent.widths.push_back(width_of(cut, road.grid().offset_m, *span, threshold_lx));
-    extent.area_m2 = area.lane_m2(strip.spans);
+    extent.area_m2 = area.lane_m2(strip.spans, cut_cells);
     return extent;
 }
 
@@ -116,10 +116,12 @@ std::vector<LaneExtent> measure_extent(const ExtentGrid& grid, const std::vector
     std::vector<LitArea> areas;
     for (const double limit : thresholds_lx)
         areas.emplace_back(road, limit);
-    for (const LaneStrip& strip : lane_strips(grid)) {
+    const std::vector<LaneStrip> own = grid.strips.empty() ? lane_strips(grid) : std::vector<LaneStrip>{};
+    for (const LaneStrip& strip : grid.strips.empty() ? own : grid.strips) {
         const LaneLines lines = lines_of(road, strip.spans);
+        LitArea::CutCells cut_cells = LitArea::no_cut_cells(grid.ahead_m.size());
         for (std::size_t i = 0; i < thresholds_lx.size(); ++i)
-            extents.push_back(extent_of_lane(road, strip, lines, cuts, thresholds_lx[i], areas[i]));
+            extents.push_back(extent_of_lane(road, strip, lines, cuts, thresholds_lx[i], areas[i], cut_cells));
     }
     for (std::size_t i = 0; i < thresholds_lx.size(); ++i)
         extents.push_back(extent_of_all(road, cuts, thresholds_lx[i], areas[i]));
@@ -144,6 +146,10 @@ PickedGrid picked(const ExtentGrid& grid, const std::vector<double>& lx, std::si
         result.grid.ahead_m.push_back(grid.ahead_m[row]);
         for (std::size_t column = 0; column < columns; column += step)
             result.lx.push_back(lx[row * grid.offset_m.size() + column]);
+    }
+    if (step == 2 && !grid.coarse_cell_m2.empty()) {
+        result.grid.cell_m2 = grid.coarse_cell_m2;
+        return result;
     }
     if (step > 1 || grid.cell_m2.empty()) {
         result.grid.cell_m2 = cell_areas_m2(grid, step, rows, columns);
@@ -210,6 +216,9 @@ ExtentGrid make_extent_grid(const Route& route, const Moment& moment, double bum
         grid.places.put(row * columns, surface);
     });
     grid.cell_m2 = cell_areas_m2(grid);
+    grid.strips = lane_strips(grid);
+    grid.coarse_strips = lane_strips(grid, 2);
+    grid.coarse_cell_m2 = cell_areas_m2(grid, 2, grid.ahead_m.size(), columns);
     return grid;
 }
 
@@ -248,8 +257,8 @@ std::vector<GridError> grid_errors(const ExtentGrid& grid, const std::vector<dou
     if (rows >= 3 && columns >= 3) {
         PickedGrid coarse = picked(grid, lx, 2, rows, columns);
         coarse.grid.surface.resize(coarse.lx.size()); // whose areas are known
-        for (std::size_t row = 0; row < rows; row += 2)
-            coarse.grid.sections.push_back(grid.sections[row]);
+        coarse.grid.strips = grid.coarse_strips.empty() ? lane_strips(grid, 2) : grid.coarse_strips;
+        coarse.grid.sections.resize(coarse.grid.ahead_m.size()); // whose lanes are known
         other = measure_extent(coarse.grid, coarse.lx, surface, thresholds_lx, {});
         // An odd number of both, so that the coarse grid covers what the fine one covers and only the cell differs.
         const bool odd = rows % 2 == 1 && columns % 2 == 1;

@@ -11,6 +11,19 @@
 
 namespace fernlicht {
 
+/// Edges of a lane in one row of a grid, offsets left positive; nullopt where the lane is not.
+struct LaneSpan {
+    double left_m = 0.0, right_m = 0.0;
+};
+using LaneSpans = std::vector<std::optional<LaneSpan>>;
+
+/// A lane with its edges in every row.
+struct LaneStrip {
+    std::string name;
+    bool same_direction = true;
+    LaneSpans spans;
+};
+
 /// Sample points on the road ahead in route coordinates, with their places in the world.
 struct ExtentGrid {
     std::vector<double> ahead_m;        ///< distance from the bumper along the route, ascending, starts at 0
@@ -20,7 +33,10 @@ struct ExtentGrid {
     double target_height_m = 0.0;
     /// Road surface of each cell's two triangles (lit_road.h), row-major; empty: not known yet, taken from `surface` by each measurement.
     std::vector<std::array<double, 2>> cell_m2;
-    SurfacePlaces places; ///< of `surface`; empty: not known yet
+    std::vector<std::array<double, 2>> coarse_cell_m2; ///< the same of every second row and column
+    SurfacePlaces places;                              ///< of `surface`; empty: not known yet
+    /// Of the sections, and of every second one (lit_road.h, lane_strips); empty: not known yet.
+    std::vector<LaneStrip> strips, coarse_strips;
 };
 
 /// Which illuminance: on the road's surface, or on a target facing the lamps at target height.

@@ -1,5 +1,7 @@
 #include "metrics/road/lit_line.h"
 
+#include "scenarios/packs/level.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -145,51 +147,114 @@ std::optional<double> smallest(const Approach& approach) {
     return outermost(approach, [](double a, double b) { return a < b; });
 }
 
+namespace {
+
+/// So many places of a lane are asked together: forward and up, the same number of all next to one another.
+constexpr std::size_t block = 16;
+constexpr std::size_t numbers = 6;
+/// What rounding may do to a height in metres, at coordinates of millions of metres, and to a share of a way.
+constexpr double height_hair_m = 1e-6, share_hair = 1e-12;
+
+/// Of one place: how far along a line it is passed, and how high over its tangent plane. NaN where the line runs along its cross-section.
+struct Passing {
+    double share = 0.0, height_m = 0.0;
+};
+Passing passing(const Pose& place, const glm::dvec3& from, const glm::dvec3& direction) {
+    const double along = glm::dot(direction, place.forward());
+    const double share =
+        along > 0.0 ? glm::dot(place.position_m - from, place.forward()) / along : std::numeric_limits<double>::quiet_NaN();
+    return {share, glm::dot(from + share * direction - place.position_m, place.up())};
+}
+
+// Whether a line may decide in a block, by the same products without their quotient: most blocks it passes high above. What is near the
+// border may; passing() tells then.
+
+/// Passes a place before its end and below the lane, or a place at or beyond its end.
+FERNLICHT_WIDEST bool may_hide(const double* p, const double* ahead_m, const double* above_m, double x, double y, double z) {
+    long long found = 0;
+    for (std::size_t i = 0; i < block; ++i) {
+        const double along = x * p[i] + y * p[block + i] + z * p[2 * block + i];
+        const double rise = x * p[3 * block + i] + y * p[4 * block + i] + z * p[5 * block + i];
+        const long long ends = ahead_m[i] >= along * (1.0 - share_hair) ? 1 : 0, before = ahead_m[i] > 0.0 ? 1 : 0;
+        const long long low = above_m[i] * along + ahead_m[i] * rise < height_hair_m * along ? 1 : 0, passes = along > 0.0 ? 1 : 0;
+        found |= passes & (ends | (before & low));
+    }
+    return found != 0;
+}
+
+/// Passes a place beyond its end and not above the lane.
+FERNLICHT_WIDEST bool may_meet(const double* p, const double* ahead_m, const double* above_m, double x, double y, double z) {
+    long long found = 0;
+    for (std::size_t i = 0; i < block; ++i) {
+        const double along = x * p[i] + y * p[block + i] + z * p[2 * block + i];
+        const double rise = x * p[3 * block + i] + y * p[4 * block + i] + z * p[5 * block + i];
+        const long long beyond = ahead_m[i] >= along * (1.0 - share_hair) ? 1 : 0, passes = along > 0.0 ? 1 : 0;
+        const long long low = above_m[i] * along + ahead_m[i] * rise < height_hair_m * along ? 1 : 0;
+        found |= passes & beyond & low;
+    }
+    return found != 0;
+}
+
+} // namespace
+
 LaneAhead::LaneAhead(const Route& route, double from_m, double length_m, double step_m) {
     const double room_m = std::min(length_m, route.length_m() - from_m);
     for (int k = 0; k * step_m <= room_m; ++k)
         surface_.push_back(route.pose(from_m + k * step_m));
-}
-
-/// Height over the lane's tangent plane where the line passes the cross-section of a place, and how far along `direction` that is. NaN
-/// where it runs along the cross-section.
-double LaneAhead::height_m(std::size_t place, const glm::dvec3& from, const glm::dvec3& direction, double& share) const {
-    const Pose& pose = surface_[place];
-    const double along = glm::dot(direction, pose.forward());
-    share = along > 0.0 ? glm::dot(pose.position_m - from, pose.forward()) / along : std::numeric_limits<double>::quiet_NaN();
-    return glm::dot(from + share * direction - pose.position_m, pose.up());
-}
-
-bool LaneAhead::hides(const glm::dvec3& from, const glm::dvec3& to) const {
+    in_blocks_.resize((surface_.size() + block - 1) / block * block * numbers); // no line passes those that are no places
     for (std::size_t place = 0; place < surface_.size(); ++place) {
-        double share = 0.0;
-        const double height = height_m(place, from, to - from, share);
-        if (share > 0.0 && share < 1.0 && height < 0.0)
-            return true;
-        if (share >= 1.0)
-            return false; // the next ones are farther still
+        double* to = &in_blocks_[place / block * block * numbers + place % block];
+        for (const glm::dvec3* const three : {&surface_[place].forward(), &surface_[place].up()})
+            for (int axis = 0; axis < 3; ++axis, to += block)
+                *to = (*three)[axis];
     }
+}
+
+LaneAhead::Origin LaneAhead::origin(const glm::dvec3& at_m) const {
+    Origin origin{at_m, std::vector<double>(in_blocks_.size() / numbers), {}};
+    origin.above_m = origin.ahead_m;
+    for (std::size_t place = 0; place < surface_.size(); ++place) {
+        const glm::dvec3 to = surface_[place].position_m - at_m;
+        origin.ahead_m[place] = glm::dot(to, surface_[place].forward());
+        origin.above_m[place] = -glm::dot(to, surface_[place].up());
+    }
+    return origin;
+}
+
+bool LaneAhead::hides(const Origin& from, const glm::dvec3& to) const {
+    const glm::dvec3 direction = to - from.at_m;
+    for (std::size_t first = 0; first < surface_.size(); first += block)
+        if (may_hide(&in_blocks_[first * numbers], &from.ahead_m[first], &from.above_m[first], direction.x, direction.y, direction.z))
+            for (std::size_t place = first; place < std::min(first + block, surface_.size()); ++place) {
+                const auto [share, height_m] = passing(surface_[place], from.at_m, direction);
+                if (share > 0.0 && share < 1.0 && height_m < 0.0)
+                    return true;
+                if (share >= 1.0)
+                    return false; // the next ones are farther still
+            }
     return false;
 }
 
-std::optional<Pose> LaneAhead::behind(const glm::dvec3& eye, const glm::dvec3& point) const {
-    const glm::dvec3 direction = point - eye;
-    double before = -1.0, share_before = 0.0;
-    for (std::size_t place = 0; place < surface_.size(); ++place) {
-        double share = 0.0;
-        const double height = height_m(place, eye, direction, share);
-        if (!(share > 1.0))
+std::optional<Pose> LaneAhead::behind(const Origin& eye, const glm::dvec3& point) const {
+    const glm::dvec3 direction = point - eye.at_m;
+    for (std::size_t first = 0; first < surface_.size(); first += block) {
+        if (!may_meet(&in_blocks_[first * numbers], &eye.ahead_m[first], &eye.above_m[first], direction.x, direction.y, direction.z))
             continue;
-        if (height <= 0.0) {
-            // The ground between two places is straight: where the line's height over it passes 0.
-            const double part = before > 0.0 ? before / (before - height) : 1.0;
-            const double met = before > 0.0 ? share_before + part * (share - share_before) : share;
+        for (std::size_t place = first; place < std::min(first + block, surface_.size()); ++place) {
+            const Passing here = passing(surface_[place], eye.at_m, direction);
+            if (!(here.share > 1.0 && here.height_m <= 0.0))
+                continue;
+            double met = here.share;
+            for (std::size_t nearer = place; nearer-- > 0;)
+                if (const Passing before = passing(surface_[nearer], eye.at_m, direction); before.share > 1.0) {
+                    // The ground between two places is straight: where the line's height over it passes 0.
+                    met = before.share + before.height_m / (before.height_m - here.height_m) * (here.share - before.share);
+                    break;
+                }
             Pose pose = surface_[place];
-            pose.position_m = eye + met * direction;
+            pose.position_m = eye.at_m + met * direction;
             return pose;
         }
-        before = height;
-        share_before = share;
     }
     return std::nullopt;
 }

@@ -78,16 +78,24 @@ class LaneAhead {
 
     const std::vector<Pose>& surface() const { return surface_; }
 
+    /// A point from which lines start; and of each place, from there, the distance along the lane and the height over it.
+    struct Origin {
+        glm::dvec3 at_m{0.0};
+        std::vector<double> ahead_m, above_m;
+    };
+    Origin origin(const glm::dvec3& at_m) const;
+
     /// True where the lane rises above the line between two points: of no use for points below it.
-    bool hides(const glm::dvec3& from, const glm::dvec3& to) const;
+    bool hides(const Origin& from, const glm::dvec3& to) const;
+    bool hides(const glm::dvec3& from, const glm::dvec3& to) const { return hides(origin(from), to); }
     /// Where the line from `eye` through `point` meets the lane beyond `point`: the place's pose, the point on its surface. nullopt: it
     /// does not meet what is known of the lane.
-    std::optional<Pose> behind(const glm::dvec3& eye, const glm::dvec3& point) const;
+    std::optional<Pose> behind(const Origin& eye, const glm::dvec3& point) const;
+    std::optional<Pose> behind(const glm::dvec3& eye, const glm::dvec3& point) const { return behind(origin(eye), point); }
 
   private:
-    double height_m(std::size_t place, const glm::dvec3& from, const glm::dvec3& direction, double& share) const;
-
     std::vector<Pose> surface_;
+    std::vector<double> in_blocks_; ///< its axes, many places at a time
 };
 
 } // namespace fernlicht

@@ -1,11 +1,15 @@
 #include "metrics/road/lit_road.h"
 
+#include "scenarios/packs/level.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <fmt/format.h>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <stdexcept>
 
 namespace fernlicht {
@@ -22,45 +26,71 @@ void check_measurable(const ExtentGrid& grid, const std::vector<double>& lx, con
             throw std::invalid_argument(fmt::format("a limit of {} lx is not above 0", limit));
 }
 
-std::vector<LaneStrip> lane_strips(const ExtentGrid& grid) {
+std::vector<LaneStrip> lane_strips(const ExtentGrid& grid, std::size_t step) {
     std::vector<LaneStrip> strips;
-    for (std::size_t row = 0; row < grid.sections.size(); ++row)
-        for (const RouteLane& lane : grid.sections[row].lanes) {
+    const std::size_t rows = (grid.sections.size() + step - 1) / step;
+    for (std::size_t row = 0; row < rows; ++row) {
+        auto next = strips.begin(); // the lanes of a row are mostly those of the row before, in their order
+        for (const RouteLane& lane : grid.sections[row * step].lanes) {
             const bool seen_whole =
                 lane.left_m <= grid.offset_m.back() && lane.right_m >= grid.offset_m.front() && lane.left_m > lane.right_m;
             if (!seen_whole)
                 continue;
-            auto strip = std::ranges::find(strips, lane.name, &LaneStrip::name);
+            auto strip = next != strips.end() && next->name == lane.name ? next : std::ranges::find(strips, lane.name, &LaneStrip::name);
             if (strip == strips.end())
-                strip = strips.insert(strips.end(), {lane.name, lane.same_direction, LaneSpans(grid.sections.size())});
+                strip = strips.insert(strips.end(), {lane.name, lane.same_direction, LaneSpans(rows)});
             strip->spans[row] = LaneSpan{lane.left_m, lane.right_m};
+            next = strip + 1;
         }
+    }
     return strips;
 }
 
-std::size_t column_left_of(const std::vector<double>& offsets_m, double offset_m) {
+std::size_t column_left_of(const std::vector<double>& offsets_m, double offset_m, std::size_t guess) {
+    if (guess > 0 && guess < offsets_m.size() && offsets_m[guess - 1] <= offset_m && offset_m < offsets_m[guess])
+        return guess;
     const auto above = std::ranges::upper_bound(offsets_m, offset_m) - offsets_m.begin();
     return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above, 1, std::ssize(offsets_m) - 1));
 }
 
-double lx_across(const std::vector<double>& offsets_m, const double* row, double offset_m) {
-    const std::size_t left = column_left_of(offsets_m, offset_m);
+double lx_across(const std::vector<double>& offsets_m, const double* row, double offset_m, std::size_t* guess) {
+    const std::size_t left = column_left_of(offsets_m, offset_m, guess ? *guess : 0);
+    if (guess)
+        *guess = left;
     const double share = (offset_m - offsets_m[left - 1]) / (offsets_m[left] - offsets_m[left - 1]);
     return share == 0.0 ? row[left - 1] : between_samples(row[left - 1], row[left], share);
 }
+
+namespace {
+
+/// Of at least one finite value.
+FERNLICHT_WIDEST double largest_of(const double* values, std::size_t count) {
+    constexpr std::size_t side_by_side = 8;
+    double largest[side_by_side];
+    std::fill_n(largest, side_by_side, values[0]);
+    std::size_t i = 0;
+    for (; i + side_by_side <= count; i += side_by_side)
+        for (std::size_t k = 0; k < side_by_side; ++k)
+            largest[k] = largest[k] < values[i + k] ? values[i + k] : largest[k];
+    return std::max(*std::max_element(largest, largest + side_by_side), *std::max_element(values + std::min(i, count - 1), values + count));
+}
+
+} // namespace
 
 LitRoad::LitRoad(const ExtentGrid& grid, const std::vector<double>& lx)
     : grid_(grid), lx_(lx), own_cell_m2_(grid.cell_m2.empty() ? cell_areas_m2(grid) : std::vector<CellArea>{}),
       cell_m2_(grid.cell_m2.empty() ? own_cell_m2_ : grid.cell_m2) {
     for (std::size_t i = 0; i < grid.ahead_m.size(); ++i)
-        brightest_lx_.push_back(*std::max_element(row(i), row(i) + grid.offset_m.size()));
+        brightest_lx_.push_back(largest_of(row(i), grid.offset_m.size()));
 }
 
 std::vector<LineSample> LitRoad::along(const std::vector<std::optional<double>>& offsets_m) const {
     std::vector<LineSample> line;
     line.reserve(grid_.ahead_m.size());
+    std::size_t column = 0;
     for (std::size_t i = 0; i < grid_.ahead_m.size(); ++i)
-        line.push_back({grid_.ahead_m[i], offsets_m[i] ? std::optional(lx_across(grid_.offset_m, row(i), *offsets_m[i])) : std::nullopt});
+        line.push_back(
+            {grid_.ahead_m[i], offsets_m[i] ? std::optional(lx_across(grid_.offset_m, row(i), *offsets_m[i], &column)) : std::nullopt});
     return line;
 }
 
@@ -172,10 +202,6 @@ std::array<Polygon, 2> triangles_of(const ExtentGrid& grid, const std::vector<do
     return {Polygon{{near_right, corner(row + 1, column), far_left}, 3}, Polygon{{near_right, far_left, corner(row, column + 1)}, 3}};
 }
 
-double triangle_area_m2(const Pose& a, const Pose& b, const Pose& c) {
-    return 0.5 * glm::length(glm::cross(b.position_m - a.position_m, c.position_m - a.position_m));
-}
-
 /// Area of the part that `cut` leaves of the lit part of each of the cell's triangles.
 template <class Cut> double lit_part_m2(const std::array<Polygon, 2>& triangles, const CellArea& areas_m2, double threshold_lx, Cut cut) {
     double lit_m2 = 0.0;
@@ -186,35 +212,113 @@ template <class Cut> double lit_part_m2(const std::array<Polygon, 2>& triangles,
 
 } // namespace
 
+namespace {
+
+/// Places of a row of a grid, one after the other.
+struct RowPlaces {
+    const double *x_m, *y_m, *z_m;
+};
+
+/// Squares of twice the areas of the two triangles of each cell between two rows.
+FERNLICHT_WIDEST void strip_areas(const RowPlaces& near, const RowPlaces& far, std::size_t cells, double* __restrict right_m4,
+                                  double* __restrict left_m4) {
+    for (std::size_t i = 0; i < cells; ++i) {
+        const double ahead_x = far.x_m[i] - near.x_m[i], ahead_y = far.y_m[i] - near.y_m[i], ahead_z = far.z_m[i] - near.z_m[i];
+        const double across_x = far.x_m[i + 1] - near.x_m[i], across_y = far.y_m[i + 1] - near.y_m[i],
+                     across_z = far.z_m[i + 1] - near.z_m[i];
+        const double beside_x = near.x_m[i + 1] - near.x_m[i], beside_y = near.y_m[i + 1] - near.y_m[i],
+                     beside_z = near.z_m[i + 1] - near.z_m[i];
+        const double right_x = ahead_y * across_z - across_y * ahead_z, right_y = ahead_z * across_x - across_z * ahead_x,
+                     right_z = ahead_x * across_y - across_x * ahead_y;
+        const double left_x = across_y * beside_z - beside_y * across_z, left_y = across_z * beside_x - beside_z * across_x,
+                     left_z = across_x * beside_y - beside_x * across_y;
+        right_m4[i] = right_x * right_x + right_y * right_y + right_z * right_z;
+        left_m4[i] = left_x * left_x + left_y * left_y + left_z * left_z;
+    }
+}
+
+} // namespace
+
 std::vector<CellArea> cell_areas_m2(const ExtentGrid& grid, std::size_t step, std::size_t rows, std::size_t columns) {
-    std::vector<CellArea> areas_m2;
-    const std::size_t stride = grid.offset_m.size();
-    areas_m2.reserve(rows * columns / step / step);
-    for (std::size_t row = 0; row + step < rows; row += step)
-        for (std::size_t column = 0; column + step < columns; column += step) {
-            const Pose* near = &grid.surface[row * stride + column];
-            const Pose* far = near + step * stride;
-            areas_m2.push_back({triangle_area_m2(near[0], far[0], far[step]), triangle_area_m2(near[0], far[step], near[step])});
+    const std::size_t stride = grid.offset_m.size(), cells = columns > 0 ? (columns - 1) / step : 0,
+                      strips = rows > 0 ? (rows - 1) / step : 0;
+    const SurfacePlaces own = grid.places.x_m.empty() ? SurfacePlaces(grid.surface) : SurfacePlaces();
+    const SurfacePlaces& places = grid.places.x_m.empty() ? own : grid.places;
+    std::vector<CellArea> areas_m2(strips * cells);
+    std::vector<double> right_m4(cells), left_m4(cells), picked[2][3];
+    const auto row_places = [&](std::size_t row) {
+        const std::size_t first = row * step * stride;
+        if (step == 1)
+            return RowPlaces{&places.x_m[first], &places.y_m[first], &places.z_m[first]};
+        const std::vector<double>* const from[]{&places.x_m, &places.y_m, &places.z_m};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            std::vector<double>& to = picked[row % 2][axis];
+            to.resize(cells + 1);
+            for (std::size_t i = 0; i <= cells; ++i)
+                to[i] = (*from[axis])[first + i * step];
         }
+        return RowPlaces{picked[row % 2][0].data(), picked[row % 2][1].data(), picked[row % 2][2].data()};
+    };
+    if (strips == 0 || cells == 0)
+        return {};
+    RowPlaces near = row_places(0);
+    for (std::size_t row = 0; row < strips; ++row) {
+        const RowPlaces far = row_places(row + 1);
+        strip_areas(near, far, cells, right_m4.data(), left_m4.data());
+        for (std::size_t i = 0; i < cells; ++i)
+            areas_m2[row * cells + i] = {0.5 * std::sqrt(right_m4[i]), 0.5 * std::sqrt(left_m4[i])};
+        near = far;
+    }
     return areas_m2;
 }
 
-LitArea::LitArea(const LitRoad& road, double threshold_lx) : road_(&road), threshold_lx_(threshold_lx), lit_m2_(road.cell_m2_.size()) {
-    for (std::size_t row = 0; row + 1 < road.grid_.ahead_m.size(); ++row) {
+namespace {
+
+FERNLICHT_WIDEST void mark_lit(const double* __restrict lx, std::size_t count, double threshold_lx, unsigned char* __restrict lit) {
+    for (std::size_t i = 0; i < count; ++i)
+        lit[i] = lx[i] >= threshold_lx ? 1 : 0;
+}
+
+FERNLICHT_WIDEST void count_lit_corners(const unsigned char* __restrict near, const unsigned char* __restrict far, std::size_t cells,
+                                        unsigned char* __restrict corners) {
+    for (std::size_t i = 0; i < cells; ++i)
+        corners[i] = static_cast<unsigned char>(near[i] + near[i + 1] + far[i] + far[i + 1]);
+}
+
+} // namespace
+
+LitArea::LitArea(const LitRoad& road, double threshold_lx) : road_(&road), threshold_lx_(threshold_lx) {
+    std::size_t strips = road.grid_.ahead_m.size() - 1;
+    while (strips > 0 && strip_is_dark(strips - 1))
+        --strips;
+    lit_m2_.resize(strips * cells());
+    std::vector<unsigned char> near_lit(cells() + 1), far_lit(cells() + 1), lit_corners(cells());
+    const auto look_at = [&](std::size_t row) {
+        near_lit.swap(far_lit);
+        mark_lit(road.row(row), cells() + 1, threshold_lx, far_lit.data());
+    };
+    look_at(0);
+    for (std::size_t row = 0; row < strips; ++row) {
+        look_at(row + 1);
         if (strip_is_dark(row))
             continue;
-        const double *near = road.row(row), *far = road.row(row + 1);
-        int lit_right = (near[0] >= threshold_lx ? 1 : 0) + (far[0] >= threshold_lx ? 1 : 0);
+        count_lit_corners(near_lit.data(), far_lit.data(), cells(), lit_corners.data());
         for (std::size_t column = 0; column < cells(); ++column) {
-            const int lit_left = (near[column + 1] >= threshold_lx ? 1 : 0) + (far[column + 1] >= threshold_lx ? 1 : 0);
-            const int lit_corners = lit_right + lit_left;
-            lit_right = lit_left;
+            std::uint64_t eight = 0;
+            if (column + sizeof eight <= cells()) {
+                std::memcpy(&eight, &lit_corners[column], sizeof eight);
+                if (eight == 0) {
+                    column += sizeof eight - 1;
+                    continue;
+                }
+            }
+            if (lit_corners[column] == 0)
+                continue;
             const std::size_t cell = row * cells() + column;
             const CellArea& areas_m2 = road.cell_m2_[cell];
-            if (lit_corners == 4)
-                lit_m2_[cell] = areas_m2[0] + areas_m2[1];
-            else if (lit_corners > 0)
-                lit_m2_[cell] = lit_part_m2(triangles_of(road.grid_, road.lx_, row, column), areas_m2, threshold_lx, std::identity());
+            lit_m2_[cell] = lit_corners[column] == 4
+                                ? areas_m2[0] + areas_m2[1]
+                                : lit_part_m2(triangles_of(road.grid_, road.lx_, row, column), areas_m2, threshold_lx, std::identity());
         }
     }
 }
@@ -227,21 +331,28 @@ double LitArea::all_m2() const {
     return lit_m2;
 }
 
-double LitArea::in_cut_cell_m2(std::size_t row, std::size_t column, const LaneSpan& near, const LaneSpan& far) const {
+double LitArea::in_cut_cell_m2(std::size_t row, std::size_t column, const LaneSpan& near, const LaneSpan& far, double* known_m2) const {
     const double *nearer = road_->row(row) + column, *farther = road_->row(row + 1) + column;
     if (nearer[0] < threshold_lx_ && nearer[1] < threshold_lx_ && farther[0] < threshold_lx_ && farther[1] < threshold_lx_)
         return 0.0;
+    const bool all_lit =
+        nearer[0] >= threshold_lx_ && nearer[1] >= threshold_lx_ && farther[0] >= threshold_lx_ && farther[1] >= threshold_lx_;
+    if (all_lit && known_m2 && !std::isnan(*known_m2))
+        return *known_m2;
     const double ahead_m = road_->grid_.ahead_m[row], length_m = road_->grid_.ahead_m[row + 1] - ahead_m;
-    return lit_part_m2(triangles_of(road_->grid_, road_->lx_, row, column), road_->cell_m2_[row * cells() + column], threshold_lx_,
-                       [&](const Polygon& part) {
-                           const Polygon right_of_left_edge =
-                               beside(part, ahead_m, near.left_m, (far.left_m - near.left_m) / length_m, -1.0);
-                           return beside(right_of_left_edge, ahead_m, near.right_m, (far.right_m - near.right_m) / length_m, 1.0);
-                       });
+    const double cut_m2 =
+        lit_part_m2(triangles_of(road_->grid_, road_->lx_, row, column), road_->cell_m2_[row * cells() + column], threshold_lx_,
+                    [&](const Polygon& part) {
+                        const Polygon right_of_left_edge = beside(part, ahead_m, near.left_m, (far.left_m - near.left_m) / length_m, -1.0);
+                        return beside(right_of_left_edge, ahead_m, near.right_m, (far.right_m - near.right_m) / length_m, 1.0);
+                    });
+    if (all_lit && known_m2)
+        *known_m2 = cut_m2;
+    return cut_m2;
 }
 
 /// Between two rows: cells wholly inside the lane count as they are, those that an edge cuts are clipped.
-double LitArea::in_strip_m2(std::size_t row, const LaneSpan& near, const LaneSpan& far) const {
+double LitArea::in_strip_m2(std::size_t row, const LaneSpan& near, const LaneSpan& far, std::array<double, 8>& known_m2) const {
     const std::vector<double>& offsets = road_->grid_.offset_m;
     const auto column_at = [&offsets](double offset_m) {
         const auto above = std::ranges::upper_bound(offsets, offset_m);
@@ -254,16 +365,24 @@ double LitArea::in_strip_m2(std::size_t row, const LaneSpan& near, const LaneSpa
     double lit_m2 = 0.0;
     for (std::size_t column = first; column <= last; ++column) {
         const bool inside = offsets[column] >= inner_right_m && offsets[column + 1] <= inner_left_m;
-        lit_m2 += inside ? lit_m2_[row * cells() + column] : in_cut_cell_m2(row, column, near, far);
+        const std::size_t to_right = column - first, to_left = last - column;
+        double* const known = to_right < 4 ? &known_m2[to_right] : to_left < 4 ? &known_m2[4 + to_left] : nullptr;
+        lit_m2 += inside ? lit_m2_[row * cells() + column] : in_cut_cell_m2(row, column, near, far, known);
     }
     return lit_m2;
 }
 
-double LitArea::lane_m2(const LaneSpans& lane) const {
+LitArea::CutCells LitArea::no_cut_cells(std::size_t rows) {
+    std::array<double, 8> none{};
+    none.fill(std::numeric_limits<double>::quiet_NaN());
+    return CutCells(rows, none);
+}
+
+double LitArea::lane_m2(const LaneSpans& lane, CutCells& known) const {
     double lit_m2 = 0.0;
     for (std::size_t row = 0; row + 1 < road_->grid_.ahead_m.size(); ++row)
         if (lane[row] && lane[row + 1] && !strip_is_dark(row))
-            lit_m2 += in_strip_m2(row, *lane[row], *lane[row + 1]);
+            lit_m2 += in_strip_m2(row, *lane[row], *lane[row + 1], known[row]);
     return lit_m2;
 }
 

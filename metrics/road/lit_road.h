@@ -5,17 +5,12 @@
 #include "metrics/road/extent.h"
 #include "metrics/road/lit_line.h"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
 
 namespace fernlicht {
-
-/// Edges of a lane in one row of a grid, offsets left positive; nullopt where the lane is not.
-struct LaneSpan {
-    double left_m = 0.0, right_m = 0.0;
-};
-using LaneSpans = std::vector<std::optional<LaneSpan>>;
 
 /// Road surface in m2 of a cell's two triangles, cut from the near right to the far left corner, the right one first.
 using CellArea = std::array<double, 2>;
@@ -29,22 +24,17 @@ inline std::vector<CellArea> cell_areas_m2(const ExtentGrid& grid) {
 /// Throws std::invalid_argument where measure_extent says so.
 void check_measurable(const ExtentGrid& grid, const std::vector<double>& lx, const std::vector<double>& thresholds_lx);
 
-/// A lane with its edges in every row.
-struct LaneStrip {
-    std::string name;
-    bool same_direction = true;
-    LaneSpans spans;
-};
-
 /// Lanes from left to right as the nearest row has them, then those that begin farther on. Where part of a lane lies beyond the
 /// width that was looked at, the lane is taken as absent.
-std::vector<LaneStrip> lane_strips(const ExtentGrid& grid);
+std::vector<LaneStrip> lane_strips(const ExtentGrid& grid, std::size_t step = 1); ///< of every `step`th row
 
 /// The column to the left of an offset within the grid; its right neighbour lies at or to the right of the offset. At least two columns.
-std::size_t column_left_of(const std::vector<double>& offsets_m, double offset_m);
+/// `guess`: where it may be, which is looked at first.
+std::size_t column_left_of(const std::vector<double>& offsets_m, double offset_m, std::size_t guess = 0);
 
-/// Illuminance between the grid's columns. `row` points to its first column's value; the offset lies within the grid.
-double lx_across(const std::vector<double>& offsets_m, const double* row, double offset_m);
+/// Illuminance between the grid's columns. `row` points to its first column's value; the offset lies within the grid. `guess`: the column
+/// to the left of the offset may be; it is there afterwards.
+double lx_across(const std::vector<double>& offsets_m, const double* row, double offset_m, std::size_t* guess = nullptr);
 
 /// A grid of at least two rows and columns with its values; refers to both.
 class LitRoad {
@@ -87,20 +77,24 @@ class LitArea {
 
     /// Over the whole grid, m2.
     double all_m2() const;
+    /// What the edges of one lane leave of cells that are lit all over, by row and by the cell's place from either end; NaN: not known yet.
+    /// The same for all limits.
+    using CutCells = std::vector<std::array<double, 8>>;
+    static CutCells no_cut_cells(std::size_t rows);
     /// Between the edges of a lane, which run straight from row to row.
-    double lane_m2(const LaneSpans& lane) const;
+    double lane_m2(const LaneSpans& lane, CutCells& known) const;
 
   private:
     std::size_t cells() const { return road_->grid_.offset_m.size() - 1; } ///< of a row
     bool strip_is_dark(std::size_t row) const {
         return road_->brightest_lx_[row] < threshold_lx_ && road_->brightest_lx_[row + 1] < threshold_lx_;
     }
-    double in_cut_cell_m2(std::size_t row, std::size_t column, const LaneSpan& near, const LaneSpan& far) const;
-    double in_strip_m2(std::size_t row, const LaneSpan& near, const LaneSpan& far) const;
+    double in_cut_cell_m2(std::size_t row, std::size_t column, const LaneSpan& near, const LaneSpan& far, double* known_m2) const;
+    double in_strip_m2(std::size_t row, const LaneSpan& near, const LaneSpan& far, std::array<double, 8>& known_m2) const;
 
     const LitRoad* road_;
     double threshold_lx_;
-    std::vector<double> lit_m2_; ///< of each cell, row-major
+    std::vector<double> lit_m2_; ///< of each cell, row-major, as far as any is lit
 };
 
 } // namespace fernlicht

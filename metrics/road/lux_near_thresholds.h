@@ -15,18 +15,8 @@ namespace fernlicht {
 /// Number of limits that an illuminance reaches; `undecided_side` where its bounds do not tell.
 using LimitSide = std::uint8_t;
 inline constexpr LimitSide undecided_side = 255;
-inline LimitSide limit_side(const LuxBounds& bounds, const std::vector<double>& thresholds_lx) {
-    constexpr double hair = 1e-9; // what lies between two points is interpolated, and rounded
-    const double low_lx = bounds.low_lx * (1.0 - hair), high_lx = bounds.high_lx * (1.0 + hair);
-    if (!(std::isfinite(low_lx) && std::isfinite(high_lx)) || thresholds_lx.size() >= undecided_side)
-        return undecided_side;
-    unsigned low = 0, high = 0;
-    for (const double limit : thresholds_lx) {
-        low += low_lx >= limit ? 1U : 0U;
-        high += high_lx >= limit ? 1U : 0U;
-    }
-    return low == high ? static_cast<LimitSide>(low) : undecided_side;
-}
+/// Of each of the bounds; their low_lx into `lx`.
+void limit_sides(std::span<const LuxBounds> bounds, const std::vector<double>& thresholds_lx, LimitSide* sides, double* lx);
 
 /// Row-major, like `sides`: 1 where a point or one of its eight neighbours is undecided or lies on another side of a limit, and where a
 /// lane's line crosses one. The same in every second row and column, which grid_errors measures.
@@ -46,10 +36,7 @@ lux_near_thresholds(const ExtentGrid& grid, const std::vector<double>& threshold
     in_each_row([&](std::size_t first) {
         std::vector<LuxBounds> bounds(columns);
         bounds_lx(first, std::span(bounds));
-        for (std::size_t i = 0; i < columns; ++i) {
-            lx[first + i] = bounds[i].low_lx;
-            sides[first + i] = limit_side(bounds[i], thresholds_lx);
-        }
+        limit_sides(bounds, thresholds_lx, &sides[first], &lx[first]);
     });
     const std::vector<unsigned char> decides = deciding_points(grid, sides);
     in_each_row([&](std::size_t first) {

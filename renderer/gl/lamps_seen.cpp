@@ -35,7 +35,8 @@ double max_airlight_cdm2(const LitLamp& lamp, const Beam& beam, const Weather& w
 int LampsInFog::beam_offset(const Beam& beam) {
     const auto [known, fresh] = offsets_.try_emplace(beam.id, static_cast<int>(cd_.size()));
     if (fresh) {
-        cd_.insert(cd_.end(), beam.grid.cd.begin(), beam.grid.cd.end());
+        const BeamTexture grid = beams_.grid_of(beam);
+        cd_.insert(cd_.end(), grid.cd.begin(), grid.cd.end());
         cd_buffer_.fill(context_, cd_);
     }
     return known->second;

@@ -53,7 +53,8 @@ void set_weather_uniforms(const GladGLContext& gl, const Program& program, const
 
 PhotometricLighting::PhotometricLighting(Context& context, const Scene& scene, const RendererSettings& settings, bool pruned)
     : context_(context), settings_(settings), pruned_(pruned),
-      scene_(context, scene, false, light_pass_for(context.info, settings.light_pass) == LightPass::cpu), beams_(context, settings.beams),
+      scene_(context, scene, false, light_pass_for(context.info, settings.light_pass) == LightPass::cpu),
+      beams_(context, settings.beams, light_pass_for(context.info, settings.light_pass) == LightPass::cpu),
       shadows_(make_shadows(context, scene_, settings.shadows, {settings.target_height_m, pruned, settings.shadow_eye})),
       traffic_(context, scene_, beams_, settings.traffic_levels, pruned), lamps_in_fog_(context, beams_, pruned),
       faces_(context, settings.tone_mapper), list_(context, scene_),
@@ -360,9 +361,9 @@ void PhotometricLighting::draw(const Shot& shot) {
     shot.clock.begin("scene");
     const bool on_cpu = cpu_light_ && why_shader(shot).empty();
     if (on_cpu)
-        shot.targets.begin_visible();
+        shot.targets.begin_visible(shot.view.looked_at);
     else
-        shot.targets.begin(shot.background, shot.sky_luminance_cdm2);
+        shot.targets.begin(shot.background, shot.sky_luminance_cdm2, shot.view.looked_at);
     if (!traffic_shadows_)
         groups = groups_for(shot);
     list_.start(shot.moment.ego.position_m, scene_.moves() || traffic_.any(), on_cpu);

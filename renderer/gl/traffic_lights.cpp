@@ -61,8 +61,9 @@ template <class T> void TrafficLights::fill(Texels& texels, GLenum format, const
 int TrafficLights::beam_offset(const Beam& beam) {
     const auto [known, fresh] = offsets_.try_emplace(beam.id, static_cast<int>(cd_.size()));
     if (fresh) {
-        cd_.insert(cd_.end(), beam.grid.cd.begin(), beam.grid.cd.end());
-        bounds_.emplace(beam.id, TrafficBeam(beam.grid));
+        const BeamTexture grid = beams_.grid_of(beam);
+        cd_.insert(cd_.end(), grid.cd.begin(), grid.cd.end());
+        bounds_.emplace(beam.id, TrafficBeam(grid));
         cd_texels_.room = 0;
     }
     return known->second;

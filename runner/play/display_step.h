@@ -24,6 +24,8 @@ class DisplayStep {
     /// What to draw besides, so that the picture can be shown: of a stored one its coloured light, and where white adapts that of each
     /// driver's.
     FrameOutputs with_light(FrameOutputs outputs, const View& view, bool stored, bool drivers) const;
+    /// Whether the eye is followed, and so wants the driver's frame of every moment.
+    bool adapts() const { return adapted_.has_value(); }
     /// The driver's frame of a moment, before its pictures are written. Nothing without adaptation.
     void see(const Frame& frame);
     /// With the exposure of now; may be called by another thread, and later. Frames without coloured light (techniques that compute no

@@ -3,9 +3,11 @@
 #include "metrics/road/lux_near_thresholds.h"
 #include "scenarios/drives/play/camera.h"
 #include "scenarios/light/light.h"
+#include "scenarios/packs/level.h"
 #include "scenarios/values/trace.h"
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -29,28 +31,64 @@ double between(double a, double b, double c, double d, double fx, double fy) {
     return mixed(a, b, c, d);
 }
 
-/// Where a grid point lies between pixel centres: right of and below this pixel by these shares.
-struct PixelPlace {
-    int x = 0, y = 0;
-    double fx = 0.0, fy = 0.0;
-};
-
-std::vector<PixelPlace> places_of(const ExtentGrid& grid, const View& view, const Moment& moment) {
+PixelPlaces places_of(const ExtentGrid& grid, const View& view, const Moment& moment) {
     const Camera camera = camera_of(moment, view);
-    std::vector<PixelPlace> places;
-    places.reserve(grid.surface.size());
-    for (const Pose& pose : grid.surface) {
-        const glm::dvec2 at = map_pixel(camera, view, moment, pose.position_m) - 0.5;
-        const double x = std::clamp(at.x, 0.0, view.width_px - 1.0), y = std::clamp(at.y, 0.0, view.height_px - 1.0);
-        const int x0 = std::min(static_cast<int>(x), view.width_px - 2), y0 = std::min(static_cast<int>(y), view.height_px - 2);
-        places.push_back({x0, y0, x - x0, y - y0});
+    PixelPlaces found;
+    found.places.reserve(grid.surface.size());
+    for (std::size_t row = 0, i = 0; row < grid.ahead_m.size(); ++row) {
+        std::pair<int, int>& between_y = found.between_y.emplace_back(view.height_px, 0);
+        for (std::size_t column = 0; column < grid.offset_m.size(); ++column, ++i) {
+            const glm::dvec2 at = map_pixel(camera, view, moment, grid.surface[i].position_m) - 0.5;
+            const double x = std::clamp(at.x, 0.0, view.width_px - 1.0), y = std::clamp(at.y, 0.0, view.height_px - 1.0);
+            const int x0 = std::min(static_cast<int>(x), view.width_px - 2), y0 = std::min(static_cast<int>(y), view.height_px - 2);
+            found.places.push_back({x0, y0, x - x0, y - y0});
+            between_y = {std::min(between_y.first, y0), std::max(between_y.second, y0 + 1)};
+        }
     }
-    return places;
+    return found;
+}
+
+/// What the pixels between which places lie are bounded by, some rows at a time; in a bend much of a map is beside the road.
+std::vector<PixelBox> boxes_of(const PixelPlaces& pixels, int height_px) {
+    constexpr int rows = 16;
+    std::vector<std::pair<int, int>> between_x(static_cast<std::size_t>((height_px + rows - 1) / rows), {INT_MAX, 0});
+    for (const PixelPlace& place : pixels.places)
+        for (const int y : {place.y, place.y + 1}) {
+            std::pair<int, int>& between = between_x[static_cast<std::size_t>(y / rows)];
+            between = {std::min(between.first, place.x), std::max(between.second, place.x + 1)};
+        }
+    std::vector<PixelBox> boxes;
+    for (std::size_t i = 0; i < between_x.size(); ++i)
+        if (const auto [first, last] = between_x[i]; first <= last) {
+            const int y = static_cast<int>(i) * rows;
+            boxes.push_back({first, y, last - first + 1, std::min(rows, height_px - y)});
+        }
+    return boxes;
+}
+
+FERNLICHT_WIDEST bool all_below(const float* values, std::size_t count, float limit) {
+    int reached = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        reached |= values[i] < limit ? 0 : 1; // NaN is not below
+    return reached == 0;
+}
+
+/// How many of the picture's rows before each have a pixel that is not below the limit.
+std::vector<int> rows_not_below(const Image<float>& picture, float limit) {
+    std::vector<int> before{0};
+    for (int y = 0; y < picture.height(); ++y)
+        before.push_back(before.back() + (all_below(&picture.at(0, y), static_cast<std::size_t>(picture.width()), limit) ? 0 : 1));
+    return before;
 }
 
 /// The picture at grid points as measure_extent needs it for these limits.
-std::vector<double> sampled(const Image<float>& picture, const ExtentGrid& grid, const std::vector<PixelPlace>& places,
+std::vector<double> sampled(const Image<float>& picture, const ExtentGrid& grid, const PixelPlaces& pixels,
                             const std::vector<double>& thresholds_lx) {
+    const std::vector<PixelPlace>& places = pixels.places;
+    // Rows that are dark all over, as most are ahead of what the lamps reach.
+    const double dark_lx = thresholds_lx.empty() ? 0.0 : 0.99 * *std::ranges::min_element(thresholds_lx);
+    const std::vector<int> not_dark = rows_not_below(picture, static_cast<float>(dark_lx));
+    const std::size_t columns = grid.offset_m.size();
     const auto bounds = [&](std::size_t i) {
         const float* above = &picture.at(places[i].x, places[i].y);
         const float* below = above + picture.width();
@@ -68,6 +106,11 @@ std::vector<double> sampled(const Image<float>& picture, const ExtentGrid& grid,
     return lux_near_thresholds(
         grid, thresholds_lx,
         [&](std::size_t first, std::span<LuxBounds> of_row) {
+            const auto [low_y, high_y] = pixels.between_y[first / columns];
+            if (not_dark[static_cast<std::size_t>(high_y) + 1] == not_dark[static_cast<std::size_t>(low_y)]) {
+                std::ranges::fill(of_row, LuxBounds{0.0, dark_lx});
+                return;
+            }
             for (std::size_t i = 0; i < of_row.size(); ++i)
                 of_row[i] = bounds(first + i);
         },
@@ -99,9 +142,15 @@ View map_over(const ExtentGrid& grid, const Moment& moment) {
     return view;
 }
 
+void place_pixels(ExtentDrawing& drawing) {
+    drawing.pixels = places_of(drawing.grid, drawing.view, drawing.moment);
+    drawing.view.looked_at = boxes_of(drawing.pixels, drawing.view.height_px);
+}
+
 ExtentDrawing ExtentFold::draw(const Moment& moment, const Draw& draw) const {
-    ExtentDrawing drawing{moment, make_extent_grid(route_, moment, drive_.bumper_m, *drive_.extent), {}, {}, false};
+    ExtentDrawing drawing{moment, make_extent_grid(route_, moment, drive_.bumper_m, *drive_.extent), {}, {}, {}, false};
     drawing.view = map_over(drawing.grid, moment);
+    place_pixels(drawing);
     if (!moment.other_lamps.empty())
         drawing.moment.other_lamps.clear(); // reach is the own lamps'
     drawing.frame = draw(drawing.moment, drawing.view, {.illuminance = true, .target = true})();
@@ -109,14 +158,13 @@ ExtentDrawing ExtentFold::draw(const Moment& moment, const Draw& draw) const {
 }
 
 std::vector<LaneExtent> ExtentFold::rendered(const ExtentDrawing& drawing) const {
-    const auto& [moment, grid, view, frame, nudged] = drawing;
+    const auto& [moment, grid, view, pixels, frame, nudged] = drawing;
     const ExtentParameters& p = *drive_.extent;
-    const std::vector<PixelPlace> places = places_of(grid, view, moment);
     std::vector<LaneExtent> extents;
     for (const Surface surface : {Surface::road, Surface::target}) {
         const Image<float>& picture = surface == Surface::road ? frame.illuminance_lx : frame.target_lx;
         if (!picture.empty())
-            std::ranges::copy(measure_extent(grid, sampled(picture, grid, places, p.thresholds_lx), surface, p.thresholds_lx, p.width_at_m),
+            std::ranges::copy(measure_extent(grid, sampled(picture, grid, pixels, p.thresholds_lx), surface, p.thresholds_lx, p.width_at_m),
                               std::back_inserter(extents));
     }
     return extents;
@@ -126,7 +174,7 @@ ExtentRow ExtentFold::measure(const ExtentDrawing& drawing) const {
     TraceSpan span("extent", "measure");
     if (span)
         span.tell("tick", drawing.moment.tick);
-    const auto& [moment, grid, view, frame, nudged] = drawing;
+    const auto& [moment, grid, view, pixels, frame, nudged] = drawing;
     const ExtentParameters& p = *drive_.extent;
     ExtentRow row;
     row.tick = moment.tick;

@@ -6,14 +6,29 @@
 
 namespace fernlicht {
 
+/// Where a grid point lies between pixel centres: right of and below this pixel by these shares.
+struct PixelPlace {
+    int x = 0, y = 0;
+    double fx = 0.0, fy = 0.0;
+};
+
+struct PixelPlaces {
+    std::vector<PixelPlace> places;             ///< row-major, as the grid has them
+    std::vector<std::pair<int, int>> between_y; ///< of each of the grid's rows: first and last row of pixels that it meets
+};
+
 /// What the extents of one moment are measured in.
 struct ExtentDrawing {
     Moment moment;
     ExtentGrid grid;
     View view;
+    PixelPlaces pixels;  ///< of the grid's points in the view
     Frame frame;         ///< its lux images are empty where the technique computes none
     bool nudged = false; ///< whether the twin is asked for what nudges do
 };
+
+/// After its view: where the grid's points lie in it, and so where anybody looks.
+void place_pixels(ExtentDrawing& drawing);
 
 class ExtentFold {
   public:

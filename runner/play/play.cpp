@@ -30,8 +30,11 @@ class Pictures {
                                                                                                                     : "frame";
     }
 
+    /// Without times, a picture that nobody stores is drawn only where the eye adapts to it.
     void draw(const Moment& moment, const Draw& draw) {
         const bool captured = is_captured(drive_.capture, moment.tick, drive_.step_s);
+        if (!captured && !options_.no_times.empty() && !display_.adapts())
+            return;
         for (std::size_t i = 0; i < (captured ? drive_.views.size() : std::min<std::size_t>(1, drive_.views.size())); ++i) {
             const View& view = drive_.views[i];
             const FrameOutputs outputs = captured ? stored_results(view, drive_.capture) : FrameOutputs{.colour = true};

@@ -24,6 +24,12 @@ namespace fernlicht {
 enum class Projection { perspective, map };
 
 /// A camera. Perspective: on the car, looking along `axes`' x. Map: a bird's eye, orthographic, north = direction of travel.
+/// Pixels of a picture, from its top left corner.
+struct PixelBox {
+    int x = 0, y = 0, width = 0, height = 0;
+    bool operator==(const PixelBox&) const = default;
+};
+
 struct View {
     std::string name;
     Projection projection = Projection::perspective;
@@ -33,6 +39,8 @@ struct View {
     bool mirrored = false;                                 ///< left and right exchanged, as a mirror shows it; perspective only
     int width_px = 1024, height_px = 768;
     double map_ahead_m = 0.0, map_behind_m = 0.0, map_left_m = 0.0, map_right_m = 0.0; ///< map only; from the car's origin
+    /// Where anybody looks: beside these boxes nothing need be drawn. None: everywhere. Not part of the file.
+    std::vector<PixelBox> looked_at = {};
 
     bool operator==(const View&) const = default;
 };

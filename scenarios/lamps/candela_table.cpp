@@ -71,6 +71,14 @@ Corners corners(const CandelaTable& table, std::size_t v, std::size_t h) {
 
 double between(const Corners& k, double fv, double fh) { return blend(blend(k.a, k.b, fh), blend(k.c, k.d, fh), fv); }
 
+/// By the table's rule.
+double intensity_at(const CandelaTable& table, const Place& v, const Place& h) {
+    const Corners k = corners(table, v.cell, h.cell);
+    if (table.rule == BetweenSamples::linear_cd || k.any_zero())
+        return between(k, v.fraction, h.fraction);
+    return std::exp(between(k.logarithms(), v.fraction, h.fraction));
+}
+
 /// Weights of the lower and the upper sample in the integral of a linear function times cos V over one row of cells, radians.
 /// With m the middle and s half the step: lower + upper = 2 cos m sin s, upper - lower = 2 sin m (cos s - sin s / s).
 std::array<double, 2> cosine_weights(double v0_deg, double v1_deg) {
@@ -228,12 +236,27 @@ CandelaTable thinned(const CandelaTable& table, const std::vector<std::size_t>& 
 
 double intensity_cd(const CandelaTable& table, double h_deg, double v_deg) {
     Place v, h;
-    if (!place_with_data(table, h_deg, v_deg, v, h))
-        return 0.0;
-    const Corners k = corners(table, v.cell, h.cell);
-    if (table.rule == BetweenSamples::linear_cd || k.any_zero())
-        return between(k, v.fraction, h.fraction);
-    return std::exp(between(k.logarithms(), v.fraction, h.fraction));
+    return place_with_data(table, h_deg, v_deg, v, h) ? intensity_at(table, v, h) : 0.0;
+}
+
+IntensityAcross::IntensityAcross(const CandelaTable& table, const std::vector<double>& h_deg) : table_(table), cd_(h_deg.size()) {
+    for (const double asked_deg : h_deg) {
+        const double h = std::abs(asked_deg) > 180.0 ? std::remainder(asked_deg, 360.0) : asked_deg;
+        const bool inside = h >= table.h_deg.front() && h <= table.h_deg.back();
+        const Place place = inside ? place_on(table.h_deg, h) : Place{};
+        columns_.push_back({place.cell, place.fraction, inside});
+    }
+}
+
+const std::vector<double>& IntensityAcross::at(double v_deg) {
+    const bool inside = v_deg >= table_.v_deg.front() && v_deg <= table_.v_deg.back();
+    const Place row = inside ? place_on(table_.v_deg, v_deg) : Place{};
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+        Place v = row, h{columns_[i].cell, columns_[i].fraction};
+        const bool has_data = inside && columns_[i].inside && (!is_gap(table_, v.cell, h.cell) || leave_gap(table_, v, h));
+        cd_[i] = has_data ? intensity_at(table_, v, h) : 0.0;
+    }
+    return cd_;
 }
 
 bool has_data(const CandelaTable& table, double h_deg, double v_deg) {

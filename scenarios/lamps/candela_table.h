@@ -30,6 +30,25 @@ struct CandelaTable {
 /// that holds a zero.
 double intensity_cd(const CandelaTable& table, double h_deg, double v_deg);
 
+/// The same at all these H, where many V are asked for: places on the axis are looked up once.
+class IntensityAcross {
+  public:
+    /// The table must outlive it.
+    IntensityAcross(const CandelaTable& table, const std::vector<double>& h_deg);
+    /// In the order of H; until the next call.
+    const std::vector<double>& at(double v_deg);
+
+  private:
+    struct Column {
+        std::size_t cell;
+        double fraction;
+        bool inside;
+    };
+    const CandelaTable& table_;
+    std::vector<Column> columns_;
+    std::vector<double> cd_;
+};
+
 /// Whether the direction lies on the axes and not inside a gap. A border belongs to the side that has data.
 bool has_data(const CandelaTable& table, double h_deg, double v_deg);
 

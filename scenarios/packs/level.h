@@ -1,8 +1,16 @@
 // How wide packs are on this processor, chosen when the program runs. All levels compute the same bits.
+// FERNLICHT_WIDEST before a function whose loops the compiler makes wide by itself: compiled for several widths, the right one chosen when
+// the program starts; sanitizers cannot instrument that. No width changes a bit: nothing is summed across a vector, nothing is contracted.
 #pragma once
 
 #include <cstddef>
 #include <vector>
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define FERNLICHT_WIDEST __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define FERNLICHT_WIDEST
+#endif
 
 namespace fernlicht::packs {
 

@@ -200,21 +200,23 @@ Route::Route(const RoadNetwork& network, Start start, const std::vector<std::str
                "a start from which there is a way to go");
 }
 
-Pose Route::pose(double distance_m, double offset_left_m) const {
-    Pose pose;
-    poses(distance_m, {&offset_left_m, 1}, {&pose, 1});
-    return pose;
+Route::Cut Route::cut(double distance_m) const {
+    const Cell& cell = cell_at(distance_m);
+    const double s = s_at(cell, distance_m);
+    return {cell.to_s_m >= cell.from_s_m ? 1.0 : -1.0, cell.centre.at(s), cell.centre.slope(s), cut_at(cell.strip, s)};
 }
 
+Pose Route::pose(const Cut& cut, double offset_left_m) {
+    const SurfacePoint point = surface_point(cut.surface, cut.centre_t_m + cut.side * offset_left_m);
+    return pose_along(point, cut.side * (point.by_s + cut.centre_slope * point.by_t));
+}
+
+Pose Route::pose(double distance_m, double offset_left_m) const { return pose(cut(distance_m), offset_left_m); }
+
 void Route::poses(double distance_m, std::span<const double> offsets_left_m, std::span<Pose> poses) const {
-    const Cell& cell = cell_at(distance_m);
-    const double s = s_at(cell, distance_m), side = cell.to_s_m >= cell.from_s_m ? 1.0 : -1.0;
-    const double centre = cell.centre.at(s), slope = cell.centre.slope(s);
-    const SurfaceCut cut = cut_at(cell.strip, s);
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        const SurfacePoint point = surface_point(cut, centre + side * offsets_left_m[i]);
-        poses[i] = pose_along(point, side * (point.by_s + slope * point.by_t));
-    }
+    const Cut across = cut(distance_m);
+    for (std::size_t i = 0; i < poses.size(); ++i)
+        poses[i] = pose(across, offsets_left_m[i]);
 }
 
 std::pair<std::string, double> Route::place(double distance_m) const {
@@ -244,7 +246,7 @@ CrossSection Route::cross_section(double distance_m) const {
     const auto own = std::ranges::find(cross.lanes, leg.lane, &RouteLane::road_lane_id);
     for (auto lane = cross.lanes.begin(); lane != cross.lanes.end(); ++lane) {
         const auto steps = lane - own;
-        lane->name = steps == 0 ? "own" : fmt::format("{} {}", steps < 0 ? "left" : "right", std::abs(steps));
+        lane->name = steps == 0 ? "own" : (steps < 0 ? "left " : "right ") + std::to_string(std::abs(steps));
         if (steps == 0 || paved(lane->type)) {
             cross.paved_left_m = std::max(cross.paved_left_m, lane->left_m);
             cross.paved_right_m = std::min(cross.paved_right_m, lane->right_m);

@@ -39,6 +39,13 @@ class Route {
     /// On the surface: x along travel, y left, z up (normal). `offset_left_m` from the own lane's centre. Distances are clamped to the
     /// route.
     Pose pose(double distance_m, double offset_left_m = 0.0) const;
+    /// What does not depend on the offset, for callers that ask for many at one distance.
+    struct Cut {
+        double side, centre_t_m, centre_slope;
+        SurfaceCut surface;
+    };
+    Cut cut(double distance_m) const;
+    static Pose pose(const Cut& cut, double offset_left_m);
     /// The same for many offsets at one distance; as many poses as offsets.
     void poses(double distance_m, std::span<const double> offsets_left_m, std::span<Pose> poses) const;
     CrossSection cross_section(double distance_m) const;

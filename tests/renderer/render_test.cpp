@@ -100,6 +100,31 @@ TEST_F(TwinTest, EveryPixelLiesWithinTheDerivedBound) {
     }
 }
 
+TEST_F(TwinTest, BesideWhereAnybodyLooksNothingIsDrawn) {
+    const Scene scene = small_scene({});
+    for (const LightPass pass : {LightPass::shader, LightPass::cpu}) {
+        Renderer renderer(device_, scene, {.light_pass = pass});
+        const FrameOutputs outputs{.illuminance = true, .target = true, .ids = true};
+        View view = map_view(80.0, 5.0, 20.0, 90, 130);
+        const Frame whole = renderer.draw(two_lamps({}), view, outputs);
+        view.looked_at = {{10, 0, 31, 16}, {3, 16, 80, 50}, {40, 60, 50, 70}};
+        const Frame part = renderer.draw(two_lamps({}), view, outputs);
+        const auto looked_at = [&](int x, int y) {
+            return std::ranges::any_of(view.looked_at, [&](const PixelBox& box) {
+                return x >= box.x && x < box.x + box.width && y >= box.y && y < box.y + box.height;
+            });
+        };
+        for (const auto& [x, y] : each_pixel(view)) {
+            const bool looked = looked_at(x, y);
+            EXPECT_EQ(part.ids.at(x, y), looked ? whole.ids.at(x, y) : 0) << x << ' ' << y;
+            EXPECT_EQ(part.illuminance_lx.at(x, y), looked ? whole.illuminance_lx.at(x, y) : 0.0F) << x << ' ' << y;
+            EXPECT_EQ(part.target_lx.at(x, y), looked ? whole.target_lx.at(x, y) : 0.0F) << x << ' ' << y;
+        }
+        view.looked_at = {};
+        EXPECT_TRUE(std::ranges::equal(renderer.draw(two_lamps({}), view, outputs).illuminance_lx.pixels(), whole.illuminance_lx.pixels()));
+    }
+}
+
 TEST_F(TwinTest, TheBoundIsNotSlack) {
     // A flipped sign, a lamp left out, a texel's shift: each must break the bound on many pixels.
     const Scene scene = small_scene({});

@@ -104,8 +104,11 @@ Program::Program(Context& context, const std::string& vertex_file, const std::st
     if (fragment != 0)
         context.gl.AttachShader(program_, fragment);
     context.gl.LinkProgram(program_);
-    context.gl.DeleteShader(vertex);
-    context.gl.DeleteShader(fragment);
+    for (const GLuint shader : {vertex, fragment})
+        if (shader != 0) {
+            context.gl.DetachShader(program_, shader); // else it stays with all that the compiler made of it
+            context.gl.DeleteShader(shader);
+        }
     GLint ok = GL_FALSE;
     context.gl.GetProgramiv(program_, GL_LINK_STATUS, &ok);
     if (ok != GL_TRUE) {

@@ -64,7 +64,21 @@ Targets::Targets(Context& context, int width, int height, const FrameOutputs& ou
     context.check("making targets");
 }
 
-void Targets::begin(const glm::vec3& background, float sky_luminance_cdm2) {
+void Targets::clear_depth(GLuint framebuffer, std::span<const PixelBox> looked_at) {
+    const GladGLContext& gl = context_.gl;
+    const float far_away = 0.0F, nearest = 1.0F;
+    gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, looked_at.empty() ? &far_away : &nearest);
+    if (looked_at.empty())
+        return;
+    gl.Enable(GL_SCISSOR_TEST);
+    for (const PixelBox& box : looked_at) {
+        gl.Scissor(box.x, box.y, box.width, box.height);
+        gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far_away);
+    }
+    gl.Disable(GL_SCISSOR_TEST);
+}
+
+void Targets::begin(const glm::vec3& background, float sky_luminance_cdm2, std::span<const PixelBox> looked_at) {
     const GladGLContext& gl = context_.gl;
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     gl.Viewport(0, 0, width_, height_);
@@ -78,11 +92,10 @@ void Targets::begin(const glm::vec3& background, float sky_luminance_cdm2) {
         else
             gl.ClearNamedFramebufferfv(framebuffer_, GL_COLOR, static_cast<GLint>(slot), &value[0]);
     }
-    const float far_away = 0.0F;
-    gl.ClearNamedFramebufferfv(framebuffer_, GL_DEPTH, 0, &far_away);
+    clear_depth(framebuffer_, looked_at);
 }
 
-void Targets::begin_visible() {
+void Targets::begin_visible(std::span<const PixelBox> looked_at) {
     const GladGLContext& gl = context_.gl;
     if (visible_ == 0) {
         visible_ = make_texture(context_, GL_RG32UI, width_, height_);
@@ -94,9 +107,8 @@ void Targets::begin_visible() {
     gl.BindFramebuffer(GL_FRAMEBUFFER, visible_framebuffer_);
     gl.Viewport(0, 0, width_, height_);
     const GLuint nothing[4] = {0, 0, 0, 0};
-    const float far_away = 0.0F;
     gl.ClearNamedFramebufferuiv(visible_framebuffer_, GL_COLOR, 0, nothing);
-    gl.ClearNamedFramebufferfv(visible_framebuffer_, GL_DEPTH, 0, &far_away);
+    clear_depth(visible_framebuffer_, looked_at);
 }
 
 void Targets::read_visible(std::vector<std::uint32_t>& pixels) {

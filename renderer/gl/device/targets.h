@@ -6,6 +6,7 @@
 #include "scenarios/drives/play/frame.h"
 
 #include <optional>
+#include <span>
 
 namespace fernlicht::gl {
 
@@ -13,10 +14,11 @@ class Targets {
   public:
     Targets(Context& context, int width, int height, const FrameOutputs& outputs);
 
-    /// Binds, sets the viewport and clears: everything 0, colour to `background`, luminance and light to the sky's.
-    void begin(const glm::vec3& background, float sky_luminance_cdm2);
+    /// Binds, sets the viewport and clears: everything 0, colour to `background`, luminance and light to the sky's. `looked_at`: beside
+    /// these boxes, where there are any, nothing passes the depth test.
+    void begin(const glm::vec3& background, float sky_luminance_cdm2, std::span<const PixelBox> looked_at = {});
     /// The same for visible.frag.glsl: which triangle a pixel shows, and its texel.
-    void begin_visible();
+    void begin_visible(std::span<const PixelBox> looked_at = {});
     void read_visible(std::vector<std::uint32_t>& pixels);
     int width() const { return width_; }
     int height() const { return height_; }
@@ -39,6 +41,7 @@ class Targets {
     enum Result { colour, illuminance, target, luminance, light, depth, ids, result_count };
     static std::vector<Result> results_of(const FrameOutputs& outputs);
     std::size_t bytes_of(Result result) const;
+    void clear_depth(GLuint framebuffer, std::span<const PixelBox> looked_at);
     /// glReadPixels of one result, to memory or, with a pack buffer bound, to an offset in it.
     void read_pixels(std::size_t slot, void* place);
     /// Makes the frame's pictures, each filled by fill(slot, destination, bytes), in the order of the slots.

@@ -83,7 +83,16 @@ const Beam& Beams::of(const std::shared_ptr<const LampFile>& file) {
     beam.cd_a_unit = g.bits == 32 ? 1.0 : g.scale_cd;
     texture_bytes_ += static_cast<std::size_t>(g.bits / 8) * g.cd.size();
     context_.check("uploading a beam texture");
+    if (!kept_)
+        beam.grid.cd = std::vector<float>(); // = {} would keep the memory
     return known_.emplace(file.get(), std::pair(file, std::move(beam))).first->second.second;
+}
+
+BeamTexture Beams::grid_of(const Beam& beam) const {
+    if (kept_)
+        return beam.grid;
+    const auto known = std::ranges::find_if(known_, [&](const auto& other) { return other.second.second.id == beam.id; });
+    return made(known->second.first->table);
 }
 
 std::vector<LitLamp> shining(const Moment& moment, bool all) {

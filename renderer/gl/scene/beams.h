@@ -35,9 +35,9 @@ struct ShadowWindow {
 };
 
 struct Beam {
-    int id = 0;    ///< in the order of upload
-    int shape = 0; ///< id of the first that lies on the same grid: all that shaders are compiled for
-    BeamTexture grid;
+    int id = 0;             ///< in the order of upload
+    int shape = 0;          ///< id of the first that lies on the same grid: all that shaders are compiled for
+    BeamTexture grid;       ///< without texels, unless these are kept
     double cd_a_unit = 1.0; ///< of what a look-up gives: 1 for float, the largest value for steps of it
     BeamBounds bounds;
     ShadowWindow window;
@@ -50,11 +50,17 @@ Texture make_texels(Context& context, int width, int height, int bits, std::span
 
 class Beams {
   public:
-    Beams(Context& context, const std::optional<BeamTexels>& texels) : context_(context), texels_(texels) {}
+    /// `kept`: texels stay in the beams' grids for who lights on the CPU; else they are on the device alone.
+    Beams(Context& context, const std::optional<BeamTexels>& texels, bool kept = false) : context_(context), texels_(texels), kept_(kept) {}
 
     const Beam& of(const std::shared_ptr<const LampFile>& file);
+    /// The beam's grid with its texels, made anew where they are not kept.
+    BeamTexture grid_of(const Beam& beam) const;
     /// Of the beam as it is drawn with against its table, relative to the peak.
-    double error_of_peak(const LampFile& file) const { return made(file.table).worst_error_of_peak; }
+    double error_of_peak(const LampFile& file) const {
+        const auto known = known_.find(&file);
+        return known != known_.end() ? known->second.second.grid.worst_error_of_peak : made(file.table).worst_error_of_peak;
+    }
     std::size_t texture_bytes() const { return texture_bytes_; }
 
   private:
@@ -62,6 +68,7 @@ class Beams {
 
     Context& context_;
     std::optional<BeamTexels> texels_;
+    bool kept_;
     std::map<const LampFile*, std::pair<std::shared_ptr<const LampFile>, Beam>> known_;
     std::size_t texture_bytes_ = 0;
 };

@@ -153,6 +153,7 @@ void ConfigurationErrors::add(std::size_t m, const Draw& draw) {
     ExtentDrawing map = references_->map(m);
     map.view.width_px = std::max(2, static_cast<int>(std::lround(map.view.width_px * map_scale_)));
     map.view.height_px = std::max(2, static_cast<int>(std::lround(map.view.height_px * map_scale_)));
+    place_pixels(map);
     map.frame = draw(map.moment, map.view, {.illuminance = true, .target = true})();
     moments_.push_back(m);
     rendered_.push_back(references_->fold().rendered(map));

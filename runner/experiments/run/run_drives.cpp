@@ -34,6 +34,8 @@
 #include <deque>
 #include <fmt/format.h>
 #include <fstream>
+#include <malloc.h>
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
@@ -55,13 +57,17 @@ std::vector<std::string> notes_for(const Stage& stage, const LampSet& lamp_set, 
             fmt::format("traffic: technique {} does not render the light of other vehicles' lamps, and its pictures do not show "
                         "them as sources; it renders the road users' bodies. photometric renders all three",
                         technique.name));
+    std::map<const LampFile*, std::optional<double>> beam_errors; // which take their time, and most lamps come in pairs
     for (const MountedLamp& lamp : lamp_set.lamps) {
         if (lamp.photometric_distance_m > 0.0)
             notes.push_back(fmt::format("{}: nearer than {} m it is in its near field, where a point source is an approximation", lamp.name,
                                         lamp.photometric_distance_m));
         for (const std::string& note : lamp.file->notes)
             notes.push_back(lamp.name + ": " + note);
-        if (const std::optional<double> error = renderer.beam_error(*lamp.file))
+        const auto [known, is_new] = beam_errors.try_emplace(lamp.file.get());
+        if (is_new)
+            known->second = renderer.beam_error(*lamp.file);
+        if (const std::optional<double>& error = known->second)
             notes.push_back(fmt::format("{}: as rendered, the beam differs from the candela table by at most {:.2g} % of the peak",
                                         lamp.name, 100.0 * *error));
     }
@@ -299,7 +305,9 @@ void run_drive(Stage& stage, Device& device, const RendererSettings& settings, c
         }
     }
     const auto played = std::span(report.played).subspan(before);
+    ::malloc_trim(0); // what compiling shaders and playing left behind would stand beside what measuring errors takes
     add_savings(stage, device, settings, options, renderer, played);
+    ::malloc_trim(0);
     if (options.accuracy)
         add_errors(stage, options, renderer, played);
     if (options.contact_sheet && !Interruption::requested())

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace fernlicht {
 namespace {
 
 constexpr int max_moments = 4, rounds = 7;
-constexpr double max_s = 2.0;
+constexpr double max_s = 2.0, max_share = 0.2; // of the time played
 /// What a moment costs, in pruned frames: the rounds, a warm-up and a count by both; unpruned frames take about a third longer.
 constexpr double frames_a_moment = 2.3 * (rounds + 2);
 
@@ -27,8 +28,8 @@ TimedTechnique timed(Renderer& renderer, const std::vector<Moment>& moments, con
 
 } // namespace
 
-int affordable_moments(double frame_s) {
-    const double affordable = max_s / (frames_a_moment * frame_s);
+int affordable_moments(double frame_s, double run_s) {
+    const double affordable = std::min(max_s, max_share * run_s) / (frames_a_moment * frame_s);
     return affordable >= max_moments ? max_moments : static_cast<int>(affordable);
 }
 
@@ -41,7 +42,10 @@ std::string no_savings(const Drive& drive, const PlayedCell& played) {
         return "the drive has only maps";
     if (!played.throughput.view_s)
         return "too few moments were played";
-    if (affordable_moments(*played.throughput.view_s) == 0)
+    const double frame_s = *played.throughput.view_s, run_s = played.throughput.wall_s;
+    if (affordable_moments(frame_s, run_s) == 0 && affordable_moments(frame_s, std::numeric_limits<double>::infinity()) > 0)
+        return "too few moments were played: it would take more than a fifth of their time";
+    if (affordable_moments(frame_s, run_s) == 0)
         return fmt::format("a frame takes {:.0f} ms, and seven rounds more than two seconds", 1e3 * *played.throughput.view_s);
     return "";
 }
@@ -49,7 +53,7 @@ std::string no_savings(const Drive& drive, const PlayedCell& played) {
 PruningSavings measure_savings(const Stage& stage, const LampSet& lamp_set, const PlayedCell& played, int first_tick, Renderer& pruned,
                                Renderer& unpruned) {
     PruningSavings savings;
-    const int count = std::min(played.ticks_done, affordable_moments(played.throughput.view_s.value()));
+    const int count = std::min(played.ticks_done, affordable_moments(played.throughput.view_s.value(), played.throughput.wall_s));
     for (const int tick : ticks_over(played.ticks_done, count))
         savings.ticks.push_back(first_tick + tick);
     const std::vector<Moment> moments = moments_at(savings.ticks, stage, lamp_set);

@@ -152,8 +152,9 @@ SurfaceTexture asphalt(std::uint64_t seed) {
                     tone += 0.18 * mottle.octaves(u, v, 16, 4, 1.0);
                     const double chip = chips.uniform(x, y);
                     tone += chip < 0.03 ? 0.40 : chip > 0.97 ? -0.30 : 0.0;
+                    const double rough = 1.5 * edge.gradient(u, v, 64);
                     for (const Patch& patch : patches) {
-                        const double d = distance_to(patch, x, y) + 1.5 * edge.gradient(u, v, 64);
+                        const double d = distance_to(patch, x, y) + rough;
                         tone *= d < -0.5 ? patch.tone : d < 0.5 ? 0.80 : 1.0;
                     }
                     return tone;
@@ -209,14 +210,30 @@ SurfaceTexture paint_wear(std::uint64_t seed) {
 
 double luminance(const glm::dvec3& rgb) { return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)); } // IEC 61966-2-1
 
-/// The mean reflectance is linear in the own colour: mean(own) = mean(0) + own (mean(1) - mean(0)), channel by channel.
-void put_on(Material& material, const std::vector<SurfaceTexture>& textures, RoadTexture which, TextureMode mode) {
+/// A texture as one mode shows it on black and on white.
+struct ShownTexture {
+    RoadTexture which;
+    TextureMode mode;
+    glm::vec3 blend_colour;
+    glm::dvec3 of_black, of_white;
+};
+
+/// The mean reflectance is linear in the own colour: mean(own) = mean(0) + own (mean(1) - mean(0)), channel by channel. `known`: what
+/// several materials share.
+void put_on(Material& material, const std::vector<SurfaceTexture>& textures, RoadTexture which, TextureMode mode,
+            std::vector<ShownTexture>& known) {
     material.texture = static_cast<int>(which);
     material.texture_mode = mode;
-    const SurfaceTexture& texture = textures[static_cast<std::size_t>(which)];
-    const glm::dvec3 wanted(material.albedo), cc(material.blend_colour);
-    const glm::dvec3 of_black = mean_reflectance(texture, mode, glm::dvec3(0.0), cc);
-    const glm::dvec3 own = (wanted - of_black) / (mean_reflectance(texture, mode, glm::dvec3(1.0), cc) - of_black);
+    auto shown = std::ranges::find_if(known, [&](const ShownTexture& other) {
+        return other.which == which && other.mode == mode && other.blend_colour == material.blend_colour;
+    });
+    if (shown == known.end()) {
+        const SurfaceTexture& texture = textures[static_cast<std::size_t>(which)];
+        const glm::dvec3 cc(material.blend_colour);
+        shown = known.insert(shown, {which, mode, material.blend_colour, mean_reflectance(texture, mode, glm::dvec3(0.0), cc),
+                                     mean_reflectance(texture, mode, glm::dvec3(1.0), cc)});
+    }
+    const glm::dvec3 wanted(material.albedo), own = (wanted - shown->of_black) / (shown->of_white - shown->of_black);
     material.albedo = glm::vec3(own);
     // R_L goes with the luminance of the reflectance over that of the own colour (textured_rl), whose mean is wanted / own.
     material.retro_rl = static_cast<float>(static_cast<double>(material.retro_rl) * luminance(own) / luminance(wanted));
@@ -249,8 +266,9 @@ glm::dvec3 mean_reflectance(const SurfaceTexture& texture, TextureMode mode, con
 
 void add_road_textures(Scene& scene, std::uint64_t seed) {
     scene.textures = road_textures(seed);
+    std::vector<ShownTexture> known;
     const auto put = [&](RoadMaterial material, RoadTexture texture, TextureMode mode) {
-        put_on(scene.materials[index_of(material)], scene.textures, texture, mode);
+        put_on(scene.materials[index_of(material)], scene.textures, texture, mode, known);
     };
     put(RoadMaterial::asphalt, RoadTexture::asphalt, TextureMode::modulate);
     put(RoadMaterial::concrete, RoadTexture::concrete, TextureMode::modulate);
@@ -272,13 +290,13 @@ double TilingNoise::gradient(double u, double v, int cells) const {
     const double x = u * cells, y = v * cells, x0 = std::floor(x), y0 = std::floor(y);
     const double fx = x - x0, fy = y - y0;
     const auto wrapped = [cells](double i) { return ((static_cast<int>(i) % cells) + cells) % cells; };
+    const int ix[]{wrapped(x0), wrapped(x0 + 1)}, iy[]{wrapped(y0), wrapped(y0 + 1)};
     const auto corner = [&](int dx, int dy) {
-        const int ix = wrapped(x0 + dx), iy = wrapped(y0 + dy);
-        const double gx = 2.0 * uniform(2 * ix, iy) - 1.0, gy = 2.0 * uniform(2 * ix + 1, iy) - 1.0;
+        const double gx = 2.0 * uniform(2 * ix[dx], iy[dy]) - 1.0, gy = 2.0 * uniform(2 * ix[dx] + 1, iy[dy]) - 1.0;
         return gx * (fx - dx) + gy * (fy - dy);
     };
-    const double wx = fade(fx), wy = fade(fy);
-    const double below = corner(0, 0) + (corner(1, 0) - corner(0, 0)) * wx, above = corner(0, 1) + (corner(1, 1) - corner(0, 1)) * wx;
+    const double left_below = corner(0, 0), left_above = corner(0, 1), wx = fade(fx), wy = fade(fy);
+    const double below = left_below + (corner(1, 0) - left_below) * wx, above = left_above + (corner(1, 1) - left_above) * wx;
     return below + (above - below) * wy;
 }
 

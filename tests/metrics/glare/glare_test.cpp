@@ -133,7 +133,7 @@ TEST(EyeLight, ACrestHidesLampsAndALevelRoadDoesNot) {
             const Pose surface = route.pose(at_m);
             return surface.position_m + height_m * surface.up();
         };
-        return road_hides(route, from_m, to_m, above(from_m, lamp_m), above(to_m, eye_m));
+        return RoadBetween(route, from_m, to_m).hides(above(from_m, lamp_m), above(to_m, eye_m));
     };
     for (const double to_m : {10.0, 100.0, 900.0})
         EXPECT_FALSE(hidden(straight, 0.0, to_m, 0.65, 1.1)) << to_m;

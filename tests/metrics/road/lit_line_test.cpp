@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <numeric>
+#include <random>
 #include <tuple>
 
 namespace fernlicht {
@@ -128,6 +129,55 @@ TEST(LaneAhead, ACrestHidesWhatLiesBehind) {
     EXPECT_TRUE(lane.hides(over(route, 425.0, 1.2), over(route, 530.0, 0.09)));
 }
 
+TEST(LaneAhead, IsAskedManyPlacesAtATimeAndAnswersAsOneByOne) {
+    for (const char* const file : {"country.xodr", "s-bend.xodr", "village.xodr"}) {
+        const RoadNetwork network = read_opendrive(roads / file);
+        const Route route(network, {});
+        std::mt19937 random(1);
+        const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+        int hidden = 0, met = 0;
+        for (int i = 0; i < 4000; ++i) {
+            const double from_m = between(0.0, route.length_m() - 50.0);
+            const LaneAhead lane(route, from_m, between(0.0, 200.0), between(0.5, 4.0));
+            const auto point = [&](double low_m, double high_m) {
+                const Pose pose = route.pose(from_m + between(low_m, high_m), between(-6.0, 6.0));
+                return pose.position_m + between(-0.05, 2.0) * pose.up();
+            };
+            const glm::dvec3 from = point(-3.0, 3.0), to = point(1.0, 200.0), way = to - from;
+            bool hides = false, looked_on = true, beyond = false;
+            std::optional<glm::dvec3> ground;
+            double height_before = 0.0, share_before = 0.0;
+            for (const Pose& place : lane.surface()) {
+                const double along = glm::dot(way, place.forward()), share = glm::dot(place.position_m - from, place.forward()) / along;
+                if (!(along > 0.0))
+                    continue;
+                const double height = glm::dot(from + share * way - place.position_m, place.up());
+                if (looked_on && share > 0.0 && share < 1.0 && height < 0.0) {
+                    hides = true;
+                    looked_on = false;
+                }
+                looked_on = looked_on && share < 1.0;
+                if (!(share > 1.0) || ground)
+                    continue;
+                if (height <= 0.0)
+                    ground =
+                        from + (beyond ? share_before + height_before / (height_before - height) * (share - share_before) : share) * way;
+                beyond = true;
+                height_before = height;
+                share_before = share;
+            }
+            EXPECT_EQ(lane.hides(from, to), hides) << file << i;
+            const std::optional<Pose> behind = lane.behind(from, to);
+            ASSERT_EQ(behind.has_value(), ground.has_value()) << file << i;
+            EXPECT_EQ(behind ? behind->position_m : glm::dvec3(0.0), ground.value_or(glm::dvec3(0.0))) << file << i;
+            hidden += hides ? 1 : 0;
+            met += ground ? 1 : 0;
+        }
+        EXPECT_GT(hidden, 20);
+        EXPECT_GT(met, 20);
+    }
+}
+
 TEST(LaneAhead, EndsWithTheRoute) {
     const RoadNetwork network = read_opendrive(roads / "straight.xodr");
     const Route route(network, {});
@@ -138,15 +188,25 @@ TEST(LaneAhead, EndsWithTheRoute) {
 const std::vector<double> thresholds_lx{1.0, 3.0, 5.0, 10.0};
 
 TEST(LimitSide, IsTheNumberOfLimitsThatBothBoundsReach) {
-    EXPECT_EQ(limit_side({0.0, 0.99}, thresholds_lx), 0);
-    EXPECT_EQ(limit_side({1.01, 2.99}, thresholds_lx), 1);
-    EXPECT_EQ(limit_side({5.1, 9.9}, thresholds_lx), 3);
-    EXPECT_EQ(limit_side({11.0, 1e6}, thresholds_lx), 4);
-    EXPECT_EQ(limit_side({0.99, 1.01}, thresholds_lx), undecided_side);
-    EXPECT_EQ(limit_side({1.0, 1.0}, thresholds_lx), undecided_side) << "a limit itself lies too near to tell";
-    EXPECT_EQ(limit_side({}, thresholds_lx), undecided_side);
-    EXPECT_EQ(limit_side({20.0, NAN}, thresholds_lx), undecided_side);
-    EXPECT_EQ(limit_side({NAN, 20.0}, thresholds_lx), undecided_side);
+    const std::vector<std::pair<LuxBounds, int>> cases{{{0.0, 0.99}, 0},
+                                                       {{1.01, 2.99}, 1},
+                                                       {{5.1, 9.9}, 3},
+                                                       {{11.0, 1e6}, 4},
+                                                       {{0.99, 1.01}, undecided_side},
+                                                       {{1.0, 1.0}, undecided_side}, // a limit itself lies too near to tell
+                                                       {{}, undecided_side},
+                                                       {{20.0, NAN}, undecided_side},
+                                                       {{NAN, 20.0}, undecided_side}};
+    for (const std::size_t count : {1U, 9U, 64U, 1000U}) {
+        std::vector<LuxBounds> bounds;
+        for (std::size_t i = 0; i < count; ++i)
+            bounds.push_back(cases[i * 7 % cases.size()].first);
+        std::vector<LimitSide> sides(count);
+        std::vector<double> lx(count);
+        limit_sides(bounds, thresholds_lx, sides.data(), lx.data());
+        for (std::size_t i = 0; i < count; ++i)
+            EXPECT_EQ(sides[i], cases[i * 7 % cases.size()].second) << i << " of " << count;
+    }
 }
 
 // Rows of 4 m by columns of 1 m: no lane's edge moves across columns.

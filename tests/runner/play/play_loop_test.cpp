@@ -131,6 +131,26 @@ TEST(PlayLoop, MeasuresEveryMomentInOrder) {
     EXPECT_GT(played.throughput.peak_memory_mib, 1.0);
 }
 
+TEST(PlayLoop, WithoutTimesNoPictureIsDrawnThatNobodyStores) {
+    const Played stage;
+    std::map<std::string, int> drawn;
+    const Draw counted = [&](const Moment& moment, const View& view, const FrameOutputs& outputs) {
+        ++drawn[view.name];
+        return evenly(20.0F)(moment, view, outputs);
+    };
+    Writers writers;
+    PlayOptions options{.ticks = {0, 24}};
+    const auto play_counted = [&] {
+        drawn.clear();
+        play(stage.drive, stage.route, stage.drive.lamp_sets.front(), options, counted, writers);
+    };
+    play_counted();
+    EXPECT_EQ(drawn, (std::map<std::string, int>{{"driver", 25}, {"map", 5}, {"extent", 25}, {"probe", 25}}));
+    options.no_times = "others beside it";
+    play_counted();
+    EXPECT_EQ(drawn, (std::map<std::string, int>{{"driver", 5}, {"map", 5}, {"extent", 25}, {"probe", 25}})) << "two are stored a second";
+}
+
 TEST(PlayLoop, StopsAtTheMomentThatWasAskedForAndKeepsWhatWasMeasured) {
     const Played stage;
     Writers writers;

@@ -77,6 +77,27 @@ TEST(CandelaTable, HasNoLightInAGapButOnItsBorder) {
     EXPECT_NEAR(flux_lm(table), flux_lm(lit), 1e-12);
 }
 
+TEST(CandelaTable, RowsOfDirectionsAreThoseOfEachDirection) {
+    std::vector<CandelaTable> tables{random_table(3), random_table(4), random_table(5)};
+    tables[1].rule = BetweenSamples::log_cd;
+    tables[2].gaps.assign((tables[2].v_deg.size() - 1) * (tables[2].h_deg.size() - 1), 0);
+    for (std::size_t i = 0; i < tables[2].gaps.size(); i += 3)
+        tables[2].gaps[i] = 1;
+    for (const CandelaTable& table : tables) {
+        std::vector<double> h_deg = table.h_deg, v_deg = table.v_deg;
+        for (const double beside : {-725.0, -181.0, -3.3, 0.1, 2.7, 181.0, 1e9, std::numeric_limits<double>::quiet_NaN()}) {
+            h_deg.push_back(beside);
+            v_deg.push_back(beside);
+        }
+        IntensityAcross across(table, h_deg);
+        for (const double v : v_deg) {
+            const std::vector<double>& row = across.at(v);
+            for (std::size_t i = 0; i < h_deg.size(); ++i)
+                EXPECT_EQ(row[i], intensity_cd(table, h_deg[i], v)) << h_deg[i] << ", " << v;
+        }
+    }
+}
+
 TEST(CandelaTable, FindsItsPeakAndScalesEverySample) {
     const CandelaTable table = table_of(steps(-20.0, 20.0, 0.5), steps(-10.0, 5.0, 0.25), [](double h, double v) {
         return 3e4 * std::exp(-std::pow(h - 1.5, 2) / 50.0 - std::pow(v + 0.75, 2) / 4.0);
