@@ -121,11 +121,12 @@ double target_of(const Shot& shot, std::size_t result, double mean) {
 /// A path's light may come from a small part of all directions: 128 samples miss 1/25 of them once in 190.
 constexpr int path_min_each = 8;
 
-/// Samples in which what a neighbour has and the pixel's other neighbours have not would make an error of half of what is wanted where it
-/// is missed; and at most how many a lane.
+/// Over a difference in units of the wanted error: as many samples as would make half of that error if one of them alone should have met
+/// what differs; and at most how many a lane.
 constexpr double edge_share = 2.0, edge_most_each = 64.0;
 
-/// The neighbours' pooled error that lets a first round stay, of what is wanted: so that a pixel's own bar decides by itself in few pixels.
+/// Neighbours' pooled error that lets a first round stay, of what is wanted: so low that the pixel's own bar, which is not independent of
+/// its mean, seldom sends it on.
 constexpr double first_share = 0.5;
 
 int min_each(const ReferenceSettings& s) {
@@ -240,10 +241,10 @@ class FirstRounds {
         return above;
     }
 
-    /// Of a lane, by how far the neighbours are from a plane: what one of them has, and hides in one of the pixel's samples, makes an error
-    /// of about what is wanted where it is missed.
+    /// Of a lane, by how far the neighbours are from a plane: what one of them has and the others have not may reach into the pixel.
     int least_each(int x, int y) const {
-        if (x == 0 || y == 0 || x + 1 == shot_.view.width_px || y + 1 == shot_.view.height_px)
+        if (shot_.settings.footprint == Footprint::centre || x == 0 || y == 0 || x + 1 == shot_.view.width_px ||
+            y + 1 == shot_.view.height_px)
             return 1;
         double samples = 0.0;
         for (std::size_t q = 0; q < 3; ++q) {
@@ -323,17 +324,18 @@ Drawing first_round(const Shot& shot, int x, int y) {
 }
 
 PixelEstimate estimate_pixel(const Shot& shot, int x, int y, const Drawing& first, const Advice& advice) {
-    const int most = max_each(shot.settings), least = std::min(most, advice.least_each);
+    const int most = max_each(shot.settings);
     PixelEstimate estimate{result_of(shot, first), first.each, first.mixed(), 0};
     for (std::uint64_t round = 1; estimate.each < most; ++round) {
-        int wanted = round > 1 || !advice.more ? estimate.each : 2 * estimate.each;
+        int wanted = estimate.each;
+        if (round == 1)
+            wanted = std::max(advice.more ? 2 * wanted : wanted, advice.least_each);
         for (std::size_t q = 0; q < 3; ++q) {
             const auto [mean, error] = estimate.result[q];
             const double target = target_of(shot, q, mean);
             if (error > target || wanted > estimate.each)
                 wanted = std::max(wanted, samples_for(error, target, falling_power(shot, estimate.mixed, round, q), estimate.each, most));
         }
-        wanted = std::max(wanted, round > 1 ? 0 : least);
         if (wanted == estimate.each)
             break;
         const Drawing drawing = draw_pixel(shot, x, y, {round, std::min(wanted, most), is_direct(shot.settings) && estimate.mixed == 0});
