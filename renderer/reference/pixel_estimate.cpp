@@ -101,10 +101,9 @@ std::array<MeanAndError, 3> result_of(const Shot& shot, const Drawing& drawing) 
     return result;
 }
 
-/// How the error is expected to fall with more samples (pixel_estimate.h). Luminance has surfaces' textures in it. What has not fallen as
-/// it should have is taken to fall as of independent samples.
-double falling_power(const Shot& shot, std::uint8_t mixed, std::uint64_t round, std::size_t result) {
-    if (!is_direct(shot.settings) || round > 1)
+/// How the error is expected to fall with more samples (pixel_estimate.h). Luminance has surfaces' textures in it.
+double falling_power(const Shot& shot, std::uint8_t mixed, std::size_t result) {
+    if (!is_direct(shot.settings))
         return 1.0;
     return mixed != 0 || result == 2 || shot.settings.lamp_radius_m > 0.0 ? 1.5 : 2.0;
 }
@@ -334,7 +333,7 @@ PixelEstimate estimate_pixel(const Shot& shot, int x, int y, const Drawing& firs
             const auto [mean, error] = estimate.result[q];
             const double target = target_of(shot, q, mean);
             if (error > target || wanted > estimate.each)
-                wanted = std::max(wanted, samples_for(error, target, falling_power(shot, estimate.mixed, round, q), estimate.each, most));
+                wanted = std::max(wanted, samples_for(error, target, falling_power(shot, estimate.mixed, q), estimate.each, most));
         }
         if (wanted == estimate.each)
             break;
