@@ -1,6 +1,6 @@
 // One pixel: what its samples saw, how many of them it needs, and what they say.
 // Angles of a packet at a time: a function that is called a dozen times for every ray, in a form that compilers turn into SIMD.
-// Sixteen independent means and what they say: mean, standard error, and how many more samples an error asks for.
+// Independent means and what they say: mean, standard error, and how many more samples an error asks for.
 // A square of pixels, drawn by one thread. What it gives depends on the shot and its place alone.
 #pragma once
 
