@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/vec2.hpp>
+#include <limits>
 #include <numeric>
+#include <vector>
 
 namespace fernlicht::reference {
 
@@ -35,35 +38,74 @@ void add_packet(const Shot& shot, const std::array<SamplePoint, packet_size>& po
         drawing.sums[1][i] += light.target_lx[i];
         drawing.sums[2][i] += light.luminance_cdm2[i];
     }
+    for (const std::size_t i : lanes_of(lanes)) {
+        const std::array<double, 3> values{light.illuminance_lx[i], light.target_lx[i], light.luminance_cdm2[i]};
+        for (std::size_t q = 0; q < 3; ++q)
+            drawing.lowest[q] = std::min(drawing.lowest[q], values[q]), drawing.highest[q] = std::max(drawing.highest[q], values[q]);
+    }
     drawing.seen.add(light, lanes);
     drawing.rays += light.rays;
 }
 
 namespace {
 
-constexpr LaneMask all_lanes = 0xFFFF;
+constexpr LaneMask all_of(std::size_t count) { return (1U << count) - 1U; }
 
-/// `each` points of sixteen nets; or, `of_one_net`, one point a lane, which covers the pixel evenly and says little about their mean.
-Drawing draw_pixel(const Shot& shot, int x, int y, std::uint64_t round, bool of_one_net, int each) {
+/// How a round lays its points: each replicate's are a net of its own, or such a net and its image in the pixel's middle. Images cancel
+/// whatever is linear in the pixel; across an edge a net of twice as many points is better.
+struct Round {
+    std::uint64_t number = 0;
+    int each = 1; ///< points of a lane
+    bool mirrored = false;
+};
+
+Drawing draw_pixel(const Shot& shot, int x, int y, const Round& round) {
     Drawing drawing(shot);
+    drawing.each = round.each;
     const std::uint64_t pixel =
                             static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(shot.view.width_px) + static_cast<std::uint64_t>(x),
-                        key = mixed(mixed(shot.settings.seed, pixel), round);
+                        key = mixed(mixed(shot.settings.seed, pixel), round.number);
+    const std::size_t replicates = replicates_of(shot.settings), lanes_each = packet_size / replicates;
     std::array<SamplePoint, packet_size> points;
     std::array<Ray, packet_size> rays;
     PacketLight light;
     const bool at_centre = shot.settings.footprint == Footprint::centre;
-    for (int k = 0; k < each; ++k) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(round.each); ++k) {
         shot.leave_if_asked();
         for (std::size_t i = 0; i < packet_size; ++i) {
-            points[i] = {PointNet(mixed(key, of_one_net ? 0 : i)),
-                         static_cast<std::uint32_t>(of_one_net ? i : static_cast<std::size_t>(k))};
+            const std::size_t part = i / replicates;
+            points[i] = {PointNet(mixed(key, i % replicates)), static_cast<std::uint32_t>(round.mirrored ? k : k * lanes_each + part),
+                         round.mirrored && part == 1};
             const glm::dvec2 place = at_centre ? glm::dvec2(0.5) : points[i].pair(0);
             rays[i] = shot.ray_through(x + place.x, y + place.y);
         }
-        add_packet(shot, points, rays, all_lanes, light, drawing);
+        add_packet(shot, points, rays, all_of(packet_size), light, drawing);
     }
     return drawing;
+}
+
+/// The means of a round's replicates, and what they say.
+std::array<MeanAndError, 3> result_of(const Shot& shot, const Drawing& drawing) {
+    const std::size_t count = replicates_of(shot.settings), lanes_each = packet_size / count;
+    std::array<MeanAndError, 3> result;
+    for (std::size_t q = 0; q < 3; ++q) {
+        std::array<double, packet_size> means{};
+        for (std::size_t i = 0; i < packet_size; ++i)
+            means[i % count] += drawing.sums[q][i] / (drawing.each * static_cast<double>(lanes_each));
+        result[q] = mean_of(std::span(means).first(count));
+        // Nets that an upright or level edge crosses may all count it alike. The bar is never less than what one sample more makes.
+        if (is_direct(shot.settings) && drawing.mixed() != 0)
+            result[q].standard_error = std::max(result[q].standard_error,
+                                                (drawing.highest[q] - drawing.lowest[q]) / static_cast<double>(packet_size) / drawing.each);
+    }
+    return result;
+}
+
+/// How the error is expected to fall with more samples (pixel_estimate.h). Luminance has surfaces' textures in it.
+double falling_power(const Shot& shot, std::uint8_t mixed, std::size_t result) {
+    if (!is_direct(shot.settings))
+        return 1.0;
+    return mixed != 0 || result == 2 || shot.settings.lamp_radius_m > 0.0 ? 1.5 : 2.0;
 }
 
 /// As solved beforehand: more samples a pixel do not lessen the noise of that.
@@ -71,22 +113,20 @@ bool as_solved(const ReferenceSettings& s) {
     return (s.integrator == Integrator::radiosity || s.integrator == Integrator::photon_map) && !s.solver.final_gather;
 }
 
-/// How the error is expected to fall with more samples (pixel_estimate.h).
-double falling_power(const Shot& shot, const Drawing& drawing) {
-    if (!is_direct(shot.settings))
-        return 1.0;
-    return drawing.mixed() != 0 || shot.settings.lamp_radius_m > 0.0 ? 1.5 : 2.0;
-}
-
 double target_of(const Shot& shot, std::size_t result, double mean) {
     return shot.settings.target_error * std::max(mean, result == 2 ? shot.settings.floor_cdm2 : shot.settings.floor_lx);
 }
 
-/// A path's light may come from a small part of all directions: 64 samples in the pilot and 128 in the mean miss 1/25 of them once in 3000.
-constexpr int path_pilot_each = 4, path_min_each = 8;
+/// A path's light may come from a small part of all directions: 128 samples miss 1/25 of them once in 190.
+constexpr int path_min_each = 8;
 
-/// Beside an edge: 128 samples miss what covers 1/32 of the pixel once in 60.
-constexpr int edge_min_each = 8;
+/// Over a difference in units of the wanted error: as many samples as would make half of that error if one of them alone should have met
+/// what differs; and at most how many a lane.
+constexpr double edge_share = 2.0, edge_most_each = 64.0;
+
+/// Neighbours' pooled error that lets a first round stay, of what is wanted: so low that the pixel's own bar, which is not independent of
+/// its mean, seldom sends it on.
+constexpr double first_share = 0.5;
 
 int min_each(const ReferenceSettings& s) {
     const int asked = static_cast<int>(std::bit_ceil((static_cast<unsigned>(s.min_samples) + 15) / 16));
@@ -97,18 +137,6 @@ int max_each(const ReferenceSettings& s) {
         return min_each(s);
     return std::max(min_each(s), static_cast<int>(std::bit_floor(static_cast<unsigned>(s.max_samples) / 16)));
 }
-
-constexpr double n = static_cast<double>(replicate_count);
-
-/// Sum of squared differences from the mean.
-double squares_about(const std::array<double, replicate_count>& values, double mean) {
-    double sum = 0.0;
-    for (const double value : values)
-        sum += (value - mean) * (value - mean);
-    return sum;
-}
-
-double mean_value(const std::array<double, replicate_count>& values) { return std::accumulate(values.begin(), values.end(), 0.0) / n; }
 
 static_assert(tile_px == packet_size, "a row of a tile is a packet of rays through pixels' centres");
 
@@ -163,31 +191,103 @@ std::uint64_t draw_ids(const Shot& shot, const CentreRow& row, int x0, int y, Re
     return static_cast<std::uint64_t>(std::popcount(row.lanes));
 }
 
-/// The pilots of a tile and of the pixels around it, as far as the picture goes.
-class Pilots {
+/// The first rounds of a tile's pixels, and what is seen in the middle of those around it. What a pixel's neighbours say is independent of
+/// its own samples: they are its pilot, and cost nothing.
+class FirstRounds {
   public:
-    Pilots(const Shot& shot, int x0, int y0)
-        : left_(std::max(0, x0 - 1)), top_(std::max(0, y0 - 1)), width_(std::min(shot.view.width_px, x0 + tile_px + 1) - left_),
-          height_(std::min(shot.view.height_px, y0 + tile_px + 1) - top_) {
-        for (int y = top_; y < top_ + height_; ++y)
-            for (int x = left_; x < left_ + width_; ++x) {
-                pilots_.push_back(pilot_of(shot, x, y));
-                rays_ += pilots_.back().rays;
+    FirstRounds(const Shot& shot, int x0, int y0)
+        : shot_(shot), left_(x0), top_(y0), width_(std::min(tile_px, shot.view.width_px - x0)),
+          height_(std::min(tile_px, shot.view.height_px - y0)) {
+        rounds_.reserve(static_cast<std::size_t>(width_ * height_));
+        for (int y = y0; y < y0 + height_; ++y)
+            for (int x = x0; x < x0 + width_; ++x) {
+                rounds_.push_back(first_round(shot, x, y));
+                rays_ += rounds_.back().rays;
+                look_at(x, y) = {result_of(shot, rounds_.back()), true};
             }
+        look_around();
     }
-    const Drawing& at(int x, int y) const { return pilots_[static_cast<std::size_t>((y - top_) * width_ + x - left_)]; }
-    bool at_edge(int x, int y) const {
-        bool edge = false;
-        for (int j = std::max(top_, y - 1); j <= std::min(top_ + height_ - 1, y + 1); ++j)
-            for (int i = std::max(left_, x - 1); i <= std::min(left_ + width_ - 1, x + 1); ++i)
-                edge |= at(i, j).mixed() != 0 || differ(at(i, j), at(x, y));
-        return edge;
-    }
+    const Drawing& at(int x, int y) const { return rounds_[static_cast<std::size_t>((y - top_) * width_ + x - left_)]; }
     std::uint64_t rays() const { return rays_; }
 
+    Advice advice(int x, int y) const { return {more(x, y), least_each(x, y)}; }
+
   private:
+    struct Look {
+        std::array<MeanAndError, 3> result;
+        bool has_error = false;
+    };
+    static constexpr double no_look = std::numeric_limits<double>::infinity();
+
+    std::size_t place(int x, int y) const { return static_cast<std::size_t>((y - top_ + 1) * (tile_px + 2) + x - left_ + 1); }
+    Look& look_at(int x, int y) { return looks_[place(x, y)]; }
+    const Look& look_at(int x, int y) const { return looks_[place(x, y)]; }
+
+    /// Whether the neighbours' errors are together above what is wanted.
+    bool more(int x, int y) const {
+        int count = 0;
+        std::array<double, 3> squares{}, means{};
+        for (int j = y - 1; j <= y + 1; ++j)
+            for (int i = x - 1; i <= x + 1; ++i)
+                if (const Look& look = look_at(i, j); look.has_error && (i != x || j != y)) {
+                    ++count;
+                    for (std::size_t q = 0; q < 3; ++q)
+                        squares[q] += look.result[q].standard_error * look.result[q].standard_error, means[q] += look.result[q].mean;
+                }
+        bool above = false;
+        for (std::size_t q = 0; q < 3 && count > 0; ++q)
+            above |= std::sqrt(squares[q] / count) > first_share * target_of(shot_, q, means[q] / count);
+        return above;
+    }
+
+    /// Of a lane, by how far the neighbours are from a plane: what one of them has and the others have not may reach into the pixel.
+    int least_each(int x, int y) const {
+        if (shot_.settings.footprint == Footprint::centre || x == 0 || y == 0 || x + 1 == shot_.view.width_px ||
+            y + 1 == shot_.view.height_px)
+            return 1;
+        double samples = 0.0;
+        for (std::size_t q = 0; q < 3; ++q) {
+            const auto value = [&](int k) { return look_at(x + k % 3 - 1, y + k / 3 - 1).result[q].mean; };
+            double mean = 0.0, across = 0.0, down = 0.0, least = no_look, low = no_look, high = -no_look;
+            for (const int k : around)
+                mean += value(k) / 8.0, across += value(k) * (k % 3 - 1) / 6.0, down += value(k) * (k / 3 - 1) / 6.0;
+            for (const int k : around) {
+                const double beside = value(k) - mean - across * (k % 3 - 1) - down * (k / 3 - 1);
+                low = std::min(low, beside), high = std::max(high, beside), least = std::min(least, value(k));
+            }
+            samples = std::max(samples, (high - low) / target_of(shot_, q, least));
+        }
+        const double each = edge_share * samples / static_cast<double>(packet_size);
+        return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::clamp(each, 1.0, edge_most_each))));
+    }
+
+    void look_around() {
+        std::vector<glm::ivec2> places;
+        for (int y = std::max(0, top_ - 1); y < std::min(top_ + height_ + 1, shot_.view.height_px); ++y)
+            for (int x = std::max(0, left_ - 1); x < std::min(left_ + width_ + 1, shot_.view.width_px); ++x)
+                if (x < left_ || x == left_ + width_ || y < top_ || y == top_ + height_)
+                    places.emplace_back(x, y);
+        std::array<Ray, packet_size> rays;
+        PacketLight light;
+        for (std::size_t first = 0; first < places.size(); first += packet_size) {
+            const std::span<const glm::ivec2> some = std::span(places).subspan(first, std::min(packet_size, places.size() - first));
+            for (std::size_t i = 0; i < some.size(); ++i)
+                rays[i] = shot_.ray_through(some[i].x + 0.5, some[i].y + 0.5);
+            Drawing drawing(shot_);
+            add_packet(shot_, {}, rays, all_of(some.size()), light, drawing);
+            for (std::size_t i = 0; i < some.size(); ++i)
+                for (std::size_t q = 0; q < 3; ++q)
+                    look_at(some[i].x, some[i].y).result[q].mean = drawing.sums[q][i];
+            rays_ += drawing.rays;
+        }
+    }
+
+    static constexpr std::array<int, 8> around{0, 1, 2, 3, 5, 6, 7, 8};
+
+    const Shot& shot_;
     int left_, top_, width_, height_;
-    std::vector<Drawing> pilots_;
+    std::vector<Drawing> rounds_;
+    std::array<Look, static_cast<std::size_t>((tile_px + 2) * (tile_px + 2))> looks_{};
     std::uint64_t rays_ = 0;
 };
 
@@ -199,13 +299,13 @@ std::uint64_t draw_pixels(const Shot& shot, int x0, int y0, ReferenceImage& imag
             rays += draw_certain_row(shot, centre_row(shot, x0, y, width), x0, y, image);
         return rays;
     }
-    const Pilots pilots(shot, x0, y0);
-    rays += pilots.rays();
+    const FirstRounds first(shot, x0, y0);
+    rays += first.rays();
     for (int y = y0; y < bottom; ++y) {
         rays += draw_ids(shot, centre_row(shot, x0, y, width), x0, y, image);
         for (int x = x0; x < x0 + width; ++x) {
-            const PixelEstimate estimate = estimate_pixel(shot, x, y, pilots.at(x, y), pilots.at_edge(x, y));
-            store(image, x, y, estimate.result, estimate.mixed, estimate.each * static_cast<int>(replicate_count));
+            const PixelEstimate estimate = estimate_pixel(shot, x, y, first.at(x, y), first.advice(x, y));
+            store(image, x, y, estimate.result, estimate.mixed, estimate.each * static_cast<int>(packet_size));
             rays += estimate.rays;
         }
     }
@@ -214,40 +314,34 @@ std::uint64_t draw_pixels(const Shot& shot, int x0, int y0, ReferenceImage& imag
 
 } // namespace
 
-int max_samples_used(const ReferenceSettings& s) { return max_each(s) * static_cast<int>(replicate_count); }
+std::size_t replicates_of(const ReferenceSettings& settings) { return is_direct(settings) ? packet_size / 2 : replicate_count; }
 
-Drawing pilot_of(const Shot& shot, int x, int y) {
-    const bool is_path = !is_direct(shot.settings);
-    return draw_pixel(shot, x, y, 0, !is_path, is_path ? path_pilot_each : 1);
+int max_samples_used(const ReferenceSettings& s) { return max_each(s) * static_cast<int>(packet_size); }
+
+Drawing first_round(const Shot& shot, int x, int y) {
+    return draw_pixel(shot, x, y, {0, min_each(shot.settings), is_direct(shot.settings)});
 }
 
-bool differ(const Drawing& a, const Drawing& b) {
-    return a.seen.mesh != b.seen.mesh || a.seen.material != b.seen.material || a.shadows.seen != b.shadows.seen;
-}
-
-PixelEstimate estimate_pixel(const Shot& shot, int x, int y, const Drawing& pilot, bool at_edge) {
-    const int most = max_each(shot.settings), pilot_each = is_direct(shot.settings) ? 1 : path_pilot_each;
-    PixelEstimate estimate{{}, std::min(most, std::max(min_each(shot.settings), at_edge ? edge_min_each : 1)), 0, 0};
-    for (std::size_t r = 0; r < 3; ++r) {
-        const auto [mean, error] = mean_of(pilot.sums[r], pilot_each);
-        estimate.each = std::max(estimate.each, samples_for(error, target_of(shot, r, mean), falling_power(shot, pilot), pilot_each, most));
-    }
-    for (std::uint64_t round = 1;; ++round) {
-        const Drawing drawing = draw_pixel(shot, x, y, round, false, estimate.each);
-        estimate.rays += drawing.rays;
+PixelEstimate estimate_pixel(const Shot& shot, int x, int y, const Drawing& first, const Advice& advice) {
+    const int most = max_each(shot.settings);
+    PixelEstimate estimate{result_of(shot, first), first.each, first.mixed(), 0};
+    for (std::uint64_t round = 1; estimate.each < most; ++round) {
         int wanted = estimate.each;
-        for (std::size_t r = 0; r < 3; ++r) {
-            estimate.result[r] = mean_of(drawing.sums[r], estimate.each);
-            const auto [mean, error] = estimate.result[r];
-            const double target = target_of(shot, r, mean);
-            if (error > target)
-                wanted = std::max(wanted, samples_for(error, target, falling_power(shot, drawing), estimate.each, most));
+        if (round == 1)
+            wanted = std::max(advice.more ? 2 * wanted : wanted, advice.least_each);
+        for (std::size_t q = 0; q < 3; ++q) {
+            const auto [mean, error] = estimate.result[q];
+            const double target = target_of(shot, q, mean);
+            if (error > target || wanted > estimate.each)
+                wanted = std::max(wanted, samples_for(error, target, falling_power(shot, estimate.mixed, q), estimate.each, most));
         }
-        estimate.mixed = drawing.mixed();
         if (wanted == estimate.each)
-            return estimate;
-        estimate.each = wanted;
+            break;
+        const Drawing drawing = draw_pixel(shot, x, y, {round, std::min(wanted, most), is_direct(shot.settings) && estimate.mixed == 0});
+        estimate = {result_of(shot, drawing), drawing.each, static_cast<std::uint8_t>(estimate.mixed | drawing.mixed()),
+                    estimate.rays + drawing.rays};
     }
+    return estimate;
 }
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
@@ -276,10 +370,13 @@ void angles(const Lanes& y, const Lanes& x, Lanes& angle_rad) {
     }
 }
 
-MeanAndError mean_of(const std::array<double, replicate_count>& sums, int each) {
-    const double mean = mean_value(sums);
-    const double error = std::sqrt(squares_about(sums, mean) / (n * (n - 1.0)) * ((n - 1.0) / (n - 3.0)));
-    return {mean / each, error / each};
+MeanAndError mean_of(std::span<const double> means) {
+    const auto n = static_cast<double>(means.size());
+    const double mean = std::accumulate(means.begin(), means.end(), 0.0) / n;
+    double squares = 0.0;
+    for (const double value : means)
+        squares += (value - mean) * (value - mean);
+    return {mean, std::sqrt(squares / (n * (n - 1.0)) * ((n - 1.0) / (n - 3.0)))};
 }
 
 int samples_for(double error, double target, double power, int now, int most) {

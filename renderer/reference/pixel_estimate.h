@@ -1,6 +1,6 @@
 // One pixel: what its samples saw, how many of them it needs, and what they say.
 // Angles of a packet at a time: a function that is called a dozen times for every ray, in a form that compilers turn into SIMD.
-// Sixteen independent means and what they say: mean, standard error, and how many more samples an error asks for.
+// Independent means and what they say: mean, standard error, and how many more samples an error asks for.
 // A square of pixels, drawn by one thread. What it gives depends on the shot and its place alone.
 #pragma once
 
@@ -8,6 +8,8 @@
 #include "renderer/reference/shot.h"
 
 #include <array>
+#include <limits>
+#include <span>
 
 namespace fernlicht::reference {
 
@@ -17,16 +19,20 @@ using Lanes = std::array<double, packet_size>;
 /// operations alone: the same bits with any width of SIMD. Lanes that hold no number give no number.
 void angles(const Lanes& y, const Lanes& x, Lanes& angle_rad);
 
+/// Of solved light, and of pixels whose light comes over other surfaces: one a lane.
 inline constexpr std::size_t replicate_count = packet_size;
+
+/// A pixel's independent estimates. Direct light: lanes i and i + 8 belong together, as a point and its image or as two points of one net.
+/// What the integrand's nets save grows with their size, so that there are no more of them than an error bar needs.
+std::size_t replicates_of(const ReferenceSettings& settings);
 
 struct MeanAndError {
     double mean = 0.0, standard_error = 0.0;
 };
 
-/// Of independent, equally distributed means of `each` samples, given as their sums. The error is such that (mean - truth) / error has
-/// variance 1 where the means are normal: s / sqrt(n) times sqrt((n - 1) / (n - 3)), the spread of Student's t with n - 1 degrees of
-/// freedom.
-MeanAndError mean_of(const std::array<double, replicate_count>& sums, int each);
+/// Of four and more independent means with one expectation. The error is such that (mean - truth) / error has variance 1 where the means
+/// are normal: s / sqrt(n) times sqrt((n - 1) / (n - 3)), the spread of Student's t with n - 1 degrees of freedom.
+MeanAndError mean_of(std::span<const double> means);
 
 /// How the error of stratified samples falls: error^2 goes with the number of samples to the power -power. 1: as for independent samples
 /// (many dimensions); 1.5: an edge in two dimensions; 2: smooth in two dimensions (nets reach 3, which is not counted on).
@@ -47,14 +53,18 @@ struct Seen {
     }
 };
 
-/// One pixel's drawing: its results summed over `each` points of every lane's net.
+/// A round of a pixel's samples: its results summed over `each` of every lane.
 struct Drawing {
-    std::array<Lanes, 3> sums{}; ///< illuminance, target, luminance
+    std::array<Lanes, 3> sums{};             ///< illuminance, target, luminance
+    std::array<double, 3> lowest, highest{}; ///< of all samples
+    int each = 0;
     Seen seen;
     ShadowTally shadows;
     std::uint64_t rays = 0;
 
-    explicit Drawing(const Shot& shot) : shadows{std::vector<std::uint8_t>(2 * shot.moment.lamps.size(), 0)} {}
+    explicit Drawing(const Shot& shot) : shadows{std::vector<std::uint8_t>(2 * shot.moment.lamps.size(), 0)} {
+        lowest.fill(std::numeric_limits<double>::infinity());
+    }
     std::uint8_t mixed() const {
         return static_cast<std::uint8_t>((seen.several ? several_surfaces : 0) | (shadows.edge() ? shadow_edge : 0));
     }
@@ -71,21 +81,23 @@ bool is_direct(const ReferenceSettings& settings);
 void add_packet(const Shot& shot, const std::array<SamplePoint, packet_size>& points, const std::array<Ray, packet_size>& rays,
                 LaneMask lanes, PacketLight& light, Drawing& drawing);
 
-/// A first look at a pixel, which decides how many samples it gets and is thrown away.
-Drawing pilot_of(const Shot& shot, int x, int y);
+/// The first round of a pixel, which is often enough.
+Drawing first_round(const Shot& shot, int x, int y);
 
-/// Whether what two pixels saw differs: by surface, or by lamps that light one and not the other.
-bool differ(const Drawing& a, const Drawing& b);
+/// What a pixel's neighbours say of how many samples it needs.
+struct Advice {
+    bool more = false;  ///< than the first round
+    int least_each = 1; ///< of a lane
+};
 
 struct PixelEstimate {
     std::array<MeanAndError, 3> result;
-    int each = 0; ///< points of each of the sixteen nets
+    int each = 0; ///< points of a lane
     std::uint8_t mixed = 0;
-    std::uint64_t rays = 0;
+    std::uint64_t rays = 0; ///< without those of the first round
 };
 
-/// `at_edge`: a neighbour saw something else, so that some of it may reach into this pixel and be missed by few samples.
-PixelEstimate estimate_pixel(const Shot& shot, int x, int y, const Drawing& pilot, bool at_edge);
+PixelEstimate estimate_pixel(const Shot& shot, int x, int y, const Drawing& first, const Advice& advice);
 
 inline constexpr int tile_px = 16;
 

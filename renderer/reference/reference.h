@@ -1,17 +1,21 @@
 // The reference: what a scene's light is, by rays, each number with its standard error. For measuring every other way to light a scene.
 //
-// A pixel's value is a mean over the pixel's area (Footprint::pixel), estimated from 16 independently scrambled nets of points
-// (sampling.h). Their means m_r are independent and have the same distribution, however well each net is stratified, so that
-//     mean = sum m_r / 16,   error^2 = sum (m_r - mean)^2 / (16 * 15) * (15 / 13).
-// The last factor makes (mean - truth) / error, which follows Student's t with 15 degrees of freedom, have variance 1, so that error bars
-// are as wide on average as the errors are. A standard error of the naive kind, over all samples, would be too wide: stratified samples are
-// not independent.
+// A pixel's value is a mean over the pixel's area (Footprint::pixel), estimated from R independently scrambled nets of points
+// (sampling.h): 8 of direct light, 16 of light that bounces. Their means m_r are independent and have the same distribution, however well
+// each net is stratified, so that
+//     mean = sum m_r / R,   error^2 = sum (m_r - mean)^2 / (R (R - 1)) * (R - 1) / (R - 3).
+// The last factor makes (mean - truth) / error, which follows Student's t with R - 1 degrees of freedom, have variance 1, so that error
+// bars are as wide on average as the errors are. A standard error of the naive kind, over all samples, would be too wide: stratified
+// samples are not independent. Where all nets count an upright or level edge alike, direct light's bar is what one sample more would make.
 //
-// How many samples: a pilot of 16 points (64 paths) that is thrown away decides it. A pixel whose error came out above the target is drawn
-// again, from the start, with more points of other nets; only the last drawing counts. The pilot aims below the target, so that in the
-// first drawing an error bar decides by itself in some per cent of pixels only; the tests' z-scores hold what bias that leaves. A pixel
-// whose pilot, or a neighbour's, saw several surfaces or a shadow's edge gets at least 128 samples. What covers a smaller part of a pixel
-// than one in its number of samples can still be missed by all of them; then the bar does not know of it.
+// Where a pixel of direct light shows one surface, each net stands there with its image in the pixel's middle (antithetic variates;
+// Hammersley and Morton 1956): together they are exact for light that is linear in the pixel, as it nearly is on a road.
+//
+// How many samples: each pixel gets a first round (16; 128 of paths), and its neighbours' first rounds, which are independent of it, decide
+// whether that is enough. They are its pilot, cost nothing, and leave no bias. If their error is too large, or if one of them shows what
+// the pixel may hold a sliver of, it is drawn again, from the start, with more points of other nets; so it is, too, when its own error came
+// out above the target, which is seldom and leaves a bias that the tests look for. Only the last round counts. What covers a smaller part
+// of a pixel than one in its number of samples, and shows in no neighbour, can still be missed by all of them; then the bar does not know.
 //
 // Direct: Lambert and retroreflecting surfaces, lamps as points or discs, visibility by a ray, the intensity from the candela table in
 // double, the sky as a share (1 + n_z) / 2 that nothing hides, sun and moon, wet roads, fog by single scattering: the same light as the

@@ -41,13 +41,17 @@ struct Shot {
     glm::dvec3 to_eye(const glm::dvec3& point_m) const;
 };
 
-/// The point of a net that a lane stands for. Pair 0 is the place in the pixel, pair 1 + i the place on lamp i, those after it belong to
-/// paths.
+/// The point of a net that a lane stands for, or its image in the middle of all dimensions. Pair 0 is the place in the pixel, pair 1 + i
+/// the place on lamp i, those after it belong to paths.
 struct SamplePoint {
     PointNet net{0};
     std::uint32_t index = 0;
+    bool mirrored = false;
 
-    glm::dvec2 pair(std::size_t i) const { return net.point(index, static_cast<std::uint32_t>(i)); }
+    glm::dvec2 pair(std::size_t i) const {
+        const glm::dvec2 place = net.point(index, static_cast<std::uint32_t>(i));
+        return mirrored ? 1.0 - place : place;
+    }
 };
 
 /// What the packet's rays met and the light that goes from lamps, sky and the surfaces' own light over these surfaces to the eye.

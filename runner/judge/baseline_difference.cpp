@@ -93,8 +93,8 @@ std::string variance_of(const std::string& channel) {
     return channel.substr(0, dot) + (channel.ends_with(".lx") ? ".variance_lx2" : ".variance_cd2m4");
 }
 
-/// Each pixel's variance comes from the spread of 16 means (docs/reference.md).
-constexpr int pixel_freedom = 15;
+/// Each pixel's variance comes from the spread of 8 means of direct light, 16 of paths (docs/reference.md): the fewer hold for both.
+constexpr int pixel_freedom = 7;
 
 /// A picture by rays: the light's channel, its variance, and which pixels are mixed.
 NoisyPicture noisy_picture(const std::vector<PictureChannel>& channels, const PictureChannel& light, const PictureChannel& variance) {

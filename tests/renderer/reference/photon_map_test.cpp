@@ -32,7 +32,7 @@ struct Solved {
         std::array<double, reference::replicate_count> values{};
         for (std::size_t r = 0; r < values.size(); ++r)
             values[r] = reference::luminance(map.irradiance(*embree.cast({glm::dvec3(0.0), direction}), part, r));
-        return reference::mean_of(values, 1);
+        return reference::mean_of(values);
     }
 };
 

@@ -62,9 +62,9 @@ std::vector<WorkPrecision> reference_study(const Stage& stage, const LampSet& la
             "%",
             "time of a picture",
             "noise of the finest",
-            {fmt::format("{} x {} pixels of the driver's view with at least 0.05 lx; a pilot of 16 samples comes on top of those "
-                         "named; against {} samples of another seed; bars over four seeds",
-                         width_px, height_px, 4 * most)},
+            {fmt::format(
+                "{} x {} pixels of the driver's view with at least 0.05 lx; against {} samples of another seed; bars over four seeds",
+                width_px, height_px, 4 * most)},
             {}};
         const ReferenceImage truth = draw(integrator, 4 * most, seed + 1000);
         std::vector<std::pair<double, double>> by_samples;

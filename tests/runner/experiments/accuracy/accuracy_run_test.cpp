@@ -201,7 +201,7 @@ TEST(AccuracyRun, StudiesWhatIsNoTechnique) {
     ASSERT_EQ(diagrams.size(), 4U); // the reference's two ways, grid, comparisons
     const auto error = [&](std::size_t diagram, std::size_t row) { return error_of(diagrams, diagram, row); };
     EXPECT_LT(error(0, 3), 0.25 * error(0, 0)); // 64 times the samples: an eighth or less, if all goes as the root
-    EXPECT_LT(error(1, 2), 0.5 * error(1, 0));  // 16 times
+    EXPECT_LT(error(1, 2), 0.75 * error(1, 0)); // 256, and 128 where 16 are asked for: paths take no fewer
     EXPECT_GT(error(2, 0), error(2, 3));        // cells of 4 m and 0.5 m
     EXPECT_EQ(error(3, 0), 0.0);                // every pixel
     EXPECT_GT(error(3, 7), 0.0);
