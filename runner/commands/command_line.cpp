@@ -10,6 +10,7 @@
 #include <exception>
 #include <fmt/format.h>
 #include <map>
+#include <regex>
 
 namespace {
 
@@ -78,6 +79,18 @@ void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>&
         throw fernlicht::InputError({}, fmt::format("'{}' is no command", word), "one of " + commands);
 }
 
+/// A flag that was given more often than it may be, in people's words; "" for every other error.
+std::string given_again(const CLI::ParseError& error, std::string& flag) {
+    static const std::regex words("(.*): At Most ([0-9]+) required but received ([0-9]+)");
+    const std::string said = error.what();
+    std::smatch part;
+    if (!std::regex_match(said, part, words))
+        return "";
+    flag = part[1];
+    const int times = std::stoi(part[3]) / std::stoi(part[2]);
+    return times == 2 ? "given twice" : fmt::format("given {} times", times);
+}
+
 } // namespace
 
 int fernlicht::command_line(int argc, char** argv) {
@@ -103,6 +116,9 @@ int fernlicht::command_line(int argc, char** argv) {
         const bool is_flag = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
         if (const std::string old = is_flag ? fernlicht::old_word_in(command) : ""; !old.empty())
             return complain(users_input, fernlicht::InputError({}, old));
+        std::string flag;
+        if (const std::string again = given_again(error, flag); !again.empty())
+            return complain(users_input, fernlicht::InputError({{}, 0, 0, flag}, again, "it once"));
         complain(users_input, error);
         tell(LogLevel::info, "Run with --help for more information.");
         return users_input;

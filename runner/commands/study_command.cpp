@@ -50,7 +50,7 @@ int list_cells(const std::vector<StudyCell>& cells) {
 void write_study(const StudyResult& result, const std::filesystem::path& folder, const std::optional<HistoryFindings>& history) {
     Document paper = study_paper(result);
     if (history)
-        paper.sections.insert(paper.sections.begin(), changes_section(*history));
+        paper.sections.push_back(changes_section(*history)); // the verdict comes first
     write_json(folder / "study.json", result, study_members);
     write_file(folder / "study.csv", [&](const TakePiece& take) { study_csv(result, take); });
     std::vector<std::string> papers;

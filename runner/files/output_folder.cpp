@@ -87,6 +87,8 @@ OutputFolder::OutputFolder(fs::path folder) : folder_(std::move(folder)) {
 }
 
 OutputFolder OutputFolder::left_incomplete(const fs::path& folder) {
+    if (std::error_code ignored; !fs::exists(folder, ignored))
+        throw InputError({folder, 0, 0, "--out"}, "there is no such folder", "the folder of a run that did not end");
     if (!is_marked_incomplete(folder))
         throw InputError({folder, 0, 0, "--out"}, "holds nothing that was interrupted", "the folder of a run that did not end");
     OutputFolder out;

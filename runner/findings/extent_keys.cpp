@@ -45,6 +45,7 @@ const char* verdict_name(VerdictKind kind) {
     static constexpr const char* names[] = {"pass", "fail", "not_measured", "flaky"};
     return names[static_cast<std::size_t>(kind)];
 }
+const char* verdict_text(VerdictKind kind) { return kind == VerdictKind::not_measured ? "not measured" : verdict_name(kind); }
 
 std::vector<ExtentKey> extent_keys(const PlayedCell& played) {
     std::vector<std::string> lanes;

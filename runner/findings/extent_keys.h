@@ -11,6 +11,7 @@ namespace fernlicht {
 
 const char* surface_name(Surface surface);  ///< "road", "target"
 const char* verdict_name(VerdictKind kind); ///< "pass", "fail", "not_measured"
+const char* verdict_text(VerdictKind kind); ///< as people read it: "not measured"
 
 /// Every key that occurs in any moment (rendered or twin): planes, then lanes, in the order of first sight, then limits ascending.
 std::vector<ExtentKey> extent_keys(const PlayedCell& played);

@@ -51,6 +51,11 @@ std::string open_figure(double open, double of) {
     return open < least ? "< " + fixed(least, 1) : fixed(open, 2);
 }
 
+std::string open_words(double open, double of, const std::string& behind) {
+    const std::string text = open_figure(open, of);
+    return text.starts_with("< ") ? "±" + text.substr(2) + behind + " at most" : "±" + text + behind;
+}
+
 std::string claimed_text(const WorkPrecisionRow& row, const std::string& unit) {
     if (!row.error)
         return "not measured";

@@ -16,6 +16,8 @@ std::string four_digits(double value);
 std::string two_digits(double value);
 /// How far a figure of about `of` is open: two digits, without exponents; where it is less than a thousandth of the figure or so, "< 0.01".
 std::string open_figure(double open, double of);
+/// The same in a sentence, with a unit and what else stands behind the figure: "±0.57 m", "±0.01 m at most".
+std::string open_words(double open, double of, const std::string& behind = "");
 /// "0.053 %"; "< 0.02 %" for an error below the floor; "not measured".
 std::string claimed_text(const WorkPrecisionRow& row, const std::string& unit);
 /// Of bytes, in MiB: "1.9".

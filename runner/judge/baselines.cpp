@@ -29,7 +29,7 @@ std::vector<Verdict> verdicts_on(const std::vector<ResultDifference>& difference
                                 kind + " " + difference.what, difference.text + accepted_as, ""});
     if (verdicts.empty() && farthest)
         verdicts.push_back({VerdictKind::pass, kind,
-                            fmt::format("{} {} agree; the farthest off: {}, {}{}", differences.size(), things, farthest->what,
+                            fmt::format("{} {} agree; largest deviation: {}, {}{}", differences.size(), things, farthest->what,
                                         farthest->text, accepted_as),
                             ""});
     return verdicts;
@@ -66,7 +66,7 @@ struct MovedReadings {
     std::string text;
 };
 
-/// What other inputs came to: "of 859 readings 312 differ, the farthest off: ...". What usually decides goes before other readings, and
+/// What other inputs came to: "of 859 readings 312 differ, largest deviation: ...". What usually decides goes before other readings, and
 /// all of these before their errors.
 MovedReadings moved_readings(const Baseline& run, const Baseline& accepted, const BaselineTolerance& tolerance) {
     std::vector<ResultDifference> differences = compare_readings(run.readings, accepted.readings, tolerance);
@@ -80,8 +80,8 @@ MovedReadings moved_readings(const Baseline& run, const Baseline& accepted, cons
     });
     return {differences.size(),
             fmt::format("of {} readings {} differ, {}: {}, {}", all, differences.size(),
-                        place_among(*farthest.reading, decides_by_default()) ? "of those that usually decide the farthest off"
-                                                                             : "the farthest off",
+                        place_among(*farthest.reading, decides_by_default()) ? "largest deviation of those that usually decide"
+                                                                             : "largest deviation",
                         farthest.what, farthest.text)};
 }
 

@@ -122,8 +122,8 @@ Counted verdicts_that_differ(const PlayedCell& first, const PlayedCell& again) {
     Counted verdicts;
     for (std::size_t i = 0; i < std::min(first.verdicts.size(), again.verdicts.size()); ++i)
         if (first.verdicts[i].kind != again.verdicts[i].kind)
-            verdicts.add(fmt::format("{}: {}, at first {}", first.verdicts[i].name, verdict_name(again.verdicts[i].kind),
-                                     verdict_name(first.verdicts[i].kind)));
+            verdicts.add(fmt::format("{}: {}, at first {}", first.verdicts[i].name, verdict_text(again.verdicts[i].kind),
+                                     verdict_text(first.verdicts[i].kind)));
     return verdicts;
 }
 

@@ -181,7 +181,7 @@ std::string ending_text(const WorkerEnd& end, const WorkerLimits& limits) {
                            ::sigabbrev_np(end.code) ? std::string("SIG") + ::sigabbrev_np(end.code) : fmt::format("signal {}", end.code));
         break;
     case WorkerEnding::timed_out:
-        text = fmt::format("was stopped after {:.{}f} s, its limit of time", end.seconds, end.seconds < 2.0 ? 2 : 0);
+        text = fmt::format("was stopped after {:.{}f} s; its limit is {:g} s", end.seconds, end.seconds < 2.0 ? 2 : 0, limits.time_s);
         break;
     case WorkerEnding::ended_by_us:
         text = "was interrupted";

@@ -29,7 +29,7 @@ struct WorkerEnd {
     double peak_memory_mib = 0.0; ///< resident
     std::string said;             ///< the last line that it printed, also where a full disk did not take the log
 };
-/// "ended with exit code 3", "was killed by SIGSEGV", "was stopped after 600 s, its limit of time"; with what it says of memory.
+/// "ended with exit code 3", "was killed by SIGSEGV", "was stopped after 605 s; its limit is 600 s"; with what it says of memory.
 std::string ending_text(const WorkerEnd& end, const WorkerLimits& limits);
 
 struct WorkerPool {

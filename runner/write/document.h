@@ -25,9 +25,9 @@ std::string table_text(const Table& table);
 std::string document_text(const Document& document);
 /// A table in Markdown's pipes.
 std::string table_markdown(const Table& table);
-/// Title, tables and paragraphs.
+/// Title, tables, paragraphs and listings.
 std::string document_markdown(const Document& document);
-/// Its tables for LaTeX, as wide as the text; paragraphs are comments.
+/// Its tables for LaTeX, as wide as the text; paragraphs and listings are comments.
 std::string document_latex(const Document& document);
 /// As LaTeX's `tabular` with the rules of booktabs, for \input; the caption is a comment above it.
 std::string table_latex(const Table& table);

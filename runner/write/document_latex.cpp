@@ -91,6 +91,11 @@ std::string document_latex(const Document& document) {
                 out += "\\resizebox{\\linewidth}{!}{%\n" + table_latex(*table) + "}\n";
             else if (const auto* paragraph = std::get_if<std::string>(&block))
                 out += "% " + clean_text(*paragraph) + "\n";
+            else if (const auto* listing = std::get_if<Listing>(&block)) {
+                out += listing->caption.empty() ? "" : "% " + clean_text(listing->caption) + ":\n";
+                for (const Cell& item : listing->items)
+                    out += "% - " + clean_text(item.text) + "\n";
+            }
     return out;
 }
 

@@ -50,6 +50,11 @@ std::string document_markdown(const Document& document) {
                 text += "\n" + table_markdown(*table);
             else if (const auto* paragraph = std::get_if<std::string>(&block))
                 text += "\n" + clean_text(*paragraph) + "\n";
+            else if (const auto* listing = std::get_if<Listing>(&block)) {
+                text += listing->caption.empty() ? "\n" : "\n" + clean_text(listing->caption) + ":\n\n";
+                for (const Cell& item : listing->items)
+                    text += "- " + clean_text(item.text) + "\n";
+            }
     }
     return text;
 }

@@ -37,7 +37,9 @@ std::optional<NightFrames> pair_of(const Night& before, const Night& tonight, co
     if (pairs.empty())
         return std::nullopt;
     const auto& [now, then] = pairs[pairs.size() / 2];
-    return NightFrames{fmt::format("{} on {}, {}, after {:.1f} s", cell.lamp, cell.drive, now->view, now->time_s), then->png, now->png};
+    return NightFrames{fmt::format("{} on {}{}{}, {}, after {:.1f} s", cell.lamp, cell.drive, cell.condition.empty() ? "" : ", ",
+                                   cell.condition, now->view, now->time_s),
+                       then->png, now->png};
 }
 
 } // namespace
@@ -56,6 +58,12 @@ void add_frames(HistoryFindings& findings, std::size_t most) {
                                              night->date(), printable(night->folder, 400));
             return;
         }
+    if (findings.before().folder == findings.tonight().folder) { // as in a CI, whose jobs all write to one place
+        findings.no_frames =
+            fmt::format("The folder of the night of {} was written anew ({}): there are no frames to stand beside each other.",
+                        findings.before().date(), printable(findings.before().folder, 400));
+        return;
+    }
     std::vector<std::string> without;
     for (const std::string& cell : cells) {
         if (findings.frames.size() == most)

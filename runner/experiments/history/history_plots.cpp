@@ -14,8 +14,8 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_nights = 120, most_routes = 40;
-constexpr double names_px = 310.0, lamp_px = 250.0, line_px = 130.0, row_px = 34.0, head_px = 52.0;
+constexpr std::size_t most_nights = 120, most_routes = 40, longest_name = 100;
+constexpr double least_names_px = 310.0, lamp_px = 250.0, line_px = 130.0, row_px = 34.0, head_px = 52.0;
 constexpr plots::Colour dark{40, 40, 40}, faint{150, 150, 150};
 
 const plots::Colour& change_colour() {
@@ -117,6 +117,9 @@ std::optional<Plot> sparkline_plot(const HistoryFindings& findings, const std::s
     if (routes.empty())
         return std::nullopt;
     const std::size_t shown = std::min(most_routes, routes.size());
+    double names_px = least_names_px; // as wide as the longest name
+    for (std::size_t row = 0; row < shown; ++row)
+        names_px = std::max(names_px, plots::text_width(short_text(routes[row], longest_name), 11.0) + 24.0);
     plots::Drawing drawing;
     drawing.width = names_px + lamp_px * static_cast<double>(lamps.size());
     drawing.height = head_px + row_px * static_cast<double>(shown) + 4.0;
@@ -126,7 +129,7 @@ std::optional<Plot> sparkline_plot(const HistoryFindings& findings, const std::s
     for (std::size_t i = 0; i < lamps.size(); ++i)
         drawing.text(names_px + lamp_px * static_cast<double>(i), 42.0, short_text(lamps[i], 34), {.size_px = 12.0, .colour = dark});
     for (std::size_t row = 0; row < shown; ++row)
-        drawing.text(8.0, head_px + row_px * static_cast<double>(row) + 20.0, short_text(routes[row], 48),
+        drawing.text(8.0, head_px + row_px * static_cast<double>(row) + 20.0, short_text(routes[row], longest_name),
                      {.size_px = 11.0, .colour = dark});
     for (const NightCell& cell : findings.tonight().cells) {
         const auto route = static_cast<std::size_t>(

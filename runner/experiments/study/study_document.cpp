@@ -54,22 +54,22 @@ std::string with_unit(const Value& value, const std::string& unit) {
 std::string change_sentence(const StudyResult& result, const Change& change) {
     const Value found = change.change();
     const CellResult& cell = result.cells[change.tested];
-    return fmt::format("{}: {} → {}, {}{}{} ±{}; {} against {} on {} ({})", reading_label(change.reading),
+    return fmt::format("{}: {} → {}, {}{}{} {}; {} against {} on {} ({})", reading_label(change.reading),
                        with_unit(change.old_value, change.unit()), with_unit(change.new_value, change.unit()),
                        with_bound(found, fmt::format("{:+.{}f}", found.figure().value_or(0.0), decimals_of(change))),
                        unit_suffix(change.unit()), change.relative() ? fmt::format(" ({:+.1f} %)", 100.0 * *change.relative()) : "",
-                       open_cell(change, change.uncertainty.value_or(0.0)).text, result.lamp_of(change.tested),
-                       result.lamp_of(change.against), cell.drive, cell.cell.condition);
+                       open_words(change, change.uncertainty.value_or(0.0)), result.lamp_of(change.tested), result.lamp_of(change.against),
+                       cell.drive, cell.cell.condition);
 }
 
 Card card_of(const StudyResult& result, const Change& change) {
     const std::string unit = unit_suffix(change.unit());
     const int decimals = decimals_of(change);
-    std::string detail = fmt::format("{} {}{} → {} {}{}; ±{}{} numerical", result.lamp_of(change.against),
-                                     value_cell(change.old_value, decimals).text, unit, result.lamp_of(change.tested),
-                                     value_cell(change.new_value, decimals).text, unit, open_cell(change, change.uncertainty).text, unit);
+    std::string detail = fmt::format("{} {}{} → {} {}{}; {}", result.lamp_of(change.against), value_cell(change.old_value, decimals).text,
+                                     unit, result.lamp_of(change.tested), value_cell(change.new_value, decimals).text, unit,
+                                     open_words(change, change.uncertainty.value_or(0.0), unit + " numerical"));
     if (change.noise_effect.value_or(0.0) > 0.0)
-        detail += fmt::format(", ±{}{} by noise", open_cell(change, change.noise_effect).text, unit);
+        detail += ", " + open_words(change, *change.noise_effect, unit + " by noise");
     if (change.aim_effect)
         detail += fmt::format(", ±{}{} by 0.1° of aim", figure(*change.aim_effect, decimals), unit);
     const CellResult& cell = result.cells[change.tested];
@@ -331,7 +331,7 @@ Document document(const StudyResult& result, const std::vector<std::string>& pap
         files.items.push_back(Cell((paper == papers.front() ? "for papers: " : "") + paper).linked(paper));
     const Section readings{
         "Deciding readings, route by route",
-        {"A heading sorts, again the other way round. ± numerical is the numerical uncertainty of the change, ± noise what three standard "
+        {"Click a heading to sort, again to reverse. ± numerical is the numerical uncertainty of the change, ± noise what three standard "
          "deviations of the noise of the candela tables would do. ± aim, flux, height, load: what 0.1°, 10 %, 10 mm of mounting height and "
          "75 kg over the rear axle would do, up or down, to either lamp; aim alone decides what is real. Each line is the row of its "
          "number "
@@ -362,7 +362,7 @@ Document study_summary(const StudyResult& result) {
             say(line.substr(0, line.find_last_not_of('\n') + 1));
         }
     };
-    say(result.study.title + (was_judged(result) ? std::string(": ") + verdict_name(overall(result)) : ""));
+    say(result.study.title + (was_judged(result) ? std::string(": ") + verdict_text(overall(result)) : ""));
     for (const std::string& warning : lamp_warnings(result.lamp_files))
         say("warning: " + warning);
     for (const std::string& warning : result.warnings)

@@ -75,7 +75,7 @@ struct ColourBar {
 
 struct Figure {
     std::string title;
-    std::string subtitle = {}; ///< one line under the title: what, where, which conditions
+    std::string subtitle = {}; ///< under the title, in as many lines as it takes: what, where, which conditions
     double width_px = 860.0, height_px = 480.0;
     Axis x, y;
     bool equal_units = false; ///< one unit of x is as long as one of y: the plot area shrinks to fit

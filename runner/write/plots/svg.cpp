@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <sstream>
 #include <stdexcept>
 
 namespace fernlicht::plots {
@@ -71,9 +72,21 @@ double widest_label(const Axis& axis, int most) {
 
 int ticks_along(double length_px, double each_px) { return std::max(2, static_cast<int>(length_px / each_px)); }
 
+/// Between words, so that none is cut off at the figure's right edge.
+std::vector<std::string> subtitle_lines(const Figure& f) {
+    std::vector<std::string> lines;
+    std::istringstream words(f.subtitle);
+    for (std::string word; words >> word;)
+        if (lines.empty() || text_width(lines.back() + " " + word, 12.0) > f.width_px - 90.0)
+            lines.push_back(word);
+        else
+            lines.back() += " " + word;
+    return lines;
+}
+
 Area area_of(const Figure& f, const Legend& legend) {
     Area a;
-    a.top = (f.title.empty() ? 12.0 : 36.0) + (f.subtitle.empty() ? 0.0 : 18.0) + 20.0 * legend.rows;
+    a.top = (f.title.empty() ? 12.0 : 36.0) + 18.0 * static_cast<double>(subtitle_lines(f).size()) + 20.0 * legend.rows;
     a.height = f.height_px - a.top - 50.0;
     a.left = 38.0 + widest_label(f.y, ticks_along(a.height, 42.0));
     a.width = f.width_px - a.left - (f.colour_bar ? 84.0 + widest_label(f.colour_bar->axis, ticks_along(a.height, 42.0)) : 20.0);
@@ -89,11 +102,11 @@ Area area_of(const Figure& f, const Legend& legend) {
 }
 
 void draw_heading(Drawing& c, const Figure& f, const Legend& legend, const Area& a) {
-    double y = 24.0;
+    double y = f.title.empty() ? 2.0 : 24.0;
     if (!f.title.empty())
         c.text(a.left, y, f.title, {.size_px = 16.0, .colour = ink, .bold = true});
-    if (!f.subtitle.empty())
-        c.text(a.left, f.title.empty() ? 20.0 : y += 18.0, f.subtitle, {.size_px = 12.0, .colour = faint});
+    for (const std::string& line : subtitle_lines(f))
+        c.text(a.left, y += 18.0, line, {.size_px = 12.0, .colour = faint});
     for (const Legend::Entry& e : legend.entries) {
         const double base = a.top - 20.0 * (legend.rows - e.row) + 9.0, left = a.left + e.left;
         if (e.filled)

@@ -96,9 +96,14 @@ TEST_F(HistoryCommand, ThePageHasLinesAndFramesSideBySide) {
     printed("history explain --tables csv --out " + (folder_ / "page") + flag_);
     const std::string page = content_of(folder_ / "page/report.html");
     EXPECT_THAT(page, AllOf(HasSubstr("What changed since 2026-01-01"), HasSubstr("Before and after"),
-                            HasSubstr("xenon on straight, driver, after 1.0 s"), HasSubstr("<svg"), HasSubstr("as accepted")));
+                            HasSubstr("xenon on straight, night, driver, after 1.0 s"), HasSubstr("<svg"), HasSubstr("as accepted")));
     EXPECT_EQ(std::filesystem::exists(folder_ / "page/history-reach_5lx_target_own_m.png"), true);
     EXPECT_THAT(content_of(folder_ / "page/tables/moved.csv"), HasSubstr("2026-01-03,inputs,xenon,\"straight, night"));
+    const std::string anew = " --history " + (folder_ / "anew.db");
+    printed("history add " + night(0) + " --accept" + anew);
+    std::filesystem::copy(night(2), night(0), std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
+    printed("history add " + night(0) + anew);
+    EXPECT_THAT(printed("history explain" + anew), HasSubstr("The folder of the night of 2026-01-01 was written anew"));
     std::filesystem::remove_all(night(0));
     EXPECT_THAT(printed("history explain" + flag_), HasSubstr("The folder of the night of 2026-01-01 is gone"));
     EXPECT_THAT(printed("history show" + flag_), HasSubstr("gone: " + night(0)));

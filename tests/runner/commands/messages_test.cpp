@@ -49,6 +49,7 @@ TEST(Messages, AsJsonWhateverEndsTheProgram) {
         EXPECT_EQ(said.front().at("exit_code"), code) << line;
         EXPECT_THAT(said.front().at("message").get<std::string>(), HasSubstr(message));
     }
+    EXPECT_THAT(printed("run nothing.yaml --frames 0:1 --frames 0:2", 2), HasSubstr("--frames: given twice, expected it once"));
     EXPECT_THAT(printed("techniques --log-level loud", 2), HasSubstr("error, warning, info or debug"));
     EXPECT_THAT(printed("techniques --annotate gitlab", 2), HasSubstr("expected github"));
 }

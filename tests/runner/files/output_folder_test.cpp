@@ -68,6 +68,22 @@ TEST_F(OutputFolderTest, RefusesAnotherRun) {
     EXPECT_THAT(refusal(root / "interrupted"), HasSubstr("holds a run that did not end"));
 }
 
+TEST_F(OutputFolderTest, GoesOnOnlyWithARunThatDidNotEnd) {
+    const auto why = [&](const char* name) {
+        try {
+            OutputFolder::left_incomplete(root / name);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("taken");
+    };
+    EXPECT_THAT(why("nowhere"), HasSubstr("--out: there is no such folder"));
+    fs::create_directories(root / "empty");
+    EXPECT_THAT(why("empty"), HasSubstr("holds nothing that was interrupted"));
+    OutputFolder interrupted(root / "interrupted");
+    EXPECT_EQ(why("interrupted"), "taken");
+}
+
 TEST_F(OutputFolderTest, RefusesAFile) {
     put(root / "file", "text");
     EXPECT_THAT(refusal(root / "file"), HasSubstr("is not a folder"));

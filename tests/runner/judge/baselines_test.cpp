@@ -278,7 +278,7 @@ TEST_F(Baselines, OtherInputsAreAnotherKeyAndAreNamed) {
     other.report.played[0].readings[0].value = 61.8;
     EXPECT_THAT(
         other.judged(store)[0].text,
-        HasSubstr(": of 2 readings 1 differ, the farthest off: reach_5lx_road_own_m, 61.8 m, accepted 60 m, off by 1.8 m (3 % of it)"));
+        HasSubstr(": of 2 readings 1 differ, largest deviation: reach_5lx_road_own_m, 61.8 m, accepted 60 m, off by 1.8 m (3 % of it)"));
     other = run;
     other.report.played[0].lamp_set = "h7-new";
     other.report.played[0].readings[0].value = 61.8;

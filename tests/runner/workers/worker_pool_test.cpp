@@ -56,7 +56,7 @@ TEST_F(WorkerPoolTest, WhatItSaidIsKnownWhereItsLogCannotBeWritten) {
 TEST_F(WorkerPoolTest, OneThatHangsIsStoppedWithAllThatItStarted) {
     pool.limits.time_s = 0.3;
     run({"sleep 1000 & echo $!; trap '' TERM; while :; do sleep 1; done", "echo quick"});
-    EXPECT_THAT(text(0), testing::MatchesRegex("was stopped after [56] s, its limit of time"));
+    EXPECT_THAT(text(0), testing::MatchesRegex("was stopped after [56] s; its limit is 0.3 s"));
     EXPECT_EQ(ends.at(1).code, 0);
     const ::pid_t child = std::stoi(log(0));
     for (int wait = 0; wait < 200 && ::kill(child, 0) == 0; ++wait)

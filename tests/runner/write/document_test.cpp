@@ -93,10 +93,11 @@ TEST_F(ToyExperiment, BecomesEachFormat) {
         {"markdown",
          {"| side | of all share, % | of all count |\n|---|--:|--:|\n| heads \\| tails | 37.5 | - |\n| edge | not measured, it never "
           "stood | |\n",
-          "# Coins & notes\n\n## Unfair\n\n| row | side | share |\n|--:|---|--:|\n| c0 | 50 % heads | 37.5 |\n"}},
+          "# Coins & notes\n\n## Unfair\n\nSeen:\n\n- all\n\n| row | side | share |\n|--:|---|--:|\n| c0 | 50 % heads | 37.5 |\n"}},
         {"tex",
          {"edge & \\multicolumn{2}{l}{not measured, it never stood} \\\\\n",
-          "{rlr}\n\\toprule\nrow & side & share \\\\\n\\midrule\n$c0$ & 50 \\% heads & $37.5$ \\\\\n$c1$ & tails & -- "}},
+          "% Seen:\n% - all\n\\resizebox{\\linewidth}{!}{%\n% \n\\begin{tabular}{rlr}\n\\toprule\nrow & side & share \\\\\n\\midrule\n$c0$ "
+          "& 50 \\% heads & $37.5$ \\\\\n$c1$ & tails & -- "}},
         {"text",
          {"How it fell\n               of all  of all\nside            share   count\n                    %\n"
           "heads | tails    37.5       -\nedge: not measured, it never stood\n",

@@ -102,7 +102,6 @@ ComparedFigure ratio(const LampPairComparison& lamps) {
     figure.y.label = "V, up positive";
     figure.x.unit = figure.y.unit = "°";
     add_axes(figure);
-    figure.subtitle = short_text(figure.subtitle, 140);
     return {"ratio", figure.title, figure};
 }
 

@@ -74,8 +74,8 @@ std::string change_text(const ReadingChange& c) {
     if (c.relative())
         text += fmt::format(" ({:+.1f} %)", 100.0 * *c.relative());
     if (c.uncertainty)
-        text += ", ±" + open_figure(*c.uncertainty,
-                                    std::max(std::abs(c.old_value.figure().value_or(0.0)), std::abs(c.new_value.figure().value_or(0.0))));
+        text += ", " + open_words(*c.uncertainty,
+                                  std::max(std::abs(c.old_value.figure().value_or(0.0)), std::abs(c.new_value.figure().value_or(0.0))));
     return text;
 }
 
@@ -85,11 +85,10 @@ std::string runs_sentence(const RunComparison& runs) {
     for (const DriveComparison& drive : runs.drives)
         all += drive.changes.size();
     return all == 0 ? "No reading could be compared."
-                    : fmt::format(
-                          "Of {} readings that both runs have, {} changed for real, {} by no more than 0.1 degrees of aim would do, {} by "
-                          "no more than numerical uncertainty and noise; of {} it is not known.",
-                          all, runs.count(ChangeKind::real), runs.count(ChangeKind::within_aim), runs.count(ChangeKind::none),
-                          runs.count(ChangeKind::unknown));
+                    : fmt::format("Of {} readings that both runs have, {} changed for real, {} within what 0.1 degrees of aim would do, {} "
+                                  "within numerical uncertainty and noise; of {} it is not known.",
+                                  all, runs.count(ChangeKind::real), runs.count(ChangeKind::within_aim), runs.count(ChangeKind::none),
+                                  runs.count(ChangeKind::unknown));
 }
 
 Section first_section(const RunComparison& runs) {
@@ -137,7 +136,7 @@ Section readings_section(const RunComparison& runs) {
     others.caption = fmt::format("All other readings ({}): other lanes, edges, limits, percentiles", others.rows.size());
     others.folded = true;
     return {"Readings",
-            {"A heading sorts, again the other way round. ± numerical is the numerical uncertainty of the change (with that of repeats, "
+            {"Click a heading to sort, again to reverse. ± numerical is the numerical uncertainty of the change (with that of repeats, "
              "where a run has them), ± noise what three standard deviations of the noise of the candela tables would do, ± aim what 0.1° "
              "of aim would do. Each line is the row of its id in "
              "compare.json and compare.csv.",

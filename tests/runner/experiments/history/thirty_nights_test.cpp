@@ -211,6 +211,11 @@ TEST(ThirtyNights, ThePageLeadsWithWhatChanged) {
     ASSERT_GE(lines.size(), 3U);
     EXPECT_EQ(lines.back().name, "history-frame_s");
     EXPECT_THAT(plot_svg(lines.front()), AllOf(HasSubstr("halogen"), HasSubstr("xenon"), HasSubstr("s-bend, night"), HasSubstr("<circle")));
+    HistoryFindings long_names = thirty.last;
+    const std::string condition = "night, aim -1.3 %, 13.2 V, damp road, rain on the windscreen, dirt on the lamps";
+    for (NightCell& cell : long_names.nights.back().cells)
+        cell.condition = condition;
+    EXPECT_THAT(plot_svg(sparklines(long_names).front()), HasSubstr("s-bend, " + condition));
     EXPECT_THAT(document_html(page, thirty.last), HasSubstr("What changed since 2026-01-01"));
 }
 

@@ -94,6 +94,16 @@ TEST(StudyCompare, DigitsTellOldAndNewApart) {
     EXPECT_THAT(document_html(document(result), result), AllOf(HasSubstr(">0.0312<"), HasSubstr(">0.0298<"), HasSubstr(">−0.0014<")));
 }
 
+TEST(StudyCompare, AnUncertaintyTooSmallToTellIsAtMostSoMuch) {
+    StudyResult result = two_cells(40.0, 50.0);
+    for (CellResult& cell : result.cells)
+        for (const char* error : {"reach_5lx_target_own_grid_error_m", "reach_5lx_target_own_twin_difference_m"})
+            put(cell, error, 1e-6);
+    compare_cells(result);
+    EXPECT_THAT(document_text(study_summary(result)), HasSubstr("+10.00 m (+25.0 %) ±0.01 at most; new against old"));
+    EXPECT_THAT(document_html(document(result), result), AllOf(HasSubstr("; ±0.01 m numerical at most, ±"), Not(HasSubstr("±&lt;"))));
+}
+
 TEST(StudyCompare, WhatWasLeftOutStandsBesideTheVerdict) {
     StudyResult result = two_cells(40.0, 41.0);
     result.cells.pop_back();
@@ -390,6 +400,7 @@ TEST(StudyCompare, ACellThatFailedTakesTheVerdictWithIt) {
     EXPECT_EQ(overall(result), VerdictKind::pass);
     result.cells[1].failed = "the disk is full";
     EXPECT_EQ(overall(result), VerdictKind::not_measured);
+    EXPECT_THAT(document_text(study_summary(result)), testing::StartsWith("by hand: not measured\n"));
     EXPECT_THAT(report_junit(suites_of(result)), HasSubstr("the disk is full"));
 }
 

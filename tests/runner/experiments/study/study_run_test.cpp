@@ -292,8 +292,8 @@ TEST_F(StudyProgram, CellsThatHangOrTakeTooMuchAreRedRows) {
         EXPECT_THAT(failed, HasSubstr(has_log ? "(log: logs/straight_old.log)" : "(it printed nothing)"));
         return failed;
     };
-    EXPECT_THAT(why(" --cell-minutes 0.01", "slow"), HasSubstr("s, its limit of time"));
-    EXPECT_THAT(printed(arguments.substr(0, arguments.find("--out")) + "--explain"), HasSubstr("s, its limit of time"));
+    EXPECT_THAT(why(" --cell-minutes 0.01", "slow"), HasSubstr("s; its limit is 0.6 s"));
+    EXPECT_THAT(printed(arguments.substr(0, arguments.find("--out")) + "--explain"), HasSubstr("s; its limit is 0.6 s"));
     EXPECT_THAT(why(" --cell-memory-mib 40", "large"),
                 testing::AnyOf(HasSubstr("was killed by"), HasSubstr("bad_alloc"), HasSubstr("memory"), HasSubstr("exit code")));
     EXPECT_EQ(run_program(arguments + (folder / "whole")).exit_code, 0) << "nothing of it stays";
@@ -370,6 +370,10 @@ TEST_F(StudyProgram, TheHistoryHasTimesAndTellsLampAndProgramApart) {
     const std::string page = content_of(folder / "third/report.html");
     EXPECT_THAT(page, testing::AllOf(HasSubstr("told apart by new on straight-1, night, aim -1 %, 13.2 V, played with that night"),
                                      HasSubstr("the inputs alone moved them")));
+    EXPECT_THAT(content_of(folder / "third/study.md"),
+                testing::AllOf(testing::StartsWith("# Two cells\n\n## No limits were set\n"), HasSubstr("\n## What changed since "),
+                               HasSubstr("\n- "), HasSubstr("told apart by new on straight-1")));
+    EXPECT_THAT(content_of(folder / "third/study.tex"), testing::ContainsRegex("\n% - [^\n]*told apart by new on straight-1"));
 }
 
 TEST_F(StudyProgram, AFinishedStudyIsReportedAgainFromItsCells) {

@@ -2,12 +2,14 @@
 #include "runner/write/plots/svg.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <limits>
 
 namespace fernlicht::plots {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -181,6 +183,20 @@ TEST(Svg, TextIsEscapedAndBytesRepeat) {
     EXPECT_THAT(svg, Not(HasSubstr("<b>")));
     EXPECT_THAT(svg, HasSubstr("reach [m]"));
     EXPECT_EQ(svg, svg_of(small_figure()));
+}
+
+TEST(Svg, ALongSubtitleGoesOnInTheNextLine) {
+    Figure f = small_figure();
+    f.subtitle = "a few words";
+    EXPECT_THAT(svg_of(f), HasSubstr(">a few words<"));
+    for (int i = 0; i < 40; ++i)
+        f.subtitle += fmt::format(" word-{}", i);
+    const std::string svg = svg_of(f);
+    EXPECT_THAT(svg, AllOf(HasSubstr(">a few words word-0 "), HasSubstr(" word-39<")));
+    std::size_t lines = 0;
+    for (std::size_t at = svg.find("word-"); at != std::string::npos; at = svg.find("word-", svg.find('<', at)))
+        ++lines;
+    EXPECT_EQ(lines, 3U);
 }
 
 TEST(Svg, WhatWasNotMeasuredInterruptsTheLine) {
