@@ -246,14 +246,14 @@ void each_change(const StudyResult& result, const std::function<void(const Chang
 void keep_told_readings(StudyResult& result, CellResult& cell) {
     std::ranges::copy(std::views::keys(cell.readings), std::inserter(result.keys, result.keys.end()));
     cell.hash_of_readings = hash_of_readings(cell);
-    std::set<std::tuple<Quantity, std::string, ReadingSurface, std::string, Threshold>> told;
-    const auto what_of = [](const ReadingKey& key) { return std::tuple(key.quantity, key.subject, key.surface, key.lane, key.threshold); };
     const auto is_told = [&](const ReadingKey& key) {
         return place_among(key, result.study.decide) ||
                std::ranges::any_of(result.study.limits, [&](const StudyLimit& limit) { return limit.reading == name_of(key); });
     };
+    const auto what_of = [](const ReadingKey& key) { return std::tuple(key.quantity, key.subject, key.surface, key.lane, key.threshold); };
+    std::set<decltype(what_of(ReadingKey()))> told;
     for (const ReadingKey& key : std::views::keys(cell.readings))
-        if (is_told(key))
+        if (!result.tells_all && is_told(key)) // else changes are computed out of the reports
             told.insert(what_of(key));
     cell.has_all_readings = std::erase_if(cell.readings, [&](const auto& reading) {
                                 return !is_told(reading.first) && !(is_uncertainty(reading.first) && told.contains(what_of(reading.first)));

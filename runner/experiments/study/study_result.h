@@ -88,7 +88,8 @@ ReadingsOfCell all_readings(const StudyResult& result, const CellResult& cell);
 /// Hands over every change of every reading, those that `changes` lacks computed anew, two reports at a time in memory.
 void each_change(const StudyResult& result, const std::function<void(const Change&)>& take);
 
-/// Leaves what decides, has limits, or tells how exact those are: a cell has more than a thousand readings, and a study many cells.
+/// Leaves what decides or has limits, and where the study is too large to tell all what tells how exact those are: a cell has more than a
+/// thousand readings, and a study many cells.
 void keep_told_readings(StudyResult& result, CellResult& cell);
 
 /// As of a run (report.h): fail if a limit or a baseline was exceeded, flaky, not_measured if anything is missing (a cell that failed,
