@@ -11,7 +11,7 @@ namespace fernlicht {
 namespace {
 
 /// The larger of both values.
-double size_of(const Change& change) {
+double larger_value(const Change& change) {
     return std::max(std::abs(change.old_value.figure().value_or(0.0)), std::abs(change.new_value.figure().value_or(0.0)));
 }
 
@@ -33,9 +33,11 @@ Cell change_cell(const Change& change) {
     return found.measured() ? cell_of(found, signed_figure(*found.figure(), decimals_of(change))) : Cell("");
 }
 Cell open_cell(const Change& change, const std::optional<double>& value) {
-    return value ? Cell(open_figure(*value, size_of(change)), *value) : Cell("");
+    return value ? Cell(open_figure(*value, larger_value(change)), *value) : Cell("");
 }
-std::string open_words(const Change& change, double value, const std::string& behind) { return open_words(value, size_of(change), behind); }
+std::string open_words(const Change& change, double value, const std::string& behind) {
+    return open_words(value, larger_value(change), behind);
+}
 
 std::string change_words(const Change& change) {
     const std::string changed = change_cell(change).text;

@@ -212,7 +212,7 @@ TEST(ThirtyNights, ThePageLeadsWithWhatChanged) {
     EXPECT_EQ(lines.back().name, "history-frame_s");
     EXPECT_THAT(plot_svg(lines.front()), AllOf(HasSubstr("halogen"), HasSubstr("xenon"), HasSubstr("s-bend, night"), HasSubstr("<circle")));
     HistoryFindings long_names = thirty.last;
-    const std::string condition = "night, aim -1.3 %, 13.2 V, damp road, rain on the windscreen, dirt on the lamps";
+    const std::string condition = "night, aim -1.3 %, 13.2 V, damp road, rain on the windscreen";
     for (NightCell& cell : long_names.nights.back().cells)
         cell.condition = condition;
     EXPECT_THAT(plot_svg(sparklines(long_names).front()), HasSubstr("s-bend, " + condition));
