@@ -43,8 +43,8 @@ std::string told_moved(const HistoryFindings& findings, const Night& night, cons
     std::string aim;
     const auto effect = findings.aim_effects.find({largest.cell, largest.reading});
     if (effect != findings.aim_effects.end() && largest.before.figure() && largest.now.figure())
-        aim = fmt::format(", {} 0.1° of aim would do ({})",
-                          std::abs(*largest.now.figure() - *largest.before.figure()) > effect->second ? "more than" : "no more than",
+        aim = fmt::format(", {} what 0.1° of aim would do ({})",
+                          std::abs(*largest.now.figure() - *largest.before.figure()) > effect->second ? "beyond" : "within",
                           told_value(largest.reading, effect->second));
     const std::optional<ReadingKey> key = key_of(largest.reading); // what decides stands first
     const bool decides = night.decide.empty() || (key && place_among(*key, night.decide));
