@@ -131,7 +131,7 @@ void VisibilityFold::add_weather(const Moment& moment, const Ahead& ahead, std::
     std::vector<double> adaptation_cdm2(places.size()); // of the road behind the lowest square
     for (std::size_t i = 0; i < most; ++i) {
         const auto fill = [&](std::size_t place, const Added& added) {
-            Square& square = places[place].squares[i];
+            Square& square = places[place].squares.at(i);
             const double way_m = glm::distance(ahead.eye.at_m, square.middle_m), far = glm::distance(ahead.eye.at_m, square.behind_m);
             square.left = air_transmittance(moment.weather, way_m);
             square.veil_cdm2 = added[0] + sky_airlight_cdm2(moment.daylight, moment.weather, way_m);
@@ -159,6 +159,8 @@ void VisibilityFold::add_weather(const Moment& moment, const Ahead& ahead, std::
                 continue;
             const Added here = added(moment, ahead, places[k].along_m, places[k].squares[i]);
             for (std::size_t between = from + 1; goes_on && between < k; ++between) {
+                if (i >= squares_of(places[between])) // where a wet road bends, all but the lowest are missing
+                    continue;
                 const double share = (places[between].ahead_m - places[from].ahead_m) / (places[k].ahead_m - places[from].ahead_m);
                 Added there{};
                 for (std::size_t n = 0; n < there.size(); ++n)

@@ -86,6 +86,20 @@ TEST(SeeingRun, NobodyAskedNothingStands) {
             << name;
 }
 
+/// Beyond the motorway's crest a wet road bends by more than is modelled: of targets there only the lowest square stands, between whole
+/// ones.
+TEST(SeeingRun, SquaresThatAWetCrestLeavesOutAreNotFilled) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "drive.yaml") << fmt::format(
+        "fernlicht: 1\nname: crest\nroad: {}\nroute: {{s_m: 20}}\nspeed_kmh: 120\nrate_hz: 10\nduration_s: 50\nweather: {{wetness: 0.8}}\n"
+        "lamp_sets: {{one: {{source: filament, file: {}}}}}\nviews: {{driver: {{resolution_px: [32, 24]}}}}\n"
+        "measure: {{visibility: true, extent: false}}\n",
+        library_file("roads/motorway.xodr"), library_file("lamps/halogen-low.ies"));
+    const Outcome outcome =
+        run_program("run " + (folder / "drive.yaml") + " --frames 208:214 --quiet --no-accuracy --out " + (folder / "out"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+}
+
 TEST(SeeingRun, WrongKeysAreNamed) {
     const TemporaryFolder folder;
     const auto refused = [&](const std::string& measure) {
