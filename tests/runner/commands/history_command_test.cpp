@@ -96,7 +96,8 @@ TEST_F(HistoryCommand, ThePageHasLinesAndFramesSideBySide) {
     printed("history explain --tables csv --out " + (folder_ / "page") + flag_);
     const std::string page = content_of(folder_ / "page/report.html");
     EXPECT_THAT(page, AllOf(HasSubstr("What changed since 2026-01-01"), HasSubstr("Before and after"),
-                            HasSubstr("xenon on straight, night, aim -1 %, 13.2 V, driver, after 1.0 s"), HasSubstr("<svg"), HasSubstr("as accepted")));
+                            HasSubstr("xenon on straight, night, aim -1 %, 13.2 V, driver, after 1.0 s"), HasSubstr("<svg"),
+                            HasSubstr("as accepted")));
     EXPECT_EQ(std::filesystem::exists(folder_ / "page/history-reach_5lx_target_own_m.png"), true);
     EXPECT_THAT(content_of(folder_ / "page/tables/moved.csv"), HasSubstr("2026-01-03,inputs,xenon,\"straight, night"));
     const std::string anew = " --history " + (folder_ / "anew.db");
