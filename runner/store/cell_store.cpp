@@ -171,8 +171,13 @@ std::string CellStore::refuses_writing() const {
 }
 
 void CellStore::make() const {
+    // What a disk and its server leave at the root of a volume is nobody's.
+    const auto is_somebodys = [](const fs::directory_entry& entry) {
+        const std::string name = entry.path().filename().string();
+        return name != "lost+found" && !name.starts_with('.');
+    };
     std::error_code ignored;
-    if (!fs::exists(mark(), ignored) && fs::is_directory(folder_, ignored) && !fs::is_empty(folder_, ignored))
+    if (!fs::exists(mark(), ignored) && std::any_of(fs::directory_iterator(folder_, ignored), fs::directory_iterator(), is_somebodys))
         throw InputError({folder_, 0, 0, "--store"}, "is a folder with other files in it",
                          "a new or empty one, or one that `fernlicht study` made");
     make_folder(folder_);

@@ -117,6 +117,8 @@ TEST_F(CellStoreTest, IsBuiltAmongNobodysFiles) {
     EXPECT_THAT(tests::refusal_of([&] { CellStore(folder / "theirs").new_workplace("a"); }),
                 HasSubstr("is a folder with other files in it"));
     EXPECT_EQ(files_below(folder / "theirs").size(), 1U);
+    fs::create_directories(folder / "volume/lost+found");
+    CellStore(folder / "volume").new_workplace("a");
 }
 
 TEST_F(CellStoreTest, PrunesByAgeSizeAndStudy) {
