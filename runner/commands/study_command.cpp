@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
+#include <oneapi/tbb/parallel_invoke.h>
 
 namespace fernlicht {
 namespace {
@@ -51,8 +52,8 @@ void write_study(const StudyResult& result, const std::filesystem::path& folder,
     Document paper = study_paper(result);
     if (history)
         paper.sections.push_back(changes_section(*history)); // the verdict comes first
-    write_json(folder / "study.json", result, study_members);
-    write_file(folder / "study.csv", [&](const TakePiece& take) { study_csv(result, take); });
+    oneapi::tbb::parallel_invoke([&] { write_json(folder / "study.json", result, study_members); },
+                                 [&] { write_file(folder / "study.csv", [&](const TakePiece& take) { study_csv(result, take); }); });
     std::vector<std::string> papers;
     for (const OutputFormat& format : output_formats())
         if (format.for_papers)

@@ -92,6 +92,12 @@ void each_change(const StudyResult& result, const std::function<void(const Chang
 /// thousand readings, and a study many cells.
 void keep_told_readings(StudyResult& result, CellResult& cell);
 
+/// Of all readings of a cell, times apart, whether or not it still has them.
+std::string hash_of_readings(const CellResult& cell);
+
+/// Adds a verdict for each of the study's own limits, and for each deciding reading that nothing has.
+void judge(StudyResult& result);
+
 /// As of a run (report.h): fail if a limit or a baseline was exceeded, flaky, not_measured if anything is missing (a cell that failed,
 /// too), else pass.
 VerdictKind overall(const StudyResult& result);

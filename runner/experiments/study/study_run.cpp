@@ -21,8 +21,11 @@
 #include <fmt/ranges.h>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
 #include <optional>
+#include <thread>
 
 namespace fernlicht {
 namespace {
@@ -236,13 +239,14 @@ CellResult begun_cell(const Study& study, const StudyPlan& plan, const PlannedCe
     return cell;
 }
 
-/// From the store, in the order of the plan. What turns out to be damaged there is played once more.
+/// From the store, in the order of the plan, as many at a time as there are cores. What turns out to be damaged there is played once more.
 void collect_all(const CellStore& store, const Study& study, const StudyPlan& plan, const StudyOptions& options,
                  const std::map<std::size_t, PlayedInWorker>& played, const Jobs& jobs, StudyResult& result) {
-    Telling telling(options);
-    for (std::size_t i = 0; i < plan.cells.size(); ++i) {
+    constexpr const char* not_reached = "not reached";
+    std::mutex playing_again;
+    const auto collected = [&](std::size_t i) {
         const PlannedCell& one = plan.cells[i];
-        CellResult& cell = result.cells.emplace_back(begun_cell(study, plan, one, options));
+        CellResult cell = begun_cell(study, plan, one, options);
         const auto found = played.find(i);
         cell.reused = found == played.end();
         if (!cell.failed.empty()) {
@@ -255,13 +259,13 @@ void collect_all(const CellStore& store, const Study& study, const StudyPlan& pl
                 if (const std::string changed = changed_since(cell_drive(study, one.cell), one); !changed.empty())
                     cell.failed = changed;
             });
-        } else if (Interruption::requested() && !store.find(one.key)) {
-            cell.failed = "not reached";
-            result.missing.push_back("cell " + one.cell.name);
-        } else
+        } else if (Interruption::requested() && !store.find(one.key))
+            cell.failed = not_reached;
+        else
             try_cell(cell, [&] {
                 if (options.executor == StudyExecutor::local && !Interruption::requested() &&
                     (!store.find(one.key) || is_told_damaged(store, one))) {
+                    const std::lock_guard alone(playing_again);
                     store.forget(one.key);
                     cell.reused = false;
                     if (const auto again = play_in_workers(store, study, plan, {i}, jobs, options);
@@ -270,7 +274,19 @@ void collect_all(const CellStore& store, const Study& study, const StudyPlan& pl
                 }
                 collect_cell(store, study, one, options, cell);
             });
-        telling.add(result);
+        return cell;
+    };
+    Telling telling(options);
+    const std::size_t at_once = std::max(1U, std::thread::hardware_concurrency());
+    for (std::size_t first = 0; first < plan.cells.size(); first += at_once) {
+        std::vector<CellResult> some(std::min(at_once, plan.cells.size() - first));
+        oneapi::tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t k) { some[k] = collected(first + k); });
+        for (CellResult& cell : some) {
+            if (cell.failed == not_reached)
+                result.missing.push_back("cell " + cell.cell.name);
+            result.cells.push_back(std::move(cell));
+            telling.add(result);
+        }
     }
 }
 
