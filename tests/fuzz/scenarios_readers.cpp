@@ -38,7 +38,7 @@ void check(LampFile lamp) {
 /// What resampling takes tells nothing of a reader.
 class FewSamples {
   public:
-    FewSamples() { most_resampled = 5'000; }
+    FewSamples() { most_resampled = 500; }
     ~FewSamples() { most_resampled = before_; }
     FewSamples(const FewSamples&) = delete;
     FewSamples& operator=(const FewSamples&) = delete;

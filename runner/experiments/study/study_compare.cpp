@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
-#include <ranges>
 #include <set>
 #include <tuple>
 
@@ -125,7 +124,8 @@ void add_axis_warnings(StudyResult& result) {
 void compare_cells(StudyResult& result) {
     result.played_in_part = played_in_part(result);
     for (const CellResult& cell : result.cells)
-        std::ranges::copy(std::views::keys(cell.readings), std::inserter(result.keys, result.keys.end()));
+        for (const auto& [key, reading] : cell.readings)
+            result.keys.insert(key);
     compute_changes(result, [&](Change change) {
         if (result.cells[change.tested].readings.contains(change.reading) && result.cells[change.against].readings.contains(change.reading))
             result.changes.push_back(std::move(change));
