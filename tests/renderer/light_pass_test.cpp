@@ -146,7 +146,7 @@ TEST_F(LightPassTest, CountsWhatAPictureTakes) {
     const Frame frame = by_cpu.draw(moment, view, outputs);
     EXPECT_EQ(work.light->pixels, std::ranges::count_if(frame.ids.pixels(), [](int id) { return id != 0; }));
     EXPECT_EQ(work.light->bytes, (8 + 3 + 4) * 203 * 120);
-    EXPECT_EQ(work.light->beam_texels, 102 * 102); // a sample more each way
+    EXPECT_EQ(work.light->beam_texels, 1002 * 1002); // one each 0.05 degrees, and one more each way
     EXPECT_GT(work.light->operations, 100 * work.light->pixels);
     EXPECT_GT(work.light->look_ups, 0);
     EXPECT_GT(work.light->cpu_s, 0.0);
