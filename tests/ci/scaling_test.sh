@@ -14,14 +14,14 @@ loader = importlib.machinery.SourceFileLoader("scaling", sys.argv[1])
 scaling = importlib.util.module_from_spec(importlib.util.spec_from_loader("scaling", loader))
 sys.modules["scaling"] = scaling
 loader.exec_module(scaling)
-cars = scaling.Axis("cars", "car", [], [], None)
+cars = scaling.Axis("cars", "", [], [], None)
 counts = [0, 1, 10, 100]
 # 2 s, and 0.3 n^1.5 s more; the first size of the second round is lost in noise, the third round is twice as slow.
 rounds = [[2 + 0.3 * n ** 1.5 for n in counts], [2, 2.01, 2 + 0.3 * 10 ** 1.5, 2 + 0.3 * 100 ** 1.5], [4 + 0.6 * n ** 1.5 for n in counts]]
 found = scaling.row(cars, counts, rounds)
-assert found == ["cars", "0 to 100 cars", "2.00", "302.00", "1.50 (1.50 to 1.50)", "1.50", "3e+03 ms"], found
+assert found == ["cars", "0 to 100", "2.00", "302.00", "1.50 (1.50 to 1.50)", "1.50", "3e+03 ms"], found
 assert scaling.row(cars, counts, [[1, 1.01, 0.99, 1.02]])[4:6] == ["-", "-"]
-cores = scaling.Axis("cores", "core", [], [], None, wall=True)
+cores = scaling.Axis("cores", "", [], [], None, wall=True)
 assert scaling.row(cores, [1, 2, 4], [[8, 4, 2]])[4:6] == ["-1.00 (-1.00 to -1.00)", "-1.00"]
 END
 
