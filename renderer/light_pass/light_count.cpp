@@ -4,7 +4,7 @@
 #undef __AVX512F__
 #undef __AVX2__
 #undef __SSE2__
-#include "renderer/light_pass/light_pass_packs.cpp"
+#include "renderer/light_pass/light_pass_packs.cpp" // NOLINT(bugprone-suspicious-include)
 
 namespace fernlicht::packs::counting {
 
