@@ -51,6 +51,19 @@ struct RendererSettings {
     int fog_samples = 32; ///< along a ray and for each lamp, where there is fog (docs/daylight.md: error and run time)
 };
 
+/// What lighting a picture of `photometric` takes on the CPU.
+struct LightWork {
+    long long pixels = 0; ///< that show a surface
+    long long bytes = 0;  ///< read of what is visible, and written as results, of all pixels
+    /// That the pixels ask for, each by itself, as the text of the light has it: additions, multiplications, comparisons and the like;
+    /// divisions and square roots; look-ups of two neighbours in a beam or a shadow map.
+    long long operations = 0, divisions = 0, look_ups = 0;
+    long long beam_texels = 0; ///< of the largest beam
+    double cpu_s = 0.0;        ///< CPU time of all threads without GL's part, the least of five times
+
+    bool operator==(const LightWork&) const = default;
+};
+
 /// What drawing took, counted.
 struct Work {
     int passes = 0;      ///< times geometry was drawn: shadow maps and views
@@ -64,7 +77,8 @@ struct Work {
     std::uint64_t texture_bytes = 0;            ///< beams, shadow and light maps, surface textures
     /// Lamps of others on pieces in view, by how they are drawn, and their faces seen.
     int traffic_full = 0, traffic_merged = 0, traffic_by_vertex = 0, traffic_point = 0, traffic_faces = 0;
-    int shadow_maps_drawn = 0; ///< of shadow_maps, those that did not stand already
+    int shadow_maps_drawn = 0;           ///< of shadow_maps, those that did not stand already
+    std::optional<LightWork> light = {}; ///< where count() was asked for it, and the CPU lit the picture
 
     bool operator==(const Work&) const = default;
 };
@@ -98,8 +112,8 @@ class Renderer {
 
     /// Compiles all that drawing these moments so can need; nothing compiles afterwards.
     void prepare(const std::vector<Moment>& moments, const View& view, const FrameOutputs& outputs);
-    /// Draws once more and counts, fragments too.
-    Work count(const Moment& moment, const View& view, const FrameOutputs& outputs);
+    /// Draws once more and counts, fragments too; `light`: also what lighting took, which lights the picture five times more.
+    Work count(const Moment& moment, const View& view, const FrameOutputs& outputs, bool light = false);
     /// What the moment drawn last did not need.
     std::vector<PrunedFeature> pruned() const;
     /// Worst error of a lamp's beam as it is drawn with against its table, relative to the peak; nullopt where no beam of one lamp is drawn

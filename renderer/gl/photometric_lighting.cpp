@@ -111,7 +111,8 @@ void PhotometricLighting::light_visible(const Shot& shot, const std::vector<Grou
     if (!shot.lit)
         shot.lit.emplace();
     cpu_light_->draw({shot.camera, shot.targets.width(), shot.targets.height(), visible_, pieces, lamps, shot.moment.ego.position_m,
-                      shot.moment.daylight.horizontal_illuminance_lx, shot.sky_luminance_cdm2, shot.background, shot.outputs},
+                      shot.moment.daylight.horizontal_illuminance_lx, shot.sky_luminance_cdm2, shot.background, shot.outputs,
+                      shot.work.light ? &*shot.work.light : nullptr},
                      scene_.surfaces(), *shot.lit);
 }
 

@@ -70,7 +70,7 @@ struct Renderer::State {
     std::shared_ptr<gl::Targets> targets_for(const View& view, const FrameOutputs& outputs);
     /// Counts what it takes.
     Work shoot(const Moment& moment, const View& view, const FrameOutputs& outputs, PassClock& clock,
-               void (gl::Lighting::*take)(const gl::Shot&) = &gl::Lighting::draw);
+               void (gl::Lighting::*take)(const gl::Shot&) = &gl::Lighting::draw, Work work = {});
 
     gl::Context& context;
     RendererSettings settings;
@@ -101,12 +101,11 @@ std::shared_ptr<gl::Targets> Renderer::State::targets_for(const View& view, cons
 }
 
 Work Renderer::State::shoot(const Moment& moment, const View& view, const FrameOutputs& outputs, PassClock& clock,
-                            void (gl::Lighting::*take)(const gl::Shot&)) {
+                            void (gl::Lighting::*take)(const gl::Shot&), Work work) {
     const double sky_luminance = moment.daylight.horizontal_illuminance_lx / pi;
     const float grey = static_cast<float>(photometry::srgb_encoded(toned(settings.tone_mapper, sky_luminance)));
     const Camera camera = camera_of(moment, view);
     const std::shared_ptr<gl::Targets> target = targets_for(view, outputs);
-    Work work;
     const gl::Shot shot{moment, view, outputs, camera, *target, glm::vec3(grey), static_cast<float>(sky_luminance), clock, work, lit};
     (*lighting.*take)(shot);
     if (take == &gl::Lighting::draw) {
@@ -197,11 +196,16 @@ void Renderer::prepare(const std::vector<Moment>& moments, const View& view, con
     finish();
 }
 
-Work Renderer::count(const Moment& moment, const View& view, const FrameOutputs& outputs) {
+Work Renderer::count(const Moment& moment, const View& view, const FrameOutputs& outputs, bool light) {
     PassClock passes(state_->context, false, false);
     gl::FragmentCount fragments(state_->context);
-    Work work = state_->shoot(moment, view, available(outputs), passes);
+    Work asked;
+    if (light)
+        asked.light.emplace();
+    Work work = state_->shoot(moment, view, available(outputs), passes, &gl::Lighting::draw, asked);
     work.fragments = fragments.result();
+    if (!state_->lit)
+        work.light.reset();
     return work;
 }
 

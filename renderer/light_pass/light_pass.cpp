@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
@@ -14,6 +16,7 @@ namespace fernlicht {
 namespace {
 
 constexpr int rows_at_once = 8;
+constexpr int timed = 5; ///< where what lighting takes is asked for
 
 template <class To> void put(const glm::dvec3& from, To* to) {
     for (int i = 0; i < 3; ++i)
@@ -257,10 +260,35 @@ void CpuLight::draw(const DrawnPicture& picture, const DrawnSurfaces& surfaces, 
     to.tone_s = static_cast<float>(tone_.s);
     to.tone_l_max = static_cast<float>(tone_.l_max_cdm2);
     to.triangle = &Triangles::of;
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, height, rows_at_once), [&](const oneapi::tbb::blocked_range<int>& rows) {
-        Triangles triangles(picture, surfaces, materials_, to_camera);
-        AT_LEVEL(level_, light_rows)(to, &triangles, rows.begin(), rows.end());
-    });
+    const auto light = [&] {
+        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, height, rows_at_once),
+                                  [&](const oneapi::tbb::blocked_range<int>& rows) {
+                                      Triangles triangles(picture, surfaces, materials_, to_camera);
+                                      AT_LEVEL(level_, light_rows)(to, &triangles, rows.begin(), rows.end());
+                                  });
+    };
+    light();
+    if (picture.work == nullptr)
+        return;
+    LightWork& work = *picture.work;
+    work.cpu_s = std::numeric_limits<double>::infinity();
+    for (int time = 0; time < timed; ++time) {
+        const std::clock_t start = std::clock();
+        light();
+        work.cpu_s = std::min(work.cpu_s, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    }
+    Triangles triangles(picture, surfaces, materials_, to_camera);
+    const packs::PassCounts counts = packs::counting::count_rows(to, &triangles, 0, height);
+    work.operations = counts.operations;
+    work.divisions = counts.divisions;
+    work.look_ups = counts.look_ups;
+    for (std::size_t i = 0; i < picture.visible.size(); i += 2)
+        work.pixels += picture.visible[i] != 0 ? 1 : 0;
+    const int written = (outputs.colour ? 3 : 0) + (outputs.light ? 12 : 0) +
+                        4 * (outputs.illuminance + outputs.target + outputs.luminance + outputs.depth + outputs.ids);
+    work.bytes = (8LL + written) * width * height;
+    for (const DrawnLamp& lamp : picture.lamps)
+        work.beam_texels = std::max(work.beam_texels, static_cast<long long>(padded(*lamp.beam).size()));
 }
 
 } // namespace fernlicht

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/beam_texture.h"
+#include "renderer/renderer.h"
 #include "scenarios/drives/play/camera.h"
 #include "scenarios/drives/play/frame.h"
 #include "scenarios/packs/level.h"
@@ -67,6 +68,7 @@ struct DrawnPicture {
     float sky_luminance_cdm2 = 0.0F;
     glm::vec3 background{0.0F};
     FrameOutputs outputs;
+    LightWork* work = nullptr; ///< counted and timed for it
 };
 
 class CpuLight {

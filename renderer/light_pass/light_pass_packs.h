@@ -65,4 +65,13 @@ struct PassPicture {
 
 AT_EACH_LEVEL(void light_rows(const PassPicture& picture, void* triangles, std::int32_t first_row, std::int32_t end_row);)
 
+/// What pixels asked for: additions, multiplications, comparisons and the like; divisions and square roots; look-ups of two neighbours.
+struct PassCounts {
+    long long operations, divisions, look_ups;
+};
+namespace counting {
+/// light_rows over packs of one lane, so that each pixel asks for what it needs by itself. Some hundred times slower.
+PassCounts count_rows(const PassPicture& picture, void* triangles, std::int32_t first_row, std::int32_t end_row);
+} // namespace counting
+
 } // namespace fernlicht::packs

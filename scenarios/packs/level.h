@@ -17,6 +17,7 @@ namespace fernlicht::packs {
 /// What a source of packs is compiled for: what every processor of the kind has, then more (CMakeLists.txt, fernlicht_packs).
 enum class Level { plain, avx2, avx512 };
 
+inline constexpr std::size_t lanes_of(Level level) { return std::size_t{4} << static_cast<int>(level); }
 /// Of all levels: memory that packs read is padded to a multiple of it.
 inline constexpr std::size_t most_lanes = 16;
 

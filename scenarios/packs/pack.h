@@ -18,7 +18,13 @@
 namespace fernlicht::packs::FERNLICHT_LEVEL {
 
 // PACK_CALL(max_ps, a, b): the processor's own instruction for floats.
-#if defined(__AVX512F__)
+// FERNLICHT_COUNTING: packs of one lane, without the processor's own, that count what they are asked for: operations, divisions and
+// roots, look-ups of one number or two neighbours.
+#if defined(FERNLICHT_COUNTING)
+inline constexpr std::size_t lanes = 1;
+inline thread_local long long counted_operations, counted_divisions, counted_look_ups;
+#define PACK_COUNT(what) (__builtin_is_constant_evaluated() ? void() : void(++counted_##what))
+#elif defined(__AVX512F__)
 inline constexpr std::size_t lanes = 16;
 #define PACK_REGISTER __m512
 #define PACK_CALL(name, ...) Floats((FloatLanes)_mm512_##name(__VA_ARGS__))
@@ -32,6 +38,10 @@ inline constexpr std::size_t lanes = 4;
 #define PACK_CALL(name, ...) Floats((FloatLanes)_mm_##name(__VA_ARGS__))
 #endif
 
+#if !defined(FERNLICHT_COUNTING)
+#define PACK_COUNT(what) void()
+#endif
+
 using FloatLanes = float __attribute__((vector_size(4 * lanes)));
 using IntLanes = std::int32_t __attribute__((vector_size(4 * lanes)));
 
@@ -39,9 +49,9 @@ using IntLanes = std::int32_t __attribute__((vector_size(4 * lanes)));
 struct Mask {
     IntLanes v;
 };
-inline Mask operator&&(Mask a, Mask b) { return {a.v & b.v}; }
-inline Mask operator||(Mask a, Mask b) { return {a.v | b.v}; }
-inline Mask operator!(Mask a) { return {~a.v}; }
+inline Mask operator&&(Mask a, Mask b) { return PACK_COUNT(operations), Mask{a.v & b.v}; }
+inline Mask operator||(Mask a, Mask b) { return PACK_COUNT(operations), Mask{a.v | b.v}; }
+inline Mask operator!(Mask a) { return PACK_COUNT(operations), Mask{~a.v}; }
 
 struct Ints {
     IntLanes v;
@@ -50,18 +60,18 @@ struct Ints {
     constexpr explicit Ints(IntLanes lanes_of_it) : v(lanes_of_it) {}
     constexpr explicit Ints(std::int32_t in_each) : v(in_each - IntLanes{}) {}
 };
-inline Ints operator+(Ints a, Ints b) { return Ints(a.v + b.v); }
-inline Ints operator-(Ints a, Ints b) { return Ints(a.v - b.v); }
-inline Ints operator*(Ints a, Ints b) { return Ints(a.v * b.v); }
-inline Ints operator&(Ints a, Ints b) { return Ints(a.v & b.v); }
-inline Ints operator|(Ints a, Ints b) { return Ints(a.v | b.v); }
-inline Ints operator<<(Ints a, int bits) { return Ints(a.v << bits); }
-inline Ints operator>>(Ints a, int bits) { return Ints(a.v >> bits); }
-inline Mask operator==(Ints a, Ints b) { return {a.v == b.v}; }
-inline Mask operator<(Ints a, Ints b) { return {a.v < b.v}; }
-inline Ints select(Mask mask, Ints a, Ints b) { return Ints(mask.v ? a.v : b.v); }
-inline Ints min(Ints a, Ints b) { return select(b < a, b, a); }
-inline Ints max(Ints a, Ints b) { return select(a < b, b, a); }
+inline Ints operator+(Ints a, Ints b) { return PACK_COUNT(operations), Ints(a.v + b.v); }
+inline Ints operator-(Ints a, Ints b) { return PACK_COUNT(operations), Ints(a.v - b.v); }
+inline Ints operator*(Ints a, Ints b) { return PACK_COUNT(operations), Ints(a.v * b.v); }
+inline Ints operator&(Ints a, Ints b) { return PACK_COUNT(operations), Ints(a.v & b.v); }
+inline Ints operator|(Ints a, Ints b) { return PACK_COUNT(operations), Ints(a.v | b.v); }
+inline Ints operator<<(Ints a, int bits) { return PACK_COUNT(operations), Ints(a.v << bits); }
+inline Ints operator>>(Ints a, int bits) { return PACK_COUNT(operations), Ints(a.v >> bits); }
+inline Mask operator==(Ints a, Ints b) { return PACK_COUNT(operations), Mask{a.v == b.v}; }
+inline Mask operator<(Ints a, Ints b) { return PACK_COUNT(operations), Mask{a.v < b.v}; }
+inline Ints select(Mask mask, Ints a, Ints b) { return PACK_COUNT(operations), Ints(mask.v ? a.v : b.v); }
+inline Ints min(Ints a, Ints b) { return PACK_COUNT(operations), Ints(b.v < a.v ? b.v : a.v); }
+inline Ints max(Ints a, Ints b) { return PACK_COUNT(operations), Ints(a.v < b.v ? b.v : a.v); }
 
 struct Floats {
     FloatLanes v;
@@ -72,38 +82,39 @@ struct Floats {
     /// The float nearest to it in every lane: literals of the light equations are doubles in C++.
     constexpr Floats(double in_each) : v(static_cast<float>(in_each) - FloatLanes{}) {}
 };
-inline constexpr Floats operator+(Floats a, Floats b) { return Floats(a.v + b.v); }
-inline constexpr Floats operator-(Floats a, Floats b) { return Floats(a.v - b.v); }
-inline constexpr Floats operator*(Floats a, Floats b) { return Floats(a.v * b.v); }
-inline constexpr Floats operator/(Floats a, Floats b) { return Floats(a.v / b.v); }
-inline constexpr Floats operator-(Floats a) { return Floats(-a.v); }
+inline constexpr Floats operator+(Floats a, Floats b) { return PACK_COUNT(operations), Floats(a.v + b.v); }
+inline constexpr Floats operator-(Floats a, Floats b) { return PACK_COUNT(operations), Floats(a.v - b.v); }
+inline constexpr Floats operator*(Floats a, Floats b) { return PACK_COUNT(operations), Floats(a.v * b.v); }
+inline constexpr Floats operator/(Floats a, Floats b) { return PACK_COUNT(divisions), Floats(a.v / b.v); }
+inline constexpr Floats operator-(Floats a) { return PACK_COUNT(operations), Floats(-a.v); }
 inline Floats& operator+=(Floats& a, Floats b) { return a = a + b; }
-inline Mask operator<(Floats a, Floats b) { return {a.v < b.v}; }
-inline Mask operator>(Floats a, Floats b) { return {a.v > b.v}; }
-inline Mask operator<=(Floats a, Floats b) { return {a.v <= b.v}; }
-inline Mask operator>=(Floats a, Floats b) { return {a.v >= b.v}; }
-inline Floats select(Mask mask, Floats a, Floats b) { return Floats(mask.v ? a.v : b.v); }
+inline Mask operator<(Floats a, Floats b) { return PACK_COUNT(operations), Mask{a.v < b.v}; }
+inline Mask operator>(Floats a, Floats b) { return PACK_COUNT(operations), Mask{a.v > b.v}; }
+inline Mask operator<=(Floats a, Floats b) { return PACK_COUNT(operations), Mask{a.v <= b.v}; }
+inline Mask operator>=(Floats a, Floats b) { return PACK_COUNT(operations), Mask{a.v >= b.v}; }
+inline Floats select(Mask mask, Floats a, Floats b) { return PACK_COUNT(operations), Floats(mask.v ? a.v : b.v); }
 /// As GLSL has them: where one is not a number, the first.
 #if defined(__SSE2__)
 inline Floats min(Floats a, Floats b) { return PACK_CALL(min_ps, (PACK_REGISTER)b.v, (PACK_REGISTER)a.v); }
 inline Floats max(Floats a, Floats b) { return PACK_CALL(max_ps, (PACK_REGISTER)b.v, (PACK_REGISTER)a.v); }
 #else
-inline Floats min(Floats a, Floats b) { return select(b < a, b, a); }
-inline Floats max(Floats a, Floats b) { return select(a < b, b, a); }
+inline Floats min(Floats a, Floats b) { return PACK_COUNT(operations), Floats(b.v < a.v ? b.v : a.v); }
+inline Floats max(Floats a, Floats b) { return PACK_COUNT(operations), Floats(a.v < b.v ? b.v : a.v); }
 #endif
 inline Floats clamp(Floats x, Floats low, Floats high) { return min(max(x, low), high); }
 
 inline Ints bits_of(Floats a) { return Ints((IntLanes)a.v); }
 inline Floats floats_of_bits(Ints a) { return Floats((FloatLanes)a.v); }
 inline Floats abs(Floats a) { return floats_of_bits(bits_of(a) & Ints(0x7fffffff)); }
-inline Floats to_floats(Ints a) { return Floats(__builtin_convertvector(a.v, FloatLanes)); }
+inline Floats to_floats(Ints a) { return PACK_COUNT(operations), Floats(__builtin_convertvector(a.v, FloatLanes)); }
 /// Towards 0. The number must fit.
-inline Ints to_ints(Floats a) { return Ints(__builtin_convertvector(a.v, IntLanes)); }
+inline Ints to_ints(Floats a) { return PACK_COUNT(operations), Ints(__builtin_convertvector(a.v, IntLanes)); }
 
 inline Floats sqrt(Floats a) {
 #if defined(__SSE2__)
     return PACK_CALL(sqrt_ps, (PACK_REGISTER)a.v);
 #else
+    PACK_COUNT(divisions);
     for (std::size_t i = 0; i < lanes; ++i)
         a.v[i] = __builtin_sqrtf(a.v[i]);
     return a;
@@ -159,7 +170,9 @@ struct IntPair {
 /// Of `lanes` pairs that lie one behind another.
 inline IntPair load_pairs(const std::int32_t* from) {
     const IntLanes low = load(from).v, high = load(from + lanes).v;
-#if defined(__AVX512F__)
+#if defined(FERNLICHT_COUNTING)
+    return {Ints(low), Ints(high)};
+#elif defined(__AVX512F__)
     return {Ints(__builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30)),
             Ints(__builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31))};
 #elif defined(__AVX2__)
@@ -177,6 +190,7 @@ inline Floats gather(const float* table, Ints index) {
 #elif defined(__AVX2__)
     return PACK_CALL(i32gather_ps, table, (__m256i)index.v, 4);
 #else
+    PACK_COUNT(look_ups);
     Floats found;
     for (std::size_t i = 0; i < lanes; ++i)
         found.v[i] = table[index.v[i]];
@@ -204,6 +218,8 @@ inline Pair gather_pair(const float* table, Ints index) {
     const __m256 high = _mm256_castpd_ps(_mm256_i32gather_pd(pairs, _mm256_extracti128_si256(i, 1), 4));
     const auto in_order = [](__m256 a) { return Floats((FloatLanes)_mm256_permute4x64_pd(_mm256_castps_pd(a), 0xd8)); };
     return {in_order(_mm256_shuffle_ps(low, high, 0x88)), in_order(_mm256_shuffle_ps(low, high, 0xdd))};
+#elif defined(FERNLICHT_COUNTING)
+    return {gather(table, index), Floats(FloatLanes{table[index.v[0] + 1]})};
 #else
     return {gather(table, index), gather(table + 1, index)};
 #endif

@@ -1,4 +1,6 @@
 // Light on the CPU is that of the fragment shader, whatever the packs' width; what it does not do is lit by the shader.
+#include "renderer/light_pass/light_pass_packs.h"
+#include "renderer/light_pass/peaks.h"
 #include "tests/renderer/reference/rooms.h"
 #include "tests/renderer/shadow_scene.h"
 
@@ -132,6 +134,77 @@ TEST_F(LightPassTest, SaysWhyTheShaderLights) {
     EXPECT_NE(used.why_shader, "");
     draw(night(0.0, true), view, {.shadows = {.method = ShadowMethod::volumes}, .light_pass = LightPass::cpu}, &used);
     EXPECT_NE(used.why_shader, "");
+}
+
+TEST_F(LightPassTest, CountsWhatAPictureTakes) {
+    const View view = driver_view(203, 120, 40.0);
+    Renderer by_cpu(device_, scene_, {.light_pass = LightPass::cpu}), by_shader(device_, scene_, {.light_pass = LightPass::shader});
+    const FrameOutputs outputs{.colour = true, .ids = true};
+    const Moment moment = night(0.0, true);
+    const Work work = by_cpu.count(moment, view, outputs, true);
+    ASSERT_TRUE(work.light);
+    const Frame frame = by_cpu.draw(moment, view, outputs);
+    EXPECT_EQ(work.light->pixels, std::ranges::count_if(frame.ids.pixels(), [](int id) { return id != 0; }));
+    EXPECT_EQ(work.light->bytes, (8 + 3 + 4) * 203 * 120);
+    EXPECT_EQ(work.light->beam_texels, 1002 * 1002); // one each 0.05 degrees, and one more each way
+    EXPECT_GT(work.light->operations, 100 * work.light->pixels);
+    EXPECT_GT(work.light->look_ups, 0);
+    EXPECT_GT(work.light->cpu_s, 0.0);
+    EXPECT_FALSE(by_cpu.count(moment, view, outputs).light);
+    EXPECT_FALSE(by_shader.count(moment, view, outputs, true).light);
+}
+
+/// A pixel that looks along the axis at a wall 10 m away, with one lamp at the eye and no shadow; counted by hand from the text.
+TEST(LightPassCounts, AreThoseOfTheText) {
+    static packs::PassMaterial material{.albedo = {0.5F, 0.5F, 0.5F}, .texture_mode = -1};
+    static packs::PassTriangle wall{.nearness = {0.0F, 0.0F, 0.1F},
+                                    .nearest = 10.0F,
+                                    .farthest = 10.0F,
+                                    .normal = {0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, -1.0F},
+                                    .material = &material,
+                                    .mesh = 1,
+                                    .flat = true,
+                                    .lit = true,
+                                    .shadowed = true};
+    const std::vector<float> cd(std::size_t{4} * 4, 1000.0F);
+    const packs::PassLamp lamp{.right = {1.0F, 0.0F, 0.0F},
+                               .up = {0.0F, 1.0F, 0.0F},
+                               .forward = {0.0F, 0.0F, 1.0F},
+                               .factor = 1.0F,
+                               .grid = {-0.1F, -0.1F, 10.0F, 10.0F},
+                               .count = {3.0F, 3.0F},
+                               .cd = cd.data()};
+    const std::int32_t visible[2] = {1, 0};
+    float lux = 0.0F;
+    const packs::PassPicture picture{.width = 1,
+                                     .visible = visible,
+                                     .lamps = &lamp,
+                                     .lamp_count = 1,
+                                     .illuminance = &lux,
+                                     .triangle = [](void*, std::int32_t) -> const packs::PassTriangle& { return wall; }};
+    const packs::PassCounts counts = packs::counting::count_rows(picture, nullptr, 0, 1);
+    EXPECT_FLOAT_EQ(lux, 10.0F);
+    const int showing = 2 + 2 + 2 + 1 + 18 + 2, place = 3 + 4 + 2 + 2; // 18 selections of what a triangle has; X, 1 / depth, depth, place
+    const int lamp_space = 3 + 3 * 5, distance = 5, cosine = 8, asked = 4;
+    const int asin = 11, atan = 5 + 16 + 4 + 3 + 3, position = 4, known = 13, texel = 10, bilinear = 4 + 9 + 1 + 1; // factor, selection
+    const int sum = 2 + 4 + 1 + 2 + 1, stored = 1; // E, whether lit, E across, E, sum
+    EXPECT_EQ(counts.operations,
+              showing + place + lamp_space + distance + cosine + asked + asin + atan + position + known + texel + bilinear + sum + stored);
+    EXPECT_EQ(counts.divisions, 1 + 2 + 1); // depth, distance, atan
+    EXPECT_EQ(counts.look_ups, 2);
+}
+
+TEST(LightPassPeaks, ArePlausible) {
+    for (const packs::Level level : packs::levels_here()) {
+        const Peaks peaks = measure_peaks(level, 10'000);
+        EXPECT_EQ(peaks.level, level);
+        EXPECT_GE(peaks.threads, 1);
+        EXPECT_GT(peaks.bytes_per_s, 0.0);
+        EXPECT_GT(peaks.look_ups_per_s, 0.0);
+        EXPECT_GT(peaks.divisions_per_s, 0.0);
+        EXPECT_GT(peaks.operations_per_s, 1.5 * peaks.divisions_per_s);
+        EXPECT_GT(peaks.operations_per_s, 1.5 * peaks.look_ups_per_s);
+    }
 }
 
 } // namespace

@@ -63,9 +63,40 @@ Table cost_table(const std::vector<BenchRow>& rows) {
     return table;
 }
 
-template <class Count> Count typical(const std::vector<Work>& work, Count Work::*count) {
+/// "Lighting a frame takes 6.93 ms of CPU, 2.9 times its floor of 2.40 ms (operations)."
+std::string roofline_text(const Roofline& roofline, const std::vector<BenchRow>& rows, bool by_cpu) {
+    const Roofline::Ceiling bound = roofline.bound();
+    std::string text =
+        fmt::format("Lighting a frame on the CPU takes {:.2f} ms of CPU time, {:.1f} times its floor of {:.2f} ms: the {} that its {} "
+                    "pixels ask for, at "
+                    "the peak of this machine's cores ({}, packs of {}).",
+                    1e3 * roofline.light.cpu_s, roofline.ratio(), 1e3 * bound.floor_s(), bound.what, roofline.light.pixels,
+                    counted(static_cast<std::size_t>(roofline.peaks.threads), "thread"), packs::lanes_of(roofline.peaks.level));
+    const auto row = std::ranges::find(rows, "photometric", [](const BenchRow& one) { return one.benched->row.name; });
+    if (by_cpu && row != rows.end())
+        text += fmt::format(" The other {:.2f} ms of photometric, in its quickest round, are GL's: it finds what each pixel shows.",
+                            1e3 * (row->cpu.minimum - roofline.light.cpu_s));
+    return text;
+}
+
+Table roofline_table(const Roofline& roofline) {
+    Table table{"roofline",
+                "What lighting a frame asks for",
+                columns_of("what<|a pixel|a frame [million]|a core at best [million/ms]|CPU at least [ms]"),
+                {}};
+    for (const Roofline::Ceiling& ceiling : roofline.ceilings())
+        table.rows.push_back({ceiling.what,
+                              {fmt::format("{:.1f}", ceiling.a_frame / static_cast<double>(roofline.light.pixels)),
+                               ceiling.a_frame / static_cast<double>(roofline.light.pixels)},
+                              {fmt::format("{:.2f}", 1e-6 * ceiling.a_frame), 1e-6 * ceiling.a_frame},
+                              {fmt::format("{:.2f}", 1e-9 * ceiling.peak_per_s), 1e-9 * ceiling.peak_per_s},
+                              ms(ceiling.floor_s())});
+    return table;
+}
+
+template <class Counts, class Count> Count typical(const std::vector<Counts>& work, Count Counts::*count) {
     std::vector<Count> values;
-    for (const Work& moment : work)
+    for (const Counts& moment : work)
         values.push_back(moment.*count);
     std::ranges::sort(values);
     return values[(values.size() - 1) / 2];
@@ -151,6 +182,12 @@ Document document(const BenchResult& result) {
     for (Table table : {speed_table(rows, true), speed_table(rows, false), cost_table(rows)})
         if (!table.rows.empty())
             section.blocks.emplace_back(std::move(table));
+    if (result.roofline) {
+        section.blocks.emplace_back(roofline_text(*result.roofline, rows, result.lit_by == lit_by_cpu));
+        section.blocks.emplace_back(roofline_table(*result.roofline));
+    } else if (!result.roofline_not_measured.empty()) {
+        section.blocks.emplace_back(fmt::format("The floor of photometric's light is not measured: {}.", result.roofline_not_measured));
+    }
     return document;
 }
 
@@ -161,6 +198,12 @@ std::optional<Work> typical_work(const std::vector<Work>& work) {
                 typical(work, &Work::samplers),     typical(work, &Work::shadow_maps), typical(work, &Work::lamps),
                 typical(work, &Work::features),     typical(work, &Work::triangles),   typical(work, &Work::fragments),
                 typical(work, &Work::texture_bytes)};
+}
+
+LightWork typical_light(const std::vector<LightWork>& work) {
+    return {typical(work, &LightWork::pixels),    typical(work, &LightWork::bytes),    typical(work, &LightWork::operations),
+            typical(work, &LightWork::divisions), typical(work, &LightWork::look_ups), typical(work, &LightWork::beam_texels),
+            typical(work, &LightWork::cpu_s)};
 }
 
 std::vector<BenchRow> summarise(const BenchResult& result) {

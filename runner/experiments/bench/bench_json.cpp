@@ -88,6 +88,23 @@ Json comparisons_json(const std::vector<BenchRow>& rows) {
     return out;
 }
 
+Json roofline_json(const Roofline& roofline) {
+    Json ceilings = Json::array();
+    for (const Roofline::Ceiling& ceiling : roofline.ceilings())
+        ceilings.push_back({{"what", ceiling.what},
+                            {"a_frame", ceiling.a_frame},
+                            {"peak_per_cpu_s", ceiling.peak_per_s},
+                            {"floor_cpu_s", ceiling.floor_s()}});
+    return {{"pixels", roofline.light.pixels},
+            {"threads", roofline.peaks.threads},
+            {"lanes", packs::lanes_of(roofline.peaks.level)},
+            {"light_cpu_s", roofline.light.cpu_s},
+            {"floor_cpu_s", roofline.bound().floor_s()},
+            {"bound", roofline.bound().what},
+            {"ratio", roofline.ratio()},
+            {"ceilings", std::move(ceilings)}};
+}
+
 } // namespace
 
 JsonMembers ratio_members(PairedRatio& ratio) {
@@ -117,6 +134,8 @@ std::string bench_json(const BenchResult& result) {
                           {"settings", settings_json(result)},
                           {"techniques", techniques},
                           {"comparisons", comparisons_json(rows)},
+                          {"roofline", result.roofline ? roofline_json(*result.roofline) : Json(nullptr)},
+                          {"roofline_not_measured", result.roofline ? Json(nullptr) : Json(result.roofline_not_measured)},
                           {"orders", orders}});
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "metrics/statistics/statistics.h"
+#include "renderer/light_pass/peaks.h"
 #include "renderer/renderer.h"
 #include "renderer/technique.h"
 #include "runner/files/described_json.h"
@@ -9,6 +10,8 @@
 #include "runner/findings/report.h"
 #include "runner/play/interleaved_timing.h"
 
+#include <algorithm>
+#include <array>
 #include <string>
 
 namespace fernlicht {
@@ -17,6 +20,31 @@ struct BenchedTechnique {
     Technique row;
     TimingSamples samples;
     std::vector<Work> work; ///< by moment
+};
+
+/// What lighting a frame of `photometric` on the CPU takes, and what this machine could do at best.
+struct Roofline {
+    LightWork light; ///< of each count the median over the moments
+    Peaks peaks;
+
+    /// One thing that light asks for.
+    struct Ceiling {
+        const char* what;
+        double a_frame, peak_per_s; ///< of a CPU second
+        double floor_s() const { return a_frame / peak_per_s; }
+    };
+    std::array<Ceiling, 4> ceilings() const {
+        return {Ceiling{"bytes", static_cast<double>(light.bytes), peaks.bytes_per_s},
+                {"look-ups", static_cast<double>(light.look_ups), peaks.look_ups_per_s},
+                {"operations", static_cast<double>(light.operations), peaks.operations_per_s},
+                {"divisions and roots", static_cast<double>(light.divisions), peaks.divisions_per_s}};
+    }
+    /// That which takes longest: light takes no less CPU time.
+    Ceiling bound() const {
+        const std::array<Ceiling, 4> all = ceilings();
+        return *std::ranges::max_element(all, {}, &Ceiling::floor_s);
+    }
+    double ratio() const { return light.cpu_s / bound().floor_s(); }
 };
 
 struct BenchResult : Findings {
@@ -32,7 +60,12 @@ struct BenchResult : Findings {
     std::string gpu_not_measured;                 ///< why; "" where it was
     std::string lit_by;                           ///< who computed the light of `photometric`, and why; "" where it did not take part
     std::vector<BenchedTechnique> techniques;
+    std::optional<Roofline> roofline;
+    std::string roofline_not_measured; ///< why
 };
+
+/// `lit_by` where the CPU lit every picture.
+inline constexpr std::string_view lit_by_cpu = "the CPU, each visible pixel once";
 
 /// The technique that the others are held against: what texturing alone costs.
 inline constexpr std::string_view reference_technique = "texturing-only";
@@ -50,6 +83,7 @@ struct BenchRow {
 };
 /// Of each count the median over the moments, the lower of two; nullopt for no moments.
 std::optional<Work> typical_work(const std::vector<Work>& work);
+LightWork typical_light(const std::vector<LightWork>& work); ///< of one at least
 
 /// In the result's order. Techniques without a sample are left out.
 std::vector<BenchRow> summarise(const BenchResult& result);

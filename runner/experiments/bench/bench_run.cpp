@@ -77,7 +77,7 @@ std::string lit_by(const BenchResult& result, const std::deque<Renderer>& render
         return "";
     const Renderer::LightPassesUsed used = renderers[static_cast<std::size_t>(found - result.techniques.begin())].light_passes_used();
     const std::string shader = "the fragment shader" + (used.why_shader.empty() ? "" : " (" + used.why_shader + ")");
-    return used.shader == 0 ? "the CPU, each visible pixel once"
+    return used.shader == 0 ? std::string(lit_by_cpu)
            : used.cpu == 0  ? shader
                             : fmt::format("the CPU, {} of {} pictures by {}", used.shader, used.cpu + used.shader, shader);
 }
@@ -118,6 +118,35 @@ void time_rounds(const std::vector<TimedTechnique>& timed_techniques, const Benc
         result.interrupted = "interrupted by the user";
     for (std::size_t i = 0; i < timed_techniques.size(); ++i)
         result.techniques[i].samples = std::move(timing.samples[i]);
+}
+
+/// Of the moments that were timed, on a renderer of its own. Puts it or why there is none into the result.
+void add_roofline(Device& device, const Stage& stage, const View& view, const std::vector<Moment>& moments, BenchResult& result) {
+    std::string& why = result.roofline_not_measured;
+    if (!result.interrupted.empty())
+        why = result.interrupted;
+    else if (result.lit_by.empty())
+        why = "photometric did not take part";
+    else if (!device.info().software)
+        why = "a GPU renders, and peaks are the CPU's";
+    if (!why.empty())
+        return;
+    RendererSettings settings = settings_for(stage.drive, {});
+    settings.technique = "photometric";
+    settings.light_pass = LightPass::cpu;
+    Renderer renderer(device, stage.scene, settings);
+    std::vector<LightWork> light;
+    for (const Moment& moment : moments) {
+        const Work work = renderer.count(moment, view, {.colour = true}, true);
+        if (!work.light) {
+            why = "the CPU does not light " + renderer.light_passes_used().why_shader;
+            return;
+        }
+        light.push_back(*work.light);
+    }
+    Roofline& roofline = result.roofline.emplace();
+    roofline.light = typical_light(light);
+    roofline.peaks = measure_peaks(settings.light_level, roofline.light.beam_texels);
 }
 
 } // namespace
@@ -175,6 +204,7 @@ BenchResult run_bench(const BenchRequest& request) {
         take_part(rows, request.light_pass, device, stage, view, moments, renderers, result);
     time_rounds(timed_techniques, request, device, result);
     result.lit_by = lit_by(result, renderers);
+    add_roofline(device, stage, view, moments, result);
     request.write(result);
     if (result.interrupted.empty()) {
         ContactSheet sheet = new_sheet(stage, lamp_set, moments[moments.size() / 2]);

@@ -61,6 +61,9 @@ BenchResult sample_bench() {
     add("clamped", 8, "~30", 2.0, 0.01);
     add("light-map", 0, "", 0.1, 0.0);
     result.orders.assign(7, {2, 0, 3, 1});
+    result.roofline = {
+        {.pixels = 500'000, .bytes = 10'000'000, .operations = 200'000'000, .divisions = 5'000'000, .look_ups = 3'000'000, .cpu_s = 0.006},
+        {packs::Level::avx2, 2, 1e10, 2e9, 1e11, 5e9}}; // 1, 1.5, 2 and 1 ms
     return result;
 }
 
@@ -120,6 +123,21 @@ TEST(BenchText, TablesStandBesideTheThesis) {
     EXPECT_THAT(text, HasSubstr("load average 0.25 before, 1.50 after"));
 }
 
+TEST(BenchText, LightStandsBesideItsFloor) {
+    BenchResult result = sample_bench();
+    EXPECT_THAT(
+        document_text(document(result)),
+        testing::AllOf(HasSubstr("takes 6.00 ms of CPU time, 3.0 times its floor of 2.00 ms: the operations that its 500000 pixels"),
+                       HasSubstr("(2 threads, packs of 8)"), Not(HasSubstr("are GL's"))));
+    EXPECT_THAT(document_text(document(result)), HasSubstr("look-ups                 6.0     3.00            2.00          1.50\n"));
+    result.techniques[1].row.name = "photometric";
+    result.lit_by = lit_by_cpu;
+    EXPECT_THAT(document_text(document(result)), HasSubstr("The other 34.00 ms of photometric, in its quickest round, are GL's"));
+    result.roofline.reset();
+    result.roofline_not_measured = "a GPU renders";
+    EXPECT_THAT(document_text(document(result)), HasSubstr("light is not measured: a GPU renders."));
+}
+
 TEST(BenchJson, FitsItsSchema) {
     FilesRead opened;
     tests::Schema schema(json::parse(read_file(FERNLICHT_SOURCE_DIR "/runner/experiments/bench/bench.schema.json", opened)));
@@ -132,6 +150,7 @@ TEST(BenchJson, FitsItsSchema) {
     result.orders.assign(7, {0, 1, 2});
     result.others = {};
     result.load_before.reset();
+    result.roofline.reset();
     EXPECT_THAT(schema.check(json::parse(bench_json(result))), IsEmpty());
     EXPECT_THAT(schema.check(json::parse(bench_json({}))), IsEmpty());
     json bad = whole;
@@ -152,6 +171,14 @@ TEST(BenchJson, KeepsRawSamplesAndComparesEveryTwo) {
     EXPECT_EQ(clamped_full.at("against"), "full");
     EXPECT_EQ(clamped_full.at("verdict"), "not distinguishable");
     EXPECT_EQ(clamped_full.at("text"), "not distinguishable (ratio 1.01, spread 0.99..1.01)");
+}
+
+TEST(BenchJson, HasTheRoofline) {
+    const json roofline = json::parse(bench_json(sample_bench())).at("roofline");
+    EXPECT_EQ(roofline.at("bound"), "operations");
+    EXPECT_DOUBLE_EQ(roofline.at("floor_cpu_s").get<double>(), 0.002);
+    EXPECT_DOUBLE_EQ(roofline.at("ratio").get<double>(), 3.0);
+    EXPECT_DOUBLE_EQ(roofline.at("ceilings").at(3).at("floor_cpu_s").get<double>(), 0.001);
 }
 
 TEST(BenchCsv, HasALinePerTechniqueAndRound) {

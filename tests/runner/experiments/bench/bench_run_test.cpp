@@ -74,6 +74,10 @@ TEST(BenchRun, LeavesRawSamplesOfEveryRound) {
     const json again = json::parse(content_of(folder / "again/bench.json"));
     EXPECT_EQ(again.at("orders"), bench.at("orders"));
     EXPECT_EQ(again.at("settings").at("lit_by"), "the CPU, each visible pixel once");
+    for (const json* const by : {&bench, &again}) {
+        EXPECT_EQ(by->at("roofline").at("pixels"), bench.at("roofline").at("pixels"));
+        EXPECT_GT(by->at("roofline").at("floor_cpu_s"), 0.0);
+    }
     EXPECT_EQ(run_program(small_bench + "--out " + (folder / "again")).exit_code, 2) << "not over another's files";
 }
 
