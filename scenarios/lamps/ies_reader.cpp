@@ -359,6 +359,9 @@ LampFile read_ies(const std::filesystem::path& path, std::string_view text, cons
         cd *= tilt;
     const std::size_t planes = p.grid.h_deg.size();
     check_and_order(p.grid, path, lamp.notes, [&](std::size_t at) { return p.lines[at % planes * p.grid.v_deg.size() + at / planes]; });
+    check_count(p.grid.v_deg, "vertical angles", p.grid.v_line, path); // columns that say the same twice are one by now
+    if (p.type != 'C')
+        check_count(p.grid.h_deg, "horizontal angles", p.grid.h_line, path);
     lamp.format = fmt::format("IES LM-63-{}, type {}", header.edition, p.type);
     lamp.declared_flux_lm = p.lamp_flux_lm;
     lamp.labels = std::move(header.labels);
@@ -367,7 +370,6 @@ LampFile read_ies(const std::filesystem::path& path, std::string_view text, cons
             if (name == key && !value.empty())
                 lamp.name = value;
     if (p.type == 'C') {
-        check_count(p.grid.v_deg, "vertical angles", p.grid.v_line, path);
         from_c_planes(p.grid, symmetry_of(p.grid.h_deg), options, lamp);
         return lamp;
     }

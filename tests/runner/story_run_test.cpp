@@ -118,6 +118,10 @@ TEST(StoryRun, WhatCannotBePlayedIsOneSentence) {
     write(folder / "far.csv", log.substr(0, at) + "1e30" + log.substr(log.find(',', at)));
     EXPECT_THAT(printed(run + "--replay " + (folder / "far.csv") + " --out " + (folder / "f"), 2),
                 testing::AllOf(HasSubstr("far.csv:2"), HasSubstr("a place of 1e+30 m")));
+    const std::size_t tick = log.find(',', log.find('\n')) + 1;
+    write(folder / "late.csv", log.substr(0, tick) + "6e67" + log.substr(log.find(',', tick)));
+    EXPECT_THAT(printed(run + "--replay " + (folder / "late.csv") + " --out " + (folder / "t"), 2),
+                HasSubstr("late.csv:2: found tick 6e67, expected a whole number from 0 on"));
 
     const auto with_entities = [&](const std::string& names) {
         std::string drive = drive_text();

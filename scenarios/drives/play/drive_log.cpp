@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <iterator>
+#include <limits>
 #include <string_view>
 
 namespace fernlicht {
@@ -66,6 +67,12 @@ struct Reader {
             refuse(line, fmt::format("found '{}'", printable(std::string(text))), "a number");
         return *value;
     }
+    int tick(std::string_view text, std::size_t line) const {
+        const double value = number(text, line);
+        if (!(value >= 0.0 && value <= std::numeric_limits<int>::max()) || value != std::floor(value))
+            refuse(line, fmt::format("found tick {}", printable(std::string(text))), "a whole number from 0 on");
+        return static_cast<int>(value);
+    }
     void row(std::string_view text, std::size_t line) const {
         std::size_t found = 0;
         const auto field = split(text, found);
@@ -97,7 +104,7 @@ struct Reader {
         out.factor = value[13];
         out.visible = field[18] == "1";
         out.name = std::string(field[19]);
-        log.rows[{std::string(field[0]), static_cast<int>(number(field[1], line))}].push_back(std::move(out));
+        log.rows[{std::string(field[0]), tick(field[1], line)}].push_back(std::move(out));
     }
 };
 

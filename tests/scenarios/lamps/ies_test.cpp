@@ -121,6 +121,8 @@ TEST_F(IesFile, AnglesAreSortedAndTypesTakenForWhatTheyAre) {
     EXPECT_NEAR(flux_lm(luminaire.table), 4 * pi * 50, 1e-9);
     EXPECT_THAT(refusal("m.ies", "TILT=NONE\n1 -1 1 2 1 3 2 0 0 0\n1 1 55\n100 100\n0\n50 50\n"),
                 HasSubstr("m.ies:4: vertical angles: found 1 of them, expected at least 2"));
+    EXPECT_THAT(refusal("n.ies", "TILT=NONE\n1 -1 1 2 2 3 2 0 0 0\n1 1 55\n0 50\n0 0\n1 2\n1 2\n"),
+                HasSubstr("n.ies:5: horizontal angles: found 1 of them, expected at least 2"));
 }
 
 /// H and V of type B's h = asin x, v = atan2(y, z).
