@@ -1,6 +1,7 @@
 #include "scenarios/lamps/goniometer.h"
 
 #include "scenarios/lamps/lamp_text.h"
+#include "scenarios/values/errors.h"
 #include "scenarios/values/pose.h"
 
 #include <algorithm>
@@ -149,10 +150,14 @@ Axes first_axes(const Native& native) {
         to.v.push_back(d.v_deg);
     };
     const auto on = [](const std::vector<double>& axis, double angle) { return angle >= axis.front() && angle <= axis.back(); };
-    for (const double h : {-90.0, 0.0, 90.0, 180.0})
+    for (const double h : {-90.0, 0.0, 90.0, 180.0}) {
+        if (!on(t.h_deg, h))
+            continue;
         for (const double v : t.v_deg)
-            if (on(t.h_deg, h))
-                add(axes, h, v);
+            add(axes, h, v);
+        if (on(t.v_deg, 0.0)) // where lines cross: the samples may be poles alone
+            add(axes, h, 0.0);
+    }
     for (const double h : t.h_deg) {
         if (on(t.v_deg, 0.0))
             add(axes, h, 0.0);
@@ -341,6 +346,10 @@ void bring_onto_goniometer(CandelaTable native_table, AngleSystem system, LampFi
     const Native native{native_table, system};
     const double peak_cd = peak_of(native_table).cd;
     Axes axes = first_axes(native);
+    if (axes.h.size() < 2 || axes.v.size() < 2)
+        throw InputError({lamp.opened.empty() ? std::filesystem::path() : lamp.opened.front().path, 0, 0, system.name},
+                         fmt::format("found all directions at one {}", axes.h.size() < 2 ? "H" : "V"),
+                         "directions to all sides of the beam");
     while (split_worst(axes, interval_errors(native, axes), split_above * peak_cd)) {
     }
     CandelaTable table = sampled(native, axes);
