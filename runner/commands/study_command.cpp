@@ -49,15 +49,17 @@ int list_cells(const std::vector<StudyCell>& cells) {
 
 /// The page last: a disk that fills up takes it before it takes the numbers.
 void write_study(const StudyResult& result, const std::filesystem::path& folder, const std::optional<HistoryFindings>& history) {
-    Document paper = study_paper(result);
-    if (history)
-        paper.sections.push_back(changes_section(*history)); // the verdict comes first
     oneapi::tbb::parallel_invoke([&] { write_json(folder / "study.json", result, study_members); },
                                  [&] { write_file(folder / "study.csv", [&](const TakePiece& take) { study_csv(result, take); }); });
     std::vector<std::string> papers;
-    for (const OutputFormat& format : output_formats())
-        if (format.for_papers)
-            write_file(folder / papers.emplace_back(std::string("study") + format.extension), format.of_document(paper));
+    {
+        Document paper = study_paper(result);
+        if (history)
+            paper.sections.push_back(changes_section(*history)); // the verdict comes first
+        for (const OutputFormat& format : output_formats())
+            if (format.for_papers)
+                write_file(folder / papers.emplace_back(std::string("study") + format.extension), format.of_document(paper));
+    }
     write_file(folder / "junit.xml", report_junit(suites_of(result)));
     write_file(folder / "study.yaml", result.study.text);
     Document page = document(result, papers);

@@ -81,22 +81,16 @@ std::string attributes_of(const std::vector<Cell>& row, std::size_t i, const Tab
     return width > 1 ? text + fmt::format(" colspan=\"{}\"", width) : text;
 }
 
-data row_of(const std::vector<Cell>& row, const Table& table, bool is_quiet) {
-    data part, cells{List::list};
+/// As markup: a study's page has tens of thousands of cells, and as parts of a template they would take ten times the memory.
+void append_row(std::string& html, const std::vector<Cell>& row, const Table& table, bool is_quiet) {
+    html += "<tr" + (table.led_to ? " id=\"" + xml_text(row.front().text) + "\"" : "") + (is_quiet ? " class=\"quiet\">" : ">");
     for (std::size_t i = 0; i < row.size(); ++i) {
         const bool is_code = table.columns[i].code && !row[i].text.empty() && (i + 1 < row.size() || row.size() == table.columns.size());
-        data cell;
-        cell.set("html", swatch(row[i].series) +
-                             linked_html(row[i], is_code ? "<code>" + xml_text(row[i].text) + "</code>" : sentence_html(row[i].text)));
-        cell.set("tag", i == 0 ? "th scope=\"row\"" : "td");
-        cell.set("end", i == 0 ? "th" : "td");
-        cell.set("attributes", attributes_of(row, i, table));
-        cells.push_back(cell);
+        const std::string text = is_code ? "<code>" + xml_text(row[i].text) + "</code>" : sentence_html(row[i].text);
+        html += (i == 0 ? "<th scope=\"row\"" : "<td") + attributes_of(row, i, table) + ">" + swatch(row[i].series) +
+                linked_html(row[i], text) + (i == 0 ? "</th>" : "</td>");
     }
-    part.set("attributes", (table.led_to ? " id=\"" + xml_text(row.front().text) + "\"" : "") +
-                               (is_quiet ? std::string(" class=\"quiet\"") : std::string()));
-    part.set("cells", cells);
-    return part;
+    html += "</tr>\n";
 }
 
 data part_of(const std::string& paragraph, const std::filesystem::path&, std::size_t&) {
@@ -107,7 +101,8 @@ data part_of(const std::string& paragraph, const std::filesystem::path&, std::si
 }
 
 data part_of(const Table& table, const std::filesystem::path&, std::size_t&) {
-    data part, heads{List::list}, rows{List::list};
+    data part, heads{List::list};
+    std::string rows;
     bool has_groups = false;
     for (const Column& column : table.columns) {
         data head;
@@ -120,7 +115,7 @@ data part_of(const Table& table, const std::filesystem::path&, std::size_t&) {
         has_groups = has_groups || !column.group.empty();
     }
     for (std::size_t i = 0; i < table.rows.size(); ++i)
-        rows.push_back(row_of(table.rows[i], table, std::ranges::count(table.quiet, i) > 0));
+        append_row(rows, table.rows[i], table, std::ranges::count(table.quiet, i) > 0);
     part.set("is_table", true);
     part.set("caption", clean_text(table.caption));
     part.set("has_caption", !table.caption.empty() && !table.folded);
@@ -265,7 +260,7 @@ std::string document_html(const Document& document, const Findings& findings, co
     page.set("missing", missing);
     if (!findings.context.command.empty()) // else it was not measured by a call that could be repeated
         page.set("context", context_part(findings.context));
-    return page_of("document.html.mustache", page);
+    return page_of("document.html.mustache", std::move(page));
 }
 
 } // namespace fernlicht

@@ -49,7 +49,8 @@ std::string page_of(const char* template_name, data page) {
     page.set("style", std::string(report_file("report.css")) + std::string(report_file("document.css")));
     page.set("document_sections", std::string(report_file("document_sections.mustache")));
     kainjow::mustache::mustache page_template{std::string(report_file(template_name))};
-    std::string html = page_template.render(page);
+    std::string html;
+    page_template.render(page, [&](const std::string& piece) { html += piece; });
     if (!page_template.is_valid())
         throw std::logic_error(std::string(template_name) + ": " + page_template.error_message());
     return html;

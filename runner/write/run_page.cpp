@@ -274,7 +274,7 @@ std::string page_html(const Report& report, const RunPage& run, const data& driv
     page.set("live", live);
     page.set("kept", kept);
     page.set("context", context_part(report.context));
-    return page_of("report.html.mustache", page);
+    return page_of("report.html.mustache", std::move(page));
 }
 
 } // namespace

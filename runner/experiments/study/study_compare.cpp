@@ -113,11 +113,15 @@ void add_axis_warnings(StudyResult& result) {
         std::map<std::map<std::string, std::string>, std::vector<std::string>> alike;
         for (const auto& [value, of_value] : read)
             alike[of_value].push_back(value);
-        for (const auto& [cells, values] : alike)
+        for (const auto& [cells, values] : alike) {
+            constexpr std::size_t most = 5;
+            const std::string named = values.size() > most
+                                          ? fmt::format("{} values from {} to {}", values.size(), values.front(), values.back())
+                                          : fmt::format("{}", fmt::join(values, " and "));
             if (values.size() > 1)
-                result.warnings.push_back(fmt::format("axis {}: {} read the same in every cell, to the last bit: nothing that was "
-                                                      "measured depends on it",
-                                                      axis.name, fmt::join(values, " and ")));
+                result.warnings.push_back(fmt::format(
+                    "axis {}: {} read the same in every cell, to the last bit: nothing that was measured depends on it", axis.name, named));
+        }
     }
 }
 
