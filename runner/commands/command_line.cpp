@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <exception>
 #include <fmt/format.h>
 #include <map>
@@ -94,6 +95,7 @@ std::string given_again(const CLI::ParseError& error, std::string& flag) {
 } // namespace
 
 int fernlicht::command_line(int argc, char** argv) {
+    ::signal(SIGCHLD, SIG_DFL); // else, where a supervisor ignores it, nobody learns how a process ended
     CLI::App app("plays scripted night drives offscreen and measures what the headlamps do", "fernlicht");
     app.set_version_flag("--version", fernlicht::program_version);
     app.require_subcommand(1);

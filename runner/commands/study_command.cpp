@@ -108,7 +108,7 @@ int explain_cells(const Study& study, const StudyOptions& options) {
 int print_plan(const Study& study, const StudyOptions& options) {
     const StudyPlan plan = plan_study(study, options);
     const CellStore store(options.store);
-    const std::vector<std::size_t> lacking = lacking_cells(store, plan);
+    const std::vector<std::size_t> lacking = lacking_cells(store, plan, true);
     warn_of_unwritable(store, lacking.size());
     const std::size_t per = static_cast<std::size_t>(options.per);
     for (std::size_t from = 0; from < lacking.size(); from += per) {
@@ -234,12 +234,16 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     options.run.write = [](const Report& report, const std::filesystem::path& cell) { write_report(report, cell); };
     std::string no_history; ///< why; it costs nobody the report
     std::optional<HistoryFindings> findings;
-    options.write = [&](const StudyResult& result) {
+    options.write = [&](StudyResult& result) {
         try {
             findings = remember(flags, result, options);
         } catch (const std::exception& error) {
             no_history = error.what();
         }
+        if (flags.fails_on_change && findings)
+            result.verdicts.push_back(findings->nothing_changed()
+                                          ? Verdict{VerdictKind::pass, unchanged_verdict, "nothing changed", {}}
+                                          : Verdict{VerdictKind::fail, unchanged_verdict, "what changed leads the report", {}});
         write_study(result, options.folder, findings);
     };
     options.judge_cell = [](const Report& report, const std::filesystem::path& cell) { write_judgement(report, cell); };
@@ -267,8 +271,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     trace.finish();
     if (!no_history.empty())
         throw DeviceError("the report is written, but not into the history: " + no_history);
-    const bool fails = flags.fails_on_change && findings && !findings->nothing_changed();
-    return overall(result) == VerdictKind::pass && !fails ? 0 : 1;
+    return overall(result) == VerdictKind::pass ? 0 : 1;
 }
 
 } // namespace

@@ -1,11 +1,13 @@
 #include "runner/store/cell_key.h"
 
+#include "renderer/reference/embree_scene.h"
 #include "runner/judge/baseline_key.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/values/files.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <gnu/libc-version.h>
 
 namespace fernlicht {
 namespace {
@@ -94,9 +96,13 @@ CellInputs machine_inputs(const RunContext& context, bool accuracy) {
     inputs.push_back({InputKind::device, "backend", device.backend});
     inputs.push_back({InputKind::device, "driver", context.gl_version});
     inputs.push_back({InputKind::device, "renderer", device.gl_renderer});
-    // The reference's rays differ where pictures do not.
-    const std::size_t open = context.cpu.rfind('('), close = context.cpu.rfind(')');
-    inputs.push_back({InputKind::device, "SIMD", accuracy ? context.cpu.substr(open + 1, close - open - 1) : device.simd});
+    inputs.push_back({InputKind::device, "SIMD", device.simd});
+    inputs.push_back({InputKind::library, "glibc", ::gnu_get_libc_version()}); // its libm
+    if (accuracy) {                                                            // the reference's rays differ where pictures do not
+        const std::size_t open = context.cpu.rfind('('), close = context.cpu.rfind(')');
+        inputs.push_back({InputKind::device, "SIMD of the reference", context.cpu.substr(open + 1, close - open - 1)});
+        inputs.push_back({InputKind::library, "Embree", reference::embree_version()});
+    }
     return inputs;
 }
 

@@ -74,6 +74,16 @@ std::uint64_t size_of(const fs::path& file) {
 
 std::string sentence_name(const StoredCell& cell) { return fmt::format("cell {} of {}", printable(cell.cell), printable(cell.study)); }
 
+std::set<std::string> objects_of(const std::vector<StoredCell>& cells) {
+    std::set<std::string> objects;
+    for (const StoredCell& cell : cells) {
+        objects.insert(cell.object);
+        for (const auto& [name, hash] : cell.files)
+            objects.insert(hash);
+    }
+    return objects;
+}
+
 /// Why a cell must be played again; "" where all of it is there.
 std::string missing_of(const CellStore& store, const StoredCell& cell) {
     std::error_code error;
@@ -123,11 +133,13 @@ std::vector<StoreDamage> verify_store(const CellStore& store) {
     if (broken.empty() && damaged_entries(store, false).empty())
         return {};
     const FolderLock lock(store.mark());
+    const std::set<std::string> needed = objects_of(store.list());
     std::vector<StoreDamage> damage;
     for (const fs::path& path : broken) {
         if (holds_object(store.folder(), name_of_object(path))) // written anew meanwhile
             continue;
-        damage.push_back({"object " + name_of_object(path), "its bytes are not those that were kept"});
+        if (needed.contains(name_of_object(path))) // else its cell was played again
+            damage.push_back({"object " + name_of_object(path), "its bytes are not those that were kept"});
         take_out(path);
     }
     std::ranges::move(damaged_entries(store, true), std::back_inserter(damage));
@@ -156,12 +168,7 @@ Pruned prune_store(const CellStore& store, const Pruning& pruning, double now_s)
             store.forget(cell.key);
     }
     pruned.cells_left = stay.size();
-    std::set<std::string> needed;
-    for (const StoredCell& cell : stay) {
-        needed.insert(cell.object);
-        for (const auto& [name, hash] : cell.files)
-            needed.insert(hash);
-    }
+    const std::set<std::string> needed = objects_of(stay);
     const auto take_file = [&](const fs::path& path) {
         ++pruned.files;
         pruned.bytes += size_of(path);

@@ -83,6 +83,18 @@ Answer ask(std::vector<std::string> words) {
     return answer;
 }
 
+/// The same where no answer is an answer, too: a machine that cannot start it now may do so when it is asked again.
+Answer ask_again_later(std::vector<std::string> words) {
+    try {
+        return ask(std::move(words));
+    } catch (const DeviceError& error) {
+        Answer none;
+        none.code = 127;
+        none.complained = error.what();
+        return none;
+    }
+}
+
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 /// "KEY=value" of scontrol's answers; "" where there is none.
@@ -139,10 +151,11 @@ std::optional<SlurmTasks> active_tasks(const std::vector<SlurmArray>& arrays) {
         names.push_back(array.name);
     if (names.empty())
         return tasks;
-    const Answer answer = ask({"squeue", "--noheader", "--array",
-                               "--states=PENDING,RUNNING,SUSPENDED,COMPLETING,CONFIGURING,REQUEUED,REQUEUE_HOLD,REQUEUE_FED,RESIZING,"
-                               "SIGNALING,STAGE_OUT,STOPPED,SPECIAL_EXIT,RESV_DEL_HOLD",
-                               fmt::format("--name={}", fmt::join(names, ",")), "--format=%F %K %T %r"});
+    const Answer answer =
+        ask_again_later({"squeue", "--noheader", "--array",
+                         "--states=PENDING,RUNNING,SUSPENDED,COMPLETING,CONFIGURING,REQUEUED,REQUEUE_HOLD,REQUEUE_FED,RESIZING,"
+                         "SIGNALING,STAGE_OUT,STOPPED,SPECIAL_EXIT,RESV_DEL_HOLD",
+                         fmt::format("--name={}", fmt::join(names, ",")), "--format=%F %K %T %r"});
     if (answer.code != 0)
         return std::nullopt;
     std::istringstream lines(answer.said);
@@ -154,12 +167,12 @@ std::optional<SlurmTasks> active_tasks(const std::vector<SlurmArray>& arrays) {
 }
 
 std::optional<std::string> array_id(const std::string& name) {
-    const Answer answer = ask({"squeue", "--noheader", "--array", "--name=" + name, "--format=%F"});
+    const Answer answer = ask_again_later({"squeue", "--noheader", "--array", "--name=" + name, "--format=%F"});
     return answer.code == 0 ? std::optional(first_line(answer.said)) : std::nullopt;
 }
 
 std::string ended_state(const std::string& array_id, std::size_t task) {
-    const Answer answer = ask({"scontrol", "show", "job", fmt::format("{}_{}", array_id, task)});
+    const Answer answer = ask_again_later({"scontrol", "show", "job", fmt::format("{}_{}", array_id, task)});
     return answer.code == 0 ? value_in(answer.said, "JobState") : "";
 }
 

@@ -11,11 +11,27 @@ namespace {
 [[noreturn]] void throw_reason(png_structp, png_const_charp why) { throw std::runtime_error(why); }
 void pass_over(png_structp, png_const_charp) {}
 
+constexpr const char* ends_early = "it ends early";
+
+/// Else libpng takes as much memory as a chunk claims to hold before it reads any of it.
+void refuse_chunks_beyond(std::string_view bytes) {
+    constexpr std::size_t head_bytes = 8, sum_bytes = 4;
+    for (bytes.remove_prefix(head_bytes); bytes.size() >= head_bytes && bytes.substr(4, 4) != "IEND";) {
+        std::size_t length = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            length = length << 8U | static_cast<unsigned char>(bytes[i]);
+        if (length > bytes.size() - head_bytes)
+            throw std::runtime_error(ends_early);
+        bytes.remove_prefix(std::min(bytes.size(), head_bytes + length + sum_bytes));
+    }
+}
+
 class PngReader {
   public:
     explicit PngReader(std::string_view bytes) : left_(bytes) {
         if (!bytes.starts_with("\x89PNG\r\n\x1a\n"))
             throw std::runtime_error("it is no PNG");
+        refuse_chunks_beyond(bytes);
         png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, throw_reason, pass_over);
         info_ = png_ ? png_create_info_struct(png_) : nullptr;
         if (!info_)
@@ -25,7 +41,7 @@ class PngReader {
         png_set_read_fn(png_, this, [](png_structp png, png_bytep to, std::size_t count) {
             std::string_view& left = static_cast<PngReader*>(png_get_io_ptr(png))->left_;
             if (count > left.size())
-                png_error(png, "it ends early");
+                png_error(png, ends_early);
             std::copy_n(left.data(), count, reinterpret_cast<char*>(to));
             left.remove_prefix(count);
         });

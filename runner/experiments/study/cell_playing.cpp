@@ -15,6 +15,8 @@
 #include <cerrno>
 #include <csignal>
 #include <fmt/format.h>
+#include <fstream>
+#include <limits>
 #include <new>
 #include <system_error>
 #include <thread>
@@ -66,8 +68,19 @@ void tell_cell(TraceSpan& span, const PlannedCell& planned) {
 /// What is killed from outside, as by the kernel where memory is short, passes where nothing is beside it.
 bool may_pass_alone(const WorkerEnd& end) { return end.ending == WorkerEnding::killed && (end.code == SIGKILL || end.code == SIGTERM); }
 
-double physical_memory_mib() {
-    return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1048576.0;
+/// A container's limits (control groups, version 2); infinite where there are none.
+double limit_of_container(const char* file, double per_unit) {
+    double limit = 0.0, period = 1.0;
+    std::ifstream in(file);
+    if (!(in >> limit)) // "max", or no such file
+        return std::numeric_limits<double>::infinity();
+    in >> period;
+    return limit / (period > 0.0 ? period : 1.0) * per_unit;
+}
+
+double memory_mib() {
+    const double machine = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1048576.0;
+    return std::min(machine, limit_of_container("/sys/fs/cgroup/memory.max", 1.0 / 1048576.0));
 }
 
 } // namespace
@@ -102,10 +115,11 @@ bool play_timed(const Study& study, const PlannedCell& planned, const StudyOptio
 
 Jobs jobs_for(int asked, const RunContext& context, const StudyResources& resources) {
     const bool is_software = context.gl_renderer.starts_with("llvmpipe") || context.gl_renderer.starts_with("softpipe");
-    const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    const int cores = static_cast<int>(std::clamp(limit_of_container("/sys/fs/cgroup/cpu.max", 1.0), 1.0,
+                                                  std::max(1.0, static_cast<double>(std::thread::hardware_concurrency()))));
     int usual = std::max(1, (is_software ? cores : std::min(4, cores)) / std::max(1, resources.cores));
     if (resources.memory_mib > 0.0)
-        usual = std::clamp(usual, 1, std::max(1, static_cast<int>(physical_memory_mib() / resources.memory_mib)));
+        usual = std::clamp(usual, 1, std::max(1, static_cast<int>(memory_mib() / resources.memory_mib)));
     return {asked > 0 ? asked : usual, resources.cores > 0 ? resources.cores : asked == 1 ? cores : 1};
 }
 

@@ -165,15 +165,18 @@ std::vector<std::string> red_lines(const StudyResult& result) {
 /// The verdict as people say it.
 std::string verdict_words(const StudyResult& result) {
     const auto exceeds = [](const std::vector<Verdict>& verdicts) {
-        return std::ranges::any_of(verdicts,
-                                   [](const Verdict& one) { return one.kind == VerdictKind::fail && !one.name.starts_with("baseline"); });
+        return std::ranges::any_of(verdicts, [](const Verdict& one) {
+            return one.kind == VerdictKind::fail && !one.name.starts_with("baseline") && one.name != unchanged_verdict;
+        });
     };
     switch (overall(result)) {
     case VerdictKind::pass:
         return "Within limits";
     case VerdictKind::fail:
         return exceeds(result.verdicts) || std::ranges::any_of(result.cells, exceeds, &CellResult::verdicts) ? "Limits exceeded"
-                                                                                                             : "Differs from the baselines";
+               : std::ranges::any_of(result.verdicts, [](const Verdict& one) { return one.name == unchanged_verdict && is_red(one); })
+                   ? "Not as in the last accepted night"
+                   : "Differs from the baselines";
     case VerdictKind::flaky:
         return "Flaky";
     case VerdictKind::not_measured:

@@ -26,6 +26,9 @@ inline constexpr std::size_t max_pictured_places = 48;
 /// Of more cells only what decides or has limits is told, and the folders are kept of those that are pictured or red.
 inline constexpr std::size_t most_told_cells = 500;
 
+/// Of --fail-on-change, among the study's own.
+inline constexpr const char* unchanged_verdict = "as in the last accepted night";
+
 /// Reach over each drive, lux from above and its difference, error over time, the lamps' difference. EXR files are read below `folder`.
 std::vector<StudyFigure> study_figures(const StudyResult& result, const std::filesystem::path& folder);
 

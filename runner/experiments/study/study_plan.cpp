@@ -77,6 +77,8 @@ std::string stage_text(const StudyCell& cell, const Drive& drive) {
                                    drive.mirrored_road, drive.start.road, drive.start.lane, drive.start.s_m, fmt::join(drive.via, ","));
     for (const FileRead& file : opened_beside_lamps(drive, {}))
         text += file.path.string() + "\n";
+    for (const TrafficRow& row : drive.traffic_rows) // read with the scene
+        text += row.model.string() + "\n";
     if (drive.can) {
         text += drive.can->log.value_or("").string() + "\n";
         for (const fs::path& database : drive.can->databases)

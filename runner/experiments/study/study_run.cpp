@@ -149,8 +149,6 @@ class Telling {
     void add(StudyResult& result) {
         CellResult& cell = result.cells.back();
         keep_told_readings(result, cell);
-        if (!result.tells_all)
-            cell.inputs = {};
         if (result.cells.size() == 1 || !is_same_place(result.cells[result.cells.size() - 2].cell, cell.cell))
             ++places_;
         if (places_ > max_pictured_places)
@@ -415,6 +413,8 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
                                                                                         jobs.cores, jobs.cores == 1 ? "core" : "cores"));
         if (options.times_too && options.executor == StudyExecutor::local)
             result.played_by += time_cells(study, plan, store, options, result);
+        if (Interruption::requested())
+            result.interrupted = "interrupted by the user";
     }
     finish(result, options, folder);
     return result;
@@ -458,9 +458,11 @@ bool play_into_store(const Study& study, const StudyOptions& options) {
     const Interruption listening;
     bool all_there = true;
     for (const PlannedCell& one : plan.cells) {
-        if (one.moments == 0 || store.find(one.key))
+        if (one.moments == 0 || (store.find(one.key) && !is_told_damaged(store, one)))
             continue;
         try {
+            if (store.find(one.key)) // damaged
+                store.forget(one.key);
             if (!play_into(store, study, plan, one, options) || Interruption::requested())
                 return false;
         } catch (const std::exception& error) {

@@ -27,7 +27,7 @@ struct StudyOptions {
     int per = 1;    ///< cells for each command of a plan, and for each task of a cluster
     RunOptions run; ///< backend, moments, baselines, repeats, day, quiet, accuracy, command; the folder is each cell's own
     std::function<void(const Report&, const std::filesystem::path&)> judge_cell; ///< a cell's files become those of what it was judged
-    std::function<void(const StudyResult&)> write;                               ///< into the folder, before it is marked as complete
+    std::function<void(StudyResult&)> write; ///< into the folder, before it is marked as complete; may add verdicts
 };
 
 /// Those of a study's cells whose names fit one of the patterns, all where there is none. Throws InputError for one that fits no cell.

@@ -148,7 +148,7 @@ TEST(BuiltProgramSources, AreThoseOfTheTree) {
         EXPECT_EQ(hash.size(), 32U) << room;
     }
     EXPECT_THAT(rooms, ElementsAre("scenarios", "metrics", "renderer", "runner/play", "runner/findings", "runner/files",
-                                   "runner/experiments/run", "runner/experiments/accuracy", "compiler flags"));
+                                   "runner/experiments/run", "runner/experiments/accuracy", "runner/judge", "compiler flags"));
 }
 
 } // namespace

@@ -109,6 +109,10 @@ TEST_F(CellStoreTest, ACellWhoseInputIsGoneIsPlayedAgain) {
                             "when it is asked for"));
     EXPECT_FALSE(store.find(kept.key));
     EXPECT_EQ(get_object(store.folder(), keep(1).files[0].second, "lamp"), "lamp of s");
+    const std::string object = put_object(store.folder(), "of a cell that was played again since");
+    flip_bit(object_path(store.folder(), object));
+    EXPECT_THAT(verify_store(store), testing::IsEmpty());
+    EXPECT_FALSE(fs::exists(object_path(store.folder(), object)));
 }
 
 TEST_F(CellStoreTest, IsBuiltAmongNobodysFiles) {

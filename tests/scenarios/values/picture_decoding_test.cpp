@@ -4,6 +4,7 @@
 #include "scenarios/values/png_file.h"
 
 #include <array>
+#include <fstream>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -27,6 +28,25 @@ TEST(PngFile, TextsTakeLittleMemory) {
     const PngHead few = decode_png_head(encode_png({1, 1, 8, pixel.data()}, 1, "", {{"last", "one"}}));
     EXPECT_EQ(few.texts.at("last"), "one");
     EXPECT_FALSE(decode_png_head(encode_png({1, 1, 8, pixel.data()}, 1, "", texts)).texts.contains("last"));
+}
+
+TEST(PngFile, AChunkThatClaimsMoreThanThereIsTakesNoMemory) {
+    const std::array<std::uint8_t, 3> pixel{1, 2, 3};
+    std::string bytes = encode_png({1, 1, 8, pixel.data()}, 1, "", {});
+    bytes.insert(bytes.size() - 12, "\x64owtEXtf"); // 1.7 GB of a text, before the end
+    const auto peak_kib = [] {
+        std::ifstream status("/proc/self/status");
+        std::string word;
+        while (status >> word && word != "VmHWM:") {
+        }
+        long kib = 0;
+        status >> kib;
+        return kib;
+    };
+    std::ofstream("/proc/self/clear_refs") << "5"; // the peak begins anew
+    const long before = peak_kib();
+    EXPECT_THAT([&] { decode_png(bytes, [](const PngHead&) {}); }, testing::ThrowsMessage<std::runtime_error>("it ends early"));
+    EXPECT_LT(peak_kib() - before, 100'000);
 }
 
 /// Eight by eight levels of grey in six scans, by libjpeg.

@@ -1,5 +1,8 @@
 // Axes of a study through the program: what is played at each point, and where its values stand.
 #include "runner/experiments/study/study_document.h"
+#include "runner/experiments/study/study_plan.h"
+#include "scenarios/models/road_user_bodies.h"
+#include "scenarios/values/files.h"
 #include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
 
@@ -32,6 +35,28 @@ double reading_of(const json& cell, const std::string& name) {
             return row.at("value");
     ADD_FAILURE() << name << " in " << cell.at("name");
     return 0.0;
+}
+
+TEST_F(StudyAxesProgram, ModelsThatAnAxisNamesAreInputsOfTheirCellsAlone) {
+    for (const double width_m : {1.7, 1.8})
+        write_file(folder / (width_m == 1.7 ? "a.glb" : "b.glb"), glb_of(car_body({{4.2, width_m, 1.5}, -0.8, glm::vec3(0.3F)})));
+    const std::string file = folder / "models.yaml";
+    write_file(file, "fernlicht_study: 1\nlamps: {old: {low: " + library_file("lamps/halogen-low.ies") + "}, new: {low: " +
+                         library_file("lamps/xenon-low.ies") + ", source: arc}}\ndrives: [" + library_file("drives/oncoming.yaml") +
+                         "]\naxes: {traffic.ahead.model: [" + (folder / "a.glb") + ", " + (folder / "b.glb") + "]}\n");
+    const auto keys = [&] {
+        StudyOptions options{.store = folder / "store"};
+        std::vector<std::string> all;
+        for (const PlannedCell& cell : plan_study(read_study(file), options).cells)
+            all.push_back(cell.key);
+        return all;
+    };
+    const std::vector<std::string> before = keys();
+    write_file(folder / "b.glb", glb_of(car_body({{4.2, 1.9, 1.5}, -0.8, glm::vec3(0.3F)})));
+    const std::vector<std::string> after = keys();
+    ASSERT_EQ(after.size(), 4U);
+    for (std::size_t i = 0; i < after.size(); ++i)
+        EXPECT_EQ(after[i] == before[i], i % 2 == 0) << i;
 }
 
 TEST_F(StudyAxesProgram, PlaysEveryPointAndTellsItsValues) {

@@ -355,7 +355,7 @@ TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
     result.study.limits[0].reading = "reach_5lx_target_own_m";
     result.study.limits[0].at_least = 1.0;
     compare_cells(result);
-    const std::string part = "9 of 660 moments of each drive were played (--frames 0:8)";
+    const std::string part = "9 of 660 moments of each drive were asked for (--frames 0:8)";
     for (const std::string& text : {document_text(study_summary(result)), study_json_of(result), document_markdown(study_paper(result)),
                                     document_latex(study_paper(result)), document_html(document(result), result)})
         EXPECT_THAT(text, HasSubstr(part));

@@ -231,9 +231,16 @@ TEST_F(StudyProgram, WhatIsInTheStoreIsNotPlayedAgain) {
     // A flipped bit in what is kept: found, and played again.
     const std::filesystem::path object =
         object_path(folder / "store", json::parse(content_of(entry_of(first.at("cells").at(0).at("key")))).at("object"));
-    std::string bytes = content_of(object);
-    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
-    std::ofstream(object, std::ios::binary) << bytes;
+    const auto flip_bit = [&] {
+        std::string bytes = content_of(object);
+        bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+        std::ofstream(object, std::ios::binary) << bytes;
+    };
+    flip_bit();
+    EXPECT_THAT(printed(arguments + "--plan"), HasSubstr(R"({"cells":["straight_old"],)"));
+    EXPECT_EQ(run_program(arguments + "--play --only straight_old").exit_code, 0);
+    printed(arguments + "--collect --out " + (folder / "mended"), 0);
+    flip_bit();
     EXPECT_THAT(printed(arguments + "--explain"),
                 HasSubstr("straight_old                             its results are missing or damaged\n"));
     EXPECT_THAT(printed(arguments + "--collect --out " + (folder / "collected"), 1), HasSubstr("its results in the store are damaged"));
@@ -381,7 +388,7 @@ TEST_F(StudyProgram, AFinishedStudyIsReportedAgainFromItsCells) {
     ASSERT_EQ(run_program("study " + write_study_file(folder, xenon) + quick + out).exit_code, 0);
     const std::string page = content_of(folder / "out/report.html");
     EXPECT_THAT(page, HasSubstr("No limits were set"));
-    EXPECT_THAT(page, HasSubstr("6 of 100 moments of each drive were played (--frames 0:5)"));
+    EXPECT_THAT(page, HasSubstr("6 of 100 moments of each drive were asked for (--frames 0:5)"));
     EXPECT_THAT(content_of(folder / "out/cells/straight_old/report.html"), HasSubstr("6 of 100 moments were to be played"));
     const std::string first = content_of(folder / "out/study.csv"),
                       cell = without_command(content_of(folder / "out/cells/straight_old/report.json"));
