@@ -212,7 +212,7 @@ int explain(const HistoryFlags& flags) {
     findings.context = context_of(flags);
     add_frames(findings);
     const int told = tell(flags, document(findings), findings);
-    return flags.fails_on_change && !findings.nothing_changed() ? 1 : told;
+    return flags.fails_on_change && findings.is_off_base() ? 1 : told;
 }
 
 int prune(const HistoryFlags& flags) {
@@ -288,7 +288,8 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
     explaining->add_option("NIGHT", flags->night, "the night to explain: last, a number or a date (default: last)");
     explaining->add_option("--drift", flags->drift, "tell of a drift when its sum exceeds this; each step is smaller")
         ->capture_default_str();
-    explaining->add_flag("--fail-on-change", flags->fails_on_change, "exit code 1 where anything changed since the last accepted night");
+    explaining->add_flag("--fail-on-change", flags->fails_on_change,
+                         "exit code 1 where anything changed since the last accepted night, or cannot be compared with it");
     add_study(explaining, one_study);
     for (CLI::App* sub : {trending, explaining}) {
         sub->add_option("--out", flags->out, page);

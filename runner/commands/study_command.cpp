@@ -267,7 +267,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     trace.finish();
     if (!no_history.empty())
         throw DeviceError("the report is written, but not into the history: " + no_history);
-    const bool fails = flags.fails_on_change && findings && !findings->nothing_changed();
+    const bool fails = flags.fails_on_change && findings && findings->is_off_base();
     return overall(result) == VerdictKind::pass && !fails ? 0 : 1;
 }
 
@@ -302,7 +302,8 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_option("--gpus", flags->gpus, "of the cluster for each cell, as --gres has it: gpu:1");
     sub->add_option("--history", flags->history,
                     "lead with what changed since the last accepted night of this history, and add tonight to it");
-    sub->add_flag("--fail-on-change", flags->fails_on_change, "with --history: exit code 1 where anything changed since that night");
+    sub->add_flag("--fail-on-change", flags->fails_on_change,
+                  "with --history: exit code 1 where anything changed since that night, or cannot be compared with it");
     sub->add_flag("--explain", flags->explain, "say why each cell must be played that the store lacks, and play none");
     sub->add_flag("--plan", flags->plan, "print a command for each cell that the store lacks, a line of JSON each, and play none");
     sub->add_option("--per", flags->per, "cells for each command of --plan, and for each task of a cluster (default: 1)")

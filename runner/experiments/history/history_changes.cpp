@@ -220,7 +220,7 @@ void add_absent(HistoryFindings& findings) {
         else if (const NightCell* earlier = before.cell(cell.name); !earlier || !earlier->failed.empty())
             findings.absent.push_back(cell.name + " was not played in the night that this is compared with");
     for (const NightCell& cell : before.cells)
-        if (cell.failed.empty() && !tonight.cell(cell.name))
+        if (!tonight.cell(cell.name))
             findings.absent.push_back(cell.name + " is no longer played");
 }
 
@@ -299,6 +299,8 @@ HistoryFindings explain_nights(std::vector<Night> nights, const HistoryOptions& 
             }
         }
         if (chain.size() > 1 && chain.front() == findings.base) {
+            ++findings.cells_compared;
+            findings.readings_compared += cell.readings->size();
             const Night& before = findings.before();
             const NightCell& earlier = *before.cell(cell.name);
             const InputChanges causes = changes_between(before, earlier, findings.tonight(), cell);

@@ -149,14 +149,14 @@ std::string headline(const HistoryFindings& findings) {
     const std::size_t nights = findings.nights.size() - 1 - findings.base;
     const std::string note = findings.before().note.empty() ? "" : fmt::format(" (\"{}\")", short_text(findings.before().note, 120));
     const std::string since = fmt::format("since {}{}, in {}", base_words(findings), note, counted(nights, "night"));
-    if (findings.nothing_changed()) {
-        std::size_t readings = 0, cells = 0;
-        for (const NightCell& cell : findings.tonight().cells)
-            if (cell.failed.empty())
-                ++cells, readings += cell.readings->size();
-        return fmt::format("Nothing changed {}: {} of {} are the same to the last bit.{}", since, counted(readings, "reading"),
-                           counted(cells, "cell"), accepted);
-    }
+    const std::string absent =
+        findings.absent.empty() ? "" : fmt::format(" {} cannot be compared.", counted(findings.absent.size(), "cell"));
+    if (findings.nothing_changed() && findings.cells_compared == 0)
+        return fmt::format("Nothing can be compared with {}{}: no cell was played in both nights.{}{}", base_words(findings), note, absent,
+                           accepted);
+    if (findings.nothing_changed())
+        return fmt::format("Nothing changed {}: {} of {} are the same to the last bit.{}{}", since,
+                           counted(findings.readings_compared, "reading"), counted(findings.cells_compared, "cell"), absent, accepted);
     std::vector<std::string> parts;
     const auto add = [&](std::size_t count, const std::string& what) {
         if (count > 0)
@@ -170,7 +170,7 @@ std::string headline(const HistoryFindings& findings) {
     std::string all = parts.front();
     for (std::size_t i = 1; i < parts.size(); ++i)
         all += (i + 1 < parts.size() ? ", " : " and ") + parts[i];
-    return fmt::format("{} {}.{}", all, since, accepted);
+    return fmt::format("{} {}.{}{}", all, since, absent, accepted);
 }
 
 Table moved_table(const std::string& name, const std::string& caption) {

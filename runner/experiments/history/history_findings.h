@@ -100,9 +100,10 @@ struct HistoryFindings : Findings {
     std::vector<HistoryEvent> events; ///< by night
     std::vector<HistoryDrift> drifts;
     HistoryTimes times;
-    std::vector<std::string> quiet;  ///< nights and inputs that changed and moved nothing
-    std::vector<std::string> absent; ///< cells that one of both nights has not, or did not play
-    std::vector<MovedReading> since; ///< base against tonight beyond rounding, what decides first, then the largest
+    std::vector<std::string> quiet;                        ///< nights and inputs that changed and moved nothing
+    std::vector<std::string> absent;                       ///< cells that one of both nights has not, or did not play
+    std::size_t cells_compared = 0, readings_compared = 0; ///< of tonight, with the base
+    std::vector<MovedReading> since;                       ///< base against tonight beyond rounding, what decides first, then the largest
     std::map<std::pair<std::string, std::string>, double> aim_effects; ///< what 0.1° does tonight, by cell and reading; where it is known
     std::map<std::string, NightReadings> replays;                      ///< what was played tonight to tell causes apart, by cell
     std::vector<NightFrames> frames;
@@ -112,7 +113,10 @@ struct HistoryFindings : Findings {
     const Night& tonight() const { return nights.back(); }
     const Night& before() const { return nights[base]; }
     bool is_accepted() const { return before().accepted; }
-    bool nothing_changed() const { return events.empty() && drifts.empty() && times.changes.empty(); }
+    bool nothing_changed() const { return events.empty() && drifts.empty() && times.changes.empty(); } ///< in what is compared
+    /// What --fail-on-change asks: whether anything changed since the base or cannot be compared with it. Whoever accepts a night accepts
+    /// its changes; a first night has no base.
+    bool is_off_base() const { return nights.size() > 1 && !tonight().accepted && !(nothing_changed() && absent.empty()); }
 };
 
 struct HistoryOptions {

@@ -74,9 +74,35 @@ TEST_F(HistoryCommand, FromTheFirstNightToTheCause) {
     EXPECT_EQ(run_program("history explain --fail-on-change" + flag_).exit_code, 1);
     printed("history accept last" + flag_);
     EXPECT_THAT(printed("history explain" + flag_), AllOf(HasSubstr("1 change since"), HasSubstr("This night is accepted itself")));
+    EXPECT_EQ(run_program("history explain --fail-on-change" + flag_).exit_code, 0) << "who accepts a night accepts its changes";
     EXPECT_THAT(printed("history prune --keep 0 --dry-run" + flag_),
                 HasSubstr("would remove 1 night, kept 2 older ones that are accepted"));
     EXPECT_THAT(printed("history prune --before 2026-01-03" + flag_), HasSubstr("removed night 2 of planted, 2026-01-02"));
+}
+
+/// Another name for a lamp makes all its cells new: they were compared with nothing, and nobody may take that for a night without changes.
+TEST_F(HistoryCommand, WhatWasNotComparedIsCountedAndFailsTheJob) {
+    PlantedNights planted(3);
+    const auto explained_after = [&](int number, const std::set<std::string>& renamed) {
+        StudyResult result = planted.play(number, {});
+        for (StudyLamp& lamp : result.study.lamps)
+            lamp.name += renamed.contains(lamp.name) ? "-new" : "";
+        for (CellResult& cell : result.cells)
+            cell.cell.name += renamed.contains(cell.cell.name.substr(cell.cell.name.find('_') + 1)) ? "-new" : "";
+        const std::string folder = folder_ / ("renamed" + std::to_string(number));
+        write_night(folder, result);
+        printed("history add " + folder + flag_);
+        EXPECT_EQ(run_program("history explain --fail-on-change" + flag_).exit_code, 1);
+        return printed("history explain" + flag_);
+    };
+    printed("history add " + night(0) + " --accept" + flag_);
+    EXPECT_THAT(
+        explained_after(1, {"xenon"}),
+        AllOf(HasSubstr("Nothing changed since the accepted night of 2026-01-01, in 1 night: 12 readings of 3 cells are the same to "
+                        "the last bit. 6 cells cannot be compared"),
+              HasSubstr("straight_xenon is no longer played")));
+    EXPECT_THAT(explained_after(2, {"xenon", "halogen"}),
+                AllOf(HasSubstr("Nothing can be compared with the accepted night of 2026-01-01"), Not(HasSubstr("same to the last bit"))));
 }
 
 TEST_F(HistoryCommand, AnAcceptanceIsTakenBack) {
