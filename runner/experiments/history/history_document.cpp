@@ -138,7 +138,7 @@ std::vector<std::string> told_times(const HistoryFindings& findings) {
 
 std::string base_words(const HistoryFindings& findings) {
     return findings.is_accepted() ? "the accepted night of " + findings.when(findings.base)
-                                  : fmt::format("the first night, {}; none {}is accepted", findings.when(findings.base),
+                                  : fmt::format("the first night, {} (none {}is accepted)", findings.when(findings.base),
                                                 findings.tonight().accepted ? "before this one " : "");
 }
 

@@ -103,7 +103,8 @@ void draw_line(plots::Drawing& drawing, const HistoryFindings& findings, const s
     const Value last(reading == timed_frame ? 1e3 * line.back().y : line.back().y);
     drawing.text(left + line_px + 8.0, top + 16.0, reading == timed_frame ? four_digits(*last.figure()) + " ms" : told_value(reading, last),
                  {.size_px = 11.0, .colour = dark});
-    drawing.text(left + line_px + 8.0, top + 28.0, accepted && *accepted == line.back().y ? "as accepted" : share,
+    const char* const as_base = findings.is_accepted() ? "as accepted" : "as in the first night";
+    drawing.text(left + line_px + 8.0, top + 28.0, accepted && *accepted == line.back().y ? as_base : share,
                  {.size_px = 9.5, .colour = faint});
 }
 

@@ -395,6 +395,16 @@ TEST(HistoryCauses, WhatWasNotPlayedOrNotMeasuredIsSaid) {
     EXPECT_THAT(text, AllOf(HasSubstr("→ not measured"), HasSubstr("none is accepted"), Not(HasSubstr("nan"))));
 }
 
+TEST(HistoryDocument, NothingIsAcceptedWhereNoNightIs) {
+    PlantedNights planted(7);
+    std::vector<Night> nights;
+    for (int i = 0; i < 2; ++i)
+        nights.push_back(night_of_study(planted.play(i, {}), "/n"));
+    const HistoryFindings found = explain_nights(nights);
+    EXPECT_THAT(plot_svg(sparklines(found).front()), AllOf(HasSubstr("as in the first night"), Not(HasSubstr("as accepted"))));
+    EXPECT_THAT(document_text(document(found)), HasSubstr("since the first night, 2026-01-01 (none is accepted), in 1 night"));
+}
+
 TEST(HistoryDocument, AStepHasAsManyDigitsAsTellItsEndsApart) {
     EXPECT_EQ(told_step("reach_5lx_target_own_m", 40.25, 41.1), "40.25 m → 41.1 m");
     EXPECT_EQ(told_step("area_5lx_road_own_m2", 167.4312, 167.4329), "167.431 m² → 167.433 m²");
