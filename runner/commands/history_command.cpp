@@ -47,7 +47,7 @@ std::vector<std::string> studies_in(const std::vector<Night>& nights) {
     return studies;
 }
 
-/// Of one study: of the named one, else of the one that was played last.
+/// Of one study: of the named one, else of that of the night that was added last.
 std::vector<Night> nights_of_study(const HistoryFlags& flags) {
     const std::filesystem::path file = file_of(flags);
     std::vector<Night> nights = History(file, History::For::reading).nights();
@@ -209,6 +209,8 @@ int explain(const HistoryFlags& flags) {
     std::vector<Night> nights = nights_of_study(flags);
     nights.resize(place_of_night(nights, flags.night.empty() ? "last" : flags.night) + 1);
     HistoryFindings findings = explain_nights(std::move(nights), {.drift_bound = share_of("--drift", flags.drift)});
+    if (!findings.ahead.empty())
+        fernlicht::tell(LogLevel::warning, clock_warning(findings));
     findings.context = context_of(flags);
     add_frames(findings);
     const int told = tell(flags, document(findings), findings);
@@ -266,7 +268,7 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
         return sub;
     };
     const auto add_study = [&](CLI::App* sub, const char* text) { sub->add_option("--study", flags->study, text); };
-    const char* const one_study = "of this study (default: the one that was played last)";
+    const char* const one_study = "of this study (default: that of the night that was added last)";
     const char* const page = "new or empty folder for the page";
     CLI::App* adding = add_action("add", "add a night: the folder of a complete study", add);
     adding->add_option("FOLDER", flags->folder, "folder that `fernlicht study` wrote")->required();
@@ -279,7 +281,7 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
     add_study(accepting, one_study);
     CLI::App* showing = add_action("show", "list the nights, or show one", show);
     showing->add_option("NIGHT", flags->night, night_words);
-    add_study(showing, "of this study (default: all; for one night the study that was played last)");
+    add_study(showing, "of this study (default: all; for one night that of the night that was added last)");
     CLI::App* trending = add_action("trend", "when a reading changed, and why", trend);
     trending->add_option("READING", flags->reading, "name or pattern of readings, * and ? allowed; frame_s for times")->required();
     trending->add_option("--cells", flags->cells, "pattern of cells")->capture_default_str();

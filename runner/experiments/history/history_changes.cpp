@@ -282,6 +282,9 @@ HistoryFindings explain_nights(std::vector<Night> nights, const HistoryOptions& 
     for (std::size_t i = 0; i + 1 < findings.nights.size(); ++i)
         if (findings.nights[i].accepted)
             findings.base = i;
+    for (std::size_t i = findings.base; i + 1 < findings.nights.size(); ++i)
+        if (findings.nights[i].played_utc > findings.tonight().played_utc)
+            findings.ahead.push_back(i);
     std::map<std::pair<std::size_t, InputChanges>, std::size_t> changed; // cells, and
     std::set<std::pair<std::size_t, InputChanges>> moving;               // those whose readings moved
     StepsByReading steps;

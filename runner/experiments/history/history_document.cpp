@@ -324,9 +324,23 @@ std::string told_share(const std::optional<double>& share) {
     return !share ? "" : (*share < 0.0 ? "−" : *share > 0.0 ? "+" : "") + told_percent(std::abs(*share));
 }
 
+std::string clock_warning(const HistoryFindings& findings) {
+    if (findings.ahead.empty())
+        return "";
+    const std::size_t last = findings.ahead.back(), others = findings.ahead.size() - 1;
+    return fmt::format(
+        "The night of {}{} is dated after this one of {}, though it was added before: this machine's clock or that night's was wrong. "
+        "Nights are compared in the order in which they were added. Set this clock if it is wrong; if that night's was, accept a night "
+        "that is dated rightly: `fernlicht history accept last`.",
+        findings.when(last), others > 0 ? fmt::format(", as {} before it,", counted(others, "other")) : "",
+        findings.when(findings.nights.size() - 1));
+}
+
 Section changes_section(const HistoryFindings& findings) {
     Section section{findings.nights.size() == 1 ? "The first night" : "What changed since " + findings.when(findings.base),
                     {headline(findings)}};
+    if (!findings.ahead.empty())
+        section.blocks.emplace_back(clock_warning(findings));
     std::vector<std::pair<std::size_t, std::string>> claims;
     for (const HistoryEvent& event : findings.events)
         claims.emplace_back(event.night, told_event(findings, event));

@@ -94,8 +94,9 @@ struct NightFrames {
 
 struct HistoryFindings : Findings {
     std::string study;
-    std::vector<Night> nights; ///< of the study, up to the one that is looked at
-    std::size_t base = 0;      ///< what it is compared with: the last accepted night before it, else the first of all
+    std::vector<Night> nights;      ///< of the study, as they were added, up to the one that is looked at
+    std::size_t base = 0;           ///< what it is compared with: the last accepted night before it, else the first of all
+    std::vector<std::size_t> ahead; ///< nights from the base on that are dated after tonight: a clock was wrong
     double drift_bound = 0.005;
     std::vector<HistoryEvent> events; ///< by night
     std::vector<HistoryDrift> drifts;
@@ -125,7 +126,7 @@ struct HistoryOptions {
     TellApart tell_apart = {};  ///< where there is none, the reason is told
 };
 
-/// Looks at the last of the nights, all of one study, in order, at least one.
+/// Looks at the last of the nights, all of one study, in the order in which they were added, at least one.
 HistoryFindings explain_nights(std::vector<Night> nights, const HistoryOptions& options = {});
 
 /// A night's date, with the time where several have that date, to the second where it must be.

@@ -105,6 +105,28 @@ TEST_F(HistoryCommand, WhatWasNotComparedIsCountedAndFailsTheJob) {
                 AllOf(HasSubstr("Nothing can be compared with the accepted night of 2026-01-01"), Not(HasSubstr("same to the last bit"))));
 }
 
+/// The accepted night was played with a clock a day ahead: the next ones are compared with it all the same, and told so.
+TEST_F(HistoryCommand, NightsFollowEachOtherAsTheyWereAddedWhateverTheirClocksSay) {
+    const auto add_dated = [&](int number, const std::string& utc) {
+        StudyResult result = from_json<StudyResult>(CheckedJson::read(night(number) + "/study.json"), study_members);
+        result.context.started_utc = utc;
+        const std::string folder = folder_ / utc;
+        write_night(folder, result);
+        printed("history add " + folder + (number == 0 ? " --accept" : "") + flag_);
+    };
+    add_dated(0, "2026-02-02T02:00:00Z");
+    add_dated(1, "2026-02-01T12:00:00Z");
+    EXPECT_THAT(printed("history explain" + flag_),
+                AllOf(HasSubstr("Nothing changed since the accepted night of 2026-02-02"), Not(HasSubstr("first night")),
+                      HasSubstr("The night of 2026-02-02 is dated after this one of 2026-02-01, though it was added before")));
+    EXPECT_EQ(run_program("history explain --fail-on-change" + flag_).exit_code, 0);
+    add_dated(2, "2026-02-01T18:00:00Z");
+    const Outcome changed = run_program("history explain --fail-on-change" + flag_);
+    EXPECT_EQ(changed.exit_code, 1);
+    EXPECT_THAT(changed.output, HasSubstr("(+5 %)")) << "from before to after";
+    EXPECT_THAT(printed("history trend 'reach_5lx*' --cells straight_xenon" + flag_), HasSubstr("2026-02-02        2026-02-01 12:00"));
+}
+
 TEST_F(HistoryCommand, AnAcceptanceIsTakenBack) {
     for (const int number : {0, 1})
         printed("history add " + night(number) + (number == 1 ? " --accept" : "") + flag_);

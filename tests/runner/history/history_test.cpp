@@ -88,10 +88,10 @@ TEST(HistoryFile, WhatGoesInComesBackToTheLastBit) {
     Night first = night_of(1);
     first.accepted = true;
     first.note = "as bought";
-    expect_same(nights[0], first);
-    expect_same(nights[1], night_of(2));
-    EXPECT_EQ(*nights[1].cells[0].with_earlier_inputs, (NightReadings{{"a", Value(7.0)}}));
-    EXPECT_EQ(nights[0].cells[0].with_earlier_inputs, nullptr);
+    expect_same(nights[0], night_of(2)); // as they were added
+    expect_same(nights[1], first);
+    EXPECT_EQ(*nights[0].cells[0].with_earlier_inputs, (NightReadings{{"a", Value(7.0)}}));
+    EXPECT_EQ(nights[1].cells[0].with_earlier_inputs, nullptr);
     // Equal readings and inputs lie there once.
     EXPECT_EQ(nights[0].cells[0].readings, nights[1].cells[0].readings);
     EXPECT_EQ(nights[0].cells[0].inputs, nights[1].cells[0].inputs);
