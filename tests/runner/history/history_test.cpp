@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <linux/magic.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -254,6 +255,17 @@ TEST(HistoryFile, WhereWriteAheadLoggingDoesNotWorkARollbackJournalDoes) {
     EXPECT_EQ(moved.journal(), "delete");
     EXPECT_TRUE(moved.add(night_of(2)).is_new);
     EXPECT_EQ(moved.nights().size(), 2U);
+}
+
+TEST(HistoryFile, OfAFileSystemThatSeveralMachinesMayMountNoneIsLocal) {
+    for (const std::int64_t local :
+         std::vector<std::int64_t>{EXT4_SUPER_MAGIC, XFS_SUPER_MAGIC, BTRFS_SUPER_MAGIC, TMPFS_MAGIC, OVERLAYFS_SUPER_MAGIC})
+        EXPECT_TRUE(is_local_file_system(local)) << local;
+    for (const std::int64_t shared :
+         std::vector<std::int64_t>{NFS_SUPER_MAGIC, SMB_SUPER_MAGIC, AFS_SUPER_MAGIC, FUSE_SUPER_MAGIC, V9FS_MAGIC, CEPH_SUPER_MAGIC})
+        EXPECT_FALSE(is_local_file_system(shared)) << shared;
+    constexpr std::int64_t lustre = 0x0bd00bd0;
+    EXPECT_FALSE(is_local_file_system(lustre));
 }
 
 /// A study whose cells failed stands there with them; gone on with, it stands there as it is then, and once.
