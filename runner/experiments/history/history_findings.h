@@ -80,7 +80,7 @@ struct HistoryTimes {
         std::string cell;
         std::size_t night = 0; ///< the first of the new level
         double ratio = 1.0, p = 1.0;
-        InputChanges causes; ///< CPU and system among them
+        InputChanges causes; ///< the system among them
     };
     std::vector<Change> changes; ///< since the base
     std::size_t cells = 0;       ///< whose times were tested
@@ -139,6 +139,9 @@ std::vector<std::size_t> chain_of(const std::vector<Night>& nights, const std::s
 /// Whether a reading changed: against what rounding of a step with these causes allows. `other`: the figure whose exactness it tells.
 bool is_beyond(const Value& before, const Value& now, double other, const InputChanges& causes);
 
+/// Of the nights that lead to the last one (chain_of) those on its CPU in which the cell was timed: a device class has fast CPUs and slow
+/// ones.
+std::vector<std::size_t> timed_nights(const std::vector<Night>& nights, const std::string& cell);
 HistoryTimes changes_of_times(const std::vector<Night>& nights, std::size_t base, double rate);
 
 /// Splits what inputs and program or machine did together in one night.

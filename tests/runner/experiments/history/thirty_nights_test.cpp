@@ -370,6 +370,29 @@ TEST(HistoryCauses, NightsOfOneDateAreToldByTheirTimes) {
     EXPECT_EQ(when_of({night_of_study(again, "/b"), night_of_study(soon, "/c")}, 1), "2026-01-01 05:30:01");
 }
 
+TEST(HistoryTimes, NightsOnAnotherCpuTellNothingOfThisOne) {
+    PlantedNights planted(7);
+    std::vector<Night> nights;
+    for (int night = 0; night < 40; ++night) {
+        const bool other = night % 2 == 0 || night < 10;
+        World world;
+        world.slow = other ? 1.0 : night < 25 ? 1.5 : 1.8;
+        StudyResult result = planted.play(night, world);
+        result.context.cpu = other ? "Fast CPU (avx2)" : "Slow CPU (avx2)"; // one class
+        nights.push_back(night_of_study(result, "/n"));
+    }
+    const HistoryTimes times = changes_of_times(nights, 0, 0.01);
+    EXPECT_EQ(times.nights, 15U);
+    ASSERT_EQ(times.changes.size(), 4U);
+    for (const HistoryTimes::Change& change : times.changes) {
+        EXPECT_EQ(change.night, 25U);
+        EXPECT_NEAR(change.ratio, 1.2, 0.02);
+    }
+    EXPECT_THAT(document_text(trend_document(nights, "frame_s", "straight_xenon")), HasSubstr("2026-01-12  2026-01-24       7"));
+    nights.pop_back();
+    EXPECT_THAT(changes_of_times(nights, 0, 0.01).changes, IsEmpty());
+}
+
 TEST(HistoryCauses, ThereAndBackIsTwoChangesAndNoneInSum) {
     World other;
     other.version["xenon"] = 1;
