@@ -254,7 +254,8 @@ Section times_section(const HistoryFindings& findings) {
         return section;
     }
     section.blocks.emplace_back(fmt::format(
-        "Frames of {}, timed in up to {}. Readings are exact, times are not: p is the share of {} random orders of the nights in which two "
+        "Frames of {}, timed in up to {}. Readings are exact, times are not: p is the share of {} random orders of the nights or more in "
+        "which two "
         "levels lie as far apart (permutation test of the largest step of the logarithms). A change is claimed where p passes the "
         "procedure "
         "of Benjamini and Hochberg over all cells, at a false discovery rate of {} %.",
