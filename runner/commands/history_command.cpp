@@ -47,16 +47,26 @@ std::vector<std::string> studies_in(const std::vector<Night>& nights) {
     return studies;
 }
 
-/// Of one study: of the named one, else of that of the night that was added last.
-std::vector<Night> nights_of_study(const HistoryFlags& flags) {
+/// Of the named study, of all where none is named.
+std::vector<Night> nights_named(const HistoryFlags& flags) {
     const std::filesystem::path file = file_of(flags);
     std::vector<Night> nights = History(file, History::For::reading).nights();
-    if (nights.empty())
-        throw InputError({file, 0, 0, {}}, "holds no night", "one; `fernlicht history add FOLDER` adds it");
-    const std::string study = flags.study.empty() ? nights.back().study : flags.study;
+    if (flags.study.empty() || nights.empty())
+        return nights;
     const std::vector<std::string> studies = studies_in(nights);
-    if (std::ranges::find(studies, study) == studies.end())
-        throw InputError({file, 0, 0, "--study"}, "found '" + printable(study) + "'", fmt::format("one of {}", fmt::join(studies, ", ")));
+    if (std::ranges::find(studies, flags.study) == studies.end())
+        throw InputError({file, 0, 0, "--study"}, "found '" + printable(flags.study) + "'",
+                         fmt::format("one of {}", fmt::join(studies, ", ")));
+    std::erase_if(nights, [&](const Night& night) { return night.study != flags.study; });
+    return nights;
+}
+
+/// Of one study: of the named one, else of that of the night that was added last.
+std::vector<Night> nights_of_study(const HistoryFlags& flags) {
+    std::vector<Night> nights = nights_named(flags);
+    if (nights.empty())
+        throw InputError({file_of(flags), 0, 0, {}}, "holds no night", "one; `fernlicht history add FOLDER` adds it");
+    const std::string study = nights.back().study;
     std::erase_if(nights, [&](const Night& night) { return night.study != study; });
     return nights;
 }
@@ -135,13 +145,12 @@ int accept_night(const HistoryFlags& flags) {
 }
 
 int list_nights(const HistoryFlags& flags) {
-    const std::filesystem::path file = file_of(flags);
-    std::vector<Night> nights = History(file, History::For::reading).nights(flags.study);
+    const std::vector<Night> nights = nights_named(flags);
     if (nights.empty()) {
-        fmt::print("no night is in {}\n", file.string());
+        fmt::print("no night is in {}\n", file_of(flags).string());
         return 0;
     }
-    std::vector<std::vector<std::string>> rows{{"night", "played", "study", "cells", "readings", "accepted", "device", "folder"}};
+    std::vector<std::vector<std::string>> rows{{"night", "played (UTC)", "study", "cells", "readings", "accepted", "device", "folder"}};
     std::error_code ignored;
     for (const Night& night : nights)
         rows.push_back({fmt::format("{}", night.number), night.played_utc, printable(night.study), fmt::format("{}", night.cells.size()),
@@ -239,7 +248,7 @@ int prune(const HistoryFlags& flags) {
 int export_nights(const HistoryFlags& flags) {
     if (!flags.csv)
         throw InputError({{}, 0, 0, "export"}, "found no format", "--csv");
-    const std::vector<Night> nights = History(file_of(flags), History::For::reading).nights(flags.study);
+    const std::vector<Night> nights = nights_named(flags);
     if (flags.out.empty()) {
         export_csv(nights, [](const std::string& lines) { fmt::print("{}", lines); });
         return 0;

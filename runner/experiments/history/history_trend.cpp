@@ -47,7 +47,7 @@ std::vector<TrendLevel> levels_of(const std::vector<Night>& nights, const std::s
 }
 
 Table trend_table() {
-    Table table{"trend", "", columns_of("cell<|reading`|from<|to<|nights|value|unit<|change [%]|cause<"), {}};
+    Table table{"trend", "", columns_of("cell<|reading`|from [UTC]<|to [UTC]<|nights|value|unit<|change [%]|cause<"), {}};
     table.sortable = true;
     return table;
 }

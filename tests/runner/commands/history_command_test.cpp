@@ -176,6 +176,8 @@ TEST_F(HistoryCommand, WhatCannotBeUsedGivesOneSentence) {
     printed("history add " + night(0) + flag_);
     EXPECT_THAT(printed("history explain 2027-01-01" + flag_, 2), HasSubstr("found '2027-01-01', expected last, a number or a date"));
     EXPECT_THAT(printed("history explain --study standard" + flag_, 2), HasSubstr("expected one of planted"));
+    for (const char* action : {"show", "export --csv"})
+        EXPECT_THAT(printed(std::string("history ") + action + " --study standard" + flag_, 2), HasSubstr("expected one of planted"));
     EXPECT_THAT(printed("history prune" + flag_, 2), HasSubstr("found neither --keep nor --before"));
     EXPECT_THAT(printed("history export" + flag_, 2), HasSubstr("expected --csv"));
     EXPECT_THAT(printed("history trend reach_5lx_target_own" + flag_, 2), HasSubstr("such as reach_5lx_target_own_m"));
