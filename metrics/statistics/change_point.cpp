@@ -141,7 +141,8 @@ std::vector<SeriesChange> change_points(const std::vector<std::vector<double>>& 
             }
         parts.clear();
         std::vector<bool> is_found = discoveries(p, rate);
-        // A discovery alone among many passes a bound that so few orders cannot reach. Those that wait for it are fewer than rate x parts.
+        // A discovery alone among many passes a bound that so few orders cannot reach. Few wait for it: at a
+        // rate of 1 % fewer than one part in a hundred, or those of the least p would be found together.
         const double orders = rate > 0.0 ? std::ceil(orders_of_one_discovery * static_cast<double>(p.size()) / rate) : 0.0;
         if (orders > orders_of_change && orders < std::numeric_limits<int>::max()) {
             for (std::size_t i = 0; i < tested.size(); ++i)
