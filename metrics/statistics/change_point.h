@@ -42,7 +42,8 @@ struct SeriesChange {
     ChangePoint change;
 };
 /// All changes of several series, by series and sample: each series whole, then the parts on both sides of what was found (binary
-/// segmentation), with discoveries() over all parts of one round. A rise and a fall that cancel can hide each other. Errors as
+/// segmentation), with discoveries() over all parts of one round. Where none of orders_of_change random orders steps as far, and the p of
+/// that is too large for a discovery, 10 m / rate orders of the m parts tell. A rise and a fall that cancel can hide each other. Errors as
 /// change_point.
 std::vector<SeriesChange> change_points(const std::vector<std::vector<double>>& series, double rate);
 

@@ -47,16 +47,26 @@ std::vector<std::string> studies_in(const std::vector<Night>& nights) {
     return studies;
 }
 
-/// Of one study: of the named one, else of the one that was played last.
-std::vector<Night> nights_of_study(const HistoryFlags& flags) {
+/// Of the named study, of all where none is named.
+std::vector<Night> nights_named(const HistoryFlags& flags) {
     const std::filesystem::path file = file_of(flags);
     std::vector<Night> nights = History(file, History::For::reading).nights();
-    if (nights.empty())
-        throw InputError({file, 0, 0, {}}, "holds no night", "one; `fernlicht history add FOLDER` adds it");
-    const std::string study = flags.study.empty() ? nights.back().study : flags.study;
+    if (flags.study.empty() || nights.empty())
+        return nights;
     const std::vector<std::string> studies = studies_in(nights);
-    if (std::ranges::find(studies, study) == studies.end())
-        throw InputError({file, 0, 0, "--study"}, "found '" + printable(study) + "'", fmt::format("one of {}", fmt::join(studies, ", ")));
+    if (std::ranges::find(studies, flags.study) == studies.end())
+        throw InputError({file, 0, 0, "--study"}, "found '" + printable(flags.study) + "'",
+                         fmt::format("one of {}", fmt::join(studies, ", ")));
+    std::erase_if(nights, [&](const Night& night) { return night.study != flags.study; });
+    return nights;
+}
+
+/// Of one study: of the named one, else of that of the night that was added last.
+std::vector<Night> nights_of_study(const HistoryFlags& flags) {
+    std::vector<Night> nights = nights_named(flags);
+    if (nights.empty())
+        throw InputError({file_of(flags), 0, 0, {}}, "holds no night", "one; `fernlicht history add FOLDER` adds it");
+    const std::string study = nights.back().study;
     std::erase_if(nights, [&](const Night& night) { return night.study != study; });
     return nights;
 }
@@ -135,13 +145,12 @@ int accept_night(const HistoryFlags& flags) {
 }
 
 int list_nights(const HistoryFlags& flags) {
-    const std::filesystem::path file = file_of(flags);
-    std::vector<Night> nights = History(file, History::For::reading).nights(flags.study);
+    const std::vector<Night> nights = nights_named(flags);
     if (nights.empty()) {
-        fmt::print("no night is in {}\n", file.string());
+        fmt::print("no night is in {}\n", file_of(flags).string());
         return 0;
     }
-    std::vector<std::vector<std::string>> rows{{"night", "played", "study", "cells", "readings", "accepted", "device", "folder"}};
+    std::vector<std::vector<std::string>> rows{{"night", "played (UTC)", "study", "cells", "readings", "accepted", "device", "folder"}};
     std::error_code ignored;
     for (const Night& night : nights)
         rows.push_back({fmt::format("{}", night.number), night.played_utc, printable(night.study), fmt::format("{}", night.cells.size()),
@@ -209,10 +218,12 @@ int explain(const HistoryFlags& flags) {
     std::vector<Night> nights = nights_of_study(flags);
     nights.resize(place_of_night(nights, flags.night.empty() ? "last" : flags.night) + 1);
     HistoryFindings findings = explain_nights(std::move(nights), {.drift_bound = share_of("--drift", flags.drift)});
+    if (!findings.ahead.empty())
+        fernlicht::tell(LogLevel::warning, clock_warning(findings));
     findings.context = context_of(flags);
     add_frames(findings);
     const int told = tell(flags, document(findings), findings);
-    return flags.fails_on_change && !findings.nothing_changed() ? 1 : told;
+    return flags.fails_on_change && findings.is_off_base() ? 1 : told;
 }
 
 int prune(const HistoryFlags& flags) {
@@ -237,7 +248,7 @@ int prune(const HistoryFlags& flags) {
 int export_nights(const HistoryFlags& flags) {
     if (!flags.csv)
         throw InputError({{}, 0, 0, "export"}, "found no format", "--csv");
-    const std::vector<Night> nights = History(file_of(flags), History::For::reading).nights(flags.study);
+    const std::vector<Night> nights = nights_named(flags);
     if (flags.out.empty()) {
         export_csv(nights, [](const std::string& lines) { fmt::print("{}", lines); });
         return 0;
@@ -266,7 +277,7 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
         return sub;
     };
     const auto add_study = [&](CLI::App* sub, const char* text) { sub->add_option("--study", flags->study, text); };
-    const char* const one_study = "of this study (default: the one that was played last)";
+    const char* const one_study = "of this study (default: that of the night that was added last)";
     const char* const page = "new or empty folder for the page";
     CLI::App* adding = add_action("add", "add a night: the folder of a complete study", add);
     adding->add_option("FOLDER", flags->folder, "folder that `fernlicht study` wrote")->required();
@@ -279,7 +290,7 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
     add_study(accepting, one_study);
     CLI::App* showing = add_action("show", "list the nights, or show one", show);
     showing->add_option("NIGHT", flags->night, night_words);
-    add_study(showing, "of this study (default: all; for one night the study that was played last)");
+    add_study(showing, "of this study (default: all; for one night that of the night that was added last)");
     CLI::App* trending = add_action("trend", "when a reading changed, and why", trend);
     trending->add_option("READING", flags->reading, "name or pattern of readings, * and ? allowed; frame_s for times")->required();
     trending->add_option("--cells", flags->cells, "pattern of cells")->capture_default_str();
@@ -288,7 +299,8 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
     explaining->add_option("NIGHT", flags->night, "the night to explain: last, a number or a date (default: last)");
     explaining->add_option("--drift", flags->drift, "tell of a drift when its sum exceeds this; each step is smaller")
         ->capture_default_str();
-    explaining->add_flag("--fail-on-change", flags->fails_on_change, "exit code 1 where anything changed since the last accepted night");
+    explaining->add_flag("--fail-on-change", flags->fails_on_change,
+                         "exit code 1 where anything changed since the last accepted night, or cannot be compared with it");
     add_study(explaining, one_study);
     for (CLI::App* sub : {trending, explaining}) {
         sub->add_option("--out", flags->out, page);

@@ -241,9 +241,10 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
             no_history = error.what();
         }
         if (flags.fails_on_change && findings)
-            result.verdicts.push_back(findings->nothing_changed()
-                                          ? Verdict{VerdictKind::pass, unchanged_verdict, "nothing changed", {}}
-                                          : Verdict{VerdictKind::fail, unchanged_verdict, "what changed leads the report", {}});
+            result.verdicts.push_back(
+                findings->is_off_base()
+                    ? Verdict{VerdictKind::fail, unchanged_verdict, "what changed, or could not be compared, leads the report", {}}
+                    : Verdict{VerdictKind::pass, unchanged_verdict, "nothing changed", {}});
         write_study(result, options.folder, findings);
     };
     options.judge_cell = [](const Report& report, const std::filesystem::path& cell) { write_judgement(report, cell); };
@@ -305,7 +306,8 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_option("--gpus", flags->gpus, "of the cluster for each cell, as --gres has it: gpu:1");
     sub->add_option("--history", flags->history,
                     "lead with what changed since the last accepted night of this history, and add tonight to it");
-    sub->add_flag("--fail-on-change", flags->fails_on_change, "with --history: exit code 1 where anything changed since that night");
+    sub->add_flag("--fail-on-change", flags->fails_on_change,
+                  "with --history: exit code 1 where anything changed since that night, or cannot be compared with it");
     sub->add_flag("--explain", flags->explain, "say why each cell must be played that the store lacks, and play none");
     sub->add_flag("--plan", flags->plan, "print a command for each cell that the store lacks, a line of JSON each, and play none");
     sub->add_option("--per", flags->per, "cells for each command of --plan, and for each task of a cluster (default: 1)")

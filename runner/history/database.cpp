@@ -3,9 +3,13 @@
 #include "runner/files/durable_files.h"
 #include "scenarios/values/errors.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <fmt/format.h>
+#include <linux/magic.h>
 #include <sqlite3.h>
+#include <sys/vfs.h>
 #include <thread>
 
 namespace fernlicht {
@@ -25,6 +29,10 @@ struct Statement::Handle {
 namespace {
 
 constexpr int wait_ms = 60'000;
+
+constexpr std::int64_t zfs_magic = 0x2fc12fc1; // OpenZFS, include/os/linux/zfs/sys/zfs_vfsops_os.h
+constexpr std::array<std::int64_t, 7> local_file_systems{EXT4_SUPER_MAGIC, XFS_SUPER_MAGIC,       BTRFS_SUPER_MAGIC, F2FS_SUPER_MAGIC,
+                                                         TMPFS_MAGIC,      OVERLAYFS_SUPER_MAGIC, zfs_magic}; // ext2, ext3 as ext4
 
 [[noreturn]] void fail_with(const std::filesystem::path& file, int code, const std::string& says) {
     switch (code & 0xff) {
@@ -47,6 +55,8 @@ constexpr int wait_ms = 60'000;
 }
 
 } // namespace
+
+bool is_local_file_system(std::int64_t type) { return std::ranges::find(local_file_systems, type) != local_file_systems.end(); }
 
 Database::Database(std::filesystem::path file, For what) : file_(std::move(file)) {
     std::error_code ignored;
@@ -93,11 +103,19 @@ void Database::open(bool writing, bool immutable) {
     sqlite3_busy_timeout(handle_->connection, wait_ms);
 }
 
+bool Database::is_local() const {
+    std::error_code ignored;
+    const std::filesystem::path folder = std::filesystem::weakly_canonical(std::filesystem::absolute(file_), ignored).parent_path();
+    struct ::statfs disk {};
+    return ::statfs(folder.c_str(), &disk) == 0 && is_local_file_system(disk.f_type);
+}
+
 void Database::try_write_ahead() {
     // Switching asks for the file alone and does not wait by itself.
     const auto give_up = std::chrono::steady_clock::now() + std::chrono::milliseconds(wait_ms);
     const auto says = [&](const char* sql) { return sqlite3_exec(handle_->connection, sql, nullptr, nullptr, nullptr); };
-    int code = says("PRAGMA journal_mode=WAL");
+    // Between machines the index of the log is not shared, which a transaction on one of them does not find out (sqlite.org/wal.html).
+    int code = is_local() ? says("PRAGMA journal_mode=WAL") : SQLITE_IOERR;
     while ((code & 0xff) == SQLITE_BUSY && std::chrono::steady_clock::now() < give_up) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         code = says("PRAGMA journal_mode=WAL");

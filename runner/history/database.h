@@ -12,13 +12,17 @@ namespace fernlicht {
 
 class Statement;
 
+/// By statfs()'s f_type: whether one machine alone mounts it, as far as is known.
+bool is_local_file_system(std::int64_t type);
+
 class Database {
   public:
     enum class For { reading, writing };
 
     /// Writing: makes the file and its folder where they are not there, and waits up to a minute while others write. A new file gets
-    /// write-ahead logging (WAL), so that readers and writer do not wait for each other; where a first transaction finds that it does not
-    /// work, as on network disks, the file gets a rollback journal, and keeps it. Reading changes nothing on the disk.
+    /// write-ahead logging (WAL), so that readers and writer do not wait for each other; on file systems that are not known as local, as
+    /// network disks, and where a first transaction finds that it does not work, the file gets a rollback journal, and keeps it. Reading
+    /// changes nothing on the disk.
     /// Errors of this and all below: InputError for a file that is not there, damaged or no database; DeviceError for what the disk
     /// refuses, or where another process writes for longer than a minute.
     Database(std::filesystem::path file, For what);
@@ -37,6 +41,7 @@ class Database {
     friend class Statement;
     struct Handle;
     void open(bool writing, bool immutable);
+    bool is_local() const;
     void try_write_ahead();
     std::filesystem::path file_;
     std::unique_ptr<Handle> handle_;

@@ -280,7 +280,7 @@ std::vector<Night> History::nights(const std::string& study) const {
     std::vector<Night> nights;
     std::map<std::int64_t, std::size_t> place_of;
     Statement heads(database, "SELECT number, study, played_utc, folder, accepted, note, machine, decide FROM nights "
-                              "WHERE ?1 = '' OR study = ?1 ORDER BY played_utc, number");
+                              "WHERE ?1 = '' OR study = ?1 ORDER BY number");
     heads.bind(1, study);
     while (heads.step()) {
         place_of[heads.whole(0)] = nights.size();

@@ -70,14 +70,14 @@ class History {
     /// Throws InputError where there is no such night.
     void accept(std::int64_t number, const std::string& note);
     void withdraw(std::int64_t number); ///< as if it had not been accepted
-    /// In the order in which they were played; of all studies for "".
+    /// In the order in which they were added, as clocks may be wrong; of all studies for "".
     std::vector<Night> nights(const std::string& study = "") const;
 
     struct Pruned {
         std::vector<Night> nights;     ///< that are gone, without their cells
         std::size_t kept_accepted = 0; ///< that would have gone, and stay because they are accepted
     };
-    /// Removes the oldest nights of each study, but its `keep` newest and those from `before` (a date, or "") on: one of both is given.
+    /// Removes nights of each study but the `keep` that were added last, or those dated before `before`, where it is no "": one of both.
     /// Accepted nights stay. `dry`: only says what would go.
     Pruned prune(std::optional<std::size_t> keep, const std::string& before, bool dry);
 

@@ -134,6 +134,12 @@ bool has_cause(const InputChanges& changes, Cause cause) {
     return std::ranges::any_of(changes, [&](const InputChange& change) { return cause_of(change.kind) == cause; });
 }
 
+std::string machine_in(const Night& night, const std::string& name) {
+    const auto found =
+        std::ranges::find_if(night.machine, [&](const CellInput& input) { return input.kind == InputKind::device && input.name == name; });
+    return found == night.machine.end() ? "" : found->hash;
+}
+
 CellInputs deciding_inputs(const Night& night, const NightCell& cell) {
     CellInputs inputs = cell.inputs->empty() ? night.machine : *cell.inputs;
     std::erase_if(inputs, is_of_times_alone);

@@ -33,6 +33,8 @@ std::string phrase_of(const InputChanges& changes);
 std::string causes_of(const InputChanges& changes);
 bool has_cause(const InputChanges& changes, Cause cause);
 
+/// "CPU", "driver" and so on, as the night's context names it; "" where it does not.
+std::string machine_in(const Night& night, const std::string& name);
 /// What decides a cell's readings: its own inputs; where they were not kept, what the night's context tells of program and machine.
 CellInputs deciding_inputs(const Night& night, const NightCell& cell);
 /// The same with what decides over its time alone: CPU and system.

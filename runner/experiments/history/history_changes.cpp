@@ -220,7 +220,7 @@ void add_absent(HistoryFindings& findings) {
         else if (const NightCell* earlier = before.cell(cell.name); !earlier || !earlier->failed.empty())
             findings.absent.push_back(cell.name + " was not played in the night that this is compared with");
     for (const NightCell& cell : before.cells)
-        if (cell.failed.empty() && !tonight.cell(cell.name))
+        if (!tonight.cell(cell.name))
             findings.absent.push_back(cell.name + " is no longer played");
 }
 
@@ -282,6 +282,9 @@ HistoryFindings explain_nights(std::vector<Night> nights, const HistoryOptions& 
     for (std::size_t i = 0; i + 1 < findings.nights.size(); ++i)
         if (findings.nights[i].accepted)
             findings.base = i;
+    for (std::size_t i = findings.base; i + 1 < findings.nights.size(); ++i)
+        if (findings.nights[i].played_utc > findings.tonight().played_utc)
+            findings.ahead.push_back(i);
     std::map<std::pair<std::size_t, InputChanges>, std::size_t> changed; // cells, and
     std::set<std::pair<std::size_t, InputChanges>> moving;               // those whose readings moved
     StepsByReading steps;
@@ -299,6 +302,8 @@ HistoryFindings explain_nights(std::vector<Night> nights, const HistoryOptions& 
             }
         }
         if (chain.size() > 1 && chain.front() == findings.base) {
+            ++findings.cells_compared;
+            findings.readings_compared += cell.readings->size();
             const Night& before = findings.before();
             const NightCell& earlier = *before.cell(cell.name);
             const InputChanges causes = changes_between(before, earlier, findings.tonight(), cell);

@@ -138,7 +138,7 @@ std::vector<std::string> told_times(const HistoryFindings& findings) {
 
 std::string base_words(const HistoryFindings& findings) {
     return findings.is_accepted() ? "the accepted night of " + findings.when(findings.base)
-                                  : fmt::format("the first night, {}; none {}is accepted", findings.when(findings.base),
+                                  : fmt::format("the first night, {} (none {}is accepted)", findings.when(findings.base),
                                                 findings.tonight().accepted ? "before this one " : "");
 }
 
@@ -149,14 +149,14 @@ std::string headline(const HistoryFindings& findings) {
     const std::size_t nights = findings.nights.size() - 1 - findings.base;
     const std::string note = findings.before().note.empty() ? "" : fmt::format(" (\"{}\")", short_text(findings.before().note, 120));
     const std::string since = fmt::format("since {}{}, in {}", base_words(findings), note, counted(nights, "night"));
-    if (findings.nothing_changed()) {
-        std::size_t readings = 0, cells = 0;
-        for (const NightCell& cell : findings.tonight().cells)
-            if (cell.failed.empty())
-                ++cells, readings += cell.readings->size();
-        return fmt::format("Nothing changed {}: {} of {} are the same to the last bit.{}", since, counted(readings, "reading"),
-                           counted(cells, "cell"), accepted);
-    }
+    const std::string absent =
+        findings.absent.empty() ? "" : fmt::format(" {} cannot be compared.", counted(findings.absent.size(), "cell"));
+    if (findings.nothing_changed() && findings.cells_compared == 0)
+        return fmt::format("Nothing can be compared with {}{}: no cell was played in both nights.{}{}", base_words(findings), note, absent,
+                           accepted);
+    if (findings.nothing_changed())
+        return fmt::format("Nothing changed {}: {} of {} are the same to the last bit.{}{}", since,
+                           counted(findings.readings_compared, "reading"), counted(findings.cells_compared, "cell"), absent, accepted);
     std::vector<std::string> parts;
     const auto add = [&](std::size_t count, const std::string& what) {
         if (count > 0)
@@ -170,7 +170,7 @@ std::string headline(const HistoryFindings& findings) {
     std::string all = parts.front();
     for (std::size_t i = 1; i < parts.size(); ++i)
         all += (i + 1 < parts.size() ? ", " : " and ") + parts[i];
-    return fmt::format("{} {}.{}", all, since, accepted);
+    return fmt::format("{} {}.{}{}", all, since, absent, accepted);
 }
 
 Table moved_table(const std::string& name, const std::string& caption) {
@@ -254,7 +254,8 @@ Section times_section(const HistoryFindings& findings) {
         return section;
     }
     section.blocks.emplace_back(fmt::format(
-        "Frames of {}, timed in up to {}. Readings are exact, times are not: p is the share of {} random orders of the nights in which two "
+        "Frames of {}, timed in up to {}. Readings are exact, times are not: p is the share of {} random orders of the nights or more in "
+        "which two "
         "levels lie as far apart (permutation test of the largest step of the logarithms). A change is claimed where p passes the "
         "procedure "
         "of Benjamini and Hochberg over all cells, at a false discovery rate of {} %.",
@@ -324,9 +325,23 @@ std::string told_share(const std::optional<double>& share) {
     return !share ? "" : (*share < 0.0 ? "−" : *share > 0.0 ? "+" : "") + told_percent(std::abs(*share));
 }
 
+std::string clock_warning(const HistoryFindings& findings) {
+    if (findings.ahead.empty())
+        return "";
+    const std::size_t last = findings.ahead.back(), others = findings.ahead.size() - 1;
+    return fmt::format(
+        "The night of {}{} is dated after this one of {}, though it was added before: this machine's clock or that night's was wrong. "
+        "Nights are compared in the order in which they were added. Set this clock if it is wrong; if that night's was, accept a night "
+        "that is dated rightly: `fernlicht history accept last`.",
+        findings.when(last), others > 0 ? fmt::format(", as {} before it,", counted(others, "other")) : "",
+        findings.when(findings.nights.size() - 1));
+}
+
 Section changes_section(const HistoryFindings& findings) {
     Section section{findings.nights.size() == 1 ? "The first night" : "What changed since " + findings.when(findings.base),
                     {headline(findings)}};
+    if (!findings.ahead.empty())
+        section.blocks.emplace_back(clock_warning(findings));
     std::vector<std::pair<std::size_t, std::string>> claims;
     for (const HistoryEvent& event : findings.events)
         claims.emplace_back(event.night, told_event(findings, event));

@@ -8,6 +8,8 @@
 
 namespace fernlicht {
 
+/// That nights before tonight are dated after it, and what to do; "" where none is.
+std::string clock_warning(const HistoryFindings& findings);
 /// What changed since the last accepted night, dated and with its causes: what a night's report leads with.
 Section changes_section(const HistoryFindings& findings);
 /// That section first, then the readings behind it, what was told apart, times, sparklines and frames.
@@ -15,7 +17,8 @@ std::vector<Section> history_sections(const HistoryFindings& findings);
 Document document(const HistoryFindings& findings);
 
 /// A study's result of tonight against the history in `file`, whether it was added there or not; `folder` is the study's. Its frames and
-/// those of the accepted night are found in their folders. Throws as History; where `file` is not there, tonight is the first night.
+/// those of the accepted night are found in their folders. Warns where clocks disagree. Throws as History; where `file` is not there,
+/// tonight is the first night.
 HistoryFindings history_of(const std::filesystem::path& file, const StudyResult& tonight, const std::filesystem::path& folder,
                            const HistoryOptions& options = {});
 

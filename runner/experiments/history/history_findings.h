@@ -80,7 +80,7 @@ struct HistoryTimes {
         std::string cell;
         std::size_t night = 0; ///< the first of the new level
         double ratio = 1.0, p = 1.0;
-        InputChanges causes; ///< CPU and system among them
+        InputChanges causes; ///< the system among them
     };
     std::vector<Change> changes; ///< since the base
     std::size_t cells = 0;       ///< whose times were tested
@@ -94,15 +94,17 @@ struct NightFrames {
 
 struct HistoryFindings : Findings {
     std::string study;
-    std::vector<Night> nights; ///< of the study, up to the one that is looked at
-    std::size_t base = 0;      ///< what it is compared with: the last accepted night before it, else the first of all
+    std::vector<Night> nights;      ///< of the study, as they were added, up to the one that is looked at
+    std::size_t base = 0;           ///< what it is compared with: the last accepted night before it, else the first of all
+    std::vector<std::size_t> ahead; ///< nights from the base on that are dated after tonight: a clock was wrong
     double drift_bound = 0.005;
     std::vector<HistoryEvent> events; ///< by night
     std::vector<HistoryDrift> drifts;
     HistoryTimes times;
-    std::vector<std::string> quiet;  ///< nights and inputs that changed and moved nothing
-    std::vector<std::string> absent; ///< cells that one of both nights has not, or did not play
-    std::vector<MovedReading> since; ///< base against tonight beyond rounding, what decides first, then the largest
+    std::vector<std::string> quiet;                        ///< nights and inputs that changed and moved nothing
+    std::vector<std::string> absent;                       ///< cells that one of both nights has not, or did not play
+    std::size_t cells_compared = 0, readings_compared = 0; ///< of tonight, with the base
+    std::vector<MovedReading> since;                       ///< base against tonight beyond rounding, what decides first, then the largest
     std::map<std::pair<std::string, std::string>, double> aim_effects; ///< what 0.1° does tonight, by cell and reading; where it is known
     std::map<std::string, NightReadings> replays;                      ///< what was played tonight to tell causes apart, by cell
     std::vector<NightFrames> frames;
@@ -112,7 +114,10 @@ struct HistoryFindings : Findings {
     const Night& tonight() const { return nights.back(); }
     const Night& before() const { return nights[base]; }
     bool is_accepted() const { return before().accepted; }
-    bool nothing_changed() const { return events.empty() && drifts.empty() && times.changes.empty(); }
+    bool nothing_changed() const { return events.empty() && drifts.empty() && times.changes.empty(); } ///< in what is compared
+    /// What --fail-on-change asks: whether anything changed since the base or cannot be compared with it. Whoever accepts a night accepts
+    /// its changes; a first night has no base.
+    bool is_off_base() const { return nights.size() > 1 && !tonight().accepted && !(nothing_changed() && absent.empty()); }
 };
 
 struct HistoryOptions {
@@ -121,7 +126,7 @@ struct HistoryOptions {
     TellApart tell_apart = {};  ///< where there is none, the reason is told
 };
 
-/// Looks at the last of the nights, all of one study, in order, at least one.
+/// Looks at the last of the nights, all of one study, in the order in which they were added, at least one.
 HistoryFindings explain_nights(std::vector<Night> nights, const HistoryOptions& options = {});
 
 /// A night's date, with the time where several have that date, to the second where it must be.
@@ -134,6 +139,9 @@ std::vector<std::size_t> chain_of(const std::vector<Night>& nights, const std::s
 /// Whether a reading changed: against what rounding of a step with these causes allows. `other`: the figure whose exactness it tells.
 bool is_beyond(const Value& before, const Value& now, double other, const InputChanges& causes);
 
+/// Of the nights that lead to the last one (chain_of) those on its CPU in which the cell was timed: a device class has fast CPUs and slow
+/// ones.
+std::vector<std::size_t> timed_nights(const std::vector<Night>& nights, const std::string& cell);
 HistoryTimes changes_of_times(const std::vector<Night>& nights, std::size_t base, double rate);
 
 /// Splits what inputs and program or machine did together in one night.

@@ -2,6 +2,7 @@
 
 #include "runner/experiments/history/night_of_study.h"
 #include "runner/experiments/run/run_report.h"
+#include "runner/files/log.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -90,11 +91,16 @@ HistoryFindings history_of(const std::filesystem::path& file, const StudyResult&
     std::vector<Night> nights;
     if (std::error_code ignored; std::filesystem::exists(file, ignored))
         nights = History(file, History::For::reading).nights(night.study);
-    std::erase_if(nights, [&](const Night& one) {
-        return one.played_utc > night.played_utc || (one.played_utc == night.played_utc && one.folder == night.folder);
-    });
+    const auto same =
+        std::ranges::find_if(nights, [&](const Night& one) { return one.played_utc == night.played_utc && one.folder == night.folder; });
+    if (same != nights.end()) { // it was gone on with
+        night.accepted = same->accepted;
+        nights.erase(same, nights.end());
+    }
     nights.push_back(std::move(night));
     HistoryFindings findings = explain_nights(std::move(nights), options);
+    if (!findings.ahead.empty())
+        tell(LogLevel::warning, clock_warning(findings));
     findings.context = tonight.context;
     for (const CellResult& cell : tonight.cells)
         for (const auto& [key, reading] : cell.readings)

@@ -34,6 +34,11 @@ template <class List> void add_once(std::vector<std::string>& all, const List& m
             all.push_back(one);
 }
 
+/// Times of another CPU are of another line.
+bool is_shown(const HistoryFindings& findings, std::size_t night, const std::string& reading) {
+    return reading != timed_frame || machine_in(findings.nights[night], "CPU") == machine_in(findings.tonight(), "CPU");
+}
+
 std::optional<double> figure_of(const NightCell& cell, const std::string& reading) {
     if (reading == timed_frame)
         return cell.frame_s;
@@ -69,7 +74,7 @@ void draw_line(plots::Drawing& drawing, const HistoryFindings& findings, const s
     const std::size_t first = findings.nights.size() > most_nights ? findings.nights.size() - most_nights : 0;
     plots::Polyline line;
     for (std::size_t i = first; i < findings.nights.size(); ++i)
-        if (const NightCell* one = findings.nights[i].cell(cell); one && one->failed.empty())
+        if (const NightCell* one = findings.nights[i].cell(cell); one && one->failed.empty() && is_shown(findings, i, reading))
             if (const std::optional<double> figure = figure_of(*one, reading))
                 line.push_back({static_cast<double>(i), *figure});
     if (line.empty()) {
@@ -88,7 +93,7 @@ void draw_line(plots::Drawing& drawing, const HistoryFindings& findings, const s
     drawing.line(placed, {.colour = dark, .width_px = 1.2});
     const std::optional<double> accepted = [&]() -> std::optional<double> {
         const NightCell* const one = findings.before().cell(cell);
-        return one ? figure_of(*one, reading) : std::nullopt;
+        return one && is_shown(findings, findings.base, reading) ? figure_of(*one, reading) : std::nullopt;
     }();
     if (accepted && findings.base >= first)
         drawing.dot(place({static_cast<double>(findings.base), *accepted}), 2.6, faint);
@@ -103,7 +108,8 @@ void draw_line(plots::Drawing& drawing, const HistoryFindings& findings, const s
     const Value last(reading == timed_frame ? 1e3 * line.back().y : line.back().y);
     drawing.text(left + line_px + 8.0, top + 16.0, reading == timed_frame ? four_digits(*last.figure()) + " ms" : told_value(reading, last),
                  {.size_px = 11.0, .colour = dark});
-    drawing.text(left + line_px + 8.0, top + 28.0, accepted && *accepted == line.back().y ? "as accepted" : share,
+    const char* const as_base = findings.is_accepted() ? "as accepted" : "as in the first night";
+    drawing.text(left + line_px + 8.0, top + 28.0, accepted && *accepted == line.back().y ? as_base : share,
                  {.size_px = 9.5, .colour = faint});
 }
 

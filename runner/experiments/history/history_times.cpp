@@ -3,16 +3,13 @@
 #include <algorithm>
 
 namespace fernlicht {
-namespace {
 
-/// Nights in which the cell was timed, of those that lead to the last one.
 std::vector<std::size_t> timed_nights(const std::vector<Night>& nights, const std::string& cell) {
     std::vector<std::size_t> timed = chain_of(nights, cell, 0);
-    std::erase_if(timed, [&](std::size_t night) { return !nights[night].cell(cell)->frame_s; });
+    const std::string cpu = machine_in(nights.back(), "CPU");
+    std::erase_if(timed, [&](std::size_t night) { return !nights[night].cell(cell)->frame_s || machine_in(nights[night], "CPU") != cpu; });
     return timed;
 }
-
-} // namespace
 
 HistoryTimes changes_of_times(const std::vector<Night>& nights, std::size_t base, double rate) {
     HistoryTimes times;

@@ -47,7 +47,7 @@ std::vector<TrendLevel> levels_of(const std::vector<Night>& nights, const std::s
 }
 
 Table trend_table() {
-    Table table{"trend", "", columns_of("cell<|reading`|from<|to<|nights|value|unit<|change [%]|cause<"), {}};
+    Table table{"trend", "", columns_of("cell<|reading`|from [UTC]<|to [UTC]<|nights|value|unit<|change [%]|cause<"), {}};
     table.sortable = true;
     return table;
 }
@@ -70,8 +70,7 @@ void add_levels(Table& table, const std::vector<Night>& nights, const std::strin
 
 /// From one change of times to the next, all of them found again.
 void add_times(Table& table, const std::vector<Night>& nights, const std::string& cell) {
-    std::vector<std::size_t> timed = chain_of(nights, cell, 0);
-    std::erase_if(timed, [&](std::size_t night) { return !nights[night].cell(cell)->frame_s; });
+    const std::vector<std::size_t> timed = timed_nights(nights, cell);
     if (timed.empty())
         return;
     std::vector<double> times;
@@ -100,12 +99,6 @@ void add_times(Table& table, const std::vector<Night>& nights, const std::string
              i == 0 ? "" : phrase_of(causes)});
         before = level.median;
     }
-}
-
-std::string machine_in(const Night& night, const std::string& name) {
-    const auto found =
-        std::ranges::find_if(night.machine, [&](const CellInput& input) { return input.kind == InputKind::device && input.name == name; });
-    return found == night.machine.end() ? "" : found->hash;
 }
 
 } // namespace

@@ -98,6 +98,18 @@ TEST(ChangePoint, SeveralLevelsInSeveralSeries) {
     EXPECT_NEAR(change_points(series, 0.01)[1].change.ratio, 1.2, 0.02);
 }
 
+/// The least p of the usual number of orders is above what a single discovery among so many must pass.
+TEST(ChangePoint, OneOfManySeriesIsFound) {
+    std::vector<std::vector<double>> series;
+    for (std::uint64_t seed = 0; seed < 150; ++seed)
+        series.push_back(noisy_times(30, 500 + seed, seed == 77 ? 20 : 1000, 2.0));
+    const std::vector<SeriesChange> found = change_points(series, 0.01);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(std::pair(found[0].series, found[0].change.first), std::pair(std::size_t{77}, std::size_t{20}));
+    EXPECT_LE(found[0].change.p, 0.1 * 0.01 / 150.0);
+    EXPECT_EQ(change_points(series, 0.01)[0].change.p, found[0].change.p);
+}
+
 TEST(ChangePoint, TooFewOrEqualSamplesTellNothing) {
     EXPECT_FALSE(change_point(std::vector<double>{1.0, 1.0, 1.0, 2.0, 2.0}));
     EXPECT_FALSE(change_point(std::vector<double>(30, 0.01)));

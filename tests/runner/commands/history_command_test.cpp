@@ -74,9 +74,57 @@ TEST_F(HistoryCommand, FromTheFirstNightToTheCause) {
     EXPECT_EQ(run_program("history explain --fail-on-change" + flag_).exit_code, 1);
     printed("history accept last" + flag_);
     EXPECT_THAT(printed("history explain" + flag_), AllOf(HasSubstr("1 change since"), HasSubstr("This night is accepted itself")));
+    EXPECT_EQ(run_program("history explain --fail-on-change" + flag_).exit_code, 0) << "who accepts a night accepts its changes";
     EXPECT_THAT(printed("history prune --keep 0 --dry-run" + flag_),
                 HasSubstr("would remove 1 night, kept 2 older ones that are accepted"));
     EXPECT_THAT(printed("history prune --before 2026-01-03" + flag_), HasSubstr("removed night 2 of planted, 2026-01-02"));
+}
+
+/// Another name for a lamp makes all its cells new: they were compared with nothing, and nobody may take that for a night without changes.
+TEST_F(HistoryCommand, WhatWasNotComparedIsCountedAndFailsTheJob) {
+    PlantedNights planted(3);
+    const auto explained_after = [&](int number, const std::set<std::string>& renamed) {
+        StudyResult result = planted.play(number, {});
+        for (StudyLamp& lamp : result.study.lamps)
+            lamp.name += renamed.contains(lamp.name) ? "-new" : "";
+        for (CellResult& cell : result.cells)
+            cell.cell.name += renamed.contains(cell.cell.name.substr(cell.cell.name.find('_') + 1)) ? "-new" : "";
+        const std::string folder = folder_ / ("renamed" + std::to_string(number));
+        write_night(folder, result);
+        printed("history add " + folder + flag_);
+        EXPECT_EQ(run_program("history explain --fail-on-change" + flag_).exit_code, 1);
+        return printed("history explain" + flag_);
+    };
+    printed("history add " + night(0) + " --accept" + flag_);
+    EXPECT_THAT(
+        explained_after(1, {"xenon"}),
+        AllOf(HasSubstr("Nothing changed since the accepted night of 2026-01-01, in 1 night: 12 readings of 3 cells are the same to "
+                        "the last bit. 6 cells cannot be compared"),
+              HasSubstr("straight_xenon is no longer played")));
+    EXPECT_THAT(explained_after(2, {"xenon", "halogen"}),
+                AllOf(HasSubstr("Nothing can be compared with the accepted night of 2026-01-01"), Not(HasSubstr("same to the last bit"))));
+}
+
+/// The accepted night was played with a clock a day ahead: the next ones are compared with it all the same, and told so.
+TEST_F(HistoryCommand, NightsFollowEachOtherAsTheyWereAddedWhateverTheirClocksSay) {
+    const auto add_dated = [&](int number, const std::string& utc) {
+        StudyResult result = from_json<StudyResult>(CheckedJson::read(night(number) + "/study.json"), study_members);
+        result.context.started_utc = utc;
+        const std::string folder = folder_ / utc;
+        write_night(folder, result);
+        printed("history add " + folder + (number == 0 ? " --accept" : "") + flag_);
+    };
+    add_dated(0, "2026-02-02T02:00:00Z");
+    add_dated(1, "2026-02-01T12:00:00Z");
+    EXPECT_THAT(printed("history explain" + flag_),
+                AllOf(HasSubstr("Nothing changed since the accepted night of 2026-02-02"), Not(HasSubstr("first night")),
+                      HasSubstr("The night of 2026-02-02 is dated after this one of 2026-02-01, though it was added before")));
+    EXPECT_EQ(run_program("history explain --fail-on-change" + flag_).exit_code, 0);
+    add_dated(2, "2026-02-01T18:00:00Z");
+    const Outcome changed = run_program("history explain --fail-on-change" + flag_);
+    EXPECT_EQ(changed.exit_code, 1);
+    EXPECT_THAT(changed.output, HasSubstr("(+5 %)")) << "from before to after";
+    EXPECT_THAT(printed("history trend 'reach_5lx*' --cells straight_xenon" + flag_), HasSubstr("2026-02-02        2026-02-01 12:00"));
 }
 
 TEST_F(HistoryCommand, AnAcceptanceIsTakenBack) {
@@ -128,6 +176,8 @@ TEST_F(HistoryCommand, WhatCannotBeUsedGivesOneSentence) {
     printed("history add " + night(0) + flag_);
     EXPECT_THAT(printed("history explain 2027-01-01" + flag_, 2), HasSubstr("found '2027-01-01', expected last, a number or a date"));
     EXPECT_THAT(printed("history explain --study standard" + flag_, 2), HasSubstr("expected one of planted"));
+    for (const char* action : {"show", "export --csv"})
+        EXPECT_THAT(printed(std::string("history ") + action + " --study standard" + flag_, 2), HasSubstr("expected one of planted"));
     EXPECT_THAT(printed("history prune" + flag_, 2), HasSubstr("found neither --keep nor --before"));
     EXPECT_THAT(printed("history export" + flag_, 2), HasSubstr("expected --csv"));
     EXPECT_THAT(printed("history trend reach_5lx_target_own" + flag_, 2), HasSubstr("such as reach_5lx_target_own_m"));

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <linux/magic.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -88,10 +89,10 @@ TEST(HistoryFile, WhatGoesInComesBackToTheLastBit) {
     Night first = night_of(1);
     first.accepted = true;
     first.note = "as bought";
-    expect_same(nights[0], first);
-    expect_same(nights[1], night_of(2));
-    EXPECT_EQ(*nights[1].cells[0].with_earlier_inputs, (NightReadings{{"a", Value(7.0)}}));
-    EXPECT_EQ(nights[0].cells[0].with_earlier_inputs, nullptr);
+    expect_same(nights[0], night_of(2)); // as they were added
+    expect_same(nights[1], first);
+    EXPECT_EQ(*nights[0].cells[0].with_earlier_inputs, (NightReadings{{"a", Value(7.0)}}));
+    EXPECT_EQ(nights[1].cells[0].with_earlier_inputs, nullptr);
     // Equal readings and inputs lie there once.
     EXPECT_EQ(nights[0].cells[0].readings, nights[1].cells[0].readings);
     EXPECT_EQ(nights[0].cells[0].inputs, nights[1].cells[0].inputs);
@@ -254,6 +255,17 @@ TEST(HistoryFile, WhereWriteAheadLoggingDoesNotWorkARollbackJournalDoes) {
     EXPECT_EQ(moved.journal(), "delete");
     EXPECT_TRUE(moved.add(night_of(2)).is_new);
     EXPECT_EQ(moved.nights().size(), 2U);
+}
+
+TEST(HistoryFile, OfAFileSystemThatSeveralMachinesMayMountNoneIsLocal) {
+    for (const std::int64_t local :
+         std::vector<std::int64_t>{EXT4_SUPER_MAGIC, XFS_SUPER_MAGIC, BTRFS_SUPER_MAGIC, TMPFS_MAGIC, OVERLAYFS_SUPER_MAGIC})
+        EXPECT_TRUE(is_local_file_system(local)) << local;
+    for (const std::int64_t shared :
+         std::vector<std::int64_t>{NFS_SUPER_MAGIC, SMB_SUPER_MAGIC, AFS_SUPER_MAGIC, FUSE_SUPER_MAGIC, V9FS_MAGIC, CEPH_SUPER_MAGIC})
+        EXPECT_FALSE(is_local_file_system(shared)) << shared;
+    constexpr std::int64_t lustre = 0x0bd00bd0;
+    EXPECT_FALSE(is_local_file_system(lustre));
 }
 
 /// A study whose cells failed stands there with them; gone on with, it stands there as it is then, and once.

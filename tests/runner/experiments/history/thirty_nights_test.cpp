@@ -370,6 +370,53 @@ TEST(HistoryCauses, NightsOfOneDateAreToldByTheirTimes) {
     EXPECT_EQ(when_of({night_of_study(again, "/b"), night_of_study(soon, "/c")}, 1), "2026-01-01 05:30:01");
 }
 
+/// As the study asks for it: before it adds tonight, and when it goes on with a night that is there.
+TEST(HistoryCauses, ANightIsComparedWithWhatWasAddedBeforeIt) {
+    const std::filesystem::path file = tests::new_folder() / "history.db";
+    PlantedNights planted(7);
+    World lamp;
+    lamp.version["xenon"] = 1;
+    lamp.lamp_light["xenon"] = 1.1;
+    const StudyResult ahead = planted.play(5, {}), tonight = planted.play(3, {}), later = planted.play(4, lamp);
+    History history(file, History::For::collecting);
+    history.accept(history.add(night_of_study(ahead, "/ahead")).number, "");
+    const HistoryFindings found = history_of(file, tonight, "/tonight");
+    EXPECT_FALSE(found.is_off_base());
+    EXPECT_THAT(document_text(document(found)), AllOf(HasSubstr("since the accepted night of 2026-01-06"), HasSubstr("is dated after")));
+    history.add(night_of_study(tonight, "/tonight"));
+    history.add(night_of_study(later, "/later"));
+    const HistoryFindings gone_on_with = history_of(file, tonight, "/tonight");
+    EXPECT_EQ(gone_on_with.nights.size(), 2U) << "not with what came after it";
+    EXPECT_FALSE(gone_on_with.is_off_base());
+    EXPECT_EQ(*history_of(file, later, "/later").since.front().share() > 0.0, true) << "from before to after";
+    // Whoever accepts a night that is dated rightly hears no more of it.
+    history.accept(2, "");
+    EXPECT_THAT(document_text(document(history_of(file, later, "/later"))), Not(HasSubstr("is dated after")));
+}
+
+TEST(HistoryTimes, NightsOnAnotherCpuTellNothingOfThisOne) {
+    PlantedNights planted(7);
+    std::vector<Night> nights;
+    for (int night = 0; night < 40; ++night) {
+        const bool other = night % 2 == 0 || night < 10;
+        World world;
+        world.slow = other ? 1.0 : night < 25 ? 1.5 : 1.8;
+        StudyResult result = planted.play(night, world);
+        result.context.cpu = other ? "Fast CPU (avx2)" : "Slow CPU (avx2)"; // one class
+        nights.push_back(night_of_study(result, "/n"));
+    }
+    const HistoryTimes times = changes_of_times(nights, 0, 0.01);
+    EXPECT_EQ(times.nights, 15U);
+    ASSERT_EQ(times.changes.size(), 4U);
+    for (const HistoryTimes::Change& change : times.changes) {
+        EXPECT_EQ(change.night, 25U);
+        EXPECT_NEAR(change.ratio, 1.2, 0.02);
+    }
+    EXPECT_THAT(document_text(trend_document(nights, "frame_s", "straight_xenon")), HasSubstr("2026-01-12  2026-01-24       7"));
+    nights.pop_back();
+    EXPECT_THAT(changes_of_times(nights, 0, 0.01).changes, IsEmpty());
+}
+
 TEST(HistoryCauses, ThereAndBackIsTwoChangesAndNoneInSum) {
     World other;
     other.version["xenon"] = 1;
@@ -390,9 +437,21 @@ TEST(HistoryCauses, WhatWasNotPlayedOrNotMeasuredIsSaid) {
     const HistoryFindings found = explain_nights(nights);
     ASSERT_EQ(found.events.size(), 1U);
     EXPECT_EQ(found.events.front().moved.size(), 1U);
+    EXPECT_TRUE(found.is_off_base());
+    EXPECT_EQ(found.cells_compared, 4U);
     EXPECT_THAT(found.absent, ElementsAre("straight_halogen was not played: the disk is full", "country_xenon is no longer played"));
     const std::string text = document_text(document(found));
     EXPECT_THAT(text, AllOf(HasSubstr("→ not measured"), HasSubstr("none is accepted"), Not(HasSubstr("nan"))));
+}
+
+TEST(HistoryDocument, NothingIsAcceptedWhereNoNightIs) {
+    PlantedNights planted(7);
+    std::vector<Night> nights;
+    for (int i = 0; i < 2; ++i)
+        nights.push_back(night_of_study(planted.play(i, {}), "/n"));
+    const HistoryFindings found = explain_nights(nights);
+    EXPECT_THAT(plot_svg(sparklines(found).front()), AllOf(HasSubstr("as in the first night"), Not(HasSubstr("as accepted"))));
+    EXPECT_THAT(document_text(document(found)), HasSubstr("since the first night, 2026-01-01 (none is accepted), in 1 night"));
 }
 
 TEST(HistoryDocument, AStepHasAsManyDigitsAsTellItsEndsApart) {
