@@ -74,7 +74,7 @@ planted gitlab-ci.yml 's/"$STUDY"/"$STUDY/'
 planted gitlab-ci.yml 's/out.junit.xml/junit.xml/'
 planted gitlab-ci.yml 's/    when: always//'
 planted Jenkinsfile '0,/}/s///'
-planted Jenkinsfile "s/rm -rf out/rm -rf \$OUT/"
+planted Jenkinsfile 's/play "$STUDY"/play $STUDY/'
 planted study-job 's/"${annotate\[@\]}"/$annotate/'
 
 # study-job. The program writes what a study leaves, and ends with CODE.
@@ -98,6 +98,7 @@ mkdir --parents "$tree/fernlicht"
 cat >"$tree/fernlicht/fernlicht" <<'END'
 #!/bin/sh
 echo "fernlicht $* $XDG_CACHE_HOME" >>"$CALLS"
+[ "$1" = study ] || exit 4 # whatever becomes of pruning, the exit code is the study's
 [ "$CODE" -lt 2 ] || exit "$CODE"
 mkdir -p out && printf '# A study\n\n## Limits exceeded\n\nFAIL it\n' >out/study.md
 exit "$CODE"
@@ -128,17 +129,20 @@ job 2 verdict
 job 2 play
 job 0 play my.yaml --strict
 called "fernlicht study my.yaml --strict --out out --backend software $tree/job/.fernlicht-cache"
+called "fernlicht store prune --at-most 2GiB $tree/job/.fernlicht-cache"
 job 0 verdict
 [[ $said == "Limits exceeded" ]] || { echo "the verdict is '$said'"; ((++failures)); }
-CODE=1 job 1 play my.yaml
-rm --recursive "$tree/job/out"
+FERNLICHT_STORE_SIZE=5GiB CODE=1 job 1 play my.yaml
+called "prune --at-most 5GiB"
 export GITHUB_ACTIONS=true GITHUB_STEP_SUMMARY=$tree/summary
 CODE=1 job 1 play my.yaml
 called "--annotate github"
 diff "$tree/summary" "$tree/job/out/study.md" || ((++failures))
-rm --recursive "$tree/job/out" "$tree/summary"
-CODE=3 job 3 play my.yaml
+rm "$tree/summary"
+CODE=3 job 3 play my.yaml # the report of the night before is still there
 grep --quiet "exit code 3" "$tree/summary" || { echo "GitHub's page does not say that nothing was played"; ((++failures)); }
+grep --quiet "A study" "$tree/summary" && { echo "GitHub's page shows the night before"; ((++failures)); }
+job 2 verdict
 unset GITHUB_ACTIONS GITHUB_STEP_SUMMARY
 export CI_JOB_URL=https://git.example.org/us/lamps/-/jobs/7 CI_API_V4_URL=https://git.example.org/api/v4 CI_PROJECT_ID=3 CI_COMMIT_SHA=abc
 job 0 play my.yaml
