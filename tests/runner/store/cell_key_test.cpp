@@ -96,10 +96,21 @@ TEST_F(CellKey, EveryInputCountsAndSaysWhatItIs) {
 /// The rule by which the build hashes our sources, over a small tree.
 struct ProgramSources : testing::Test {
     TemporaryFolder folder;
-    const std::vector<std::string> deciding{
-        "scenarios/lamps/a.cpp",        "scenarios/photometry.glsl",      "metrics/road/a.h",
-        "renderer/shaders/a.frag.glsl", "runner/play/play.cpp",           "runner/findings/summary.cpp",
-        "runner/files/json_text.cpp",   "runner/experiments/run/run.cpp", "runner/experiments/accuracy/error.cpp"};
+    const std::vector<std::string> deciding{"scenarios/lamps/a.cpp",
+                                            "scenarios/photometry.glsl",
+                                            "metrics/road/a.h",
+                                            "renderer/shaders/a.frag.glsl",
+                                            "runner/play/play.cpp",
+                                            "runner/findings/summary.cpp",
+                                            "runner/files/json_text.cpp",
+                                            "runner/experiments/run/run.cpp",
+                                            "runner/experiments/accuracy/error.cpp",
+                                            "runner/judge/repeats.cpp",
+                                            "CMakeLists.txt",
+                                            "scenarios/CMakeLists.txt",
+                                            "metrics/CMakeLists.txt",
+                                            "renderer/CMakeLists.txt",
+                                            "runner/CMakeLists.txt"};
     const std::vector<std::string> others{"scenarios/library/a.cpp",
                                           "runner/write/svg.cpp",
                                           "runner/commands/run_command.cpp",

@@ -229,9 +229,9 @@ TEST_F(StudyProgram, WhatIsInTheStoreIsNotPlayedAgain) {
                 .output,
             "");
     // A flipped bit in what is kept: found, and played again.
-    const std::filesystem::path object =
-        object_path(folder / "store", json::parse(content_of(entry_of(first.at("cells").at(0).at("key")))).at("object"));
     const auto flip_bit = [&] {
+        const std::filesystem::path object =
+            object_path(folder / "store", json::parse(content_of(entry_of(first.at("cells").at(0).at("key")))).at("object"));
         std::string bytes = content_of(object);
         bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
         std::ofstream(object, std::ios::binary) << bytes;
