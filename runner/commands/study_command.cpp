@@ -241,10 +241,8 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
             no_history = error.what();
         }
         if (flags.fails_on_change && findings)
-            result.verdicts.push_back(
-                findings->is_off_base()
-                    ? Verdict{VerdictKind::fail, unchanged_verdict, "what changed, or could not be compared, leads the report", {}}
-                    : Verdict{VerdictKind::pass, unchanged_verdict, "nothing changed", {}});
+            result.verdicts.push_back({findings->is_off_base() ? VerdictKind::fail : VerdictKind::pass, unchanged_verdict,
+                                       std::get<std::string>(changes_section(*findings).blocks.front()), repeat_command(command)});
         write_study(result, options.folder, findings);
     };
     options.judge_cell = [](const Report& report, const std::filesystem::path& cell) { write_judgement(report, cell); };

@@ -56,7 +56,7 @@ void write_document(const Document& document, const Findings& findings, const st
     oneapi::tbb::parallel_for(std::size_t{0}, plots.size(), [&](std::size_t i) { write_plot(*plots[i], folder / place_of(*plots[i])); });
     if (tables)
         write_tables(document, folder, *tables);
-    write_file(folder / (stem + ".html"), document_html(document, findings, folder));
+    write_file(folder / (stem + ".html"), [&](const TakePiece& take) { document_html(document, findings, folder, take); });
 }
 
 } // namespace fernlicht

@@ -4,6 +4,7 @@
 #include "runner/findings/document.h"
 #include "runner/findings/findings.h"
 #include "runner/write/plots/png.h"
+#include "scenarios/values/files.h"
 
 #include <filesystem>
 
@@ -16,6 +17,7 @@ std::string plot_svg(const Plot& plot, int zlib = plots::drawing_zlib); ///< plo
 std::string place_of(const Plot& plot);
 /// One self-contained page; plots stand in it as SVG, pictures are read below `folder`. It has a script only where something sorts or
 /// slides.
+void document_html(const Document& document, const Findings& findings, const std::filesystem::path& folder, const TakePiece& take);
 std::string document_html(const Document& document, const Findings& findings, const std::filesystem::path& folder = {});
 /// Columns as wide as their widest cell, two spaces apart; `alignment` has a character for each: '<' or '>'. Nothing trails. Lines end
 /// with a newline.

@@ -247,7 +247,7 @@ data sections_part(const std::vector<Section>& all, const std::filesystem::path&
     return page;
 }
 
-std::string document_html(const Document& document, const Findings& findings, const std::filesystem::path& folder) {
+void document_html(const Document& document, const Findings& findings, const std::filesystem::path& folder, const TakePiece& take) {
     data page = sections_part(document.sections, folder), missing{List::list};
     for (const std::string& what : findings.missing)
         missing.push_back(clean_text(what));
@@ -260,7 +260,13 @@ std::string document_html(const Document& document, const Findings& findings, co
     page.set("missing", missing);
     if (!findings.context.command.empty()) // else it was not measured by a call that could be repeated
         page.set("context", context_part(findings.context));
-    return page_of("document.html.mustache", std::move(page));
+    page_of("document.html.mustache", std::move(page), take);
+}
+
+std::string document_html(const Document& document, const Findings& findings, const std::filesystem::path& folder) {
+    std::string html;
+    document_html(document, findings, folder, [&](std::string_view piece) { html += piece; });
+    return html;
 }
 
 } // namespace fernlicht

@@ -45,14 +45,18 @@ data context_part(const RunContext& context) {
     return part;
 }
 
-std::string page_of(const char* template_name, data page) {
+void page_of(const char* template_name, data page, const TakePiece& take) {
     page.set("style", std::string(report_file("report.css")) + std::string(report_file("document.css")));
     page.set("document_sections", std::string(report_file("document_sections.mustache")));
     kainjow::mustache::mustache page_template{std::string(report_file(template_name))};
-    std::string html;
-    page_template.render(page, [&](const std::string& piece) { html += piece; });
+    page_template.render(page, [&](const std::string& piece) { take(piece); });
     if (!page_template.is_valid())
         throw std::logic_error(std::string(template_name) + ": " + page_template.error_message());
+}
+
+std::string page_of(const char* template_name, data page) {
+    std::string html;
+    page_of(template_name, std::move(page), [&](std::string_view piece) { html += piece; });
     return html;
 }
 

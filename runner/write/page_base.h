@@ -4,6 +4,7 @@
 #include "runner/findings/document.h"
 #include "runner/findings/figures.h"
 #include "runner/findings/findings.h"
+#include "scenarios/values/files.h"
 
 #include <filesystem>
 #include <kainjow/mustache.hpp>
@@ -17,6 +18,7 @@ kainjow::mustache::data context_part(const RunContext& context);
 kainjow::mustache::data sections_part(const std::vector<Section>& sections, const std::filesystem::path& folder = {});
 
 /// A page by one of the embedded templates, which may use `style` and the partial. Throws std::logic_error where the template is none.
+void page_of(const char* template_name, kainjow::mustache::data page, const TakePiece& take);
 std::string page_of(const char* template_name, kainjow::mustache::data page);
 
 } // namespace fernlicht

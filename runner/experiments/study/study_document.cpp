@@ -175,7 +175,7 @@ std::string verdict_words(const StudyResult& result) {
     case VerdictKind::fail:
         return exceeds(result.verdicts) || std::ranges::any_of(result.cells, exceeds, &CellResult::verdicts) ? "Limits exceeded"
                : std::ranges::any_of(result.verdicts, [](const Verdict& one) { return one.name == unchanged_verdict && is_red(one); })
-                   ? "Not as in the last accepted night"
+                   ? "Not as before"
                    : "Differs from the baselines";
     case VerdictKind::flaky:
         return "Flaky";

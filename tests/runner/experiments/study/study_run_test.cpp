@@ -381,6 +381,9 @@ TEST_F(StudyProgram, TheHistoryHasTimesAndTellsLampAndProgramApart) {
                 testing::AllOf(testing::StartsWith("# Two cells\n\n## No limits were set\n"), HasSubstr("\n## What changed since "),
                                HasSubstr("\n- "), HasSubstr("told apart by new on straight-1")));
     EXPECT_THAT(content_of(folder / "third/study.tex"), testing::ContainsRegex("\n% - [^\n]*told apart by new on straight-1"));
+    EXPECT_EQ(run_program("study " + file + quick + history + " --fail-on-change --out " + (folder / "red")).exit_code, 1);
+    EXPECT_THAT(content_of(folder / "red/study.md"), testing::StartsWith("# Two cells\n\n## Not as before\n"));
+    EXPECT_THAT(content_of(folder / "red/junit.xml"), testing::ContainsRegex("name=\"as before\">[^<]*<failure message=\"[0-9]+ change"));
 }
 
 TEST_F(StudyProgram, AFinishedStudyIsReportedAgainFromItsCells) {
