@@ -222,6 +222,8 @@ void migrate(Database& database, std::int64_t mark, std::span<const char* const>
         if (!is_new && found != mark)
             throw InputError({database.file(), 0, 0, {}}, "is a database of another program",
                              "a file that `fernlicht history add` wrote, or a new name");
+        if (version < 0)
+            throw InputError({database.file(), 0, 0, {}}, fmt::format("is a history of version {}", version), "one that is not damaged");
         if (version > newest)
             throw InputError({database.file(), 0, 0, {}}, fmt::format("is a history of version {}", version),
                              fmt::format("version {} or older: a newer fernlicht wrote it", newest));

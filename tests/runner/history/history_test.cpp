@@ -188,6 +188,8 @@ TEST(HistoryFile, WhatIsNoHistoryIsRefusedInOneSentence) {
         History(newer, History::For::collecting);
         Database(newer, Database::For::writing).run("PRAGMA user_version=99");
         EXPECT_THAT(refusal_of([&] { History(newer, what); }), HasSubstr("is a history of version 99"));
+        Database(newer, Database::For::writing).run("PRAGMA user_version=-7");
+        EXPECT_THAT(refusal_of([&] { History(newer, what); }), HasSubstr("is a history of version -7"));
     }
     // The head is whole, what it leads to is not.
     const std::filesystem::path damaged = folder / "damaged.db";
