@@ -323,8 +323,8 @@ TEST_F(CPlanes, ADarkLampIsDarkWhereverItPoints) {
 TEST_F(CPlanes, TwoPolesAreALampAndOnePlaceIsNone) {
     const auto form = [](double, double g) { return 100.0 - g / 2.0; };
     const LampFile l = lamp({0}, {0, 180}, form, TypeCAxis::nadir);
-    for (const double g : {0.0, 30.0, 90.0, 150.0})
-        EXPECT_NEAR(intensity_cd(l.table, 0.0, g <= 90.0 ? g : 180.0 - g), form(0, g <= 90.0 ? g : 180.0 - g), 0.1) << g;
+    for (const double g : {0.0, 30.0, 90.0})
+        EXPECT_NEAR(intensity_cd(l.table, 0.0, g), form(0, g), 0.1) << g;
     EXPECT_NEAR(intensity_cd(l.table, 180.0, 0.0), 10.0, 1e-9);
     EXPECT_THAT(refusal("c.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 0\n0 1e-9\n0\n10 10\n"), HasSubstr("c.ies"));
 }
