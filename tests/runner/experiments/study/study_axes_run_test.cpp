@@ -52,7 +52,7 @@ TEST_F(StudyAxesProgram, ModelsThatAnAxisNamesAreInputsOfTheirCellsAlone) {
         return all;
     };
     const std::vector<std::string> before = keys();
-    write_file(folder / "b.glb", glb_of(car_body({{4.2, 1.9, 1.5}, -0.8, glm::vec3(0.3F)})));
+    write_file(folder / "b.glb", glb_of(car_body({{4.2, 1.8, 1.5}, -0.8, glm::vec3(0.6F)}))); // as large as before
     const std::vector<std::string> after = keys();
     ASSERT_EQ(after.size(), 4U);
     for (std::size_t i = 0; i < after.size(); ++i)
