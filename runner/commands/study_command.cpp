@@ -241,8 +241,10 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
             no_history = error.what();
         }
         if (flags.fails_on_change && findings)
-            result.verdicts.push_back({findings->is_off_base() ? VerdictKind::fail : VerdictKind::pass, unchanged_verdict,
-                                       std::get<std::string>(changes_section(*findings).blocks.front()), repeat_command(command)});
+            result.verdicts.push_back(
+                {findings->is_off_base() ? VerdictKind::fail : VerdictKind::pass, unchanged_verdict,
+                 std::get<std::string>(changes_section(*findings).blocks.front()),
+                 shell_quoted({command.front(), "history", "explain", "--study", result.study.name, "--history", flags.history})});
         write_study(result, options.folder, findings);
     };
     options.judge_cell = [](const Report& report, const std::filesystem::path& cell) { write_judgement(report, cell); };

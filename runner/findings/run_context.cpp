@@ -70,7 +70,7 @@ std::string repeat_command(const std::vector<std::string>& call, const std::vect
                                 [&](const char* of_this_call) { return is(call[i], of_this_call); }) ||
             (!choice.empty() && is(call[i], "--only")))
             i += call[i].find('=') == std::string::npos ? 1U : 0U;
-        else if (call[i] != "--resume" && call[i] != "--collect" && call[i] != "--log-json" &&
+        else if (call[i] != "--resume" && call[i] != "--collect" && call[i] != "--log-json" && call[i] != "--fail-on-change" &&
                  std::ranges::find(others, call[i]) == others.end())
             words.push_back(call[i]);
     words.insert(words.end(), choice.begin(), choice.end());

@@ -12,7 +12,8 @@ TEST(RepeatCommand, LeavesOutFolderAndOthersAndQuotes) {
 }
 
 TEST(RepeatCommand, KeepsTheChoiceUnlessThereIsAnother) {
-    const std::vector<std::string> call{"fernlicht", "study", "s.yaml", "--only", "x*", "--out=o", "--resume", "--baselines", "b"};
+    const std::vector<std::string> call{"fernlicht", "study",     "s.yaml", "--only",           "x*",          "--out=o",
+                                        "--resume",  "--history", "h.db",   "--fail-on-change", "--baselines", "b"};
     EXPECT_EQ(repeat_command(call), "fernlicht study s.yaml --only 'x*' --baselines b");
     EXPECT_EQ(repeat_command(call, {"--only", "x-1"}), "fernlicht study s.yaml --baselines b --only x-1");
 }
