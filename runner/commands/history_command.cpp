@@ -18,7 +18,9 @@
 #include <charconv>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
 #include <memory>
+#include <set>
 
 namespace fernlicht {
 namespace {
@@ -175,16 +177,23 @@ int show(const HistoryFlags& flags) {
     for (const CellInput& input : night.machine)
         facts.push_back({input.name, printable(input.hash, 200)});
     fmt::print("{}\n", aligned_table("<<", facts));
-    std::vector<std::vector<std::string>> rows{{"cell", "readings", "frame, ms", "inputs"}};
+    std::vector<std::vector<std::string>> rows{{"cell", "readings", "frame, ms"}};
+    std::map<CellInput, std::size_t> cells_with; // input
     for (const NightCell& cell : night.cells) {
-        std::string inputs;
-        for (const CellInput& input : *cell.inputs)
-            inputs += fmt::format("{}{} {} {}", inputs.empty() ? "" : ", ", input_kind_name(input.kind), printable(input.name),
-                                  printable(input.hash, 12));
-        rows.push_back({printable(cell.name, 80), cell.failed.empty() ? fmt::format("{}", cell.readings->size()) : "not played",
-                        cell.frame_s ? fmt::format("{:.2f}", 1e3 * *cell.frame_s) : "", inputs.empty() ? "not kept" : inputs});
+        for (const CellInput& input : std::set(cell.inputs->begin(), cell.inputs->end()))
+            ++cells_with[input];
+        rows.push_back({printable(cell.name, 80),
+                        !cell.failed.empty()   ? "not played"
+                        : cell.inputs->empty() ? fmt::format("{}, inputs not kept", cell.readings->size())
+                                               : fmt::format("{}", cell.readings->size()),
+                        cell.frame_s ? fmt::format("{:.2f}", 1e3 * *cell.frame_s) : ""});
     }
-    fmt::print("{}", aligned_table("<>><", rows));
+    fmt::print("{}\n", aligned_table("<>>", rows));
+    rows = {{"input", "name", "hash, version", "cells"}};
+    for (const auto& [input, cells] : cells_with)
+        rows.push_back({input_kind_name(input.kind), printable(input.name, 80),
+                        printable(input.kind > InputKind::program ? input.hash : input.hash.substr(0, 12), 80), fmt::format("{}", cells)});
+    fmt::print("{}", aligned_table("<<<>", rows));
     return 0;
 }
 

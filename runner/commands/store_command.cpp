@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <memory>
 
@@ -57,8 +58,8 @@ int list_store(const StoreFlags& flags) {
     for (const StoredCell& cell : store_of(flags).list()) {
         if (!flags.study.empty() && !matches(flags.study, cell.study))
             continue;
-        fmt::print("{}  {}  {:>9}  {:<24} {}\n", cell.key.substr(0, 12), printable(cell.played_utc), size_text(cell.bytes),
-                   printable(cell.study), printable(cell.cell));
+        fmt::print("{}  {:%Y-%m-%dT%H:%M:%SZ}  {:>9}  {:<24} {}\n", cell.key.substr(0, 12),
+                   fmt::gmtime(static_cast<std::time_t>(cell.used_s)), size_text(cell.bytes), printable(cell.study), printable(cell.cell));
         bytes += cell.bytes;
         ++count;
     }
@@ -106,13 +107,13 @@ void add_store_command(CLI::App& app, const std::vector<std::string>&, std::func
         sub->callback([flags, does, &chosen] { chosen = [flags, does] { return does(*flags); }; });
         return sub;
     };
-    CLI::App* list = add("ls", "list cells, the oldest first", list_store);
+    CLI::App* list = add("ls", "list cells with when each was last used (UTC), least recently used first", list_store);
     add("verify", "read everything; take out what is damaged, so that it is played again; 1 when anything was", verify);
     CLI::App* pruned = add("prune", "remove cells, then files that no cell needs", prune);
     for (CLI::App* sub : {list, pruned})
         sub->add_option("--study", flags->study, "only of studies of this name, * and ? allowed");
-    pruned->add_option("--older-than", flags->older_than, "remove cells played longer ago than this: 30d, 12h or 90min");
-    pruned->add_option("--at-most", flags->at_most, "remove the oldest cells until at most this much is left: 20GiB");
+    pruned->add_option("--older-than", flags->older_than, "remove cells last used longer ago than this: 30d, 12h or 90min");
+    pruned->add_option("--at-most", flags->at_most, "remove the least recently used cells until at most this much is left: 20GiB");
     pruned->add_flag("--dry-run", flags->dry, "only say what would go");
 }
 

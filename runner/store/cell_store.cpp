@@ -6,6 +6,7 @@
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
@@ -53,6 +54,9 @@ std::optional<StoredCell> read_entry(const fs::path& path, const std::string& ke
         const CheckedJson json = CheckedJson::parse(text, path);
         json.expect_schema(cell_schema, cell_version);
         StoredCell cell = from_json<StoredCell>(json, stored_cell_members);
+        std::error_code gone;
+        if (const auto used = fs::last_write_time(path, gone); !gone)
+            cell.used_s = std::chrono::duration<double>(fs::file_time_type::clock::to_sys(used).time_since_epoch()).count();
         if (cell.key == key && cell.object.size() == 32)
             return cell;
     } catch (const InputError&) { // as if it was never there
@@ -117,7 +121,10 @@ void CellStore::note_failure(const std::string& key, const std::string& why) con
 }
 
 PackedFiles CellStore::load(const StoredCell& cell) const {
-    return unpacked(get_object(folder_, cell.object, "cell that was kept"), object_path(folder_, cell.object));
+    PackedFiles files = unpacked(get_object(folder_, cell.object, "cell that was kept"), object_path(folder_, cell.object));
+    std::error_code ignored;
+    fs::last_write_time(entry_path(cell.key), fs::file_time_type::clock::now(), ignored);
+    return files;
 }
 
 void CellStore::keep(StoredCell cell, const PackedFiles& files, const FilesRead& inputs) const {
@@ -148,7 +155,7 @@ std::vector<StoredCell> CellStore::list() const {
             if (std::optional<StoredCell> cell =
                     read_entry(entry.path(), entry.path().parent_path().filename().string() + entry.path().stem().string()))
                 cells.push_back(std::move(*cell));
-    std::ranges::sort(cells, {}, [](const StoredCell& cell) { return std::pair(cell.played_utc, cell.key); });
+    std::ranges::sort(cells, {}, [](const StoredCell& cell) { return std::pair(cell.used_s, cell.key); });
     return cells;
 }
 

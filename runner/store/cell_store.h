@@ -19,6 +19,7 @@ struct StoredCell {
     std::string object; ///< hash of its packed folder
     std::uint64_t bytes = 0;
     std::vector<std::pair<std::string, std::string>> files; ///< names and hashes of input files that are kept beside it
+    double used_s = 0.0;                                    ///< when it was kept or last loaded, seconds since 1970: its entry's time
 };
 
 /// `$XDG_CACHE_HOME/fernlicht/store`, else `~/.cache/fernlicht/store`; throws InputError that names --store where there is neither.
@@ -37,11 +38,11 @@ class CellStore {
     /// What is wrong with a cell that was kept, "its results are missing or damaged"; "" of one that is whole or was never there. Reads all
     /// of it.
     std::string damage(const std::string& key) const;
-    /// Its folder. Throws InputError where it is missing or damaged.
+    /// Its folder; from then on it counts as used now, where the store can be written. Throws InputError where it is missing or damaged.
     PackedFiles load(const StoredCell& cell) const;
     /// Keeps the cell and the input files that it names; `cell.object`, `bytes` and `files` are set here. The entry comes last.
     void keep(StoredCell cell, const PackedFiles& files, const FilesRead& inputs) const;
-    /// The entries, oldest first; damaged ones are left out.
+    /// The entries, least recently used first; damaged ones are left out.
     std::vector<StoredCell> list() const;
     /// Why a cell has no results, by whoever tried to play it last; "" where nobody did, or where it has some. keep() takes it away.
     std::string failure(const std::string& key) const;

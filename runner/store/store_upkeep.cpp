@@ -7,11 +7,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <fmt/format.h>
-#include <iomanip>
+#include <map>
+#include <optional>
 #include <set>
-#include <sstream>
 
 namespace fernlicht {
 namespace {
@@ -34,14 +33,6 @@ void take_out(const fs::path& path) {
     std::error_code error;
     if (!fs::remove(path, error) && error)
         throw DeviceError(path.string() + ": cannot be removed: " + error.message());
-}
-
-/// Seconds since 1970; nullopt for what is no time.
-std::optional<double> seconds_of(const std::string& utc) {
-    std::tm time{};
-    std::istringstream stream(utc);
-    stream >> std::get_time(&time, "%Y-%m-%dT%H:%M:%SZ");
-    return stream.fail() ? std::nullopt : std::optional(static_cast<double>(::timegm(&time)));
 }
 
 /// The hash or key of a file that a store wrote, whole or in part: two digits are its folder, the others its name; "" of all others.
@@ -74,13 +65,19 @@ std::uint64_t size_of(const fs::path& file) {
 
 std::string sentence_name(const StoredCell& cell) { return fmt::format("cell {} of {}", printable(cell.cell), printable(cell.study)); }
 
-std::set<std::string> objects_of(const std::vector<StoredCell>& cells) {
-    std::set<std::string> objects;
-    for (const StoredCell& cell : cells) {
-        objects.insert(cell.object);
-        for (const auto& [name, hash] : cell.files)
-            objects.insert(hash);
-    }
+std::set<std::string> objects_of(const StoredCell& cell) {
+    std::set<std::string> objects{cell.object};
+    for (const auto& [name, hash] : cell.files)
+        objects.insert(hash);
+    return objects;
+}
+
+/// With how many of the cells need each.
+std::map<std::string, std::size_t> objects_of(const std::vector<StoredCell>& cells) {
+    std::map<std::string, std::size_t> objects;
+    for (const StoredCell& cell : cells)
+        for (const std::string& object : objects_of(cell))
+            ++objects[object];
     return objects;
 }
 
@@ -133,7 +130,7 @@ std::vector<StoreDamage> verify_store(const CellStore& store) {
     if (broken.empty() && damaged_entries(store, false).empty())
         return {};
     const FolderLock lock(store.mark());
-    const std::set<std::string> needed = objects_of(store.list());
+    const std::map<std::string, std::size_t> needed = objects_of(store.list());
     std::vector<StoreDamage> damage;
     for (const fs::path& path : broken) {
         if (holds_object(store.folder(), name_of_object(path))) // written anew meanwhile
@@ -148,27 +145,31 @@ std::vector<StoreDamage> verify_store(const CellStore& store) {
 
 Pruned prune_store(const CellStore& store, const Pruning& pruning, double now_s) {
     const FolderLock lock(store.mark());
-    std::vector<StoredCell> cells = store.list(), stay;
+    const std::vector<StoredCell> cells = store.list();
     Pruned pruned;
     const auto is_of_study = [&](const StoredCell& cell) { return pruning.study.empty() || matches(pruning.study, cell.study); };
     const bool whole_study = !pruning.study.empty() && !pruning.older_than_s && !pruning.at_most_bytes;
+    std::map<std::string, std::size_t> needed = objects_of(cells);
+    const auto bytes_of = [&](const std::string& object) { return size_of(object_path(store.folder(), object)); };
     std::uint64_t bytes = 0;
-    for (const StoredCell& cell : cells)
-        bytes += cell.bytes;
-    for (StoredCell& cell : cells) { // the oldest first
-        const bool too_old = pruning.older_than_s && now_s - seconds_of(cell.played_utc).value_or(now_s) > *pruning.older_than_s;
+    for (const auto& [object, users] : needed)
+        bytes += bytes_of(object);
+    for (const StoredCell& cell : cells) {
+        const bool too_old = pruning.older_than_s && now_s - cell.used_s > *pruning.older_than_s;
         const bool too_much = pruning.at_most_bytes && bytes > *pruning.at_most_bytes;
         if (!is_of_study(cell) || !(whole_study || too_old || too_much)) {
-            stay.push_back(std::move(cell));
+            ++pruned.cells_left;
             continue;
         }
         ++pruned.cells;
-        bytes -= cell.bytes;
+        for (const std::string& object : objects_of(cell))
+            if (--needed[object] == 0) {
+                bytes -= bytes_of(object);
+                needed.erase(object);
+            }
         if (!pruning.dry)
             store.forget(cell.key);
     }
-    pruned.cells_left = stay.size();
-    const std::set<std::string> needed = objects_of(stay);
     const auto take_file = [&](const fs::path& path) {
         ++pruned.files;
         pruned.bytes += size_of(path);

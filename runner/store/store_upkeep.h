@@ -13,8 +13,8 @@ struct StoreDamage {
 std::vector<StoreDamage> verify_store(const CellStore& store);
 
 struct Pruning {
-    std::optional<double> older_than_s = {};         ///< since they were played
-    std::optional<std::uint64_t> at_most_bytes = {}; ///< of what stays; the oldest go first
+    std::optional<double> older_than_s = {};         ///< since they were used
+    std::optional<std::uint64_t> at_most_bytes = {}; ///< of what stays, input files too; the least recently used go first
     std::string study = {};                          ///< a pattern (glob.h); "": of all studies
     bool dry = false;                                ///< only tell
 };

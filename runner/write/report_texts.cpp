@@ -100,7 +100,7 @@ const char* type_of(const Verdict& verdict) {
     case VerdictKind::flaky:
         return "flaky";
     case VerdictKind::fail:
-        return "limit exceeded";
+        return verdict.name.starts_with("baseline") ? "baseline" : "failed";
     case VerdictKind::not_measured:
         break;
     }

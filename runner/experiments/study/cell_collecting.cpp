@@ -135,7 +135,12 @@ void collect_cell(const CellStore& store, const Study& study, const PlannedCell&
     const fs::path folder = options.folder / folder_name_of(planned);
     fs::remove_all(folder);
     write_files(files, folder);
-    judge_cell(study, planned, options, result);
+    try {
+        judge_cell(study, planned, options, result);
+    } catch (const InputError&) { // whole, but not as this program reads it
+        store.forget(planned.key);
+        throw;
+    }
 }
 
 } // namespace fernlicht

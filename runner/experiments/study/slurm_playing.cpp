@@ -4,6 +4,7 @@
 #include "runner/files/described_json.h"
 #include "runner/files/durable_files.h"
 #include "runner/files/log.h"
+#include "runner/findings/figures.h"
 #include "runner/findings/run_context.h"
 #include "runner/play/progress.h"
 #include "runner/workers/slurm.h"
@@ -13,8 +14,10 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <iterator>
 #include <set>
+#include <span>
 #include <thread>
 
 namespace fernlicht {
@@ -179,7 +182,17 @@ class SlurmStudy {
         }
         refusals_ = 0;
         if (!options_.run.quiet)
-            tell(LogLevel::info, fmt::format("submitted {} tasks as job array {}", commands.size(), arrays_.back().id));
+            tell(LogLevel::info,
+                 fmt::format("submitted {} as job array {}{}", counted(commands.size(), "task"), arrays_.back().id, again_words(names)));
+    }
+
+    /// Of cells that were lost before.
+    std::string again_words(const std::vector<std::string>& names) const {
+        constexpr std::size_t named = 5;
+        if (open_.at(names.front()).submissions < 2)
+            return "";
+        return fmt::format(", once more: {}{}", fmt::join(std::span(names).first(std::min(named, names.size())), ", "),
+                           names.size() > named ? fmt::format(" and {} more", names.size() - named) : "");
     }
 
     void note_refusal(const std::string& why) {

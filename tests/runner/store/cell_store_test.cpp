@@ -5,7 +5,11 @@
 #include "tests/runner/program.h"
 #include "tests/trial.h"
 
+#include <chrono>
+#include <ctime>
 #include <gmock/gmock.h>
+#include <iomanip>
+#include <sstream>
 
 namespace fernlicht {
 namespace {
@@ -37,7 +41,14 @@ struct CellStoreTest : testing::Test {
         read_file(lamp, opened);
         store.keep({key, study, "cell " + key.substr(31), played, {{InputKind::lamp, "lamp.ies", opened.front().xxh128}}, {}, 0, {}}, own,
                    opened);
+        set_used(key, played);
         return *store.find(key);
+    }
+    void set_used(const std::string& key, const std::string& utc) const {
+        std::tm time{};
+        std::istringstream(utc) >> std::get_time(&time, "%Y-%m-%dT%H:%M:%SZ");
+        fs::last_write_time(store.folder() / "cells/aa" / (key.substr(2) + ".json"),
+                            fs::file_time_type::clock::from_sys(std::chrono::system_clock::from_time_t(::timegm(&time))));
     }
     static void flip_bit(const fs::path& file) {
         std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
@@ -148,6 +159,29 @@ TEST_F(CellStoreTest, PrunesByAgeSizeAndStudy) {
     EXPECT_EQ(prune_store(store, {.at_most_bytes = one + 10}, noon_s).cells, 1U);
     EXPECT_THAT(left(), ElementsAre("cell 4"));
     EXPECT_THAT(verify_store(store), IsEmpty());
+}
+
+/// What a night takes from the store each time stays, however long ago it was played.
+TEST_F(CellStoreTest, PrunesByUse) {
+    const StoredCell used = keep(1, "2026-01-01T12:00:00Z"), other = keep(2, "2026-01-10T12:00:00Z");
+    EXPECT_EQ(store.list().front().key, used.key);
+    store.load(used);
+    EXPECT_EQ(store.list().front().key, other.key);
+    const double now_s = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+    EXPECT_NEAR(store.find(used.key)->used_s, now_s, 60.0);
+    EXPECT_EQ(prune_store(store, {.older_than_s = 3600.0}, now_s).cells, 1U);
+    EXPECT_TRUE(store.find(used.key));
+}
+
+/// Of 1000 cells with a lamp each the lamps are a part of what a disk holds.
+TEST_F(CellStoreTest, CountsInputFilesOnce) {
+    const std::uint64_t cell = keep(1, "2027-01-01T12:00:00Z", "a").bytes, lamp = std::string_view("lamp of a").size();
+    keep(2, "2027-01-02T12:00:00Z", "b");
+    keep(3, "2027-01-03T12:00:00Z", "b");
+    EXPECT_EQ(prune_store(store, {.at_most_bytes = 3 * cell + 2 * lamp}, noon_s).cells, 0U);
+    const Pruned pruned = prune_store(store, {.at_most_bytes = 3 * cell + 2 * lamp - 1}, noon_s);
+    EXPECT_EQ(pruned.cells, 1U);
+    EXPECT_EQ(pruned.bytes_left, 2 * cell + lamp);
 }
 
 /// A cell that writes nothing for hours is still being played; one whose process was killed is not.
