@@ -5,6 +5,7 @@
 
 #include <compare>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fernlicht {
@@ -14,7 +15,8 @@ enum class InputKind { drive, road, lamp, model, setting, program, library, devi
 
 struct CellInput {
     InputKind kind = InputKind::drive;
-    std::string name; ///< for people: "halogen-low.ies", "renderer" (of the program: its folder), "OpenCV"
+    std::string name; ///< for people: "halogen-low.ies", "straight.yaml: weather" (of a drive: its key), "renderer" (of the program: its
+                      ///< folder), "OpenCV"
     std::string hash; ///< of the content, 32 hexadecimal digits; of libraries and devices what they call themselves
     auto operator<=>(const CellInput&) const = default;
 };
@@ -24,6 +26,21 @@ using CellInputs = std::vector<CellInput>;
 const char* input_kind_name(InputKind kind);
 
 JsonMembers cell_input_members(CellInput& input);
+
+/// What is between a drive's file and its key.
+inline constexpr std::string_view before_key = ": ";
+
+/// One input that differs.
+struct InputChange {
+    InputKind kind = InputKind::drive;
+    std::string name;        ///< of drives with all keys that differ: "straight.yaml: start, weather"
+    std::string before, now; ///< hash or version, of drives "changed"; "" where it was not there
+    auto operator<=>(const InputChange&) const = default;
+};
+using InputChanges = std::vector<InputChange>;
+
+/// In the order of kinds and names. A drive's keys are one change: it differs from lamp to lamp, so that each would be several.
+InputChanges changed_inputs(const CellInputs& before, const CellInputs& now);
 
 /// What differs, one phrase each: "lamp low-beam.ies changed (bytes of its file)", "program changed: renderer", "device changed: renderer
 /// llvmpipe (LLVM 15.0.6, 256 bits) -> llvmpipe (LLVM 19.1.7, 256 bits)", "lamp high-beam.ies is new". Empty where nothing does.

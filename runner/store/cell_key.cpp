@@ -28,9 +28,8 @@ std::string hash_of_files(const FilesRead& files) {
 
 std::string lamp_mark(std::size_t number) { return fmt::format("<lamp {}>", number); }
 
-/// What is off the drive's defaults, each file by its content instead of its path.
-std::string bits_without_paths(const Drive& drive, const FilesRead& files) {
-    std::string bits = drive_bits(drive);
+/// Each file by its content instead of its path.
+std::string without_paths(std::string bits, const FilesRead& files) {
     std::vector<const FileRead*> longest_first;
     for (const FileRead& file : files)
         longest_first.push_back(&file);
@@ -72,8 +71,11 @@ CellInputs cell_inputs(const Drive& drive, const FilesRead& road, const FilesRea
         source.path = used == lamps.end() ? "" : lamp_mark(static_cast<std::size_t>(used - lamps.begin()));
         source.options.recipe.clear(); // its content is among what was opened
     }
-    const std::string bits = bits_without_paths(one, files);
-    inputs.push_back({InputKind::drive, drive.file.filename().string(), content_hash(bits.data(), bits.size())});
+    for (const auto& [key, told] : drive_bits_by_key(one)) {
+        const std::string bits = without_paths(told, files);
+        inputs.push_back({InputKind::drive, fmt::format("{}{}{}", drive.file.filename().string(), before_key, key),
+                          content_hash(bits.data(), bits.size())});
+    }
     inputs.push_back({InputKind::road, road.empty() ? "" : road.front().path.filename().string(), hash_of_files(road)});
     for (const LampSource* const lamp : lamps)
         inputs.push_back({InputKind::lamp, lamp->path.filename().string(), hash_of_files(lamp->file->opened)});

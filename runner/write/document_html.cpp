@@ -117,7 +117,7 @@ data part_of(const Table& table, const std::filesystem::path&, std::size_t&) {
     for (std::size_t i = 0; i < table.rows.size(); ++i)
         append_row(rows, table.rows[i], table, std::ranges::count(table.quiet, i) > 0);
     part.set("is_table", true);
-    part.set("caption", clean_text(table.caption));
+    part.set("caption", sentence_html(clean_text(table.caption)));
     part.set("has_caption", !table.caption.empty() && !table.folded);
     part.set("folded", table.folded);
     part.set("sortable", table.sortable);
@@ -146,7 +146,7 @@ data part_of(const Listing& listing, const std::filesystem::path&, std::size_t&)
     for (const Cell& item : listing.items)
         items.push_back(linked_html(item, sentence_html(item.text)));
     part.set("is_listing", true);
-    part.set("caption", clean_text(listing.caption));
+    part.set("caption", sentence_html(clean_text(listing.caption)));
     part.set("has_caption", !listing.caption.empty());
     part.set("items", items);
     return part;

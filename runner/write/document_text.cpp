@@ -66,12 +66,12 @@ std::string text_of(const std::string& paragraph) { return clean_text(paragraph)
 std::string text_of(const Plot& plot) {
     std::string text;
     for (const std::string& caption : plot.captions)
-        text += "  " + clean_text(caption) + "\n";
+        text += "  " + cell_text(caption) + "\n";
     return text;
 }
 
 std::string text_of(const Listing& listing) {
-    std::string text = listing.caption.empty() ? "" : clean_text(listing.caption) + "\n";
+    std::string text = listing.caption.empty() ? "" : cell_text(listing.caption) + "\n";
     for (const Cell& item : listing.items)
         text += "  " + clean_text(item.text) + "\n";
     return text;
@@ -107,7 +107,7 @@ std::string aligned_table(const std::string& alignment, const std::vector<std::v
 }
 
 std::string table_text(const Table& table) {
-    return (table.caption.empty() ? "" : table.caption + "\n") + (table.prose ? entries_of(table) : lines_of(table));
+    return (table.caption.empty() ? "" : cell_text(table.caption) + "\n") + (table.prose ? entries_of(table) : lines_of(table));
 }
 
 std::string document_text(const Document& document) {

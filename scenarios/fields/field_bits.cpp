@@ -84,20 +84,35 @@ std::string field_bits_at(const Field& field, void* whole, void* usual, const st
     return base && bits == value_bits(field, base) ? "" : fmt::format("{}={}\n", at, bits);
 }
 
-std::string group_bits(const Group& group, const void* whole, const void* usual, const std::string& above) {
+std::vector<std::pair<std::string, std::string>> group_bits_by_key(const Group& group, const void* whole, const void* usual,
+                                                                   const std::string& above) {
     std::vector<const Field*> by_id;
     for (const Field& field : group.fields)
         if (!field.is_form && (!field.heard || field.heard(whole)))
             by_id.push_back(&field);
     std::ranges::sort(by_id, {}, &Field::id);
-    std::string bits; // what is looked at here is not changed: members have one way to look for all visitors
-    for (const Field* field : by_id)
-        bits += field_bits_at(*field, const_cast<void*>(whole), const_cast<void*>(usual), fmt::format("{}{}", above, field->id));
-    return bits;
+    std::vector<std::pair<std::string, std::string>> all;
+    for (const Field* field : by_id) // what is looked at here is not changed: members have one way to look for all visitors
+        if (std::string bits =
+                field_bits_at(*field, const_cast<void*>(whole), const_cast<void*>(usual), fmt::format("{}{}", above, field->id));
+            !bits.empty())
+            all.emplace_back(field->key, std::move(bits));
+    return all;
+}
+
+std::string group_bits(const Group& group, const void* whole, const void* usual, const std::string& above) {
+    std::string all;
+    for (const auto& [key, bits] : group_bits_by_key(group, whole, usual, above))
+        all += bits;
+    return all;
 }
 
 } // namespace
 
 std::string field_bits(const Group& group, const void* whole) { return group_bits(group, whole, group.usual.get(), ""); }
+
+std::vector<std::pair<std::string, std::string>> field_bits_by_key(const Group& group, const void* whole) {
+    return group_bits_by_key(group, whole, group.usual.get(), "");
+}
 
 } // namespace fernlicht

@@ -5,9 +5,14 @@
 
 #include "scenarios/fields/group.h"
 
+#include <utility>
+#include <vector>
+
 namespace fernlicht {
 
 /// A line each, by ascending ids: "17.2=4097700000000000". Unheard fields are left out. "" for a struct at its defaults.
 std::string field_bits(const Group& group, const void* whole);
+/// The same field by field, with their keys of today; those at their defaults are left out.
+std::vector<std::pair<std::string, std::string>> field_bits_by_key(const Group& group, const void* whole);
 
 } // namespace fernlicht

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
-#include <map>
+#include <set>
 
 namespace fernlicht {
 namespace {
@@ -17,33 +17,17 @@ bool is_of_times_alone(const CellInput& input) {
     return input.kind == InputKind::device && std::ranges::find(of_times_alone, input.name) != of_times_alone.end();
 }
 
-using HashesByInput = std::map<std::pair<InputKind, std::string>, std::string>;
-
-/// Of several with one name, all of their hashes.
-HashesByInput hashes_of(const CellInputs& inputs) {
-    HashesByInput hashes;
-    for (const CellInput& input : inputs)
-        hashes[{input.kind, input.name}] += input.hash;
-    return hashes;
-}
-
 constexpr const char* conditions_name = "conditions";
-constexpr const char* changed = "changed";
 
-/// A drive as it is played differs from lamp to lamp, so its hash would make one change several; and where the study set something else in
-/// it, that is the change.
-InputChanges without_drive_hashes(InputChanges changes, const NightCell& before, const NightCell& now) {
+/// Where the study set something else in a drive, that is the change.
+InputChanges with_conditions(InputChanges changes, const NightCell& before, const NightCell& now) {
     const auto is_played_otherwise = [](const InputChange& change) {
         return change.kind == InputKind::drive && !change.before.empty() && !change.now.empty();
     };
-    const auto first = std::ranges::remove_if(changes, is_played_otherwise);
-    if (first.empty())
-        return changes;
-    const std::string drive = first.begin()->name;
-    changes.erase(first.begin(), first.end());
-    changes.push_back(before.condition != now.condition ? InputChange{InputKind::setting, conditions_name, before.condition, now.condition}
-                                                        : InputChange{InputKind::drive, drive, changed, changed});
-    std::ranges::sort(changes);
+    if (before.condition != now.condition && std::erase_if(changes, is_played_otherwise) > 0) {
+        changes.push_back({InputKind::setting, conditions_name, before.condition, now.condition});
+        std::ranges::sort(changes);
+    }
     return changes;
 }
 
@@ -68,22 +52,6 @@ Cause cause_of(InputKind kind) {
 
 const char* cause_name(Cause cause) { return std::array{"inputs", "program", "machine"}[static_cast<std::size_t>(cause)]; }
 
-InputChanges changed_inputs(const CellInputs& before, const CellInputs& now) {
-    const HashesByInput old_inputs = hashes_of(before), new_inputs = hashes_of(now);
-    InputChanges changes;
-    for (const auto& [input, hash] : new_inputs) {
-        const auto found = old_inputs.find(input);
-        const std::string was = found == old_inputs.end() ? "" : found->second;
-        if (was != hash)
-            changes.push_back({input.first, input.second, was, hash});
-    }
-    for (const auto& [input, hash] : old_inputs)
-        if (!new_inputs.contains(input))
-            changes.push_back({input.first, input.second, hash, ""});
-    std::ranges::sort(changes);
-    return changes;
-}
-
 std::string phrase_of(const InputChange& change) {
     const std::string name = short_text(change.name, 60), kind = input_kind_name(change.kind);
     switch (change.kind) {
@@ -91,9 +59,13 @@ std::string phrase_of(const InputChange& change) {
         if (is_version(change.before) || is_version(change.now))
             return fmt::format("{} {} → {}", name, change.before, change.now);
         return "sources in " + name;
-    case InputKind::drive: // its hash is that of the drive as it is played, which no file has
-        return change.before.empty() == change.now.empty() ? "drive " + name + " as it is played"
-                                                           : fmt::format("drive {} {}", name, change.before.empty() ? "is new" : "is gone");
+    case InputKind::drive: { // its hash is that of the drive as it is played, which no file has
+        const std::size_t keys = std::min(change.name.rfind(before_key), change.name.size());
+        return change.before.empty() || change.now.empty()
+                   ? fmt::format("drive {} is {}", name, change.before.empty() ? "new" : "gone")
+                   : fmt::format("drive {} as it is played{}", short_text(change.name.substr(0, keys), 60),
+                                 short_text(change.name.substr(keys), 120));
+    }
     case InputKind::setting:
         if (change.name == conditions_name)
             return fmt::format("conditions {} → {}", short_text(change.before, 120), short_text(change.now, 120));
@@ -155,16 +127,16 @@ CellInputs timing_inputs(const Night& night, const NightCell& cell) {
 InputChanges changes_between(const Night& earlier, const NightCell& before, const Night& later, const NightCell& now) {
     static const NightCell without_inputs;
     const bool kept = !before.inputs->empty() && !now.inputs->empty();
-    return without_drive_hashes(
+    return with_conditions(
         changed_inputs(deciding_inputs(earlier, kept ? before : without_inputs), deciding_inputs(later, kept ? now : without_inputs)),
         before, now);
 }
 
 std::string device_class_of(const CellInputs& inputs) {
     std::string device;
-    for (const auto& [input, hash] : hashes_of(inputs))
-        if (input.first == InputKind::device)
-            device += fmt::format("{}\n{}\n", input.second, hash);
+    for (const CellInput& input : std::set(inputs.begin(), inputs.end()))
+        if (input.kind == InputKind::device)
+            device += fmt::format("{}\n{}\n", input.name, input.hash);
     return device;
 }
 

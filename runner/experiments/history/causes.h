@@ -3,7 +3,6 @@
 
 #include "runner/history/history.h"
 
-#include <compare>
 #include <string>
 #include <vector>
 
@@ -12,18 +11,6 @@ namespace fernlicht {
 enum class Cause { inputs, program, machine };
 Cause cause_of(InputKind kind);
 const char* cause_name(Cause cause); ///< "inputs", "program", "machine"
-
-/// One input that differs between two nights.
-struct InputChange {
-    InputKind kind = InputKind::drive;
-    std::string name;
-    std::string before, now; ///< hash or version; "" where it was not there
-    auto operator<=>(const InputChange&) const = default;
-};
-using InputChanges = std::vector<InputChange>;
-
-/// In the order of kinds and names.
-InputChanges changed_inputs(const CellInputs& before, const CellInputs& now);
 
 /// "lamp low-beam.ies (1f0c93a2b7d4 → 91bc03e8a5f0)", "sources in renderer", "driver Mesa 22.3.6 → Mesa 25.0.1".
 std::string phrase_of(const InputChange& change);

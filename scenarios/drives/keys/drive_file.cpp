@@ -140,4 +140,9 @@ std::string drive_bits(const Drive& drive) {
     return field_bits(drive_fields(), &drive);
 }
 
+std::vector<std::pair<std::string, std::string>> drive_bits_by_key(const Drive& drive) {
+    const LampsAreOf lamps(drive);
+    return field_bits_by_key(drive_fields(), &drive);
+}
+
 } // namespace fernlicht

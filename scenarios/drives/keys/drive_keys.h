@@ -16,6 +16,7 @@ inline constexpr int largest_view_px = 16384; ///< to a side; the least that Ope
 const Fields<Drive>& drive_fields();
 /// What hashes of a drive are taken over: ids and bits of what is off its defaults (fields/field_bits.h).
 std::string drive_bits(const Drive& drive);
+std::vector<std::pair<std::string, std::string>> drive_bits_by_key(const Drive& drive);
 /// Applies what flags change, and notes what the user would not guess. Throws InputError for a side that no lamp has.
 void apply_edits(Drive& drive, const DriveEdits& edits, LampCache& cache);
 /// A file's stem, made a name that YamlEntry::name accepts.

@@ -44,7 +44,7 @@ Document document(const TossResult& result) {
     section.blocks.insert(section.blocks.begin(), "A coin <thrown> often.");
     section.blocks.emplace_back(Table{
         "toss",
-        "How it fell",
+        "How `it` fell",
         {{.head = "side", .words = true}, {"share", "%", "of all"}, {"count", "", "of all"}},
         {{"heads | tails", Cell(fmt::format("{:.1f}", 100.0 * share), 100.0 * share), ""}, {"edge", "not measured, it never stood"}}});
     return {"Coins", {section}};
@@ -80,7 +80,7 @@ TEST_F(ToyExperiment, BecomesAPage) {
          {"<title>Coins", "<h2>Error over tosses</h2>", "A coin &lt;thrown&gt; often.", "<svg", "One coin.",
           "Not in the diagram: by wind, no wind.", "<summary>The same as a table</summary>", "colspan=\"2\" class=\"group\">Of all<",
           ">Share<br><small>%</small>", "<td class=\"n\">37.5</td>", "<td class=\"text\" colspan=\"2\">not measured, it never stood</td>",
-          "Not all was measured: the coin is lost", "<li>tosses 9 to 20</li>", "toss --often"})
+          "<caption>How <code>it</code> fell</caption>", "Not all was measured: the coin is lost", "<li>tosses 9 to 20</li>", "toss --often"})
         EXPECT_THAT(page, HasSubstr(part));
     EXPECT_THAT(page, Not(HasSubstr("<script")));
 }
@@ -99,7 +99,7 @@ TEST_F(ToyExperiment, BecomesEachFormat) {
           "% Seen:\n% - all\n\\resizebox{\\linewidth}{!}{%\n% \n\\begin{tabular}{rlr}\n\\toprule\nrow & side & share \\\\\n\\midrule\n$c0$ "
           "& 50 \\% heads & $37.5$ \\\\\n$c1$ & tails & -- "}},
         {"text",
-         {"How it fell\n               of all  of all\nside            share   count\n                    %\n"
+         {"How 'it' fell\n               of all  of all\nside            share   count\n                    %\n"
           "heads | tails    37.5       -\nedge: not measured, it never stood\n",
           "\nUnfair\nSeen\n  all\nshare of heads: +12.5 % (more); by chance; a coin\n"}}};
     const Document toy = document(result);

@@ -314,7 +314,8 @@ TEST(HistoryCauses, NightsThatKeptNoInputsKnowProgramAndMachine) {
     EXPECT_THAT(document_text(document(found)), HasSubstr("program: fernlicht 0.1 → 0.2 (what went in was not kept)"));
 }
 
-/// A drive as it is played differs from lamp to lamp: one edit of its file is one change, and what the study sets is told as that.
+/// A drive as it is played differs from lamp to lamp: one edit of its file is one change with its keys, and what the study sets is told as
+/// that.
 TEST(HistoryCauses, ADriveThatIsPlayedOtherwiseIsOneChange) {
     PlantedNights planted(7);
     World brighter;
@@ -325,13 +326,14 @@ TEST(HistoryCauses, ADriveThatIsPlayedOtherwiseIsOneChange) {
         for (CellResult& cell : result.cells) {
             cell.cell.condition = i < 2 ? "night, aim -1 %" : "night, aim -1.1 %";
             std::erase_if(cell.inputs, [](const CellInput& input) { return input.kind == InputKind::program; });
-            cell.inputs.push_back({InputKind::drive, "straight.yaml", fmt::format("{}{:031}", i, cell.cell.lamp)});
+            for (const char* key : {"lamp_sets", "start"})
+                cell.inputs.push_back({InputKind::drive, std::string("straight.yaml: ") + key, fmt::format("{}{:031}", i, cell.cell.lamp)});
         }
         nights.push_back(night_of_study(result, "/n"));
     }
     const HistoryFindings found = explain_nights(nights);
     ASSERT_EQ(found.events.size(), 2U);
-    EXPECT_THAT(phrase_of(found.events[0].causes), HasSubstr("drive straight.yaml as it is played"));
+    EXPECT_THAT(phrase_of(found.events[0].causes), HasSubstr("drive straight.yaml as it is played: lamp_sets, start"));
     EXPECT_EQ(phrase_of(found.events[1].causes), "inputs: conditions night, aim -1 % → night, aim -1.1 %");
     const std::string text = document_text(document(found));
     EXPECT_THAT(text, AllOf(HasSubstr("on country, night, aim -1 %: "), HasSubstr("on country, night, aim -1.1 %: "))) << text;
