@@ -108,6 +108,32 @@ std::string twin_words(const TwinAgreement& twin) {
            fmt::format("; left out: {} pixels of several surfaces, {} with a shadow's edge.", twin.several_surfaces, twin.shadow_edges);
 }
 
+/// Signed errors with twice their standard errors.
+Table edges_table(const DriveAccuracy& drive) {
+    std::string columns = "by<";
+    for (const char* const of : {"all", "shadows' edges", "several surfaces", "beside"})
+        columns += fmt::format("|{}: pixels|{}: mean, signed [%]|{}: beyond the one ray [%]|{}: mean of shares [%]", of, of, of, of);
+    Table table{
+        "edges-" + drive.drive,
+        "Light where shadows and surfaces end, on pixels that the reference marks and within two pixels of them: sums of light, and "
+        "for comparison the mean of errors in shares",
+        columns_of(columns),
+        {},
+        true,
+        true};
+    const auto signed_percent = [](double share, double standard_error) {
+        return Cell(fmt::format("{:+.2f} +- {:.2f}", 100.0 * share, 200.0 * standard_error), 100.0 * share);
+    };
+    for (const EdgeRow& row : drive.edges) {
+        std::vector<Cell>& cells = table.rows.emplace_back(std::vector<Cell>{row.way});
+        for (const LightAtEdges* e : {&row.all, &row.shadow, &row.surfaces, &row.beside})
+            cells.insert(cells.end(), {Cell(fmt::format("{}", e->pixels), static_cast<double>(e->pixels)),
+                                       signed_percent(e->mean, e->mean_standard_error),
+                                       signed_percent(e->beyond_ray, e->beyond_ray_standard_error), percent(e->mean_of_shares)});
+    }
+    return table;
+}
+
 Section drive_section(const DriveAccuracy& drive) {
     Section section{drive.title, {}};
     section.blocks.emplace_back(
@@ -122,6 +148,8 @@ Section drive_section(const DriveAccuracy& drive) {
     section.blocks.emplace_back(places_table(drive));
     if (drive.twin && drive.twin->flat)
         section.blocks.emplace_back(twin_words(*drive.twin));
+    if (!drive.edges.empty())
+        section.blocks.emplace_back(edges_table(drive));
     if (Table prices = simplifications_table(drive); !prices.rows.empty())
         section.blocks.emplace_back(std::move(prices));
     return section;

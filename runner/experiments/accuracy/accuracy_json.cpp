@@ -38,6 +38,24 @@ JsonMembers reference_members(ReferenceCost& cost) {
     return {{"seconds", cost.seconds}, {"rays", cost.rays}, {"median_samples", cost.median_samples}, {"max_samples", cost.max_samples}};
 }
 
+JsonMembers edge_members(LightAtEdges& e) {
+    return {{"pixels", e.pixels},
+            {"mean", e.mean},
+            {"mean_standard_error", e.mean_standard_error},
+            {"absolute", e.absolute},
+            {"mean_of_shares", e.mean_of_shares},
+            {"beyond_ray", e.beyond_ray},
+            {"beyond_ray_standard_error", e.beyond_ray_standard_error}};
+}
+
+JsonMembers edge_row_members(EdgeRow& row) {
+    return {{"way", row.way},
+            {"shadow_edges", row.shadow, edge_members},
+            {"several_surfaces", row.surfaces, edge_members},
+            {"beside", row.beside, edge_members},
+            {"all", row.all, edge_members}};
+}
+
 JsonMembers drive_members(DriveAccuracy& drive) {
     const auto frames = ticks_of(drive.moments);
     const auto configuration = [&drive](ConfigurationResult& found) { return configuration_members(found, drive); };
@@ -59,7 +77,8 @@ JsonMembers drive_members(DriveAccuracy& drive) {
             {"reference", drive.reference, reference_members},
             {"configurations", drive.configurations, configuration},
             {"simplifications", drive.simplifications, simplification},
-            {"twin", drive.twin, agreement}};
+            {"twin", drive.twin, agreement},
+            {"edges", drive.edges, edge_row_members}};
 }
 
 JsonMembers interval_members(Interval& i) { return {{"value", i.value}, {"low", i.low}, {"high", i.high}}; }

@@ -3,6 +3,7 @@
 
 #include "metrics/images/pixel_errors.h"
 #include "metrics/statistics/work_precision.h"
+#include "runner/experiments/accuracy/edge_errors.h"
 #include "runner/experiments/bench/bench_result.h"
 #include "runner/files/described_json.h"
 #include "runner/findings/document.h"
@@ -66,7 +67,8 @@ struct DriveAccuracy {
     std::optional<TwinAgreement> twin;                               ///< where photometric took part
     std::vector<std::string> missing;                                ///< what was not measured because the sweep was ended, one clause each
     std::vector<std::pair<Configuration, std::string>> refused = {}; ///< ways that cannot draw the scene, and why
-    std::string shadow_choice = {}; ///< where the drive says `shadows: auto`: what was chosen and why, a clause
+    std::vector<EdgeRow> edges = {}; ///< where photometric took part: the one exact ray, then each of its ways at that size
+    std::string shadow_choice = {};  ///< where the drive says `shadows: auto`: what was chosen and why, a clause
 };
 
 struct AccuracyResult : Findings {

@@ -125,24 +125,44 @@ std::vector<std::string> missing_errors(std::size_t compared, std::size_t ways, 
     return {text};
 }
 
-/// Of photometric as the drive draws it; nullopt where it took no part.
-std::optional<TwinAgreement> twin_agreement(const ReferencePictures& references, const Stage& stage, Device& device,
-                                            const std::vector<Moment>& moments, const std::vector<ConfigurationResult>& found) {
+/// Of photometric as the drive draws it, and at edges by each of its ways at that size; nothing where it took no part.
+void add_agreement(const ReferencePictures& references, const Stage& stage, const std::vector<Moment>& moments,
+                   TimedTechniques& timed_techniques, DriveAccuracy& result) {
+    const auto by_photometric = [](const ConfigurationResult& r) { return r.configuration.technique == "photometric"; };
     const auto ours = std::ranges::find_if(
-        found, [](const ConfigurationResult& r) { return r.configuration.technique == "photometric" && r.configuration.varied.empty(); });
-    if (ours == found.end())
-        return std::nullopt;
-    const View view = at_size(view_to_compare(stage.drive), ours->configuration.width_px, ours->configuration.height_px);
-    Renderer renderer(device, stage.scene, settings_of(stage.drive, ours->configuration));
+        result.configurations, [&](const ConfigurationResult& r) { return by_photometric(r) && r.configuration.varied.empty(); });
+    if (ours == result.configurations.end())
+        return;
+    const std::size_t own = static_cast<std::size_t>(ours - result.configurations.begin());
+    const View& view = timed_techniques.views[own];
     const Reference reference(stage.scene);
     ReferenceSettings settings = references.settings();
-    settings.footprint = Footprint::centre;
     TwinAgreementFold fold(settings.floor_lx);
-    for (std::size_t m = 0; m < moments.size(); ++m)
-        fold.add(moments[m], view, renderer.draw(moments[m], view, {.illuminance = true, .depth = true, .ids = true}),
-                 reference.render(moments[m], view, {.illuminance = true}, settings), references.driver(m, view).reference,
-                 static_cast<int>(m));
-    return fold.finish();
+    std::vector<EdgeErrorFold> edges{{"the one exact ray", settings.floor_lx}};
+    std::vector<std::size_t> ways;
+    for (std::size_t i = 0; i < result.configurations.size(); ++i)
+        if (by_photometric(result.configurations[i]) && timed_techniques.views[i].width_px == view.width_px) {
+            ways.push_back(i);
+            edges.emplace_back(timed_techniques.names[i], settings.floor_lx);
+        }
+    for (std::size_t m = 0; m < moments.size(); ++m) {
+        settings.footprint = Footprint::centre;
+        const ReferenceImage ray = reference.render(moments[m], view, {.illuminance = true}, settings);
+        settings.footprint =
+            Footprint::pixel; // of illuminance alone: shadows on targets above the surface are marked, too, where these are wanted
+        const ReferenceImage areas = reference.render(moments[m], view, {.illuminance = true}, settings);
+        edges[0].add(ray.illuminance_lx.mean, ray.illuminance_lx.mean, areas);
+        for (std::size_t k = 0; k < ways.size(); ++k) {
+            const Frame frame =
+                timed_techniques.renderers[ways[k]].draw(moments[m], view, {.illuminance = true, .depth = true, .ids = true});
+            edges[k + 1].add(frame.illuminance_lx, ray.illuminance_lx.mean, areas);
+            if (ways[k] == own)
+                fold.add(moments[m], view, frame, ray, references.driver(m, view).reference, static_cast<int>(m));
+        }
+    }
+    result.twin = fold.finish();
+    for (const EdgeErrorFold& way : edges)
+        result.edges.push_back(way.finish());
 }
 
 /// Renderers with a place in the result only: all of them here, since the errors are whole.
@@ -278,7 +298,7 @@ DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRe
         return result;
     }
     result.simplifications = price_simplifications(stage, moments);
-    result.twin = twin_agreement(references, stage, device, moments, result.configurations);
+    add_agreement(references, stage, moments, timed_techniques, result);
     take_times(timed_techniques, moments, request, step, stop, result);
     return result;
 }
