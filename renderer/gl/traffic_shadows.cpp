@@ -261,7 +261,8 @@ void TrafficShadows::draw(const Shot& shot) {
         for (std::size_t i = 0; i < chosen_.size(); ++i)
             if (to_draw[i] != 0) {
                 pass_.set_pieces(ego_m_, chosen_[i].pieces);
-                pass_.draw(maps_, layers_[chosen_[i].layer].clip, shot.work, static_cast<GLint>(chosen_[i].layer));
+                pass_.draw(maps_, layers_[chosen_[i].layer].clip, shot.work, static_cast<GLint>(chosen_[i].layer),
+                           spread_texels * texel_tangent(chosen_[i].window, settings_));
             }
         pass_.end("rendering shadow maps of other lamps");
     }
@@ -293,7 +294,8 @@ void TrafficShadows::bind() const {
 }
 
 std::vector<Program::Define> TrafficShadows::defines() const {
-    return {{"TRAFFIC_SHADOW_NEAR", literal(shadow_near_m)},
+    return {{"SHADOW_LIFT", "1"},
+            {"TRAFFIC_SHADOW_NEAR", literal(shadow_near_m)},
             {"TRAFFIC_SHADOW_TOLERANCE", literal(settings_.tolerance_m)},
             {"TRAFFIC_SHADOW_LEAST", literal(min_traffic_shadow)}};
 }

@@ -139,6 +139,7 @@ void Triangles::make(std::uint32_t id, packs::PassTriangle& to) const {
     to.farthest = static_cast<float>(std::max({v[0].z, v[1].z, v[2].z}));
     to.material = &materials_[surfaces_.corners[last].material];
     to.mesh = static_cast<std::int32_t>(piece.mesh + 1);
+    to.ground = piece.ground;
     to.lit = piece.lit;
     to.shadowed = piece.shadowed;
 }
@@ -160,6 +161,7 @@ packs::PassShadow shadow_of(const ShadowLookUp& from, const Camera& camera, std:
         shifts.insert(shifts.end(), {static_cast<float>(shift.x), static_cast<float>(shift.y)});
     to.shifts = shifts.data();
     to.depth = from.depth;
+    to.target_depth = from.target_depth != nullptr ? from.target_depth : from.depth;
     std::ranges::transform(from.box, to.box, [](double texels) { return static_cast<float>(texels); });
     return to;
 }

@@ -37,6 +37,7 @@ struct DrawnPiece {
     glm::dvec3 origin_m{0.0};                    ///< relative to the car
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};
     std::uint32_t mesh = 0;
+    bool ground = false;
     bool lit = true, shadowed = true; ///< own lamps may reach it, shadows may fall on it
 };
 
@@ -45,9 +46,10 @@ struct ShadowLookUp {
     glm::dmat4 texture_from_ego{1.0}; ///< x, y, w, and what is raised by, of places relative to the car
     double near_m = 0.0, tolerance_m = 0.0;
     int width = 0, height = 0;
-    std::vector<glm::dvec2> shifts{{}}; ///< of x and y, one a layer
-    const float* depth = nullptr;       ///< layer by layer; rows from the lowest
-    double box[4] = {};                 ///< in texels, low and high x, low and high y: look-ups beside it meet nothing
+    std::vector<glm::dvec2> shifts{{}};  ///< of x and y, one a layer
+    const float* depth = nullptr;        ///< layer by layer; rows from the lowest
+    const float* target_depth = nullptr; ///< that targets above surfaces are looked up in; nullptr: the same
+    double box[4] = {};                  ///< in texels, low and high x, low and high y: look-ups beside it meet nothing
 };
 
 struct DrawnLamp {

@@ -18,7 +18,7 @@ Floats in_row(const float* row, const vec3& p) { return row[0] * p.x + row[1] * 
 
 /// What the pixels of a pack show.
 struct Shown {
-    Mask seen, curved;                      ///< curved: with a normal that is not yet of unit length
+    Mask seen, curved, ground;              ///< curved: with a normal that is not yet of unit length
     std::int32_t all_of = 0;                ///< id that every pixel has; 0: none
     const PassMaterial* material = nullptr; ///< of that
     vec3 nearness, normal_x, normal_y, normal_z, albedo, emission, tint;
@@ -57,6 +57,8 @@ void show(Shown& s, Mask here, const PassTriangle& t, Ints texels) {
         s.any_curved = true;
     }
     show_material(s, here, m, texels);
+    if (t.ground)
+        s.ground = s.ground || here;
     s.lit = s.lit || t.lit;
     s.shadowed = s.shadowed || t.shadowed;
     if (m.retroreflecting) {
@@ -93,7 +95,7 @@ Floats intensity_towards(const PassLamp& lamp, const vec3& w, Floats inverse_d) 
 }
 
 /// Share of the lamp that is seen from p, weighted over four texels. What lies outside the maps, or behind what they can show, is lit.
-Floats visibility(const PassShadow& shadow, const vec3& p, Mask asked) {
+Floats visibility(const PassShadow& shadow, const float* depths, const vec3& p, Mask asked) {
     const Floats w = in_row(shadow.rows + 8, p), inverse = 1.0 / w, none = 0.0, all = 1.0;
     const Floats qx = in_row(shadow.rows, p), qy = in_row(shadow.rows + 4, p), depth = shadow.near * inverse;
     const Floats across = static_cast<float>(shadow.width), up = static_cast<float>(shadow.height);
@@ -108,8 +110,8 @@ Floats visibility(const PassShadow& shadow, const vec3& p, Mask asked) {
         const Floats inside_x = min(across - 1.0, max(none, x)), inside_y = min(up - 1.0, max(none, y));
         const Ints column = min(to_ints(inside_x), Ints(shadow.width - 2)), row = min(to_ints(inside_y), Ints(shadow.height - 2));
         const Ints first = row * Ints(shadow.width) + column;
-        const float* map = shadow.depth + static_cast<std::size_t>(layer) * static_cast<std::size_t>(shadow.width) *
-                                              static_cast<std::size_t>(shadow.height);
+        const float* map =
+            depths + static_cast<std::size_t>(layer) * static_cast<std::size_t>(shadow.width) * static_cast<std::size_t>(shadow.height);
         const Pair lower = gather_pair(map, first), upper = gather_pair(map + shadow.width, first);
         const auto passed = [&](Floats texel) { return select(depth >= texel, all, none); };
         seen += photometry::bilinear(passed(lower.first), passed(lower.second), passed(upper.first), passed(upper.second),
@@ -126,7 +128,8 @@ struct Light {
     vec3 coloured{0.0, 0.0, 0.0}, returned_coloured{0.0, 0.0, 0.0};
 };
 
-void add_lamp(Light& sum, const PassPicture& picture, const PassLamp& lamp, const Shown& s, const vec3& p, const vec3& n, bool seen) {
+void add_lamp(Light& sum, const PassPicture& picture, const PassLamp& lamp, const Shown& s, const vec3& p, const vec3& n, Floats lift,
+              bool seen) {
     const Floats none = 0.0;
     const vec3 v = p - in_all(lamp.position), w = photometry::lamp_space(v, in_all(lamp.right), in_all(lamp.up), in_all(lamp.forward));
     const Floats inverse_d = inversesqrt(dot(w, w)), cosine = max(-dot(n, v) * inverse_d, 0.0);
@@ -135,7 +138,8 @@ void add_lamp(Light& sum, const PassPicture& picture, const PassLamp& lamp, cons
         const Mask lit = s.seen && cosine > none && e_perp > none;
         if (any(lit)) {
             if (s.shadowed && lamp.shadow != nullptr)
-                e_perp = e_perp * visibility(*lamp.shadow, p + n * max(lamp.shadow->tolerance, in_row(lamp.shadow->rows + 12, p)), lit);
+                e_perp = e_perp * visibility(*lamp.shadow, lamp.shadow->depth,
+                                             p + n * (lift * max(lamp.shadow->tolerance, in_row(lamp.shadow->rows + 12, p))), lit);
             e_perp = select(lit, e_perp, none);
             const Floats e = select(lit, e_perp * cosine, none);
             sum.illuminance += e;
@@ -160,7 +164,7 @@ void add_lamp(Light& sum, const PassPicture& picture, const PassLamp& lamp, cons
     Floats e = photometry::facing_illuminance_at(intensity_towards(lamp, above, inverse_above), inverse_above);
     const Mask lit = s.seen && e > none;
     if (s.shadowed && lamp.shadow != nullptr && any(lit))
-        e = e * visibility(*lamp.shadow, p + in_all(lamp.raise_in_camera), lit);
+        e = e * visibility(*lamp.shadow, lamp.shadow->target_depth, p + in_all(lamp.raise_in_camera), lit);
     sum.target += select(lit, e, none);
 }
 
@@ -268,9 +272,10 @@ void light_pack(const PassPicture& picture, const Shown& s, Place at, Floats x, 
     }
     const bool seen = picture.colour != nullptr || picture.luminance != nullptr || picture.light != nullptr;
     Light sum;
+    const Floats lift = s.shadowed ? select(s.ground, one - dot(n, in_all(picture.upwards)), one) : one;
     if (s.lit)
         for (std::int32_t i = 0; i < picture.lamp_count; ++i)
-            add_lamp(sum, picture, picture.lamps[i], s, p, n, seen);
+            add_lamp(sum, picture, picture.lamps[i], s, p, n, lift, seen);
     const auto diffuse = [&](const vec3& lux) {
         return vec3(photometry::diffuse_luminance(s.albedo.x, lux.x), photometry::diffuse_luminance(s.albedo.y, lux.y),
                     photometry::diffuse_luminance(s.albedo.z, lux.z));

@@ -22,7 +22,7 @@ struct PassTriangle {
     const PassMaterial* material;
     std::int32_t mesh;
     bool flat; ///< one normal, of unit length
-    bool lit, shadowed;
+    bool ground, lit, shadowed;
 };
 
 /// Depth maps from one place or several, near / w as they are drawn.
@@ -30,9 +30,9 @@ struct PassShadow {
     float rows[16]; ///< camera space to x, y in the texture over w, w, and what a look-up is raised by
     float near, tolerance;
     std::int32_t width, height, layers;
-    const float* shifts; ///< of x and y, of each layer
-    const float* depth;  ///< rows from the lowest
-    float box[4];        ///< in texels, low and high x, low and high y: look-ups beside it meet nothing
+    const float* shifts;               ///< of x and y, of each layer
+    const float *depth, *target_depth; ///< rows from the lowest; for targets above surfaces
+    float box[4];                      ///< in texels, low and high x, low and high y: look-ups beside it meet nothing
 };
 
 struct PassLamp {

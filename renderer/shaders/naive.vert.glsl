@@ -16,6 +16,6 @@ void main() {
     v_normal = turned(normal);
     v_uv = uv;
     v_material = material;
-    v_mesh = uint(mesh_offset_m.w);
+    v_mesh = uint(abs(mesh_offset_m.w));
     gl_Position = clip_from_ego * vec4(p, 1.0);
 }

@@ -102,7 +102,10 @@ void main() {
     v_depth_m = dot(p - eye_m, eye_axis.xyz);
 #endif
 #if WANT_IDS && !BACKGROUND
-    v_mesh = uint(mesh_offset_m.w);
+    v_mesh = uint(abs(mesh_offset_m.w));
+#endif
+#ifdef SHADOW_LIFT
+    v_level = mesh_offset_m.w < 0.0 ? n.z : 0.0;
 #endif
 #if LAMP_COUNT > 0
     for (int i = 0; i < LAMP_COUNT; ++i) {

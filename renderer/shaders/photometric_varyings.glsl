@@ -59,6 +59,9 @@ STAGE_IO float v_depth_m;
 #if WANT_IDS
 flat STAGE_IO uint v_mesh;
 #endif
+#ifdef SHADOW_LIFT
+STAGE_IO float v_level; // upward part of the normal, not yet of unit length, of ground; else 0
+#endif
 #if LAMP_COUNT > 0
 STAGE_IO vec3 v_w[LAMP_COUNT];      // the point in lamp space
 STAGE_IO vec3 v_n[LAMP_COUNT];      // its normal in lamp space, not yet of unit length

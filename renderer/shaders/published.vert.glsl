@@ -119,7 +119,7 @@ void main() {
     v_depth_m = dot(p - eye_m, eye_axis);
 #endif
 #if WANT_IDS
-    v_mesh = uint(mesh_offset_m.w);
+    v_mesh = uint(abs(mesh_offset_m.w));
 #endif
     gl_Position = clip_from_ego * vec4(p, 1.0);
 }

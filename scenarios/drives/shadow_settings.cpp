@@ -24,8 +24,9 @@ constexpr ShadowMethodName names[] = {
      "silhouettes extruded away from each lamp to infinity, counted in a stencil buffer behind each pixel's surface",
      "ground that hides other ground by less than 0.5 mm; the extent of lamps; what stands farther than 300 m from a lamp"},
     {ShadowMethod::map, "map", "Williams 1978; Reeves, Salesin, Cook 1987",
-     "a depth map for each lamp, fitted to its beam; four texels compared and weighted, from a point raised by what a texel spans there",
-     "bodies lower than 1.5 texels; the extent of lamps; what stands farther than 300 m from a lamp"},
+     "a depth map for each lamp, fitted to its beam; four texels compared and weighted, ground where it is, all else from a point raised "
+     "by what a texel spans there",
+     "what is smaller than half a texel, and on things that stand 1.5; the extent of lamps; what stands farther than 300 m from a lamp"},
     {ShadowMethod::one_map, "one-map", "Knebel 2004",
      "one depth map for all lamps, from midway between those that shine, over all their beams",
      "as map, and the lamps' distance from midway: edges shift by that times (distance over the caster's, less 1)"},

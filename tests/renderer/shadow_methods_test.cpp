@@ -2,6 +2,8 @@
 #include "renderer/reference/reference.h"
 #include "tests/renderer/shadow_scene.h"
 
+#include <numeric>
+
 namespace fernlicht {
 namespace {
 
@@ -197,6 +199,56 @@ TEST_P(MapMethods, EdgesLieWhereRaysSayWithinATexel) {
         const double texel_m = (at - lamp_x) * 2.0 * std::tan(radians(30.0)) / 1022.0;
         const double truth = shadow_y(0.6, x, post.y - post.width, at), found = edge(drawn, free, moment, view, at, truth);
         EXPECT_NEAR(found, truth, texel_m + 0.01) << x << " m, " << at << " m";
+    }
+}
+
+/// What is low throws a shadow as long as it should, and light passes below what hangs low: over many places of the caster among a map's
+/// texels the ground behind it has as much light as rays say.
+TEST_P(MapMethods, LowBodiesShadeLevelGroundAsFarAsRaysSay) {
+    const Moment moment = with_lamps({0.6});
+    const View behind = map_view(95.0, -31.5, 4.0, 32, 254);
+    struct Board {
+        float bottom, top; ///< m
+    };
+    for (const Board board : {Board{0.0F, 0.12F}, Board{0.0F, 0.4F}, Board{0.3F, 0.6F}}) {
+        double free = 0.0, drawn = 0.0, right = 0.0;
+        for (int k = 0; k < 12; ++k) {
+            Scene scene = road_with({});
+            add_sheet(scene, "board", 1, {30.0 + 0.11 * k, 20.0, board.bottom}, {0.0F, -40.0F, 0.0F},
+                      {0.0F, 0.0F, board.top - board.bottom});
+            const auto sum = [](const Image<float>& lux) { return std::accumulate(lux.pixels().begin(), lux.pixels().end(), 0.0); };
+            ShadowSettings by = method(GetParam());
+            by.lamp_places = 1;
+            free += sum(draw(scene, moment, behind, method(ShadowMethod::none)).illuminance_lx);
+            drawn += sum(draw(scene, moment, behind, by).illuminance_lx);
+            right +=
+                sum(Reference(scene).render(moment, behind, {.illuminance = true}, {.footprint = Footprint::centre}).illuminance_lx.mean);
+        }
+        EXPECT_GT(free - right, 0.05 * free);
+        EXPECT_NEAR((free - drawn) / (free - right), 1.0, 0.05) << board.bottom << " to " << board.top << " m";
+    }
+}
+
+/// Targets above the ground are not raised, so that ground must hide them from where it is.
+TEST_P(MapMethods, CrestsHideTargetsAsFarAsRaysSay) {
+    const Moment moment = with_lamps({0.6});
+    const View behind = map_view(90.0, -20.0, 3.0, 12, 280);
+    for (const LightPass pass : {LightPass::shader, LightPass::cpu}) {
+        if (pass == LightPass::cpu && !device_.info().software)
+            continue;
+        double free = 0.0, drawn = 0.0, right = 0.0;
+        for (int k = 0; k < 6; ++k) {
+            const Scene scene = road_in_waves(1.0 + 0.05 * k, 42.0 + k);
+            const auto sum = [](const Image<float>& lux) { return std::accumulate(lux.pixels().begin(), lux.pixels().end(), 0.0); };
+            RendererSettings settings{.shadows = method(GetParam()), .light_pass = pass};
+            settings.shadows.lamp_places = 1;
+            drawn += sum(Renderer(device_, scene, settings).draw(moment, behind, {.illuminance = true, .target = true}).target_lx);
+            settings.shadows.method = ShadowMethod::none;
+            free += sum(Renderer(device_, scene, settings).draw(moment, behind, {.illuminance = true, .target = true}).target_lx);
+            right += sum(Reference(scene).render(moment, behind, {.target = true}, {.footprint = Footprint::centre}).target_lx.mean);
+        }
+        EXPECT_GT(free - right, 0.1 * free);
+        EXPECT_NEAR((free - drawn) / (free - right), 1.0, 0.02) << light_pass_name(pass);
     }
 }
 

@@ -49,12 +49,12 @@ int DrawList::add(std::span<const std::uint32_t> pieces, const std::vector<Piece
         const Piece& piece = scene_.pieces()[index];
         commands_.push_back({piece.index_count, 1, piece.first_index, piece.base_vertex, static_cast<GLuint>(places_.size())});
         // The id that a pixel shows is the mesh's place in the scene + 1, exact in a float up to 16 million meshes.
-        float number = static_cast<float>(piece.mesh + 1);
+        float number = static_cast<float>(piece.mesh + 1) * (piece.ground ? -1.0F : 1.0F);
         if (numbered_) {
             const DrawnPiece* const before = drawn_pieces_.empty() ? nullptr : &drawn_pieces_.back();
             const std::uint32_t first = before == nullptr ? 1 : before->first_id + before->corners;
             drawn_pieces_.push_back({first, static_cast<std::uint32_t>(piece.base_vertex), piece.vertex_count, piece.origin_m - ego_m_,
-                                     turn_of(piece), piece.mesh});
+                                     turn_of(piece), piece.mesh, piece.ground});
             number = static_cast<float>(static_cast<std::int64_t>(first) - piece.base_vertex);
         }
         places_.emplace_back(glm::vec3(piece.origin_m - ego_m_), number);
@@ -124,7 +124,7 @@ void DepthPass::set_pieces(const glm::dvec3& ego_m, std::span<const std::uint32_
     pieces_ = static_cast<int>(pieces.size());
 }
 
-void DepthPass::draw(GLuint map, const glm::dmat4& clip, Work& work, GLint layer) {
+void DepthPass::draw(GLuint map, const glm::dmat4& clip, Work& work, GLint layer, double ground_lowered) {
     const GladGLContext& gl = context_.gl;
     if (layer < 0)
         gl.NamedFramebufferTexture(target_, GL_DEPTH_ATTACHMENT, map, 0);
@@ -137,6 +137,7 @@ void DepthPass::draw(GLuint map, const glm::dmat4& clip, Work& work, GLint layer
     gl.ClearNamedFramebufferfv(target_, GL_DEPTH, 0, &far_away);
     gl.Scissor(1, 1, width_ - 2, height_ - 2);
     program_.set("clip_from_ego", glm::mat4(clip));
+    program_.set("ground_lowered", ground_lowered);
     list_.draw(0);
     ++work.passes;
     ++work.shadow_maps_drawn;

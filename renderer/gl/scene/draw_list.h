@@ -72,8 +72,8 @@ class DepthPass {
     /// For maps of this size; the clip volume ends so many texels inside them.
     void begin(int width, int height, int beside = 1);
     void set_pieces(const glm::dvec3& ego_m, std::span<const std::uint32_t> pieces);
-    /// These pieces alone, into a map or one layer of several.
-    void draw(GLuint map, const glm::dmat4& clip, Work& work, GLint layer = -1);
+    /// These pieces alone, into a map or one layer of several. Ground is drawn so much lower, over the distance along the light's axis.
+    void draw(GLuint map, const glm::dmat4& clip, Work& work, GLint layer = -1, double ground_lowered = 0.0);
     void end(const char* doing);
     /// Makes the driver compile what draw() needs.
     void compile(int width, int height);

@@ -15,6 +15,7 @@ class MapOnCpu {
   public:
     void read(Context& context, GLuint texture, const ShadowSettings& settings, int layers, const TexelBox& drawn);
     void tell(ShadowLookUp& look_up) const; ///< size, texels and box
+    const float* depth() const { return texels_.data(); }
 
   private:
     std::vector<float> texels_;

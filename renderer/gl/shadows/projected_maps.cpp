@@ -177,7 +177,7 @@ bool ProjectedMaps::stands(const Kept& kept, const MapPlan& plan, const LampCast
     return turned <= bound && edge_shift(kept.plan, plan) + moved <= bound;
 }
 
-void ProjectedMaps::draw_map(Kept& kept, const Shot& shot) {
+void ProjectedMaps::draw_map(const Kept& kept, GLuint texture_drawn, double ground_lowered, const Shot& shot) {
     const glm::dmat4 texture = texture_from_ego(kept.plan, kept.ego_m);
     const glm::dmat4 ego_from_lamp = ego_from_lamp_space(kept.plan.from, kept.ego_m);
     pass_.begin(settings_.width, settings_.height, 0);
@@ -185,7 +185,7 @@ void ProjectedMaps::draw_map(Kept& kept, const Shot& shot) {
     for (std::size_t k = 0; k < places_.size(); ++k) {
         glm::dmat4 from_place = texture; // of a point that lies as much to the other side
         from_place[3] -= texture * (ego_from_lamp[0] * places_[k].x + ego_from_lamp[1] * places_[k].y);
-        pass_.draw(kept.texture, clip_from_shadow_texture(from_place), shot.work, layered() ? static_cast<GLint>(k) : -1);
+        pass_.draw(texture_drawn, clip_from_shadow_texture(from_place), shot.work, layered() ? static_cast<GLint>(k) : -1, ground_lowered);
     }
     pass_.end("rendering a shadow map");
 }
@@ -208,10 +208,21 @@ void ProjectedMaps::draw(const Shot& shot) {
                 kept.placed.emplace_back(scene_.pieces()[k].origin_m, scene_.pieces()[k].turn);
             kept.scene_placed = scene_.placed();
             kept.ego_m = ego_m;
-            draw_map(kept, shot);
+            draw_map(kept, kept.texture, kept.plan.spread, shot);
+            kept.target_drawn = false;
+        }
+        kept.target_apart = shot.outputs.target && casters_.lamps()[i].ground;
+        if (kept.target_apart && !kept.target_drawn) {
+            if (kept.target_texture == 0)
+                kept.target_texture = make_map();
+            draw_map(kept, kept.target_texture, 0.0, shot);
+            kept.target_drawn = true;
+            kept.target_on_cpu_stands = false;
         }
         textures_from_ego_.push_back(texture_from_ego(kept.plan, ego_m));
         context_.gl.BindTextureUnit(shadow_unit(i), kept.texture);
+        if (shot.outputs.target)
+            context_.gl.BindTextureUnit(target_shadow_unit(i), kept.target_apart ? kept.target_texture : kept.texture);
     }
     shot.work.shadow_maps += static_cast<int>(plans.size() * places_.size());
     from_lamps_.clear();
@@ -238,6 +249,13 @@ std::span<const ShadowLookUp> ProjectedMaps::look_ups() {
         for (const glm::dvec2& place : places_)
             look_up.shifts.emplace_back(place.x * glm::dvec2(from_lamp[0]) + place.y * glm::dvec2(from_lamp[1]));
         kept.on_cpu.tell(look_up);
+        if (kept.target_apart && !kept.target_on_cpu_stands) {
+            kept.target_on_cpu.read(context_, kept.target_texture, settings_, static_cast<int>(places_.size()),
+                                    {0, settings_.width, 0, settings_.height});
+            kept.target_on_cpu_stands = true;
+        }
+        if (kept.target_apart)
+            look_up.target_depth = kept.target_on_cpu.depth();
     }
     return look_ups_;
 }
@@ -251,8 +269,10 @@ void ProjectedMaps::set_uniforms(const Program& program) const {
 void ProjectedMaps::compile(const Shot& /*shot*/) { pass_.compile(settings_.width, settings_.height); }
 
 std::vector<Program::Define> ProjectedMaps::defines(const std::vector<const Beam*>& /*beams*/) const {
-    std::vector<Program::Define> defines{
-        {"PROJECTED_SHADOW_MAPS", "1"}, {"SHADOW_NEAR", literal(shadow_near_m)}, {"SHADOW_TOLERANCE", literal(settings_.tolerance_m)}};
+    std::vector<Program::Define> defines{{"PROJECTED_SHADOW_MAPS", "1"},
+                                         {"SHADOW_LIFT", "1"},
+                                         {"SHADOW_NEAR", literal(shadow_near_m)},
+                                         {"SHADOW_TOLERANCE", literal(settings_.tolerance_m)}};
     if (layered()) {
         std::string disc;
         for (const glm::dvec2& place : places_)
@@ -264,7 +284,9 @@ std::vector<Program::Define> ProjectedMaps::defines(const std::vector<const Beam
 }
 
 std::size_t ProjectedMaps::texture_bytes() const {
-    return kept_.size() * places_.size() * 4 * static_cast<std::size_t>(settings_.width) * static_cast<std::size_t>(settings_.height);
+    const auto apart = std::ranges::count_if(kept_, [](const auto& map) { return map.second.target_texture != 0; });
+    return (kept_.size() + static_cast<std::size_t>(apart)) * places_.size() * 4 * static_cast<std::size_t>(settings_.width) *
+           static_cast<std::size_t>(settings_.height);
 }
 
 LitLamp midway(const std::vector<LitLamp>& lamps) {

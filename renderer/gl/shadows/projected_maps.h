@@ -76,12 +76,14 @@ class ProjectedMaps : public Shadows {
         std::vector<std::pair<glm::dvec3, glm::vec4>> placed; ///< origin and turn of each piece
         std::uint64_t scene_placed = 0;
         glm::dvec3 ego_m{0.0};
-        MapOnCpu on_cpu;
-        bool on_cpu_stands = false; ///< what is drawn is read back
+        Texture target_texture; ///< with ground where it is, for targets; only where it is asked for and ground casts
+        bool target_drawn = false, target_apart = false;
+        MapOnCpu on_cpu, target_on_cpu;
+        bool on_cpu_stands = false, target_on_cpu_stands = false; ///< what is drawn is read back
     };
     std::string name_of(std::size_t lamp) const;
     bool stands(const Kept& kept, const MapPlan& plan, const LampCasters& lamp) const;
-    void draw_map(Kept& kept, const Shot& shot);
+    void draw_map(const Kept& kept, GLuint texture, double ground_lowered, const Shot& shot);
     Texture make_map() const;
     bool layered() const { return places_.size() > 1; }
 

@@ -133,6 +133,7 @@ void ShadowCasters::set(const std::vector<LitLamp>& lamps, const std::vector<con
             if (max_cd == 0.0 || (nearest > 0.0 && max_cd < last_contour_lx * nearest * nearest))
                 continue;
             found.pieces.push_back(k);
+            found.ground = found.ground || piece.ground;
         }
         add_bodies(found);
         lamps_.push_back(std::move(found));
@@ -182,6 +183,7 @@ void ShadowCasters::merge(const LitLamp& lamp, const ShadowWindow& window) {
         if (each.lamp.intensity_factor > 0.0) {
             std::ranges::set_union(one.pieces, each.pieces, std::back_inserter(both));
             one.pieces = std::move(both);
+            one.ground = one.ground || each.ground;
         }
     }
     add_bodies(one);

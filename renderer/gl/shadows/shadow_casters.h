@@ -59,6 +59,7 @@ struct LampCasters {
     ShadowWindow window;
     glm::dmat4 clip{1.0};              ///< lamp_clip()
     std::vector<std::uint32_t> pieces; ///< ascending
+    bool ground = false;               ///< is among them
     std::vector<Caster> bodies;
     double slack_m = shadow_slack_m; ///< by which a receiver may lie beside where it is
 };

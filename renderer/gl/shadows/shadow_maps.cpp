@@ -13,14 +13,24 @@ namespace fernlicht::gl {
 ShadowMaps::ShadowMaps(Context& context, const SceneBuffers& scene, const ShadowSettings& settings)
     : Shadows(context, scene, settings), pass_(context, scene, scene.moves()) {}
 
+void ShadowMaps::draw_maps(std::vector<Texture>& textures, double ground_lowered, Work& work) {
+    const std::vector<LampCasters>& lamps = casters_.lamps();
+    while (textures.size() < lamps.size())
+        textures.push_back(
+            make_shadow_texture(context_, {settings_.width, settings_.height, 0, fmt::format("each lamp by '{}'", name(settings_.method)),
+                                           "a smaller map_texels"}));
+    pass_.begin(settings_.width, settings_.height);
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+        pass_.set_pieces(casters_.ego_m(), lamps[i].pieces);
+        pass_.draw(textures[i], lamps[i].clip, work, -1, ground_lowered);
+    }
+    pass_.end("rendering shadow maps");
+}
+
 void ShadowMaps::draw(const Shot& shot) {
     shot.clock.begin("shadow maps");
     Work& work = shot.work;
     const std::vector<LampCasters>& lamps = casters_.lamps();
-    while (textures_.size() < lamps.size())
-        textures_.push_back(
-            make_shadow_texture(context_, {settings_.width, settings_.height, 0, fmt::format("each lamp by '{}'", name(settings_.method)),
-                                           "a smaller map_texels"}));
     const glm::dvec3 ego_m = casters_.ego_m();
     Drawn now{{}, {}, ego_m, scene_.placed()};
     for (const LampCasters& lamp : lamps) {
@@ -29,17 +39,21 @@ void ShadowMaps::draw(const Shot& shot) {
     }
     work.shadow_maps += static_cast<int>(lamps.size());
     if (now != drawn_) {
-        pass_.begin(settings_.width, settings_.height);
-        for (std::size_t i = 0; i < lamps.size(); ++i) {
-            pass_.set_pieces(ego_m, lamps[i].pieces);
-            pass_.draw(textures_[i], lamps[i].clip, work);
-        }
-        pass_.end("rendering shadow maps");
+        draw_maps(textures_, spread(), work);
         drawn_ = std::move(now);
-        on_cpu_stands_ = false;
+        on_cpu_stands_ = targets_drawn_ = false;
     }
-    for (std::size_t i = 0; i < lamps.size(); ++i)
+    targets_apart_ = shot.outputs.target && std::ranges::any_of(lamps, &LampCasters::ground);
+    if (targets_apart_ && !targets_drawn_) {
+        draw_maps(target_textures_, 0.0, work);
+        targets_drawn_ = true;
+        targets_on_cpu_stand_ = false;
+    }
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
         context_.gl.BindTextureUnit(shadow_unit(i), textures_[i]);
+        if (shot.outputs.target)
+            context_.gl.BindTextureUnit(target_shadow_unit(i), targets_apart_ ? target_textures_[i] : textures_[i]);
+    }
     shot.clock.end();
 }
 
@@ -57,6 +71,7 @@ std::vector<Program::Define> ShadowMaps::defines(const std::vector<const Beam*>&
                                literal(1.0 / settings_.width - window.left * across), literal(1.0 / settings_.height - window.bottom * up));
     }
     return {{"SHADOW_MAPS", "1"},
+            {"SHADOW_LIFT", "1"},
             {"SHADOW_NEAR", literal(shadow_near_m)},
             {"SHADOW_TOLERANCE", literal(settings_.tolerance_m)},
             {"SHADOW_SPREAD", literal(spread)},
@@ -72,7 +87,8 @@ double ShadowMaps::spread() const {
 
 std::span<const ShadowLookUp> ShadowMaps::look_ups() {
     const std::vector<LampCasters>& lamps = casters_.lamps();
-    on_cpu_.resize(std::max(on_cpu_.size(), lamps.size()));
+    for (std::vector<MapOnCpu>* maps : {&on_cpu_, &targets_on_cpu_})
+        maps->resize(std::max(maps->size(), lamps.size()));
     look_ups_.assign(lamps.size(), {});
     for (std::size_t i = 0; i < lamps.size(); ++i) {
         const LampCasters& lamp = lamps[i];
@@ -84,13 +100,19 @@ std::span<const ShadowLookUp> ShadowMaps::look_ups() {
         look_up.near_m = shadow_near_m;
         look_up.tolerance_m = settings_.tolerance_m;
         on_cpu_[i].tell(look_up);
+        if (targets_apart_ && !targets_on_cpu_stand_)
+            targets_on_cpu_[i].read(context_, target_textures_[i], settings_, 1, drawn_texels(lamp, settings_));
+        if (targets_apart_)
+            look_up.target_depth = targets_on_cpu_[i].depth();
     }
     on_cpu_stands_ = true;
+    targets_on_cpu_stand_ = targets_on_cpu_stand_ || targets_apart_;
     return look_ups_;
 }
 
 std::size_t ShadowMaps::texture_bytes() const {
-    return textures_.size() * 4 * static_cast<std::size_t>(settings_.width) * static_cast<std::size_t>(settings_.height);
+    return (textures_.size() + target_textures_.size()) * 4 * static_cast<std::size_t>(settings_.width) *
+           static_cast<std::size_t>(settings_.height);
 }
 
 namespace {

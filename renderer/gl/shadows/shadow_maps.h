@@ -1,5 +1,5 @@
 // Depth as each lamp sees it, of what can cast a shadow (shadow_casters.h). Receivers are looked up from a point raised above their
-// surface by what a texel spans there (docs/decisions/0005), so that nothing shades itself.
+// surface by what a texel spans there, ground lowered by as much where it casts (docs/decisions/0005, 0011), so that nothing shades itself.
 // The depth textures of shadow maps.
 #pragma once
 
@@ -25,19 +25,22 @@ class ShadowMaps : public Shadows {
     const char* title() const override { return "shadow maps"; }
 
   private:
+    void draw_maps(std::vector<Texture>& textures, double ground_lowered, Work& work);
     double spread() const; ///< what look-ups are raised by over their distance along the axis
 
     DepthPass pass_;
-    std::vector<Texture> textures_;
+    std::vector<Texture> textures_, target_textures_; ///< for targets: with ground where it is; only where both are asked for
     struct Drawn {
         std::vector<glm::dmat4> clips;
         std::vector<std::vector<std::uint32_t>> pieces;
         glm::dvec3 ego_m{0.0};
         std::uint64_t placed = 0;
         bool operator==(const Drawn&) const = default;
-    } drawn_; ///< what the textures hold
-    std::vector<MapOnCpu> on_cpu_;
-    bool on_cpu_stands_ = false; ///< drawn_ is read back
+    } drawn_;                    ///< what the textures hold
+    bool targets_drawn_ = false; ///< target_textures_ hold it too
+    bool targets_apart_ = false; ///< what is drawn looks targets up there
+    std::vector<MapOnCpu> on_cpu_, targets_on_cpu_;
+    bool on_cpu_stands_ = false, targets_on_cpu_stand_ = false; ///< drawn_ is read back
     std::vector<ShadowLookUp> look_ups_;
 };
 

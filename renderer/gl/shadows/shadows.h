@@ -12,6 +12,9 @@ namespace fernlicht::gl {
 /// Of a lamp's own shadow texture: 15 is the surfaces'.
 inline GLuint shadow_unit(std::size_t lamp) { return lamp < 7 ? 8 + static_cast<GLuint>(lamp) : 16; }
 
+/// Of a lamp's map that targets above surfaces are looked up in.
+inline GLuint target_shadow_unit(std::size_t lamp) { return 24 + static_cast<GLuint>(lamp); }
+
 class Shadows {
   public:
     Shadows(Context& context, const SceneBuffers& scene, const ShadowSettings& settings)

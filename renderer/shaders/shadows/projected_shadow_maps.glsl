@@ -7,6 +7,9 @@
 #endif
 #define SHADOW_UNIT(i, beam, map) layout(binding = 8 + i + i / 7) uniform SHADOW_SAMPLER map;
 EACH_LAMP(SHADOW_UNIT) // SHADOW_NEAR / w; 0: nothing
+#if WANT_TARGET
+layout(binding = 24) uniform SHADOW_SAMPLER target_shadow[LAMP_COUNT]; // the same with ground where it is
+#endif
 uniform mat4 shadow_from_lamp[LAMP_COUNT];
 
 #ifdef SHADOW_LAYERS
@@ -31,15 +34,18 @@ float visibility(vec3 q, mat4 from_lamp, SHADOW_SAMPLER map) {
     return q.z > 0.0 ? seen : 1.0;
 }
 
-float raised_visibility(vec3 w, vec3 unit_n, mat4 from_lamp, SHADOW_SAMPLER map) {
+// `share`: of what it is raised by, which level ground is not: see docs/decisions/0011.
+float raised_visibility(vec3 w, vec3 unit_n, float share, mat4 from_lamp, SHADOW_SAMPLER map) {
     vec4 q = from_lamp * vec4(w, 1.0);
-    return visibility(q.xyz + mat3(from_lamp) * (unit_n * max(SHADOW_TOLERANCE, q.w)), from_lamp, map);
+    return visibility(q.xyz + mat3(from_lamp) * (unit_n * share * max(SHADOW_TOLERANCE, q.w)), from_lamp, map);
 }
 
 #ifdef SHADOW_ONE_MAP
 #define SHADOW_MAP_OF(map) shadow_0
+#define TARGET_MAP_OF(i) target_shadow[0]
 #else
 #define SHADOW_MAP_OF(map) map
+#define TARGET_MAP_OF(i) target_shadow[i]
 #endif
-#define SEEN(i, map) raised_visibility(v_w[i], v_n[i] * inverse_n, shadow_from_lamp[i], SHADOW_MAP_OF(map))
-#define SEEN_TARGET(i, map, w) visibility((shadow_from_lamp[i] * vec4(w, 1.0)).xyz, shadow_from_lamp[i], SHADOW_MAP_OF(map))
+#define SEEN(i, map) raised_visibility(v_w[i], v_n[i] * inverse_n, 1.0 - v_level * inverse_n, shadow_from_lamp[i], SHADOW_MAP_OF(map))
+#define SEEN_TARGET(i, map, w) visibility((shadow_from_lamp[i] * vec4(w, 1.0)).xyz, shadow_from_lamp[i], TARGET_MAP_OF(i))
