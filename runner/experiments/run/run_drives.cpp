@@ -120,14 +120,14 @@ PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& 
     const int last_tick = std::min(options.ticks.last, tick_count(stage.drive) - 1);
     played.bus = bus_report(stage.drive, lamp_set, std::max(0, options.ticks.first), last_tick);
     played.input_hashes = input_hashes(stage.drive, lamp_set, stage.network.opened, std::max(0, options.ticks.first), last_tick);
-    if (options.light_pass == LightPass::cpu) // auto is the shader everywhere
-        played.input_hashes.emplace_back("light pass", light_pass_name(options.light_pass));
     if (const int late = renderer.compiled_programs() - compiled; late > 0)
         played.notes.push_back(
             fmt::format("{} shader variants were compiled during the drive: times of their first frames include that", late));
     for (const PrunedFeature& left : renderer.pruned())
         played.left_out.push_back(left.what + ": " + left.why);
     const Renderer::LightPassesUsed lit = renderer.light_passes_used();
+    if (lit.cpu > lit_before.cpu) // what it read is compared with what was lit so
+        played.input_hashes.emplace_back("light pass", light_pass_name(LightPass::cpu));
     if (const long long by_cpu = lit.cpu - lit_before.cpu, by_shader = lit.shader - lit_before.shader; by_shader == 0 && by_cpu > 0)
         played.left_out.emplace_back("light by the fragment shader: the CPU lights each visible pixel once");
     else if (by_shader > 0 && !lit.why_shader.empty())
