@@ -80,7 +80,8 @@ TEST_F(ToyExperiment, BecomesAPage) {
          {"<title>Coins", "<h2>Error over tosses</h2>", "A coin &lt;thrown&gt; often.", "<svg", "One coin.",
           "Not in the diagram: by wind, no wind.", "<summary>The same as a table</summary>", "colspan=\"2\" class=\"group\">Of all<",
           ">Share<br><small>%</small>", "<td class=\"n\">37.5</td>", "<td class=\"text\" colspan=\"2\">not measured, it never stood</td>",
-          "<caption>How <code>it</code> fell</caption>", "Not all was measured: the coin is lost", "<li>tosses 9 to 20</li>", "toss --often"})
+          "<caption>How <code>it</code> fell</caption>", "Not all was measured: the coin is lost", "<li>tosses 9 to 20</li>",
+          "toss --often"})
         EXPECT_THAT(page, HasSubstr(part));
     EXPECT_THAT(page, Not(HasSubstr("<script")));
 }
