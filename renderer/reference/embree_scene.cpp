@@ -95,10 +95,16 @@ void set_lane(RTCRay16& rays, std::size_t i, const RTCRay& ray) {
 
 constexpr float no_end = std::numeric_limits<float>::infinity();
 
+RTCDevice new_device() {
+    if (const RTCDevice device = rtcNewDevice(nullptr))
+        return device;
+    throw DeviceError("Embree cannot start on this machine, or with the memory that it may take");
+}
+
 } // namespace
 
 std::string embree_version() {
-    const RTCDevice device = rtcNewDevice(nullptr);
+    const RTCDevice device = new_device();
     const long version = static_cast<long>(rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION));
     rtcReleaseDevice(device);
     return std::to_string(version / 10000) + "." + std::to_string(version / 100 % 100) + "." + std::to_string(version % 100);
@@ -126,9 +132,7 @@ struct EmbreeScene::Embree {
 EmbreeScene::EmbreeScene(const Scene& scene, const glm::dvec3& origin_m)
     : scene_(scene), origin_m_(origin_m), embree_(std::make_unique<Embree>()) {
     meet_tbb_first();
-    embree_->device = rtcNewDevice(nullptr);
-    if (!embree_->device)
-        throw DeviceError("Embree cannot start on this machine");
+    embree_->device = new_device();
     if (rtcGetDeviceProperty(embree_->device, RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) == 0)
         throw DeviceError("this Embree was built without ray masks (EMBREE_RAY_MASK), which maps need");
     embree_->scene = rtcNewScene(embree_->device);

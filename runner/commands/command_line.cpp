@@ -66,18 +66,23 @@ void add_message_flags(CLI::App& command) {
         ->group("Messages");
 }
 
-void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& line) {
-    const std::string& word = line[1];
+void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& line, std::size_t at = 1) {
+    const std::string& word = line[at];
     std::string commands;
     bool known = word.starts_with('-'); // a flag
+    const CLI::App* called = nullptr;
     for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-        known = known || command->check_name(word);
+        called = command->check_name(word) ? command : called;
+        known = known || called;
         commands += (commands.empty() ? "" : ", ") + command->get_name();
     }
     if (const std::string old = known ? "" : fernlicht::old_word_in({line[0], word}); !old.empty())
         throw fernlicht::InputError({}, old);
     if (!known)
-        throw fernlicht::InputError({}, fmt::format("'{}' is no command", word), "one of " + commands);
+        throw fernlicht::InputError(
+            {}, fmt::format("'{}' is no command{}", fernlicht::printable(word), at > 1 ? " of " + line[at - 1] : ""), "one of " + commands);
+    if (called && called->get_require_subcommand_min() > 0 && at + 1 < line.size())
+        refuse_unknown_command(*called, line, at + 1);
 }
 
 /// A flag that was given more often than it may be, in people's words; "" for every other error.

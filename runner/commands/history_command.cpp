@@ -115,7 +115,7 @@ int add(const HistoryFlags& flags) {
                counted(night.cells.size(), "cell"), counted(readings_in(night), "reading"), flags.accept ? "accepted; " : "",
                added.is_new ? "added to" : "was there already, as it is, in", file.string());
     if (!part.empty())
-        tell(LogLevel::warning, fmt::format("it is a part of the study: {}", part));
+        tell(LogLevel::warning, fmt::format("this night is a part of its study. {}.", part));
     return 0;
 }
 
@@ -133,6 +133,8 @@ int accept_night(const HistoryFlags& flags) {
         fmt::print("{}, is not accepted any more\n", name);
         return 0;
     }
+    if (!night.has_readings())
+        throw InputError({{}, 0, 0, "NIGHT"}, "found " + name + ", in which no cell was played", "one with readings to compare with");
     history.accept(night.number, flags.note);
     const auto newer = std::find_if(nights.rbegin(), nights.rend() - static_cast<std::ptrdiff_t>(place + 1),
                                     [](const Night& one) { return one.accepted; });
@@ -174,8 +176,10 @@ int show(const HistoryFlags& flags) {
         {"played", night.played_utc},
         {"folder", printable(night.folder, 400)},
         {"accepted", night.accepted ? night.note.empty() ? "yes" : "yes: " + printable(night.note, 200) : "no"}};
+    const bool told_below = std::ranges::any_of(night.cells, [](const NightCell& cell) { return !cell.inputs->empty(); });
     for (const CellInput& input : night.machine)
-        facts.push_back({input.name, printable(input.hash, 200)});
+        if (!told_below || input.name == "CPU" || input.name == "system")
+            facts.push_back({input.name, printable(input.hash, 200)});
     fmt::print("{}\n", aligned_table("<<", facts));
     std::vector<std::vector<std::string>> rows{{"cell", "readings", "frame, ms"}};
     std::map<CellInput, std::size_t> cells_with; // input
@@ -316,7 +320,7 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
         add_tables_flag(*sub, flags->tables);
     }
     CLI::App* pruning = add_action("prune", "remove old nights; accepted ones stay", prune);
-    pruning->add_option("--keep", flags->keep, "keep so many of the newest nights of each study")->check(CLI::NonNegativeNumber);
+    pruning->add_option("--keep", flags->keep, "keep so many of the newest nights of each study")->check(CLI::Range(0, 1'000'000));
     pruning->add_option("--before", flags->before, "remove nights before this date");
     pruning->add_flag("--dry-run", flags->dry, "only show what would be removed");
     CLI::App* exporting = add_action("export", "every reading of every night, one line each", export_nights);

@@ -71,9 +71,9 @@ int verify(const StoreFlags& flags) {
     const std::vector<StoreDamage> damage = verify_store(store_of(flags));
     for (const StoreDamage& one : damage)
         fmt::print("removed {}: {}\n", one.what, one.why);
-    fmt::print("{}\n", damage.empty() ? "nothing is damaged"
-                                      : fmt::format("{} removed; cells that are named above are played again",
-                                                    counted(damage.size(), "damaged part")));
+    fmt::print("{}\n", damage.empty()
+                           ? "nothing is damaged"
+                           : fmt::format("{} removed; what was taken out is played again", counted(damage.size(), "damaged part")));
     return damage.empty() ? 0 : 1;
 }
 
@@ -111,7 +111,7 @@ void add_store_command(CLI::App& app, const std::vector<std::string>&, std::func
     add("verify", "read everything; take out what is damaged, so that it is played again; 1 when anything was", verify);
     CLI::App* pruned = add("prune", "remove cells, then files that no cell needs", prune);
     for (CLI::App* sub : {list, pruned})
-        sub->add_option("--study", flags->study, "only of studies of this name, * and ? allowed");
+        sub->add_option("--study", flags->study, "only what studies of this name were the first to play, * and ? allowed");
     pruned->add_option("--older-than", flags->older_than, "remove cells last used longer ago than this: 30d, 12h or 90min");
     pruned->add_option("--at-most", flags->at_most, "remove the least recently used cells until at most this much is left: 20GiB");
     pruned->add_flag("--dry-run", flags->dry, "only say what would go");

@@ -12,6 +12,7 @@
 #include "runner/files/trace_file.h"
 #include "runner/findings/run_context.h"
 #include "runner/judge/verdict_line.h"
+#include "runner/play/progress.h"
 #include "runner/write/document.h"
 #include "runner/write/report_texts.h"
 #include "scenarios/values/errors.h"
@@ -71,23 +72,27 @@ void write_study(const StudyResult& result, const std::filesystem::path& folder,
     write_document(page, result, folder, "report");
 }
 
-/// Tonight against the last accepted night; nothing without --history, and of a study that was interrupted. Then tonight is kept there.
-std::optional<HistoryFindings> remember(const StudyFlags& flags, const StudyResult& result, const StudyOptions& options) {
+/// Tonight against the last accepted night; nothing without --history, and of a study that was interrupted.
+std::optional<HistoryFindings> compare_with_history(const StudyFlags& flags, const StudyResult& result, const StudyOptions& options) {
     if (flags.history.empty() || !result.interrupted.empty())
         return std::nullopt;
-    HistoryFindings findings =
-        history_of(flags.history, result, options.folder, {.tell_apart = tell_apart_by_playing(result.study, options)});
+    return history_of(flags.history, result, options.folder, {.tell_apart = tell_apart_by_playing(result.study, options)});
+}
+
+/// Once its report is written: where its disk is full, cells that were played lack readings.
+void remember(const StudyFlags& flags, const StudyResult& result, const StudyOptions& options, const HistoryFindings& findings) {
     Night tonight = night_of_study(result, options.folder);
     take_replays(tonight, findings.replays);
     History(flags.history, History::For::collecting).add(tonight);
     if (!result.played_in_part.empty())
-        tell(LogLevel::warning, fmt::format("{}: what is added is a part of the study: {}", flags.history, result.played_in_part));
-    return findings;
+        tell(LogLevel::warning, fmt::format("{}: this night is a part of its study. {}.", flags.history, result.played_in_part));
 }
 
-/// Before somebody plans hours of work on it.
+/// Before somebody plans hours of work on it. A store that is not there yet is not made: its name may be mistyped.
 void warn_of_unwritable(const CellStore& store, std::size_t cells_to_play) {
-    if (const std::string why = cells_to_play > 0 ? store.refuses_writing() : ""; !why.empty())
+    if (std::error_code ignored; cells_to_play == 0 || !std::filesystem::exists(store.folder(), ignored))
+        return;
+    if (const std::string why = store.refuses_writing(); !why.empty())
         tell(LogLevel::warning, fmt::format("the store cannot be written here, so nothing can be played into it: {}", why));
 }
 
@@ -99,7 +104,9 @@ int explain_cells(const Study& study, const StudyOptions& options) {
     const auto reasons = reasons_to_play(study, plan, cells, store);
     for (std::size_t i = 0; i < cells.size(); ++i)
         fmt::print("{:<40} {}\n", plan.cells[cells[i]].cell.name, fmt::join(reasons[i], "; "));
-    fmt::print("{} of {} cells would be played; store {}\n", cells.size(), plan.cells.size(), options.store.string());
+    std::error_code ignored;
+    fmt::print("{} of {} cells would be played; store {}{}\n", cells.size(), plan.cells.size(), options.store.string(),
+               std::filesystem::exists(options.store, ignored) ? "" : ", which is not there yet");
     warn_of_unwritable(store, cells.size());
     return 0;
 }
@@ -154,6 +161,10 @@ void refuse_contradictions(const StudyFlags& flags) {
     refuse_without(!flags.gpus.empty(), slurm, "--gpus", "--executor slurm");
     refuse_without(flags.per > 1, slurm || flags.plan, "--per", "--plan or --executor slurm");
     refuse_without(!flags.expect.empty(), flags.play, "--expect", "--play");
+    if ((flags.cell_minutes || flags.cell_memory_mib) && ways > 0)
+        throw InputError({{}, 0, 0, flags.cell_minutes ? "--cell-minutes" : "--cell-memory-mib"},
+                         "found beside --list, --explain, --plan, --play or --collect, which start no processes with limits",
+                         "it without these; whoever runs the commands of --plan limits them");
     if (!flags.history.empty() && ways > 0 && !flags.collect)
         throw InputError({{}, 0, 0, "--history"}, "found beside --list, --explain, --plan or --play, which make no night",
                          "it without these");
@@ -221,6 +232,11 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
                                                     text.find_first_not_of("0123456789abcdef", at + 1) != std::string::npos)
             throw InputError({{}, 0, 0, "--expect"}, "found '" + printable(text) + "'", "CELL=KEY, as --plan prints it");
         options.expected.emplace_back(text.substr(0, text.rfind('=')), text.substr(text.rfind('=') + 1));
+        const std::vector<StudyCell> cells = cells_of(study);
+        if (std::ranges::find(cells, options.expected.back().first, &StudyCell::name) == cells.end())
+            throw InputError({{}, 0, 0, "--expect"},
+                             "found cell '" + printable(options.expected.back().first) + "', which the study does not have",
+                             "a cell that --list names");
         options.only.push_back(options.expected.back().first);
     }
     options.strict = flags.strict;
@@ -235,17 +251,22 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     std::string no_history; ///< why; it costs nobody the report
     std::optional<HistoryFindings> findings;
     options.write = [&](StudyResult& result) {
-        try {
-            findings = remember(flags, result, options);
-        } catch (const std::exception& error) {
-            no_history = error.what();
-        }
+        const auto try_history = [&](const std::function<void()>& does) {
+            try {
+                does();
+            } catch (const std::exception& error) {
+                no_history = error.what();
+            }
+        };
+        try_history([&] { findings = compare_with_history(flags, result, options); });
         if (flags.fails_on_change && findings)
             result.verdicts.push_back(
                 {findings->is_off_base() ? VerdictKind::fail : VerdictKind::pass, unchanged_verdict,
                  std::get<std::string>(changes_section(*findings).blocks.front()),
                  shell_quoted({command.front(), "history", "explain", "--study", result.study.name, "--history", flags.history})});
         write_study(result, options.folder, findings);
+        if (findings)
+            try_history([&] { remember(flags, result, options, *findings); });
     };
     options.judge_cell = [](const Report& report, const std::filesystem::path& cell) { write_judgement(report, cell); };
     if (flags.explain)
@@ -260,6 +281,8 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
         flags.play ? std::filesystem::path() : options.folder);
     if (flags.play) {
         const bool all_there = play_into_store(study, options);
+        if (Interruption::requested())
+            tell(LogLevel::warning, Interruption::words());
         trace.finish();
         return all_there ? 0 : 1;
     }

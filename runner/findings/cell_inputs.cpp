@@ -36,12 +36,13 @@ InputChanges with_drives_as_one(InputChanges changes, const HashesByInput& befor
             const std::string file = file_of_drive(change.name);
             std::string& keys = keys_by_file[file];
             if (file != change.name) // else of a program that told no keys
-                keys += (keys.empty() ? std::string(before_key) : ", ") + change.name.substr(file.size() + before_key.size());
+                keys += (keys.empty() ? "" : ", ") + change.name.substr(file.size() + before_key.size());
         }
     std::erase_if(changes, [](const InputChange& change) { return change.kind == InputKind::drive; });
     for (const auto& [file, keys] : keys_by_file) {
         const bool was = has(before, file), is = has(now, file);
-        changes.push_back({InputKind::drive, was && is ? file + keys : file, was ? changed : "", is ? changed : ""});
+        changes.push_back({InputKind::drive, was && is && !keys.empty() ? fmt::format("{} ({})", file, keys) : file, was ? changed : "",
+                           is ? changed : ""});
     }
     std::ranges::sort(changes);
     return changes;
@@ -59,7 +60,7 @@ std::string phrase_of_change(const InputChange& change) {
     case InputKind::device:
         return fmt::format("{} changed: {} {} -> {}", kind, change.name, change.before, change.now);
     case InputKind::drive:
-        return fmt::format("drive changed: {} (in its file, or set by the study)", change.name);
+        return fmt::format("drive changed: {}, in its file or set by the study", change.name);
     default: // a comment in it counts as well
         return fmt::format("{} {} changed (bytes of its file)", kind, change.name);
     }

@@ -33,7 +33,7 @@ inline constexpr std::string_view before_key = ": ";
 /// One input that differs.
 struct InputChange {
     InputKind kind = InputKind::drive;
-    std::string name;        ///< of drives with all keys that differ: "straight.yaml: start, weather"
+    std::string name;        ///< of drives with all keys that differ: "straight.yaml (start, weather)"
     std::string before, now; ///< hash or version, of drives "changed"; "" where it was not there
     auto operator<=>(const InputChange&) const = default;
 };

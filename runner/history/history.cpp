@@ -184,6 +184,10 @@ struct History::Tables {
     }
 };
 
+bool Night::has_readings() const {
+    return std::ranges::any_of(cells, [](const NightCell& cell) { return !cell.readings->empty(); });
+}
+
 const NightCell* Night::cell(const std::string& name, std::size_t likely) const {
     if (likely < cells.size() && cells[likely].name == name)
         return &cells[likely];

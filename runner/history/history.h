@@ -45,6 +45,7 @@ struct Night {
     std::string date() const { return played_utc.substr(0, 10); }
     /// nullptr: it has none. `likely`: where it stands as a rule.
     const NightCell* cell(const std::string& name, std::size_t likely = 0) const;
+    bool has_readings() const; ///< of any cell
 };
 
 class History {

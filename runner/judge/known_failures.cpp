@@ -65,6 +65,15 @@ bool mark_all(Report& report, const KnownFailures& known, const KnownFailure& en
     return names;
 }
 
+std::string nearest_id(const Report& report, const std::string& id) {
+    std::vector<std::string> ids;
+    for (const PlayedCell& played : report.played)
+        for (const Verdict& verdict : played.verdicts)
+            ids.push_back(verdict_id(played, verdict));
+    const std::string nearest = nearest_name(id, ids);
+    return printable(!nearest.empty() ? nearest : ids.empty() ? "none" : ids.front(), 200);
+}
+
 bool names_a_drive(const Report& report, const KnownFailure& entry) {
     return std::ranges::any_of(report.played, [&](const PlayedCell& played) { return matches(drive_of(entry.id), played.drive); });
 }
@@ -123,7 +132,8 @@ void apply_known_failures(Report& report, const KnownFailures& known, const std:
                                      ""});
         else if (!names && report.complete)
             report.listed.push_back({VerdictKind::fail, entry.id,
-                                     fmt::format("names no verdict of this run: mend it or take it out ({})", entry_text(known, entry)),
+                                     fmt::format("names no verdict of this run, as {} would: mend it or take it out ({})",
+                                                 nearest_id(report, entry.id), entry_text(known, entry)),
                                      ""});
     }
 }

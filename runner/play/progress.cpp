@@ -21,6 +21,7 @@ double seconds(std::chrono::steady_clock::duration d) { return std::chrono::dura
 std::string clock_text(double s) { return fmt::format("{}:{:02}", static_cast<int>(s) / 60, static_cast<int>(s) % 60); }
 
 std::atomic<bool> was_requested{false};
+std::atomic<int> requested_by{0};                ///< the first signal
 std::atomic<std::int64_t> requested_at_ns{0};    ///< CLOCK_MONOTONIC; 0: not yet
 constexpr std::int64_t at_once_ns = 500'000'000; ///< what comes so soon was the same wish, sent to a process and to its group
 int listening = 0;                               ///< by the one thread that plays
@@ -34,6 +35,8 @@ extern "C" void on_signal(int signal) {
     const std::int64_t now_ns = std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
     std::int64_t first_ns = 0;
     const bool first = requested_at_ns.compare_exchange_strong(first_ns, now_ns);
+    if (first)
+        requested_by.store(signal);
     was_requested.store(true);
     if (!first && now_ns - first_ns >= at_once_ns) {
         std::signal(signal, SIG_DFL);
@@ -96,5 +99,7 @@ Interruption::~Interruption() {
 }
 
 bool Interruption::requested() { return was_requested.load(); }
+
+std::string Interruption::words() { return requested_by.load() == SIGTERM ? "interrupted by SIGTERM" : "interrupted by the user"; }
 
 } // namespace fernlicht

@@ -32,6 +32,7 @@ class Interruption {
     Interruption(const Interruption&) = delete;
     Interruption& operator=(const Interruption&) = delete;
     static bool requested();
+    static std::string words(); ///< "interrupted by the user", "interrupted by SIGTERM"
 };
 
 } // namespace fernlicht

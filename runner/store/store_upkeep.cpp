@@ -109,8 +109,7 @@ std::vector<StoreDamage> damaged_entries(const CellStore& store, bool taken_out)
     }
     for (const fs::path& path : files_of(store.folder() / "cells"))
         if (const std::string key = key_in(path, ".json"); !key.empty() && !is_part(path) && !whole.contains(key)) {
-            damage.push_back(
-                {"entry " + path.filename().string(), "is none that this version wrote; its cell is played again when it is asked for"});
+            damage.push_back({"entry " + key, "it is damaged, or of another version; its cell is played again when it is asked for"});
             if (taken_out)
                 take_out(path);
         }

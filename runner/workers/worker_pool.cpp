@@ -187,10 +187,14 @@ std::string ending_text(const WorkerEnd& end, const WorkerLimits& limits) {
         text = "was interrupted";
         break;
     }
-    if (limits.memory_mib > 0 && end.ending != WorkerEnding::ended_by_us &&
-        end.peak_memory_mib > 0.8 * static_cast<double>(limits.memory_mib))
-        text += fmt::format(", with {:.0f} MiB of the {} MiB that it may take", end.peak_memory_mib, limits.memory_mib);
-    return text;
+    return text + memory_words(end, limits);
+}
+
+std::string memory_words(const WorkerEnd& end, const WorkerLimits& limits) {
+    if (limits.memory_mib == 0 || end.ending == WorkerEnding::ended_by_us ||
+        end.peak_memory_mib <= 0.8 * static_cast<double>(limits.memory_mib))
+        return "";
+    return fmt::format(", with {:.0f} MiB of the {} MiB that it may take", end.peak_memory_mib, limits.memory_mib);
 }
 
 void run_workers(std::size_t count, const WorkerPool& pool, const std::function<WorkerCommand(std::size_t)>& command,

@@ -31,6 +31,8 @@ struct WorkerEnd {
 };
 /// "ended with exit code 3", "was killed by SIGSEGV", "was stopped after 605 s; its limit is 600 s"; with what it says of memory.
 std::string ending_text(const WorkerEnd& end, const WorkerLimits& limits);
+/// ", with 490 MiB of the 500 MiB that it may take"; "" where it took less than 80 %.
+std::string memory_words(const WorkerEnd& end, const WorkerLimits& limits);
 
 struct WorkerPool {
     std::size_t at_once = 1;

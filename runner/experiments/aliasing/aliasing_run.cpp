@@ -367,7 +367,7 @@ AliasingResult run_aliasing(const AliasingRequest& request) {
         result.rows.push_back(std::move(row));
     }
     if (result.rows.size() < configurations.size())
-        result.interrupted = "interrupted by the user";
+        result.interrupted = Interruption::words();
     request.write(result);
     if (result.interrupted.empty())
         folder.finish();

@@ -263,7 +263,7 @@ AliasingResult run_sequence_aliasing(const SequenceRequest& request) {
     if (request.against) {
         measured = measured_over_space(drawn, fine, result.supersample, result.pixels_per_degree, progress);
         if (!measured)
-            result.interrupted = "interrupted by the user";
+            result.interrupted = Interruption::words();
     } else {
         row.no_spatial = "--against a folder of the same frames rendered finer is needed";
     }

@@ -115,7 +115,7 @@ void time_rounds(const std::vector<TimedTechnique>& timed_techniques, const Benc
     result.others = other_load(*before, after, ::getpid());
     result.orders = std::move(timing.orders);
     if (result.orders.size() < result.rounds_planned)
-        result.interrupted = "interrupted by the user";
+        result.interrupted = Interruption::words();
     for (std::size_t i = 0; i < timed_techniques.size(); ++i)
         result.techniques[i].samples = std::move(timing.samples[i]);
 }

@@ -59,13 +59,11 @@ std::string phrase_of(const InputChange& change) {
         if (is_version(change.before) || is_version(change.now))
             return fmt::format("{} {} → {}", name, change.before, change.now);
         return "sources in " + name;
-    case InputKind::drive: { // its hash is that of the drive as it is played, which no file has
-        const std::size_t keys = std::min(change.name.rfind(before_key), change.name.size());
-        return change.before.empty() || change.now.empty()
-                   ? fmt::format("drive {} is {}", name, change.before.empty() ? "new" : "gone")
-                   : fmt::format("drive {} as it is played{}", short_text(change.name.substr(0, keys), 60),
-                                 short_text(change.name.substr(keys), 120));
-    }
+    case InputKind::drive: // its hash is that of the drive as it is played, which no file has
+        return fmt::format("drive {} {}", short_text(change.name, 120),
+                           change.before.empty() ? "is new"
+                           : change.now.empty()  ? "is gone"
+                                                 : "as it is played");
     case InputKind::setting:
         if (change.name == conditions_name)
             return fmt::format("conditions {} → {}", short_text(change.before, 120), short_text(change.now, 120));

@@ -279,9 +279,12 @@ HistoryFindings explain_nights(std::vector<Night> nights, const HistoryOptions& 
     findings.nights = std::move(nights);
     findings.study = findings.tonight().study;
     findings.drift_bound = options.drift_bound;
-    for (std::size_t i = 0; i + 1 < findings.nights.size(); ++i)
-        if (findings.nights[i].accepted)
-            findings.base = i;
+    const auto accepted =
+        std::find_if(findings.nights.rbegin() + 1, findings.nights.rend(), [](const Night& night) { return night.accepted; });
+    findings.base = static_cast<std::size_t>(
+        accepted != findings.nights.rend()
+            ? findings.nights.rend() - accepted - 1
+            : std::ranges::find_if(findings.nights.begin(), findings.nights.end() - 1, &Night::has_readings) - findings.nights.begin());
     for (std::size_t i = findings.base; i + 1 < findings.nights.size(); ++i)
         if (findings.nights[i].played_utc > findings.tonight().played_utc)
             findings.ahead.push_back(i);

@@ -95,7 +95,7 @@ struct NightFrames {
 struct HistoryFindings : Findings {
     std::string study;
     std::vector<Night> nights;      ///< of the study, as they were added, up to the one that is looked at
-    std::size_t base = 0;           ///< what it is compared with: the last accepted night before it, else the first of all
+    std::size_t base = 0;           ///< what it is compared with: the last accepted night before it, else the first that read anything
     std::vector<std::size_t> ahead; ///< nights from the base on that are dated after tonight: a clock was wrong
     double drift_bound = 0.005;
     std::vector<HistoryEvent> events; ///< by night

@@ -241,7 +241,7 @@ Report LiveSession::play() {
     write_file(options_.folder / "live.json", json_text(live_json(*figures)));
     if (interrupted_) {
         report.complete = false;
-        report.interrupted = "interrupted by the user";
+        report.interrupted = Interruption::words();
     }
     try {
         if (failure_)

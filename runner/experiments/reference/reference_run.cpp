@@ -126,7 +126,7 @@ void draw(ReferenceResult& result, const Stage& stage, const ReferenceRequest& r
         },
         std::move(from), [] { return Interruption::requested(); });
     if (!result.image.complete)
-        result.interrupted = "interrupted by the user";
+        result.interrupted = Interruption::words();
 }
 
 } // namespace

@@ -300,7 +300,7 @@ void run_drive(Stage& stage, Device& device, const RendererSettings& settings, c
             throw DeviceError(log_file.string() + ": cannot be written: " + std::generic_category().message(errno));
         if (Interruption::requested()) {
             report.complete = false;
-            report.interrupted = "interrupted by the user";
+            report.interrupted = Interruption::words();
             return;
         }
     }
@@ -366,7 +366,7 @@ void repeat(const std::deque<Stage>& stages, Device& device, const RendererSetti
         folds[i].finish(report.played[i], options.repeats);
     if (Interruption::requested()) {
         report.complete = false;
-        report.interrupted = "interrupted by the user";
+        report.interrupted = Interruption::words();
     }
 }
 

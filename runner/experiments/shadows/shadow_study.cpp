@@ -107,7 +107,7 @@ ShadowResult run_shadow_study(const ShadowRequest& request) {
     }
     result.others = other_load(before, cpu_use(), ::getpid());
     if (Interruption::requested())
-        result.interrupted = "interrupted by the user";
+        result.interrupted = Interruption::words();
     request.write(result);
     if (result.interrupted.empty())
         folder.finish();

@@ -57,8 +57,10 @@ class Beholder {
             for (int height = 0; height < (raise > 0.0 ? 3 : 1); ++height)
                 for (const glm::dvec2& at : beside_it) {
                     const glm::dvec3 beside = aside * (at.x * across + at.y * up);
-                    const double above_surface = (height == 0 ? 1e-4 : height * raise) + std::max(0.0, -glm::dot(beside, place.normal));
-                    const glm::dvec3 from = place.point_m + beside + above_surface * place.normal;
+                    const double below_surface = std::max(0.0, -glm::dot(beside, place.normal));
+                    if (height == 0 && below_surface > 0.0)
+                        pass_below(place, place.point_m + beside, lamp_m, below_surface, seen, hidden);
+                    const glm::dvec3 from = place.point_m + beside + ((height == 0 ? 1e-4 : height * raise) + below_surface) * place.normal;
                     for (int k = 0; k < (tolerance_.lamp_radius_m > 0.0 ? 17 : 1); ++k) { // the middle, 4 half-way, 12 on the rim
                         const double r = k == 0 ? 0.0 : tolerance_.lamp_radius_m * (k < 5 ? 0.5 : 1.0),
                                      angle = 2.0 * pi * k / (k < 5 ? 4.0 : 12.0);
@@ -73,6 +75,13 @@ class Beholder {
     }
 
   private:
+    /// Ground that faces the lamp is in no map: a texel that looks below the foot of what stands there meets what is beyond the surface.
+    void pass_below(const TwinPixel& place, const glm::dvec3& from, const glm::dvec3& to, double depth_m, bool& seen, bool& hidden) const {
+        const double d = glm::length(to - from), rise = glm::dot(to - from, place.normal) / d;
+        const auto blocker = twin_.cast(moment_, {from, (to - from) / d}, depth_m / std::max(rise, 1e-9) + 1e-4, Twin::Met::casters);
+        (blocker && blocker->distance_m < d ? hidden : seen) = true;
+    }
+
     void cast(const glm::dvec3& from, const glm::dvec3& to, const LitLamp& lamp, bool& seen, bool& hidden) const {
         const double d = glm::length(to - from);
         const glm::dvec3 way = (to - from) / d;

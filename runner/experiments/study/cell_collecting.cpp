@@ -130,6 +130,7 @@ void collect_cell(const CellStore& store, const Study& study, const PlannedCell&
         files = store.load(*stored);
     } catch (const InputError& damage) {
         store.forget(planned.key);
+        store.note_failure(planned.key, "its results in the store were damaged, and were taken out when it was collected");
         throw DeviceError(fmt::format("its results in the store are damaged, and it must be played again ({})", damage.what()));
     }
     const fs::path folder = options.folder / folder_name_of(planned);

@@ -123,7 +123,7 @@ Table readings_table(const StudyResult& result) {
 
 /// What is red or known, and cells that were not played.
 Table failures_table(const StudyResult& result) {
-    Table table{"failures", "Outside limits or baselines, or not measured", columns_of("what<|where<|found<|repeat with`"), {}};
+    Table table{"failures", "Outside limits, baselines or history, or not measured", columns_of("what<|where<|found<|repeat with`"), {}};
     const auto add = [&](const std::string& where, const Verdict& verdict) {
         if (verdict.kind != VerdictKind::pass || is_red(verdict))
             table.rows.push_back(
@@ -154,8 +154,8 @@ std::vector<std::string> red_lines(const StudyResult& result) {
                 continue;
             }
             const std::string line = verdict_line(verdict, suite.drive + ": ");
-            lines.push_back(line.substr(0, line.find_last_not_of('\n') + 1) +
-                            (verdict.rerun.empty() ? "" : fmt::format(". Repeat with `{}`", verdict.rerun)));
+            lines.push_back(line.substr(0, line.find_last_not_of("\n.") + 1) +
+                            (verdict.rerun.empty() ? "." : fmt::format(". Repeat with `{}`", verdict.rerun)));
         }
     if (more > 0)
         lines.push_back(fmt::format("And {} more, all in report.html.", more));
@@ -175,7 +175,7 @@ std::string verdict_words(const StudyResult& result) {
     case VerdictKind::fail:
         return exceeds(result.verdicts) || std::ranges::any_of(result.cells, exceeds, &CellResult::verdicts) ? "Limits exceeded"
                : std::ranges::any_of(result.verdicts, [](const Verdict& one) { return one.name == unchanged_verdict && is_red(one); })
-                   ? "Not as before"
+                   ? "Changed since the night that it is compared with"
                    : "Differs from the baselines";
     case VerdictKind::flaky:
         return "Flaky";

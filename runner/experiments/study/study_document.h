@@ -27,7 +27,7 @@ inline constexpr std::size_t max_pictured_places = 48;
 inline constexpr std::size_t most_told_cells = 500;
 
 /// Of --fail-on-change, among the study's own.
-inline constexpr const char* unchanged_verdict = "as before";
+inline constexpr const char* unchanged_verdict = "history";
 
 /// Reach over each drive, lux from above and its difference, error over time, the lamps' difference. EXR files are read below `folder`.
 std::vector<StudyFigure> study_figures(const StudyResult& result, const std::filesystem::path& folder);

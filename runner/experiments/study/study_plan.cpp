@@ -156,11 +156,11 @@ std::vector<std::vector<std::string>> reasons_to_play(const Study& study, const 
     std::map<std::string, StoredCell> latest; // by cell
     if (cells.empty())
         return {};
-    for (StoredCell& stored : store.list())
-        if (stored.study == study.name) {
-            std::string cell = stored.cell;
-            latest.insert_or_assign(std::move(cell), std::move(stored));
-        }
+    const std::vector<StoredCell> all = store.list();
+    for (const bool own : {false, true}) // those of other studies where this one played none of that name
+        for (const StoredCell& stored : all)
+            if ((stored.study == study.name) == own)
+                latest.insert_or_assign(stored.cell, stored);
     std::vector<std::vector<std::string>> reasons;
     for (const std::size_t i : cells) {
         const PlannedCell& one = plan.cells[i];

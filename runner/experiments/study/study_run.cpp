@@ -305,7 +305,7 @@ void play_all_timed(const Study& study, const StudyPlan& plan, const StudyOption
             try_cell(cell, [&] {
                 fs::remove_all(folder);
                 if (!play_timed(study, one, options, folder)) {
-                    result.interrupted = "interrupted by the user";
+                    result.interrupted = Interruption::words();
                     cell.failed = result.interrupted;
                 } else
                     judge_cell(study, one, options, cell);
@@ -405,7 +405,7 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
         const auto played = options.executor == StudyExecutor::slurm ? play_on_slurm(store, study, plan, to_play, options)
                                                                      : play_in_workers(store, study, plan, to_play, jobs, options);
         if (Interruption::requested())
-            result.interrupted = "interrupted by the user";
+            result.interrupted = Interruption::words();
         collect_all(store, study, plan, options, played, jobs, result);
         result.played_by =
             played_words(result, options.executor == StudyExecutor::slurm ? "by Slurm"
@@ -414,7 +414,7 @@ StudyResult run_study(const Study& study, const StudyOptions& options) {
         if (options.times_too && options.executor == StudyExecutor::local)
             result.played_by += time_cells(study, plan, store, options, result);
         if (Interruption::requested())
-            result.interrupted = "interrupted by the user";
+            result.interrupted = Interruption::words();
     }
     finish(result, options, folder);
     return result;

@@ -106,6 +106,22 @@ TEST_F(HistoryCommand, WhatWasNotComparedIsCountedAndFailsTheJob) {
                 AllOf(HasSubstr("Nothing can be compared with the accepted night of 2026-01-01"), Not(HasSubstr("same to the last bit"))));
 }
 
+/// Where everything failed in the first night, later ones are compared with the first that read anything.
+TEST_F(HistoryCommand, ANightWithoutReadingsIsComparedWithNothing) {
+    StudyResult failed = PlantedNights(3).play(0, {});
+    for (CellResult& cell : failed.cells) {
+        cell.failed = "the disk was full";
+        cell.readings.clear();
+    }
+    write_night(folder_ / "failed", failed);
+    printed("history add " + (folder_ / "failed") + flag_);
+    EXPECT_THAT(printed("history accept last" + flag_, 2), HasSubstr("in which no cell was played, expected one with readings"));
+    printed("history add " + night(1) + flag_);
+    printed("history add " + night(2) + flag_);
+    EXPECT_THAT(printed("history explain" + flag_),
+                AllOf(HasSubstr("1 change since the first night of 2026-01-02"), Not(HasSubstr("cannot be"))));
+}
+
 /// The accepted night was played with a clock a day ahead: the next ones are compared with it all the same, and told so.
 TEST_F(HistoryCommand, NightsFollowEachOtherAsTheyWereAddedWhateverTheirClocksSay) {
     const auto add_dated = [&](int number, const std::string& utc) {
@@ -186,6 +202,8 @@ TEST_F(HistoryCommand, WhatCannotBeUsedGivesOneSentence) {
     write_file(folder_ / "n1/INCOMPLETE", "");
     EXPECT_THAT(printed("history add " + night(1) + flag_, 2), HasSubstr("holds a study that did not end"));
     EXPECT_THAT(printed("history", 2), Not(HasSubstr("bug")));
+    EXPECT_THAT(printed("history forget last", 2), HasSubstr("'forget' is no command of history, expected one of add, accept, show"));
+    EXPECT_THAT(printed("history prune --keep -1" + flag_, 2), HasSubstr("not in range 0 to 1000000"));
 }
 
 TEST_F(HistoryCommand, TheDefaultFileFollowsXdg) {

@@ -57,8 +57,8 @@ TEST(Messages, AsJsonWhateverEndsTheProgram) {
 TEST(Messages, OfARunAndItsTrace) {
     const TemporaryFolder folder;
     const std::string drive = straight_drive(folder), trace_file = folder / "out/trace.json";
-    const std::string said =
-        printed("run " + drive + three_moments + "--log-json --log-level debug --trace " + trace_file + " --out " + (folder / "out"));
+    const std::string said = printed("run " + drive + three_moments + "--light-pass shader --log-json --log-level debug --trace " +
+                                     trace_file + " --out " + (folder / "out"));
     std::vector<json> progress;
     bool renders = false, compiles = false;
     for (const json& object : objects_of(said))

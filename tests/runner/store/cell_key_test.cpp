@@ -62,11 +62,11 @@ TEST_F(CellKey, EveryInputCountsAndSaysWhatItIs) {
     EXPECT_THAT(told(drive), IsEmpty());
     Drive other = drive;
     other.lamp_sets[0].lamps[0].pitch_rad += 1e-9;
-    EXPECT_THAT(told(other), ElementsAre("drive changed: straight.yaml: lamp_sets (in its file, or set by the study)"));
+    EXPECT_THAT(told(other), ElementsAre("drive changed: straight.yaml (lamp_sets), in its file or set by the study"));
     EXPECT_NE(key(other), cell_key(before));
     other.seed += 1;
     other.start.s_m += 1.0;
-    EXPECT_THAT(told(other), ElementsAre("drive changed: straight.yaml: lamp_sets, route, seed (in its file, or set by the study)"));
+    EXPECT_THAT(told(other), ElementsAre("drive changed: straight.yaml (lamp_sets, route, seed), in its file or set by the study"));
     other.file = "other.yaml";
     EXPECT_THAT(told(other), ElementsAre("drive other.yaml is new", "drive straight.yaml is gone"));
     other = drive;

@@ -138,7 +138,7 @@ AccuracyResult run_accuracy(const AccuracyRequest& request) {
             result.missing.push_back(fmt::format("drive {}: {}", drive.drive, missing));
     result.others = other_load(before, cpu_use(), ::getpid());
     if (Interruption::requested())
-        result.interrupted = "interrupted by the user";
+        result.interrupted = Interruption::words();
     request.write(result);
     if (result.interrupted.empty())
         folder.finish();

@@ -47,7 +47,8 @@ TEST(BenchRun, ChoosesInTheTablesOrderAndTheReferenceInAnyCase) {
 
 TEST(BenchRun, LeavesRawSamplesOfEveryRound) {
     const TemporaryFolder folder;
-    EXPECT_THAT(printed(small_bench + "--techniques photometric,photometric-naive --seed 3 --lamp-set xenon --out " + (folder / "out")),
+    EXPECT_THAT(printed(small_bench + "--techniques photometric,photometric-naive --seed 3 --lamp-set xenon --light-pass shader --out " +
+                        (folder / "out")),
                 testing::AllOf(HasSubstr("first-light-1, xenon: 2 moments x 6 rounds, 64 x 48 pixels, orders from seed 3"),
                                HasSubstr("\nphotometric ")));
     const json bench = json::parse(content_of(folder / "out/bench.json"));

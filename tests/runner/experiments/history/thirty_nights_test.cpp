@@ -326,6 +326,8 @@ TEST(HistoryCauses, ADriveThatIsPlayedOtherwiseIsOneChange) {
         for (CellResult& cell : result.cells) {
             cell.cell.condition = i < 2 ? "night, aim -1 %" : "night, aim -1.1 %";
             std::erase_if(cell.inputs, [](const CellInput& input) { return input.kind == InputKind::program; });
+            if (i > 0)
+                cell.inputs.push_back({InputKind::lamp, "another.ies", "0"});
             for (const char* key : {"lamp_sets", "start"})
                 cell.inputs.push_back({InputKind::drive, std::string("straight.yaml: ") + key, fmt::format("{}{:031}", i, cell.cell.lamp)});
         }
@@ -333,7 +335,8 @@ TEST(HistoryCauses, ADriveThatIsPlayedOtherwiseIsOneChange) {
     }
     const HistoryFindings found = explain_nights(nights);
     ASSERT_EQ(found.events.size(), 2U);
-    EXPECT_THAT(phrase_of(found.events[0].causes), HasSubstr("drive straight.yaml as it is played: lamp_sets, start"));
+    EXPECT_EQ(phrase_of(found.events[0].causes),
+              "inputs: drive straight.yaml (lamp_sets, start) as it is played, lamp another.ies (none → 0)");
     EXPECT_EQ(phrase_of(found.events[1].causes), "inputs: conditions night, aim -1 % → night, aim -1.1 %");
     const std::string text = document_text(document(found));
     EXPECT_THAT(text, AllOf(HasSubstr("on country, night, aim -1 %: "), HasSubstr("on country, night, aim -1.1 %: "))) << text;
