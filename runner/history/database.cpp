@@ -63,6 +63,8 @@ Database::Database(std::filesystem::path file, For what) : file_(std::move(file)
     if (what == For::reading) {
         if (!std::filesystem::is_regular_file(file_, ignored))
             throw InputError({file_, 0, 0, {}}, "is no file", "a history; `fernlicht history add FOLDER` begins one");
+        if (std::filesystem::file_size(file_, ignored) == 0)
+            throw InputError({file_, 0, 0, {}}, "is empty", "a history; `fernlicht history add FOLDER` begins one");
         open(false, false);
         // A reader of a file with write-ahead logging makes an index beside it. Where it cannot, the file is read as it lies there.
         const int code = sqlite3_exec(handle_->connection, "SELECT * FROM sqlite_schema LIMIT 1", nullptr, nullptr, nullptr) & 0xff;

@@ -111,8 +111,9 @@ FieldOf<Struct> values_form(std::string_view key, std::vector<Value> Struct::*va
         for (const YamlEntry& one : may_be_one && !entry.is_list() ? std::vector{entry} : entry.list(1, most))
             all.push_back(read(one));
         for (auto value = all.begin(); value != all.end(); ++value)
-            if (std::find(all.begin(), value, *value) != value)
-                entry.refuse("a value given twice", "each value once");
+            if (const auto first = std::find(all.begin(), value, *value); first != value)
+                entry.refuse(fmt::format("value {} again, the same as value {}", value - all.begin() + 1, first - all.begin() + 1),
+                             "each value once");
     };
     made.schema = fmt::format(R"({{"type": "array", "items": {}, "minItems": 1, "maxItems": {}}})", schema_of_one, most);
     if (may_be_one)

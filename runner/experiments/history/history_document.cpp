@@ -177,10 +177,22 @@ Table moved_table(const std::string& name, const std::string& caption) {
     return {name, caption, columns_of("night<|cause<|lamp<|route<|reading<|before|now|unit<|change [%]"), {}};
 }
 
+std::string with_digits(double value, int digits) { return digits == 4 ? four_digits(value) : fmt::format("{:.{}g}", value, digits); }
+
+/// As many as tell the two apart, four at least.
+int digits_apart(const Value& before, const Value& now) {
+    int digits = 4;
+    if (before.measured() && now.measured() && before != now)
+        while (digits < 17 && with_bound(before, with_digits(*before.figure(), digits)) == with_bound(now, with_digits(*now.figure(), digits)))
+            ++digits;
+    return digits;
+}
+
 void add_moved_row(Table& table, const Night& in, const std::string& night, const std::string& cause, const MovedReading& moved) {
     const NightCell& cell = night_cell(in, moved.cell);
-    const auto value = [](const Value& one) {
-        return one.measured() ? Cell(with_bound(one, four_digits(*one.figure())), *one.figure()) : Cell("not measured");
+    const int digits = digits_apart(moved.before, moved.now);
+    const auto value = [&](const Value& one) {
+        return one.measured() ? Cell(with_bound(one, with_digits(*one.figure(), digits)), *one.figure()) : Cell("not measured");
     };
     const std::optional<ReadingKey> key = key_of(moved.reading);
     const std::optional<double> share = moved.share();
@@ -308,16 +320,11 @@ std::string told_value(const std::string& reading, const Value& value, int digit
     if (!value.measured())
         return "not measured";
     const std::optional<ReadingKey> key = key_of(reading);
-    return with_bound(value, digits == 4 ? four_digits(*value.figure()) : fmt::format("{:.{}g}", *value.figure(), digits)) +
-           (reading == timed_frame ? " s"
-            : key                  ? unit_suffix(unit_of(*key))
-                                   : "");
+    return with_bound(value, with_digits(*value.figure(), digits)) + (reading == timed_frame ? " s" : key ? unit_suffix(unit_of(*key)) : "");
 }
 
 std::string told_step(const std::string& reading, const Value& before, const Value& now) {
-    int digits = 4;
-    while (digits < 17 && before != now && told_value(reading, before, digits) == told_value(reading, now, digits))
-        ++digits;
+    const int digits = digits_apart(before, now);
     return told_value(reading, before, digits) + " → " + told_value(reading, now, digits);
 }
 

@@ -38,7 +38,7 @@ std::string nothing_compared(const StudyResult& result) {
     return result.changes.size() + result.changes_elsewhere > 0
                ? "Nothing could be compared: no deciding reading is in two cells that are compared."
            : played < std::ssize(result.cells)
-               ? fmt::format("Nothing could be compared: {} of {} cells were played.", played, result.cells.size())
+               ? fmt::format("Nothing could be compared: cells played: {} of {}.", played, result.cells.size())
                : "Nothing could be compared: no two lamps were played under the same conditions.";
 }
 
