@@ -183,7 +183,8 @@ std::string with_digits(double value, int digits) { return digits == 4 ? four_di
 int digits_apart(const Value& before, const Value& now) {
     int digits = 4;
     if (before.measured() && now.measured() && before != now)
-        while (digits < 17 && with_bound(before, with_digits(*before.figure(), digits)) == with_bound(now, with_digits(*now.figure(), digits)))
+        while (digits < 17 &&
+               with_bound(before, with_digits(*before.figure(), digits)) == with_bound(now, with_digits(*now.figure(), digits)))
             ++digits;
     return digits;
 }
@@ -320,7 +321,9 @@ std::string told_value(const std::string& reading, const Value& value, int digit
     if (!value.measured())
         return "not measured";
     const std::optional<ReadingKey> key = key_of(reading);
-    return with_bound(value, with_digits(*value.figure(), digits)) + (reading == timed_frame ? " s" : key ? unit_suffix(unit_of(*key)) : "");
+    return with_bound(value, with_digits(*value.figure(), digits)) + (reading == timed_frame ? " s"
+                                                                      : key                  ? unit_suffix(unit_of(*key))
+                                                                                             : "");
 }
 
 std::string told_step(const std::string& reading, const Value& before, const Value& now) {
