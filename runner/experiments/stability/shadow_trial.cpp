@@ -14,6 +14,7 @@ namespace {
 
 constexpr double of_free_light = 0.02; // by which a drawn light may lie outside what rays allow
 constexpr double beside_centre_px = 0.05;
+constexpr double looked_up_texels = 1.5; ///< of which ShadowTolerance::aside_share is made; a look-up weighs texels up to one away
 
 /// Across and upwards as the lamp sees it; a look-up weighs a square of texels, whose corners count at the corner of a shadow.
 constexpr std::array<glm::dvec2, 13> beside_it{{{0.0, 0.0},
@@ -43,7 +44,7 @@ class Beholder {
     Beholder(const Twin& twin, const Moment& moment, const ShadowTolerance& tolerance)
         : twin_(twin), moment_(moment), tolerance_(tolerance) {}
 
-    Seen sees(const std::vector<TwinPixel>& places, const LitLamp& lamp, const glm::dvec3& lamp_m) const {
+    Seen sees(const std::vector<TwinPixel>& places, bool ground, const LitLamp& lamp, const glm::dvec3& lamp_m) const {
         bool seen = false, hidden = false;
         for (const TwinPixel& place : places) {
             const glm::dvec3 to_lamp = lamp_m - place.point_m;
@@ -58,8 +59,9 @@ class Beholder {
                 for (const glm::dvec2& at : beside_it) {
                     const glm::dvec3 beside = aside * (at.x * across + at.y * up);
                     const double below_surface = std::max(0.0, -glm::dot(beside, place.normal));
-                    if (height == 0 && below_surface > 0.0)
-                        pass_below(place, place.point_m + beside, lamp_m, below_surface, seen, hidden);
+                    if (ground && height == 0 && below_surface > 0.0)
+                        pass_below(place, place.point_m + beside / looked_up_texels, lamp_m, below_surface / looked_up_texels, seen,
+                                   hidden);
                     const glm::dvec3 from = place.point_m + beside + ((height == 0 ? 1e-4 : height * raise) + below_surface) * place.normal;
                     for (int k = 0; k < (tolerance_.lamp_radius_m > 0.0 ? 17 : 1); ++k) { // the middle, 4 half-way, 12 on the rim
                         const double r = k == 0 ? 0.0 : tolerance_.lamp_radius_m * (k < 5 ? 0.5 : 1.0),
@@ -78,7 +80,10 @@ class Beholder {
     /// Ground that faces the lamp is in no map: a texel that looks below the foot of what stands there meets what is beyond the surface.
     void pass_below(const TwinPixel& place, const glm::dvec3& from, const glm::dvec3& to, double depth_m, bool& seen, bool& hidden) const {
         const double d = glm::length(to - from), rise = glm::dot(to - from, place.normal) / d;
-        const auto blocker = twin_.cast(moment_, {from, (to - from) / d}, depth_m / std::max(rise, 1e-9) + 1e-4, Twin::Met::casters);
+        const double out_m = rise > 0.0 ? depth_m / rise + 1e-4 : d;
+        if (out_m >= d)
+            return;
+        const auto blocker = twin_.cast(moment_, {from, (to - from) / d}, out_m, Twin::Met::casters);
         (blocker && blocker->distance_m < d ? hidden : seen) = true;
     }
 
@@ -187,7 +192,7 @@ ShadowTally ShadowTrial::tally(const Moment& moment, const View& view, const Sha
                 unhidden += e;
                 if (!(e > 0.0))
                     continue;
-                const Seen seen = beholder.sees(places, lamp, seen_from.empty() ? lamp_m : seen_from[i] - moment.ego.position_m);
+                const Seen seen = beholder.sees(places, ground, lamp, seen_from.empty() ? lamp_m : seen_from[i] - moment.ego.position_m);
                 least += seen == Seen::yes ? e : 0.0;
                 most += seen == Seen::no ? 0.0 : e;
                 any_hidden = any_hidden || seen == Seen::no;
