@@ -10,7 +10,7 @@ constexpr std::array names{std::pair(LightPass::automatic, std::string_view("aut
                            std::pair(LightPass::shader, std::string_view("shader")), std::pair(LightPass::cpu, std::string_view("cpu"))};
 
 /// By class of device, never by a clock: the same machine always draws the same bytes. Measured (docs/benchmarks.md): with AVX-512 the
-/// CPU's light takes a third less than llvmpipe's shader, with AVX2 as much, and then draws the same bytes as with AVX-512; narrower it
+/// CPU's light takes a quarter less than llvmpipe's shader, with AVX2 as much, and then draws the same bytes as with AVX-512; narrower it
 /// takes more.
 struct OfClass {
     bool software;       ///< GL runs on the CPU

@@ -107,6 +107,9 @@ int add(const HistoryFlags& flags) {
     const std::filesystem::path file = file_of(flags);
     std::string part;
     const Night night = read_night(flags.folder, &part);
+    if (flags.accept && !night.has_readings())
+        throw InputError({flags.folder, 0, 0, "--accept"}, "found a night in which no cell was played",
+                         "one with readings to compare with");
     History history(file, History::For::collecting);
     const History::Added added = history.add(night);
     if (flags.accept)

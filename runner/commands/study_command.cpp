@@ -22,6 +22,7 @@
 #include <fmt/ranges.h>
 #include <memory>
 #include <oneapi/tbb/parallel_invoke.h>
+#include <unistd.h>
 
 namespace fernlicht {
 namespace {
@@ -90,9 +91,16 @@ void remember(const StudyFlags& flags, const StudyResult& result, const StudyOpt
 
 /// Before somebody plans hours of work on it. A store that is not there yet is not made: its name may be mistyped.
 void warn_of_unwritable(const CellStore& store, std::size_t cells_to_play) {
-    if (std::error_code ignored; cells_to_play == 0 || !std::filesystem::exists(store.folder(), ignored))
+    if (cells_to_play == 0)
         return;
-    if (const std::string why = store.refuses_writing(); !why.empty())
+    std::error_code ignored;
+    std::filesystem::path place = std::filesystem::absolute(store.folder());
+    while (!std::filesystem::exists(place, ignored) && place.has_relative_path())
+        place = place.parent_path();
+    const std::string why = place != std::filesystem::absolute(store.folder())
+                                ? ::access(place.c_str(), W_OK) == 0 ? "" : place.string() + ": cannot be written"
+                                : store.refuses_writing();
+    if (!why.empty())
         tell(LogLevel::warning, fmt::format("the store cannot be written here, so nothing can be played into it: {}", why));
 }
 
@@ -232,11 +240,6 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
                                                     text.find_first_not_of("0123456789abcdef", at + 1) != std::string::npos)
             throw InputError({{}, 0, 0, "--expect"}, "found '" + printable(text) + "'", "CELL=KEY, as --plan prints it");
         options.expected.emplace_back(text.substr(0, text.rfind('=')), text.substr(text.rfind('=') + 1));
-        const std::vector<StudyCell> cells = cells_of(study);
-        if (std::ranges::find(cells, options.expected.back().first, &StudyCell::name) == cells.end())
-            throw InputError({{}, 0, 0, "--expect"},
-                             "found cell '" + printable(options.expected.back().first) + "', which the study does not have",
-                             "a cell that --list names");
         options.only.push_back(options.expected.back().first);
     }
     options.strict = flags.strict;

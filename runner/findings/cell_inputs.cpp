@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <iterator>
 #include <map>
+#include <set>
 
 namespace fernlicht {
 namespace {
@@ -21,31 +23,24 @@ HashesByInput hashes_of(const CellInputs& inputs) {
     return hashes;
 }
 
-std::string file_of_drive(const std::string& name) { return name.substr(0, name.rfind(before_key)); }
-
-/// Where it is played before and now, as one.
-InputChanges with_drives_as_one(InputChanges changes, const HashesByInput& before, const HashesByInput& now) {
-    constexpr const char* changed = "changed";
-    const auto has = [](const HashesByInput& inputs, const std::string& file) {
-        return std::ranges::any_of(
-            inputs, [&](const auto& input) { return input.first.first == InputKind::drive && file_of_drive(input.first.second) == file; });
+/// What changed of a drive's keys, " (start, weather)"; "" where one of both did not tell them.
+std::string changed_keys(const std::string& file, const HashesByInput& before, const HashesByInput& now) {
+    const std::string begins = file + std::string(before_key);
+    const auto keys_of = [&](const HashesByInput& inputs) {
+        std::map<std::string, std::string> keys;
+        for (const auto& [input, hash] : inputs)
+            if (input.first == InputKind::drive && input.second.starts_with(begins))
+                keys[input.second.substr(begins.size())] = hash;
+        return keys;
     };
-    std::map<std::string, std::string> keys_by_file;
-    for (const InputChange& change : changes)
-        if (change.kind == InputKind::drive) {
-            const std::string file = file_of_drive(change.name);
-            std::string& keys = keys_by_file[file];
-            if (file != change.name) // else of a program that told no keys
-                keys += (keys.empty() ? "" : ", ") + change.name.substr(file.size() + before_key.size());
-        }
-    std::erase_if(changes, [](const InputChange& change) { return change.kind == InputKind::drive; });
-    for (const auto& [file, keys] : keys_by_file) {
-        const bool was = has(before, file), is = has(now, file);
-        changes.push_back({InputKind::drive, was && is && !keys.empty() ? fmt::format("{} ({})", file, keys) : file, was ? changed : "",
-                           is ? changed : ""});
-    }
-    std::ranges::sort(changes);
-    return changes;
+    const auto old_keys = keys_of(before), new_keys = keys_of(now);
+    std::set<std::string> changed;
+    for (const auto* const some : {&old_keys, &new_keys})
+        for (const auto& [key, hash] : *some)
+            if (const auto was = old_keys.find(key), is = new_keys.find(key);
+                was == old_keys.end() || is == new_keys.end() || was->second != is->second)
+                changed.insert(key);
+    return old_keys.empty() || new_keys.empty() || changed.empty() ? "" : fmt::format(" ({})", fmt::join(changed, ", "));
 }
 
 std::string phrase_of_change(const InputChange& change) {
@@ -76,18 +71,30 @@ JsonMembers cell_input_members(CellInput& input) {
 }
 
 InputChanges changed_inputs(const CellInputs& before, const CellInputs& now) {
+    constexpr const char* changed = "changed";
     const HashesByInput old_inputs = hashes_of(before), new_inputs = hashes_of(now);
+    std::set<std::pair<InputKind, std::string>> all;
+    for (const CellInputs* const some : {&before, &now})
+        for (const CellInput& input : *some)
+            if (!is_key(input))
+                all.emplace(input.kind, input.name);
     InputChanges changes;
-    for (const auto& [input, hash] : new_inputs) {
-        const auto found = old_inputs.find(input);
-        const std::string was = found == old_inputs.end() ? "" : found->second;
-        if (was != hash)
-            changes.push_back({input.first, input.second, was, hash});
+    for (const auto& input : all) {
+        const auto hash_in = [&](const HashesByInput& inputs) {
+            const auto found = inputs.find(input);
+            return found == inputs.end() ? std::string() : found->second;
+        };
+        const std::string was = hash_in(old_inputs), is = hash_in(new_inputs);
+        if (was == is)
+            continue;
+        if (input.first == InputKind::drive)
+            changes.push_back({input.first, input.second + changed_keys(input.second, old_inputs, new_inputs), was.empty() ? "" : changed,
+                               is.empty() ? "" : changed});
+        else
+            changes.push_back({input.first, input.second, was, is});
     }
-    for (const auto& [input, hash] : old_inputs)
-        if (!new_inputs.contains(input))
-            changes.push_back({input.first, input.second, hash, ""});
-    return with_drives_as_one(std::move(changes), old_inputs, new_inputs);
+    std::ranges::sort(changes);
+    return changes;
 }
 
 std::vector<std::string> input_changes(const CellInputs& before, const CellInputs& now) {

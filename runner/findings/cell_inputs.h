@@ -27,8 +27,9 @@ const char* input_kind_name(InputKind kind);
 
 JsonMembers cell_input_members(CellInput& input);
 
-/// What is between a drive's file and its key.
+/// A drive is an input as a whole, by its file's name, and key by key, which tell what of it changed: "straight.yaml: weather".
 inline constexpr std::string_view before_key = ": ";
+inline bool is_key(const CellInput& input) { return input.kind == InputKind::drive && input.name.find(before_key) != std::string::npos; }
 
 /// One input that differs.
 struct InputChange {
@@ -39,7 +40,8 @@ struct InputChange {
 };
 using InputChanges = std::vector<InputChange>;
 
-/// In the order of kinds and names. A drive's keys are one change: it differs from lamp to lamp, so that each would be several.
+/// In the order of kinds and names. What changed in a drive is told as one change: it differs from lamp to lamp, so that each key would be
+/// several.
 InputChanges changed_inputs(const CellInputs& before, const CellInputs& now);
 
 /// What differs, one phrase each: "lamp low-beam.ies changed (bytes of its file)", "program changed: renderer", "device changed: renderer

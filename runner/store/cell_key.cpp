@@ -71,11 +71,16 @@ CellInputs cell_inputs(const Drive& drive, const FilesRead& road, const FilesRea
         source.path = used == lamps.end() ? "" : lamp_mark(static_cast<std::size_t>(used - lamps.begin()));
         source.options.recipe.clear(); // its content is among what was opened
     }
+    std::string all;
+    CellInputs keys;
     for (const auto& [key, told] : drive_bits_by_key(one)) {
         const std::string bits = without_paths(told, files);
-        inputs.push_back({InputKind::drive, fmt::format("{}{}{}", drive.file.filename().string(), before_key, key),
-                          content_hash(bits.data(), bits.size())});
+        all += bits;
+        keys.push_back({InputKind::drive, fmt::format("{}{}{}", drive.file.filename().string(), before_key, key),
+                        content_hash(bits.data(), bits.size())});
     }
+    inputs.push_back({InputKind::drive, drive.file.filename().string(), content_hash(all.data(), all.size())});
+    inputs.insert(inputs.end(), keys.begin(), keys.end());
     inputs.push_back({InputKind::road, road.empty() ? "" : road.front().path.filename().string(), hash_of_files(road)});
     for (const LampSource* const lamp : lamps)
         inputs.push_back({InputKind::lamp, lamp->path.filename().string(), hash_of_files(lamp->file->opened)});

@@ -212,6 +212,7 @@ void ProjectedMaps::draw(const Shot& shot) {
             kept.target_drawn = false;
         }
         kept.target_apart = shot.outputs.target && casters_.lamps()[i].ground;
+        shot.work.shadow_maps += static_cast<int>((kept.target_apart ? 2 : 1) * places_.size());
         if (kept.target_apart && !kept.target_drawn) {
             if (kept.target_texture == 0)
                 kept.target_texture = make_map();
@@ -224,7 +225,6 @@ void ProjectedMaps::draw(const Shot& shot) {
         if (shot.outputs.target)
             context_.gl.BindTextureUnit(target_shadow_unit(i), kept.target_apart ? kept.target_texture : kept.texture);
     }
-    shot.work.shadow_maps += static_cast<int>(plans.size() * places_.size());
     from_lamps_.clear();
     for (std::size_t i = 0; i < lamps_.size(); ++i)
         from_lamps_.emplace_back(textures_from_ego_[std::min(i, plans.size() - 1)] * ego_from_lamp_space(lamps_[i].pose, ego_m));

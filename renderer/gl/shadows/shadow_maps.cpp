@@ -37,13 +37,13 @@ void ShadowMaps::draw(const Shot& shot) {
         now.clips.push_back(lamp.clip);
         now.pieces.push_back(lamp.pieces);
     }
-    work.shadow_maps += static_cast<int>(lamps.size());
     if (now != drawn_) {
         draw_maps(textures_, spread(), work);
         drawn_ = std::move(now);
         on_cpu_stands_ = targets_drawn_ = false;
     }
     targets_apart_ = shot.outputs.target && std::ranges::any_of(lamps, &LampCasters::ground);
+    work.shadow_maps += static_cast<int>(lamps.size() * (targets_apart_ ? 2 : 1));
     if (targets_apart_ && !targets_drawn_) {
         draw_maps(target_textures_, 0.0, work);
         targets_drawn_ = true;

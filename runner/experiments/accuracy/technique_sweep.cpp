@@ -125,9 +125,10 @@ std::vector<std::string> missing_errors(std::size_t compared, std::size_t ways, 
     return {text};
 }
 
-/// Of photometric as the drive draws it, and at edges by each of its ways at that size; nothing where it took no part.
+/// Of photometric as the drive draws it, and at edges by each of its ways at that size; nothing where it took no part, and where it was
+/// stopped.
 void add_agreement(const ReferencePictures& references, const Stage& stage, const std::vector<Moment>& moments,
-                   TimedTechniques& timed_techniques, DriveAccuracy& result) {
+                   TimedTechniques& timed_techniques, const StopAsked& stop, DriveAccuracy& result) {
     const auto by_photometric = [](const ConfigurationResult& r) { return r.configuration.technique == "photometric"; };
     const auto ours = std::ranges::find_if(
         result.configurations, [&](const ConfigurationResult& r) { return by_photometric(r) && r.configuration.varied.empty(); });
@@ -141,7 +142,8 @@ void add_agreement(const ReferencePictures& references, const Stage& stage, cons
     std::vector<EdgeErrorFold> edges{{"the one exact ray", settings.floor_lx}};
     std::vector<std::size_t> ways;
     for (std::size_t i = 0; i < result.configurations.size(); ++i)
-        if (by_photometric(result.configurations[i]) && timed_techniques.views[i].width_px == view.width_px) {
+        if (by_photometric(result.configurations[i]) && timed_techniques.views[i].width_px == view.width_px &&
+            timed_techniques.views[i].height_px == view.height_px) {
             ways.push_back(i);
             edges.emplace_back(timed_techniques.names[i], settings.floor_lx);
         }
@@ -150,7 +152,11 @@ void add_agreement(const ReferencePictures& references, const Stage& stage, cons
         const ReferenceImage ray = reference.render(moments[m], view, {.illuminance = true}, settings);
         settings.footprint =
             Footprint::pixel; // of illuminance alone: shadows on targets above the surface are marked, too, where these are wanted
-        const ReferenceImage areas = reference.render(moments[m], view, {.illuminance = true}, settings);
+        const ReferenceImage areas = reference.render(moments[m], view, {.illuminance = true}, settings, {}, {}, stop);
+        if (!areas.complete) {
+            result.missing.emplace_back("agreement with the double twin, and errors at edges");
+            return;
+        }
         edges[0].add(ray.illuminance_lx.mean, ray.illuminance_lx.mean, areas);
         for (std::size_t k = 0; k < ways.size(); ++k) {
             const Frame frame =
@@ -298,7 +304,7 @@ DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRe
         return result;
     }
     result.simplifications = price_simplifications(stage, moments);
-    add_agreement(references, stage, moments, timed_techniques, result);
+    add_agreement(references, stage, moments, timed_techniques, stop, result);
     take_times(timed_techniques, moments, request, step, stop, result);
     return result;
 }

@@ -279,8 +279,8 @@ HistoryFindings explain_nights(std::vector<Night> nights, const HistoryOptions& 
     findings.nights = std::move(nights);
     findings.study = findings.tonight().study;
     findings.drift_bound = options.drift_bound;
-    const auto accepted =
-        std::find_if(findings.nights.rbegin() + 1, findings.nights.rend(), [](const Night& night) { return night.accepted; });
+    const auto accepted = std::find_if(findings.nights.rbegin() + 1, findings.nights.rend(),
+                                       [](const Night& night) { return night.accepted && night.has_readings(); });
     findings.base = static_cast<std::size_t>(
         accepted != findings.nights.rend()
             ? findings.nights.rend() - accepted - 1

@@ -144,8 +144,9 @@ std::string base_words(const HistoryFindings& findings) {
 
 std::string headline(const HistoryFindings& findings) {
     const char* const accepted = findings.tonight().accepted ? " This night is accepted itself: later ones are compared with it." : "";
-    if (findings.nights.size() == 1)
-        return fmt::format("This is the first night in the history.{}", accepted);
+    if (findings.is_first())
+        return fmt::format("This is the first night in {}.{}", findings.nights.size() == 1 ? "the history" : "which anything was read",
+                           accepted);
     const std::size_t nights = findings.nights.size() - 1 - findings.base;
     const std::string note = findings.before().note.empty() ? "" : fmt::format(" (\"{}\")", short_text(findings.before().note, 120));
     const std::string since = fmt::format("since {}{}, in {}", base_words(findings), note, counted(nights, "night"));
@@ -348,8 +349,7 @@ std::string clock_warning(const HistoryFindings& findings) {
 }
 
 Section changes_section(const HistoryFindings& findings) {
-    Section section{findings.nights.size() == 1 ? "The first night" : "What changed since " + findings.when(findings.base),
-                    {headline(findings)}};
+    Section section{findings.is_first() ? "The first night" : "What changed since " + findings.when(findings.base), {headline(findings)}};
     if (!findings.ahead.empty())
         section.blocks.emplace_back(clock_warning(findings));
     std::vector<std::pair<std::size_t, std::string>> claims;
@@ -382,7 +382,7 @@ Section changes_section(const HistoryFindings& findings) {
 
 std::vector<Section> history_sections(const HistoryFindings& findings) {
     std::vector<Section> sections{changes_section(findings)};
-    if (findings.nights.size() == 1)
+    if (findings.is_first())
         return sections;
     Section lines{"Lamp by lamp and route by route", {}, 2, true};
     for (Plot& plot : sparklines(findings))

@@ -113,11 +113,12 @@ struct HistoryFindings : Findings {
     std::string when(std::size_t night) const; ///< when_of
     const Night& tonight() const { return nights.back(); }
     const Night& before() const { return nights[base]; }
+    bool is_first() const { return base + 1 == nights.size(); } ///< nothing before it read anything
     bool is_accepted() const { return before().accepted; }
     bool nothing_changed() const { return events.empty() && drifts.empty() && times.changes.empty(); } ///< in what is compared
     /// What --fail-on-change asks: whether anything changed since the base or cannot be compared with it. Whoever accepts a night accepts
     /// its changes; a first night has no base.
-    bool is_off_base() const { return nights.size() > 1 && !tonight().accepted && !(nothing_changed() && absent.empty()); }
+    bool is_off_base() const { return !is_first() && !tonight().accepted && !(nothing_changed() && absent.empty()); }
 };
 
 struct HistoryOptions {

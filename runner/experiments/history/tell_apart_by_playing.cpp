@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 CellInputs of_kind(const CellInputs& inputs, InputKind kind) {
     CellInputs some;
-    std::ranges::copy_if(inputs, std::back_inserter(some), [&](const CellInput& input) { return input.kind == kind; });
+    std::ranges::copy_if(inputs, std::back_inserter(some), [&](const CellInput& input) { return input.kind == kind && !is_key(input); });
     return some;
 }
 

@@ -138,8 +138,11 @@ void collect_cell(const CellStore& store, const Study& study, const PlannedCell&
     write_files(files, folder);
     try {
         judge_cell(study, planned, options, result);
-    } catch (const InputError&) { // whole, but not as this program reads it
-        store.forget(planned.key);
+    } catch (const InputError& error) { // of what was kept whole, but not as this program reads it
+        if (error.where().file.string().starts_with(folder.string())) {
+            store.forget(planned.key);
+            store.note_failure(planned.key, error.what());
+        }
         throw;
     }
 }

@@ -194,9 +194,9 @@ std::map<std::size_t, PlayedInWorker> play_in_workers(const CellStore& store, co
             if (played.failed.empty()) {
                 played.failed =
                     fmt::format("its process {}{}", ending_text(end, pool.limits), end.said.empty() ? "" : ": " + last_word(end));
-                store.note_failure(plan.cells[i].key, played.failed);
             } else
                 played.failed += memory_words(end, pool.limits);
+            store.note_failure(plan.cells[i].key, played.failed);
             played.failed += end.said.empty() ? " (it printed nothing)" : fmt::format(" (log: logs/{}.log)", plan.cells[i].cell.name);
         }
         std::error_code ignored;

@@ -175,7 +175,7 @@ std::string verdict_words(const StudyResult& result) {
     case VerdictKind::fail:
         return exceeds(result.verdicts) || std::ranges::any_of(result.cells, exceeds, &CellResult::verdicts) ? "Limits exceeded"
                : std::ranges::any_of(result.verdicts, [](const Verdict& one) { return one.name == unchanged_verdict && is_red(one); })
-                   ? "Changed since the night that it is compared with"
+                   ? "Not as the night that it is compared with"
                    : "Differs from the baselines";
     case VerdictKind::flaky:
         return "Flaky";

@@ -25,6 +25,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <optional>
+#include <set>
 #include <thread>
 
 namespace fernlicht {
@@ -367,6 +368,14 @@ void refuse_others(const StudyPlan& plan, const CellStore& store, const StudyOpt
 /// What cannot even be planned here is the reason of every cell that is waited for.
 StudyPlan plan_or_note(const Study& study, const CellStore& store, const StudyOptions& options) {
     try {
+        const std::vector<StudyCell> all = options.expected.empty() ? std::vector<StudyCell>() : cells_of(study);
+        std::set<std::string> names;
+        for (const StudyCell& cell : all)
+            names.insert(cell.name);
+        for (const auto& [cell, key] : options.expected)
+            if (!names.contains(cell))
+                throw InputError({{}, 0, 0, "--expect"}, "found cell '" + printable(cell) + "', which the study does not have",
+                                 "a cell that --list names");
         return plan_study(study, options);
     } catch (const std::exception& error) {
         for (const auto& [cell, key] : options.expected)

@@ -116,7 +116,9 @@ TEST_F(HistoryCommand, ANightWithoutReadingsIsComparedWithNothing) {
     write_night(folder_ / "failed", failed);
     printed("history add " + (folder_ / "failed") + flag_);
     EXPECT_THAT(printed("history accept last" + flag_, 2), HasSubstr("in which no cell was played, expected one with readings"));
+    EXPECT_THAT(printed("history add " + (folder_ / "failed") + " --accept" + flag_, 2), HasSubstr("in which no cell was played"));
     printed("history add " + night(1) + flag_);
+    EXPECT_THAT(printed("history explain --fail-on-change" + flag_), AllOf(HasSubstr("The first night"), Not(HasSubstr("compared"))));
     printed("history add " + night(2) + flag_);
     EXPECT_THAT(printed("history explain" + flag_),
                 AllOf(HasSubstr("1 change since the first night, 2026-01-02 "), Not(HasSubstr("cannot be compared"))));

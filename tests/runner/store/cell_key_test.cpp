@@ -67,6 +67,10 @@ TEST_F(CellKey, EveryInputCountsAndSaysWhatItIs) {
     other.seed += 1;
     other.start.s_m += 1.0;
     EXPECT_THAT(told(other), ElementsAre("drive changed: straight.yaml (lamp_sets, route, seed), in its file or set by the study"));
+    CellInputs without_keys = before; // as programs before this one kept them
+    std::erase_if(without_keys, is_key);
+    EXPECT_THAT(input_changes(without_keys, before), IsEmpty());
+    EXPECT_THAT(input_changes(without_keys, inputs(other)), ElementsAre("drive changed: straight.yaml, in its file or set by the study"));
     other.file = "other.yaml";
     EXPECT_THAT(told(other), ElementsAre("drive other.yaml is new", "drive straight.yaml is gone"));
     other = drive;

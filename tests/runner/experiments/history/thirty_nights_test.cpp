@@ -328,6 +328,7 @@ TEST(HistoryCauses, ADriveThatIsPlayedOtherwiseIsOneChange) {
             std::erase_if(cell.inputs, [](const CellInput& input) { return input.kind == InputKind::program; });
             if (i > 0)
                 cell.inputs.push_back({InputKind::lamp, "another.ies", "0"});
+            cell.inputs.push_back({InputKind::drive, "straight.yaml", fmt::format("{}{:031}", i, cell.cell.lamp)});
             for (const char* key : {"lamp_sets", "start"})
                 cell.inputs.push_back({InputKind::drive, std::string("straight.yaml: ") + key, fmt::format("{}{:031}", i, cell.cell.lamp)});
         }
