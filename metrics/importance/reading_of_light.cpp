@@ -105,6 +105,8 @@ ReadingOfLight::Found ReadingOfLight::gradient(const std::vector<Moment>& moment
 }
 
 BeamGradient ReadingOfLight::mean_gradient(const std::vector<Moment>& moments) const {
+    if (std::ranges::any_of(parts_, [](const InMoment& part) { return part.to_go_m > 0.0; }))
+        return {};
     std::vector<const InMoment*> counted;
     for (const InMoment& part : parts_)
         if (figure(part, moments[part.moment]).number())

@@ -46,7 +46,8 @@ class ReadingOfLight {
         BeamGradient gradient;         ///< of the reading; without its lamps where nothing decides it
     };
     Found gradient(const std::vector<Moment>& moments) const;
-    /// Of the mean over the moments whose figure is a number, in place of the reading: what each of them turns on.
+    /// Of the mean over the moments whose figure is a number, in place of the reading: what each of them turns on. Nothing of an approach,
+    /// whose moments are at all distances.
     BeamGradient mean_gradient(const std::vector<Moment>& moments) const;
 
   private:
