@@ -5,36 +5,30 @@
 
 namespace fernlicht {
 
+double ReadingOfLight::Sample::column_lx(const Moment& moment, std::size_t side) const {
+    const double near = light_lx(moment, places[side]);
+    return along == 0.0 ? near : between_samples(near, light_lx(moment, places[side + 2]), along);
+}
+
 double ReadingOfLight::Sample::lx(const Moment& moment) const {
-    const auto column = [&](std::size_t side) {
-        const double near = light_lx(moment, places[side]);
-        return along == 0.0 ? near : between_samples(near, light_lx(moment, places[side + 2]), along);
-    };
-    return across == 0.0 ? column(0) : between_samples(column(0), column(1), across);
+    return across == 0.0 ? column_lx(moment, 0) : between_samples(column_lx(moment, 0), column_lx(moment, 1), across);
 }
 
 void ReadingOfLight::Sample::add_gradient(BeamGradient& gradient, const Moment& moment, double per_lx) const {
     const auto add_column = [&](std::size_t side, double per_column_lx) {
-        if (along == 0.0) {
-            fernlicht::add_gradient(gradient, moment, places[side], per_column_lx);
-            return;
+        std::pair shares(1.0, 0.0);
+        if (along > 0.0) {
+            shares = between_samples_shares(light_lx(moment, places[side]), light_lx(moment, places[side + 2]), along);
+            fernlicht::add_gradient(gradient, moment, places[side + 2], per_column_lx * shares.second);
         }
-        const auto [near, far] = between_samples_shares(light_lx(moment, places[side]), light_lx(moment, places[side + 2]), along);
-        fernlicht::add_gradient(gradient, moment, places[side], per_column_lx * near);
-        fernlicht::add_gradient(gradient, moment, places[side + 2], per_column_lx * far);
+        fernlicht::add_gradient(gradient, moment, places[side], per_column_lx * shares.first);
     };
-    if (across == 0.0) {
-        add_column(0, per_lx);
-        return;
+    std::pair shares(1.0, 0.0);
+    if (across > 0.0) {
+        shares = between_samples_shares(column_lx(moment, 0), column_lx(moment, 1), across);
+        add_column(1, per_lx * shares.second);
     }
-    Sample first = *this, second = *this;
-    first.across = 0.0;
-    second.across = 0.0;
-    std::swap(second.places[0], second.places[1]);
-    std::swap(second.places[2], second.places[3]);
-    const auto [right, left] = between_samples_shares(first.lx(moment), second.lx(moment), across);
-    add_column(0, per_lx * right);
-    add_column(1, per_lx * left);
+    add_column(0, per_lx * shares.first);
 }
 
 std::vector<LineSample> ReadingOfLight::line(const InMoment& part, const Moment& moment) const {

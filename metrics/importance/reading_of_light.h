@@ -12,7 +12,6 @@
 #include "scenarios/light/light_gradient.h"
 #include "scenarios/roads/route.h"
 
-#include <array>
 #include <functional>
 
 namespace fernlicht {
@@ -55,8 +54,9 @@ class ReadingOfLight {
     struct Sample {
         double at_m = 0.0;
         bool there = true;
-        std::array<LightPlace, 4> places = {}; ///< near right, near left, far right, far left
-        double across = 0.0, along = 0.0;      ///< share of the way; 0: the first is all
+        std::vector<LightPlace> places = {}; ///< near right, near left, far right, far left, as far as they count
+        double across = 0.0, along = 0.0;    ///< share of the way; 0: the first is all
+        double column_lx(const Moment& moment, std::size_t side) const;
         double lx(const Moment& moment) const;
         void add_gradient(BeamGradient& gradient, const Moment& moment, double per_lx) const;
     };

@@ -116,7 +116,7 @@ ReadingOfLight::ReadingOfLight(const ReadingKey& key, const Drive& drive, const 
 
 void ReadingOfLight::add_place(std::size_t moment, double to_go_m, LightPlace place) {
     InMoment& part = parts_.emplace_back(InMoment{moment, to_go_m});
-    part.samples.emplace_back().places[0] = std::move(place);
+    part.samples.emplace_back().places.push_back(std::move(place));
 }
 
 void ReadingOfLight::add_lines(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments) {
@@ -142,8 +142,11 @@ void ReadingOfLight::add_lines(const ReadingKey& key, const Drive& drive, const 
             Sample one{at_m};
             one.across = (offset_m - grid.offset_m[left - 1]) / (grid.offset_m[left] - grid.offset_m[left - 1]);
             one.along = along;
-            const std::size_t far = along == 0.0 ? row : row + 1;
-            one.places = {place(row, left - 1), place(row, left), place(far, left - 1), place(far, left)};
+            one.places = {place(row, left - 1)};
+            if (one.across > 0.0 || along > 0.0)
+                one.places.push_back(place(row, left));
+            if (along > 0.0)
+                one.places.insert(one.places.end(), {place(row + 1, left - 1), place(row + 1, left)});
             return one;
         };
         const auto strip = std::ranges::find(grid.strips, key.lane, &LaneStrip::name);

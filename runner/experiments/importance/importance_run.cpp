@@ -68,9 +68,9 @@ ImportanceLamp lamp_of(const LampGradient& gradient) {
     return lamp;
 }
 
-class Spots {
+class SpotSearch {
   public:
-    Spots(const ReadingOfLight& reading, const std::vector<Moment>& moments, ImportanceResult& result)
+    SpotSearch(const ReadingOfLight& reading, const std::vector<Moment>& moments, ImportanceResult& result)
         : reading_(reading), moments_(moments), result_(result) {}
 
     void find() {
@@ -184,7 +184,7 @@ ImportanceResult run_importance(const ImportanceRequest& request) {
     for (const LampGradient& lamp : result.gradient)
         result.lamps.push_back(lamp_of(lamp));
     if (result.decided()) {
-        Spots(reading, moments, result).find();
+        SpotSearch(reading, moments, result).find();
         if (request.check > 0) {
             const std::vector<double> sizes(std::begin(tried_sizes), std::end(tried_sizes));
             const auto tried = try_changes(reading, moments, found, sizes, request.check, request.seed);

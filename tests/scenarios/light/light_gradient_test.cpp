@@ -10,7 +10,7 @@
 namespace fernlicht {
 namespace {
 
-CandelaTable uneven_table(unsigned seed, BetweenSamples rule) {
+CandelaTable drawn_table(unsigned seed, BetweenSamples rule) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> cd(10.0, 5000.0);
     return tests::table_of(
@@ -20,7 +20,7 @@ CandelaTable uneven_table(unsigned seed, BetweenSamples rule) {
 TEST(SampleWeights, AreTheDerivativesOfIntensityByEachSample) {
     for (const BetweenSamples rule : {BetweenSamples::linear_cd, BetweenSamples::log_cd})
         for (const auto& [h, v] : {std::pair(-7.3, -1.7), {0.1, 0.3}, {-40.0, -9.0}, {30.0, 5.0}, {2.2, 4.9}}) {
-            const CandelaTable table = uneven_table(3, rule);
+            const CandelaTable table = drawn_table(3, rule);
             const auto weights = sample_weights(table, h, v);
             ASSERT_TRUE(weights);
             std::vector<double> by_sample(table.cd.size());
@@ -38,7 +38,7 @@ TEST(SampleWeights, AreTheDerivativesOfIntensityByEachSample) {
 }
 
 TEST(SampleWeights, AreNoneWhereThereIsNoDataAndBilinearInADarkCell) {
-    CandelaTable table = uneven_table(4, BetweenSamples::log_cd);
+    CandelaTable table = drawn_table(4, BetweenSamples::log_cd);
     EXPECT_FALSE(sample_weights(table, 31.0, 0.0));
     table.gaps.assign((table.h_deg.size() - 1) * (table.v_deg.size() - 1), 0);
     table.gaps[0] = 1;
@@ -53,12 +53,12 @@ TEST(SampleWeights, AreNoneWhereThereIsNoDataAndBilinearInADarkCell) {
 /// Two lamps with one file and a third with another, in fog.
 Moment three_lamps() {
     Moment moment;
-    const auto low = tests::file_of(uneven_table(5, BetweenSamples::linear_cd));
+    const auto low = tests::file_of(drawn_table(5, BetweenSamples::linear_cd));
     moment.lamps.push_back({.name = "left", .file = low, .pose = {{0.0, 0.6, 0.65}, axes_from_angles(0.01, -0.02, 0.005)}});
     moment.lamps.push_back(
         {.name = "right", .file = low, .pose = {{0.0, -0.6, 0.65}, axes_from_angles(-0.02, -0.01, 0.0)}, .intensity_factor = 0.8});
     moment.lamps.push_back({.name = "high",
-                            .file = tests::file_of(uneven_table(6, BetweenSamples::log_cd)),
+                            .file = tests::file_of(drawn_table(6, BetweenSamples::log_cd)),
                             .pose = {{0.1, 0.4, 0.7}, glm::dmat3(1.0)},
                             .intensity_factor = 0.3});
     moment.weather.extinction_per_m = 0.004;
