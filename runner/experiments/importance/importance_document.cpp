@@ -12,7 +12,7 @@ namespace {
 
 std::string value_text(const ImportanceResult& result) {
     if (!result.value.measured())
-        return "not measured: " + result.value.reason();
+        return "not measured: " + result.why_not;
     return fmt::format("{} {}", with_bound(result.value, four_digits(*result.value.figure())), unit_of(result.reading));
 }
 

@@ -57,7 +57,7 @@ JsonMembers importance_members(ImportanceResult& result) {
             {"reading", result.reading},
             {"unit", std::string(unit_of(result.reading))},
             {"value", result.value},
-            {"why_not_measured", or_null(result.value.reason())},
+            {"why_not_measured", or_null(result.why_not)},
             {"first_tick", result.first_tick},
             {"moments", result.moments},
             {"deciders", result.deciders, decider_members},

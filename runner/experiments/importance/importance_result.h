@@ -49,7 +49,8 @@ struct ImportanceCheck {
 struct ImportanceResult : Findings {
     std::string drive, title, lamp_set;
     ReadingKey reading;
-    Value value; ///< by the twin
+    Value value;         ///< by the twin
+    std::string why_not; ///< why it is not measured; "" where it is
     int first_tick = 0, moments = 0;
     double spot_deg = 0.5, spot_cd = 1000.0;
     std::vector<ImportanceMoment> deciders;

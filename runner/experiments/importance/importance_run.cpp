@@ -175,6 +175,7 @@ ImportanceResult run_importance(const ImportanceRequest& request) {
     result.lamp_set = lamp_set.name;
     ReadingOfLight::Found found = reading.gradient(moments);
     result.value = found.value;
+    result.why_not = found.value.reason();
     for (const ReadingOfLight::Decider& one : found.deciders) {
         const Moment& moment = moments[one.moment];
         result.deciders.push_back({moment.tick, moment.time_s, moment.distance_m, one.share, one.figure});
