@@ -22,12 +22,13 @@ Cell signed_cell(double value) {
 }
 
 /// The isocandela lines of a beam over what a spot of light in it changes.
-plots::Figure spot_figure(const ImportanceResult& result, const ImportanceSpot& spot, const SpotMap& map, const std::string& title) {
+plots::Figure spot_figure(const ImportanceResult& result, const ImportanceMap& beam, const SpotMap& map, const std::string& title) {
     plots::Figure figure;
     figure.title = title;
     figure.subtitle =
-        fmt::format("{}: what 1000 cd more in a round spot, {:g}° wide at half its height, change of {} there; lines: lux at 25 m",
-                    fmt::join(spot.lamps, ", "), result.spot_deg, name_of(result.reading));
+        fmt::format("{}: what 1000 cd more change, in a round spot about each direction, {:g}° wide at half its height; lines: "
+                    "lux at 25 m as it is",
+                    fmt::join(beam.lamps, ", "), result.spot_deg);
     figure.width_px = 1040.0;
     const double step_deg = map.h_deg[1] - map.h_deg[0], row_deg = map.v_deg[1] - map.v_deg[0];
     const plots::AngleWindow window{map.h_deg.front() - 0.5 * step_deg, map.h_deg.back() + 0.5 * step_deg,
@@ -35,25 +36,22 @@ plots::Figure spot_figure(const ImportanceResult& result, const ImportanceSpot& 
     figure.x = {"H, right positive", "°", window.left_deg, window.right_deg};
     figure.y = {"V, up positive", "°", window.bottom_deg, window.top_deg};
     plots::fit_height(figure, window);
+    const Image<float> values = image_of_map(map);
     double most = 0.0;
-    for (const double per_cd : map.per_cd)
-        most = std::max(most, 1000.0 * std::abs(per_cd));
-    const double end = rounded_up(most > 0.0 ? most : 1.0);
+    for (const float value : values.pixels())
+        most = std::max(most, std::abs(static_cast<double>(value)));
+    const double end = most > 0.0 ? most : 1.0;
     figure.colour_bar = plots::ColourBar{{"change for 1000 cd", unit_of(result.reading), -end, end}, true};
-    Image<float> values(static_cast<int>(map.h_deg.size()), static_cast<int>(map.v_deg.size()));
-    for (std::size_t v = 0; v < map.v_deg.size(); ++v)
-        for (std::size_t h = 0; h < map.h_deg.size(); ++h)
-            values.at(static_cast<int>(h), static_cast<int>(map.v_deg.size() - 1 - v)) = static_cast<float>(1000.0 * map.at(v, h));
     figure.rasters.push_back(
         {plots::difference_map(values, figure.colour_bar->axis), window.left_deg, window.right_deg, window.top_deg, window.bottom_deg});
-    const CandelaTable& table = spot.lamp_file->table;
-    const plots::Grid lux = plots::lux_over(table, window);
-    for (const double level : plots::isocandela_levels_lx(peak_of(table).cd))
+    const plots::Grid lux = plots::lux_over(beam.file->table, window);
+    for (const double level : plots::isocandela_levels_lx(peak_of(beam.file->table).cd))
         figure.isolines.push_back({plots::number(level) + " lx", plots::isolines(lux, level), {120, 120, 120}, 1.0});
     figure.marks.push_back({plots::Mark::Across::at_x, 0.0, "V-V"});
     figure.marks.push_back({plots::Mark::Across::at_y, 0.0, "H-H"});
-    if (&map == &spot.map)
-        figure.notes.push_back({spot.h_deg, spot.v_deg, "", {20, 20, 20}, true});
+    for (const ImportanceSpot& spot : result.spots)
+        if (&map == &beam.of_reading && spot.lamps == beam.lamps)
+            figure.notes.push_back({spot.h_deg, spot.v_deg, "", {20, 20, 20}, true});
     return figure;
 }
 
@@ -117,7 +115,8 @@ Table check_table(const ImportanceResult& result) {
         fmt::format("The tables of all lamps changed at random and smoothly, by at most so much, and the drive read again: {} changes "
                     "of each size, root mean square",
                     result.checks.front().count),
-        columns_of(fmt::format("size [%]|change found [{0}]|foretold less found [{0}]|of that [%]|worst [{0}]", unit_of(result.reading))),
+        columns_of(
+            fmt::format("size [%]|change found [{0}]|foretold less found [{0}]|as a share of it [%]|worst [{0}]", unit_of(result.reading))),
         {}};
     for (const ImportanceCheck& check : result.checks)
         table.rows.push_back({{plots::number(100.0 * check.size), 100.0 * check.size},
@@ -147,6 +146,14 @@ std::vector<std::string> sentences_of(const ImportanceResult& result) {
 
 } // namespace
 
+Image<float> image_of_map(const SpotMap& map) {
+    Image<float> image(static_cast<int>(map.h_deg.size()), static_cast<int>(map.v_deg.size()));
+    for (std::size_t v = 0; v < map.v_deg.size(); ++v)
+        for (std::size_t h = 0; h < map.h_deg.size(); ++h)
+            image.at(static_cast<int>(h), static_cast<int>(map.v_deg.size() - 1 - v)) = static_cast<float>(1000.0 * map.at(v, h));
+    return image;
+}
+
 Document document(const ImportanceResult& result) {
     Document document{"Where in the beam it matters", {}};
     Section& top = document.sections.emplace_back(Section{result.title + ", " + result.lamp_set, {}});
@@ -161,14 +168,14 @@ Document document(const ImportanceResult& result) {
     top.blocks.emplace_back(spot_table(result));
     top.blocks.emplace_back(Listing(sentences_of(result)));
     Section& more = document.sections.emplace_back();
-    for (std::size_t i = 0; i < result.spots.size(); ++i) {
-        const ImportanceSpot& spot = result.spots[i];
-        const std::string suffix = result.spots.size() > 1 ? fmt::format("-{}", i + 1) : "";
+    for (std::size_t i = 0; i < result.maps.size(); ++i) {
+        const ImportanceMap& map = result.maps[i];
+        const std::string suffix = result.maps.size() > 1 ? fmt::format("-{}", i + 1) : "";
         more.blocks.emplace_back(
-            Plot{"importance" + suffix, spot_figure(result, spot, spot.map, "What decides " + name_of(result.reading))});
+            Plot{"importance" + suffix, spot_figure(result, map, map.of_reading, "What decides " + name_of(result.reading))});
         if (!result.mean_gradient.empty() && result.moments > 1)
             more.blocks.emplace_back(
-                Plot{"importance-mean" + suffix, spot_figure(result, spot, spot.mean_map, "The same of the mean over all moments")});
+                Plot{"importance-mean" + suffix, spot_figure(result, map, map.of_mean, "The same of the mean over all moments")});
     }
     more.blocks.emplace_back(lamp_table(result));
     more.blocks.emplace_back(decider_table(result));

@@ -36,15 +36,6 @@ JsonMembers check_members(ImportanceCheck& check) {
 /// For programs that read a lamp's table beside it.
 std::string unit_per_cd(const ImportanceResult& result) { return fmt::format("{}/cd", unit_of(result.reading)); }
 
-/// Rows from the top.
-Image<float> image_of(const SpotMap& map) {
-    Image<float> image(static_cast<int>(map.h_deg.size()), static_cast<int>(map.v_deg.size()));
-    for (std::size_t v = 0; v < map.v_deg.size(); ++v)
-        for (std::size_t h = 0; h < map.h_deg.size(); ++h)
-            image.at(static_cast<int>(h), static_cast<int>(map.v_deg.size() - 1 - v)) = static_cast<float>(1000.0 * map.at(v, h));
-    return image;
-}
-
 } // namespace
 
 JsonMembers importance_members(ImportanceResult& result) {
@@ -99,18 +90,18 @@ std::string importance_csv(const ImportanceResult& result) {
 }
 
 std::string importance_exr(const ImportanceResult& result) {
-    if (result.spots.empty())
+    if (result.maps.empty())
         return "";
     std::vector<std::pair<std::string, Image<float>>> channels;
-    for (const ImportanceSpot& spot : result.spots) {
-        channels.emplace_back(fmt::format("{}.value", fmt::join(spot.lamps, "+")), image_of(spot.map));
+    for (const ImportanceMap& map : result.maps) {
+        channels.emplace_back(fmt::format("{}.value", fmt::join(map.lamps, "+")), image_of_map(map.of_reading));
         if (!result.mean_gradient.empty())
-            channels.emplace_back(fmt::format("{}.mean", fmt::join(spot.lamps, "+")), image_of(spot.mean_map));
+            channels.emplace_back(fmt::format("{}.mean", fmt::join(map.lamps, "+")), image_of_map(map.of_mean));
     }
     std::vector<std::pair<std::string, const Image<float>*>> images;
     for (const auto& [name, image] : channels)
         images.emplace_back(name, &image);
-    const SpotMap& map = result.spots.front().map;
+    const SpotMap& map = result.maps.front().of_reading;
     const std::map<std::string, ExrAttribute> attributes{
         {"fernlicht:reading", name_of(result.reading)},
         {"fernlicht:unit", fmt::format("{} for 1000 cd more in a round spot, {:g} degrees wide at half its height", unit_of(result.reading),

@@ -23,16 +23,21 @@ struct ImportanceLamp {
     std::size_t samples = 0;                       ///< whose derivative is not 0
 };
 
-/// Of all lamps with one file: what a round spot of light changes, added to it.
+/// What a round spot of light changes, added to all lamps that have this file: a place where it changes much.
 struct ImportanceSpot {
     std::vector<std::string> lamps;
     std::string file;
-    double h_deg = 0.0, v_deg = 0.0;           ///< where it changes most
-    double cd_there = 0.0;                     ///< of the table
-    double foretold = 0.0;                     ///< by the gradient, of a spot of spot_cd there
-    Value found;                               ///< of the drive with such a spot
-    std::shared_ptr<const LampFile> lamp_file; ///< not in JSON, nor are the maps
-    SpotMap map, mean_map;                     ///< of the reading, and of the mean over the moments
+    double h_deg = 0.0, v_deg = 0.0;
+    double cd_there = 0.0; ///< of the table
+    double foretold = 0.0; ///< by the gradient, of a spot of spot_cd there
+    Value found;           ///< of the drive with such a spot
+};
+
+/// The same over the beam.
+struct ImportanceMap {
+    std::vector<std::string> lamps;
+    std::shared_ptr<const LampFile> file;
+    SpotMap of_reading, of_mean; ///< of the mean over the moments
 };
 
 /// Smooth random changes of one size.
@@ -55,7 +60,8 @@ struct ImportanceResult : Findings {
     double spot_deg = 0.5, spot_cd = 1000.0;
     std::vector<ImportanceMoment> deciders;
     std::vector<ImportanceLamp> lamps;
-    std::vector<ImportanceSpot> spots;
+    std::vector<ImportanceSpot> spots;    ///< of each file those that change most, the largest first
+    std::vector<ImportanceMap> maps;      ///< by file; not in JSON
     std::vector<ImportanceCheck> checks;  ///< by size, smallest first
     BeamGradient gradient, mean_gradient; ///< not in JSON
     bool decided() const { return !gradient.empty(); }
@@ -73,7 +79,9 @@ Document document(const ImportanceResult& result);
 JsonMembers importance_members(ImportanceResult& result); ///< of importance.json
 /// Each sample of a lamp's table that the reading, or the mean over the moments, turns on, a line each.
 std::string importance_csv(const ImportanceResult& result);
-/// The maps of all spots as float channels, per 1000 cd; "" where there are none.
+/// What 1000 cd more in a spot change; rows from the top.
+Image<float> image_of_map(const SpotMap& map);
+/// All maps as float channels, per 1000 cd; "" where there are none.
 std::string importance_exr(const ImportanceResult& result);
 
 } // namespace fernlicht

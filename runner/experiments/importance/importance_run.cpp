@@ -76,48 +76,61 @@ class SpotSearch {
     void find() {
         const Window window = window_of(result_.gradient, result_.mean_gradient);
         const double step_deg = std::max(0.05, (window.right_deg - window.left_deg) / 800.0);
-        h_deg_ = even_axis(window.left_deg, window.right_deg, step_deg);
-        v_deg_ = even_axis(window.bottom_deg, window.top_deg, step_deg);
+        const std::vector<double> h_deg = even_axis(window.left_deg, window.right_deg, step_deg),
+                                  v_deg = even_axis(window.bottom_deg, window.top_deg, step_deg);
         for (const BeamGradient* const gradient : {&result_.gradient, &result_.mean_gradient})
             for (const LampGradient& one : *gradient) {
-                const auto known = std::ranges::find(result_.spots, one.file, &ImportanceSpot::lamp_file);
-                ImportanceSpot& spot = known != result_.spots.end() ? *known : result_.spots.emplace_back(new_spot(one.file));
-                if (std::ranges::find(spot.lamps, one.lamp) == spot.lamps.end())
-                    spot.lamps.push_back(one.lamp);
+                auto map = std::ranges::find(result_.maps, one.file, &ImportanceMap::file);
+                if (map == result_.maps.end()) {
+                    result_.maps.push_back({{},
+                                            one.file,
+                                            spot_map(result_.gradient, *one.file, h_deg, v_deg, result_.spot_deg),
+                                            spot_map(result_.mean_gradient, *one.file, h_deg, v_deg, result_.spot_deg)});
+                    map = result_.maps.end() - 1;
+                }
+                if (std::ranges::find(map->lamps, one.lamp) == map->lamps.end())
+                    map->lamps.push_back(one.lamp);
             }
-        for (ImportanceSpot& spot : result_.spots)
-            try_best(spot);
+        for (const ImportanceMap& map : result_.maps)
+            try_best(map);
     }
 
   private:
-    ImportanceSpot new_spot(const std::shared_ptr<const LampFile>& file) const {
-        ImportanceSpot spot;
-        spot.file = file->name;
-        spot.lamp_file = file;
-        spot.map = spot_map(result_.gradient, *file, h_deg_, v_deg_, result_.spot_deg);
-        spot.mean_map = spot_map(result_.mean_gradient, *file, h_deg_, v_deg_, result_.spot_deg);
-        return spot;
+    /// Where it matters most, clear of one another, and what the drive reads with a spot there.
+    void try_best(const ImportanceMap& map) {
+        constexpr std::size_t most_spots = 3;
+        constexpr double worth_telling = 0.25; // of the best
+        const std::size_t first = result_.spots.size();
+        std::vector<double> left = map.of_reading.per_cd;
+        double best = 0.0;
+        while (result_.spots.size() < first + most_spots) {
+            const auto most = std::ranges::max_element(left, {}, [](double value) { return std::abs(value); });
+            best = std::max(best, std::abs(*most));
+            if (!(std::abs(*most) > worth_telling * best))
+                return;
+            const auto at = static_cast<std::size_t>(most - left.begin());
+            const std::vector<double>&h_deg = map.of_reading.h_deg, &v_deg = map.of_reading.v_deg;
+            const BeamSpot spot{h_deg[at % h_deg.size()], v_deg[at / h_deg.size()], result_.spot_deg};
+            try_spot(map, spot);
+            for (std::size_t i = 0; i < left.size(); ++i)
+                if (spot.at(h_deg[i % h_deg.size()], v_deg[i / h_deg.size()]) > 0.0)
+                    left[i] = 0.0;
+        }
     }
 
-    /// Where it matters most, and what the drive reads with a spot there.
-    void try_best(ImportanceSpot& spot) const {
-        const auto most = std::ranges::max_element(spot.map.per_cd, {}, [](double value) { return std::abs(value); });
-        const auto at = static_cast<std::size_t>(most - spot.map.per_cd.begin());
-        const BeamSpot there{h_deg_[at % h_deg_.size()], v_deg_[at / h_deg_.size()], result_.spot_deg};
-        spot.h_deg = there.h_deg;
-        spot.v_deg = there.v_deg;
-        spot.cd_there = intensity_cd(spot.lamp_file->table, there.h_deg, there.v_deg);
+    void try_spot(const ImportanceMap& map, const BeamSpot& spot) {
         ChangedTables tables;
         for (const LampGradient& one : result_.gradient)
-            tables.push_back(one.file == spot.lamp_file ? with_spot(one.file->table, there, result_.spot_cd) : one.file->table);
-        spot.foretold = foretold_change(result_.gradient, tables);
-        spot.found = difference(reading_.value(with_tables(moments_, result_.gradient, tables)), result_.value, unit_of(result_.reading));
+            tables.push_back(one.file == map.file ? with_spot(one.file->table, spot, result_.spot_cd) : one.file->table);
+        result_.spots.push_back(
+            {map.lamps, map.file->name, spot.h_deg, spot.v_deg, intensity_cd(map.file->table, spot.h_deg, spot.v_deg),
+             foretold_change(result_.gradient, tables),
+             difference(reading_.value(with_tables(moments_, result_.gradient, tables)), result_.value, unit_of(result_.reading))});
     }
 
     const ReadingOfLight& reading_;
     const std::vector<Moment>& moments_;
     ImportanceResult& result_;
-    std::vector<double> h_deg_, v_deg_;
 };
 
 ImportanceCheck checked(double size, const std::vector<ForetoldChange>& changes) {

@@ -21,7 +21,8 @@ TEST(ImportanceCommand, SaysWhereAReachIsDecidedAndThatTheGradientHolds) {
     EXPECT_NEAR(found.at("value"), 45.4, 0.2); // of the README
     EXPECT_TRUE(found.at("agrees"));
     EXPECT_GE(found.at("linear_to"), 0.01);
-    ASSERT_EQ(found.at("spots").size(), 1U);
+    ASSERT_EQ(found.at("spots").size(), 2U); // each lamp meets the target from its own side, and both have one file
+    EXPECT_LT(found.at("spots")[0].at("h_deg").get<double>() * found.at("spots")[1].at("h_deg").get<double>(), 0.0);
     const json& spot = found.at("spots")[0];
     EXPECT_EQ(spot.at("lamps").size(), 2U);
     EXPECT_GT(spot.at("foretold"), 0.0);
