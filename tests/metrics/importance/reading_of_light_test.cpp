@@ -35,7 +35,7 @@ struct PlayedDrive {
     }
 };
 
-ReadingKey key(const std::string& name) { return key_of(name).value(); }
+ReadingKey named_reading(const std::string& name) { return key_of(name).value(); }
 
 /// The samples that matter most, by central differences of the whole reading, others with them changed in nothing.
 void expect_gradient(const ReadingOfLight& reading, const std::vector<Moment>& moments, const std::string& what, std::size_t most = 6) {
@@ -88,8 +88,8 @@ Value extent_by_grid(const PlayedDrive& played, const ReadingKey& reading, doubl
 }
 
 void expect_extent(const PlayedDrive& played, const std::string& name, double LaneExtent::*member = &LaneExtent::reach_centre_m) {
-    const ReadingOfLight reading(key(name), played.drive, played.route, played.moments);
-    const Value by_grid = extent_by_grid(played, key(name), member);
+    const ReadingOfLight reading(named_reading(name), played.drive, played.route, played.moments);
+    const Value by_grid = extent_by_grid(played, named_reading(name), member);
     ASSERT_TRUE(by_grid.number()) << name;
     EXPECT_NEAR(reading.value(played.moments).number().value(), *by_grid.number(), 1e-9) << name;
     expect_gradient(reading, played.moments, name);
@@ -115,7 +115,7 @@ TEST(ReadingOfLight, IsDecidedByTheMomentsOfItsStatistic) {
                              "width_3lx_road_all_at_20m_m"})
         expect_extent(played, name);
     const auto deciders = [&](const char* name) {
-        return ReadingOfLight(key(name), played.drive, played.route, played.moments).gradient(played.moments).deciders;
+        return ReadingOfLight(named_reading(name), played.drive, played.route, played.moments).gradient(played.moments).deciders;
     };
     EXPECT_EQ(deciders("reach_3lx_target_own_m").size(), 1U);
     EXPECT_EQ(deciders("reach_3lx_target_own_min_m").size(), 1U);
@@ -166,7 +166,7 @@ TEST(ReadingOfLight, FollowsEverySensorEyeMirrorAndKerbAsTheirFoldsDo) {
 TEST(ReadingOfLight, RefusesWhatItCannotTell) {
     const PlayedDrive played("straight.yaml", "xenon", 100);
     const auto refusal = [&](const std::string& name) {
-        return tests::refusal_of([&] { ReadingOfLight(key(name), played.drive, played.route, played.moments); });
+        return tests::refusal_of([&] { ReadingOfLight(named_reading(name), played.drive, played.route, played.moments); });
     };
     EXPECT_THAT(refusal("area_3lx_road_own_m2"), HasSubstr("reach_*_m and width_*_m"));
     EXPECT_THAT(refusal("reach_5lx_target_own_grid_error_m"), HasSubstr("reach_*_m and width_*_m"));
@@ -178,7 +178,7 @@ TEST(ReadingOfLight, RefusesWhatItCannotTell) {
 TEST(ForetoldChange, AgreesWithWhatAHundredChangedLampsRead) {
     const PlayedDrive played("s-bend.yaml", "xenon", 110);
     for (const char* name : {"reach_5lx_target_own_m", "width_3lx_road_all_at_20m_m"}) {
-        const ReadingOfLight reading(key(name), played.drive, played.route, played.moments);
+        const ReadingOfLight reading(named_reading(name), played.drive, played.route, played.moments);
         const std::vector<double> sizes{1e-4, 1e-3};
         const auto tried = try_changes(reading, played.moments, reading.gradient(played.moments), sizes, 100, 1);
         for (std::size_t size = 0; size < sizes.size(); ++size) {
@@ -195,7 +195,7 @@ TEST(ForetoldChange, AgreesWithWhatAHundredChangedLampsRead) {
 
 TEST(SpotMap, SaysWhatASpotOfLightChanges) {
     const PlayedDrive played("straight.yaml", "halogen", 1, 20, 21);
-    const ReadingOfLight reading(key("reach_5lx_target_own_m"), played.drive, played.route, played.moments);
+    const ReadingOfLight reading(named_reading("reach_5lx_target_own_m"), played.drive, played.route, played.moments);
     const ReadingOfLight::Found found = reading.gradient(played.moments);
     const LampFile& file = *found.gradient.front().file;
     const SpotMap map = spot_map(found.gradient, file, tests::steps(-3.0, 3.0, 0.1), tests::steps(-2.0, 1.0, 0.1), 0.5);
