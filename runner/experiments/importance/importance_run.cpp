@@ -98,7 +98,7 @@ class SpotSearch {
   private:
     /// Where it matters most, clear of one another, and what the drive reads with a spot there.
     void try_best(const ImportanceMap& map) {
-        constexpr std::size_t most_spots = 3;
+        constexpr std::size_t most_spots = 4;  // two ends of a width, by two lamps
         constexpr double worth_telling = 0.25; // of the best
         const std::size_t first = result_.spots.size();
         std::vector<double> left = map.of_reading.per_cd;
