@@ -112,7 +112,7 @@ TEST(ReadingOfLight, IsDecidedByTheMomentsOfItsStatistic) {
     const PlayedDrive played("s-bend.yaml", "halogen", 60);
     ASSERT_EQ(played.moments.size() % 2, 1U);
     for (const char* name : {"reach_3lx_target_own_m", "reach_3lx_target_own_min_m", "reach_3lx_target_own_p05_m", "reach_3lx_road_own_m",
-                             "width_3lx_road_all_at_20m_m"})
+                             "width_1lx_road_all_at_20m_m"})
         expect_extent(played, name);
     const auto deciders = [&](const char* name) {
         return ReadingOfLight(named_reading(name), played.drive, played.route, played.moments).gradient(played.moments).deciders;

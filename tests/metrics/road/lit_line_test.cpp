@@ -88,7 +88,7 @@ TEST(LitLine, MovesItsEndsWithItsSamplesAsTheSlopeSays) {
         expect_shares(
             line, shares.lit, 1e-5, &LineSample::lx, [](const auto& of) { return lit_line(of, 5.0).lit_m; }, what + ", lit");
     }
-    EXPECT_GT(moved, 25);
+    EXPECT_GT(moved, 10); // many lines end lit, or in the dark
 }
 
 /// 10 m/s from 40 m away to the place: 1, 2, 8, 2, 0 lx.
