@@ -12,21 +12,30 @@
 #include <glm/geometric.hpp>
 
 namespace fernlicht {
+
+std::optional<OncomingEye> oncoming_eye(const Route& route, const GlareObserver& observer) {
+    const std::optional<double> left_m = offset_across_m(route.cross_section(observer.at_m), Across::oncoming_centre);
+    if (!left_m)
+        return std::nullopt;
+    const Pose surface = route.pose(observer.at_m, *left_m);
+    OncomingEye eye{surface.position_m + observer.eye_height_m * surface.up(), -surface.forward()};
+    if (observer.look_ahead_m > 0.0) {
+        const Pose ahead = route.pose(std::max(observer.at_m - observer.look_ahead_m, 0.0), *left_m);
+        const glm::dvec3 looked_at = ahead.position_m + observer.eye_height_m * ahead.up();
+        if (glm::distance(looked_at, eye.place_m) > 0.1) // not at the route's very start
+            eye.gaze = glm::normalize(looked_at - eye.place_m);
+    }
+    return eye;
+}
+
 OncomingFold::OncomingFold(const Drive& drive, const Route& route, const Nudge& nudge) : drive_(drive), route_(route), nudge_(nudge) {
     for (const GlareObserver& observer : drive.seeing.glare->oncoming) {
         Eye& eye = eyes_.emplace_back();
-        const std::optional<double> left_m = offset_across_m(route.cross_section(observer.at_m), Across::oncoming_centre);
-        if (!left_m)
+        const std::optional<OncomingEye> found = oncoming_eye(route, observer);
+        if (!found)
             continue;
-        const Pose surface = route.pose(observer.at_m, *left_m);
-        eye.place_m = surface.position_m + observer.eye_height_m * surface.up();
-        eye.gaze = -surface.forward();
-        if (observer.look_ahead_m > 0.0) {
-            const Pose ahead = route.pose(std::max(observer.at_m - observer.look_ahead_m, 0.0), *left_m);
-            const glm::dvec3 looked_at = ahead.position_m + observer.eye_height_m * ahead.up();
-            if (glm::distance(looked_at, *eye.place_m) > 0.1) // not at the route's very start
-                eye.gaze = glm::normalize(looked_at - *eye.place_m);
-        }
+        eye.place_m = found->place_m;
+        eye.gaze = found->gaze;
         eye.driver = oncoming_driver(drive, route, observer.at_m, observer.eye_height_m);
     }
 }

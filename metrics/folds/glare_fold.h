@@ -9,6 +9,12 @@
 
 namespace fernlicht {
 
+/// Where an oncoming driver's eye is and along which unit vector it looks; nullopt where there is no oncoming lane.
+struct OncomingEye {
+    glm::dvec3 place_m{0.0}, gaze{0.0};
+};
+std::optional<OncomingEye> oncoming_eye(const Route& route, const GlareObserver& observer);
+
 class OncomingFold {
   public:
     /// The drive must ask for glare. Drive and route must outlive the fold.

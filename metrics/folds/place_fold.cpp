@@ -13,8 +13,6 @@
 namespace fernlicht {
 namespace {
 
-constexpr double kerb_target_m = 0.25;
-
 /// Where boards stand: beside or over the road, and how high. Places usual on country roads, ours.
 struct BoardPlace {
     ReadingPlace place;

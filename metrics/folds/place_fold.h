@@ -69,6 +69,9 @@ std::optional<double> offset_across_m(const CrossSection& section, Across across
 /// There on the surface, 0 to the route's length along it; nullopt where the road has no such lane.
 std::optional<Pose> place_on_road(const Route& route, Across across, double along_m);
 
+/// How high a target over the kerb stands.
+inline constexpr double kerb_target_m = 0.25;
+
 /// "right edge of the lanes".
 std::string place_name(Across across);
 

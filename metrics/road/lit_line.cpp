@@ -56,6 +56,41 @@ LitLine lit_line(const std::vector<LineSample>& line, double threshold_lx) {
     return result;
 }
 
+std::pair<double, double> between_samples_shares(double a, double b, double share) {
+    if (!(a > 0.0 && b > 0.0))
+        return {1.0 - share, share};
+    const double value = between_samples(a, b, share);
+    return {value * (1.0 - share) / a, value * share / b};
+}
+
+LitLineShares lit_line_shares(const std::vector<LineSample>& line, double threshold_lx) {
+    LitLineShares shares;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const bool begins = i == 0 || !line[i - 1].lx;
+        if (begins && line[i].lx && *line[i].lx >= threshold_lx)
+            shares.last.clear();
+        if (begins || !line[i].lx)
+            continue;
+        const double a = *line[i - 1].lx, b = *line[i].lx, length_m = line[i].at_m - line[i - 1].at_m;
+        if (a < threshold_lx && b < threshold_lx)
+            continue;
+        shares.last.clear(); // lit farther on
+        if (a >= threshold_lx && b >= threshold_lx)
+            continue;
+        const double share = crossing_share(a, b, threshold_lx);
+        const bool logarithmic = a > 0.0 && b > 0.0;
+        const double by_a = (1.0 - share) / (logarithmic ? a * std::log(a / b) : a - b);
+        const double by_b = share / (logarithmic ? b * std::log(a / b) : a - b);
+        const double sign = a > b ? 1.0 : -1.0; // of the lit length: it begins where light rises
+        for (const auto& [index, by] : {std::pair(i - 1, by_a), std::pair(i, by_b)}) {
+            if (a > b)
+                shares.last.push_back({index, length_m * by});
+            shares.lit.push_back({index, sign * length_m * by});
+        }
+    }
+    return shares;
+}
+
 namespace {
 
 const char* const nothing = "no moment of the drive before this place was measured";
@@ -112,6 +147,22 @@ Value value_at(const Approach& approach, double distance_m) {
         fmt::format("the drive comes from {:.1f} m away to {:.1f} m", approach.front().distance_m, approach.back().distance_m));
 }
 
+ValueShares value_at_shares(const Approach& approach, double distance_m) {
+    for (std::size_t i = 0; i < approach.size(); ++i) {
+        if (approach[i].distance_m == distance_m && approach[i].value)
+            return {{i, 1.0}};
+        if (i == 0 || !(approach[i - 1].distance_m > distance_m && approach[i].distance_m < distance_m))
+            continue;
+        const ApproachSample &before = approach[i - 1], &here = approach[i];
+        if (!before.value || !here.value)
+            return {};
+        const auto [by_before, by_here] =
+            between_samples_shares(*before.value, *here.value, (before.distance_m - distance_m) / (before.distance_m - here.distance_m));
+        return {{i - 1, by_before}, {i, by_here}};
+    }
+    return {};
+}
+
 std::string cut_short(const Approach& approach, bool passed) {
     if (passed || approach.empty() || approach.back().distance_m <= near_enough_m)
         return {};
@@ -128,6 +179,15 @@ Value reached_from_m(const Approach& approach, double limit, bool passed) {
     if (line.lit_at_end)
         return Value::at_least(approach.front().distance_m);
     return line.last_m;
+}
+
+ValueShares reached_from_shares(const Approach& approach, double limit) {
+    const std::vector<LineSample> line = by_distance(approach);
+    ValueShares shares = lit_line_shares(line, limit).last;
+    if (!line.empty() && line.front().at_m != approach.front().distance_m) // by_distance() turned it round
+        for (ValueShare& one : shares)
+            one.index = approach.size() - 1 - one.index;
+    return shares;
 }
 
 Stretch at_or_above(const Approach& approach, double limit) {

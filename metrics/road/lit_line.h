@@ -9,6 +9,8 @@
 #include "scenarios/roads/route.h"
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace fernlicht {
 
@@ -39,6 +41,22 @@ inline double crossing_share(double a, double b, double limit) {
     return a > 0.0 && b > 0.0 ? std::log(a / limit) / std::log(a / b) : (a - limit) / (a - b);
 }
 
+/// How a figure answers to one of the values that it follows from.
+struct ValueShare {
+    std::size_t index = 0;
+    double by_value = 0.0; ///< d figure / d value
+};
+using ValueShares = std::vector<ValueShare>;
+
+/// d between_samples() / d a and / d b.
+std::pair<double, double> between_samples_shares(double a, double b, double share);
+/// Of LitLine::last_m and of LitLine::lit_m by the samples of the line, m per lx: where E passes the threshold in s, ds / dE = -1 / (dE /
+/// ds), with the slope that E has between the samples on both sides. Empty for an end that no sample moves, as where the line ends lit.
+struct LitLineShares {
+    ValueShares last, lit;
+};
+LitLineShares lit_line_shares(const std::vector<LineSample>& line, double threshold_lx);
+
 struct ApproachSample {
     double time_s = 0.0;
     double distance_m = 0.0;     ///< still to go, which falls or stays; or gone, which rises or stays
@@ -52,6 +70,9 @@ Value value_at(const Approach& approach, double distance_m);
 /// An approach that comes so near is finished though the place is not passed: a lamp is hardly a point of light from there on.
 inline constexpr double near_enough_m = 10.0;
 
+/// Of that value by the approach's; empty where it is not measured.
+ValueShares value_at_shares(const Approach& approach, double distance_m);
+
 /// With distances to go, of a drive that did not pass the place: "the drive comes from 246.2 m to 210.4 m before it"; "" where it passed,
 /// came within near_enough_m, or no moment was before the place.
 std::string cut_short(const Approach& approach, bool passed);
@@ -59,6 +80,9 @@ std::string cut_short(const Approach& approach, bool passed);
 /// With distances to go: farthest at which the value reaches the limit; 0: nowhere. At least the first moment's distance where it does so
 /// from there on; at most the last one's where it does so nowhere and the approach was cut short.
 Value reached_from_m(const Approach& approach, double limit, bool passed);
+
+/// Of that distance by the approach's values, which are all measured.
+ValueShares reached_from_shares(const Approach& approach, double limit);
 
 /// Seconds and metres of the drive at or above the limit.
 struct Stretch {

@@ -239,6 +239,21 @@ double intensity_cd(const CandelaTable& table, double h_deg, double v_deg) {
     return place_with_data(table, h_deg, v_deg, v, h) ? intensity_at(table, v, h) : 0.0;
 }
 
+std::optional<std::array<SampleWeight, 4>> sample_weights(const CandelaTable& table, double h_deg, double v_deg) {
+    Place v, h;
+    if (!place_with_data(table, h_deg, v_deg, v, h))
+        return std::nullopt;
+    const std::size_t columns = table.h_deg.size(), lower = v.cell * columns + h.cell, upper = lower + columns;
+    std::array<SampleWeight, 4> weights{{{lower, (1.0 - v.fraction) * (1.0 - h.fraction)},
+                                         {lower + 1, (1.0 - v.fraction) * h.fraction},
+                                         {upper, v.fraction * (1.0 - h.fraction)},
+                                         {upper + 1, v.fraction * h.fraction}}};
+    if (table.rule == BetweenSamples::log_cd && !corners(table, v.cell, h.cell).any_zero())
+        for (SampleWeight& one : weights)
+            one.weight *= intensity_at(table, v, h) / table.cd[one.sample];
+    return weights;
+}
+
 IntensityAcross::IntensityAcross(const CandelaTable& table, const std::vector<double>& h_deg) : table_(table), cd_(h_deg.size()) {
     for (const double asked_deg : h_deg) {
         const double h = std::abs(asked_deg) > 180.0 ? std::remainder(asked_deg, 360.0) : asked_deg;

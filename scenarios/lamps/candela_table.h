@@ -2,7 +2,9 @@
 // Systems of angles other than the UN goniometer's, and a table as its file lists it.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +32,16 @@ struct CandelaTable {
 /// that holds a zero.
 double intensity_cd(const CandelaTable& table, double h_deg, double v_deg);
 
-/// The same at all these H, where many V are asked for: places on the axis are looked up once.
+/// How the intensity towards a direction answers to one sample of the table, `sample` an index into CandelaTable::cd.
+struct SampleWeight {
+    std::size_t sample = 0;
+    double weight = 0.0; ///< d intensity / d sample
+};
+/// Of the four samples that intensity_cd() is taken from; nullopt where there is no data. By linear_cd the weights are bilinear and add up
+/// to 1; by log_cd each is that weight times intensity over sample.
+std::optional<std::array<SampleWeight, 4>> sample_weights(const CandelaTable& table, double h_deg, double v_deg);
+
+/// intensity_cd() at all these H, where many V are asked for: places on the axis are looked up once.
 class IntensityAcross {
   public:
     /// The table must outlive it.

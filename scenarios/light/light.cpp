@@ -9,14 +9,19 @@
 
 namespace fernlicht {
 
+std::optional<TwoAngles> angles_from(const LitLamp& lamp, const glm::dvec3& point_m) {
+    const glm::dvec3 w = photometry::lamp_space(point_m - lamp.pose.position_m, -lamp.pose.left(), lamp.pose.up(), lamp.pose.forward());
+    if (w.z <= 0.0)
+        return std::nullopt;
+    const glm::dvec2 angles = photometry::goniometer_angles(w);
+    return TwoAngles{degrees(angles.x), degrees(angles.y)};
+}
+
 double intensity_towards_cd(const LitLamp& lamp, const glm::dvec3& point_m) {
     if (lamp.intensity_factor == 0.0)
         return 0.0;
-    const glm::dvec3 w = photometry::lamp_space(point_m - lamp.pose.position_m, -lamp.pose.left(), lamp.pose.up(), lamp.pose.forward());
-    if (w.z <= 0.0)
-        return 0.0;
-    const glm::dvec2 angles = photometry::goniometer_angles(w);
-    return lamp.intensity_factor * intensity_cd(lamp.file->table, degrees(angles.x), degrees(angles.y));
+    const std::optional<TwoAngles> angles = angles_from(lamp, point_m);
+    return angles ? lamp.intensity_factor * intensity_cd(lamp.file->table, angles->h_deg, angles->v_deg) : 0.0;
 }
 
 double daylight_illuminance_lx(const Daylight& daylight, const glm::dvec3& normal) {

@@ -13,6 +13,9 @@
 
 namespace fernlicht {
 
+/// Where in the lamp's own angles a world point lies; nullopt behind it.
+std::optional<TwoAngles> angles_from(const LitLamp& lamp, const glm::dvec3& point_m);
+
 /// Intensity in cd of the lamp towards a world point; 0 behind, outside its table, or switched off.
 double intensity_towards_cd(const LitLamp& lamp, const glm::dvec3& point_m);
 

@@ -53,8 +53,57 @@ TEST(LitLine, AddsUpWhatIsLitBetweenCrossings) {
     }
 }
 
+/// d figure / d value by central differences, value by value.
+template <class Samples, class Figure> void expect_shares(const Samples& samples, const ValueShares& shares, double step, auto member,
+                                                          const Figure& figure, const std::string& what) {
+    std::vector<double> told(samples.size());
+    for (const ValueShare& one : shares)
+        told[one.index] += one.by_value;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (!(samples[i].*member))
+            continue;
+        Samples more = samples, less = samples;
+        *(more[i].*member) += step * *(samples[i].*member);
+        *(less[i].*member) -= step * *(samples[i].*member);
+        const double found = *(samples[i].*member) > 0.0 ? (figure(more) - figure(less)) / (2.0 * step * *(samples[i].*member)) : told[i];
+        EXPECT_NEAR(told[i], found, 1e-6 * std::max(std::abs(found), 1e-3)) << what << ", sample " << i;
+    }
+}
+
+TEST(LitLine, MovesItsEndsWithItsSamplesAsTheSlopeSays) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> lx(0.1, 12.0), chance(0.0, 1.0);
+    int moved = 0;
+    for (int draw = 0; draw < 50; ++draw) {
+        std::vector<LineSample> line;
+        for (int i = 0; i < 9; ++i) {
+            const double e = chance(random) < 0.1 ? 0.0 : lx(random);
+            line.push_back({0.7 * i, chance(random) < 0.1 ? std::nullopt : std::optional(e)});
+        }
+        const LitLineShares shares = lit_line_shares(line, 5.0);
+        moved += shares.last.empty() ? 0 : 1;
+        const std::string what = "line " + std::to_string(draw);
+        expect_shares(
+            line, shares.last, 1e-5, &LineSample::lx, [](const auto& of) { return lit_line(of, 5.0).last_m; }, what + ", last");
+        expect_shares(
+            line, shares.lit, 1e-5, &LineSample::lx, [](const auto& of) { return lit_line(of, 5.0).lit_m; }, what + ", lit");
+    }
+    EXPECT_GT(moved, 10); // many lines end lit, or in the dark
+}
+
 /// 10 m/s from 40 m away to the place: 1, 2, 8, 2, 0 lx.
 const Approach course{{0.0, 40.0, 1.0}, {1.0, 30.0, 2.0}, {2.0, 20.0, 8.0}, {3.0, 10.0, 2.0}, {4.0, 0.0, 0.0}};
+
+TEST(Approach, TellsWhichValuesAFigureFollowsFrom) {
+    for (const double at_m : {30.0, 26.0, 3.0, 50.0}) {
+        const auto figure = [&](const Approach& of) { return value_at(of, at_m).number().value_or(0.0); };
+        expect_shares(course, value_at_shares(course, at_m), 1e-5, &ApproachSample::value, figure, std::to_string(at_m));
+    }
+    EXPECT_EQ(reached_from_shares(course, 5.0).size(), 2U);
+    expect_shares(
+        course, reached_from_shares(course, 5.0), 1e-5, &ApproachSample::value,
+        [](const Approach& of) { return reached_from_m(of, 5.0, true).number().value(); }, "reached from");
+}
 
 TEST(Approach, RunsStraightInTheLogarithmAndIsReachedFromFarthestAway) {
     EXPECT_DOUBLE_EQ(value_at(course, 30.0).number().value(), 2.0);

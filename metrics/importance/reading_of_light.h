@@ -1,0 +1,96 @@
+// A reading as a function of the light at places, and so of the lamps' candela tables: its value by the twin and its gradient.
+//
+// In a moment: an illuminance is sum of I f / d^2 itself; a reach or a width is where the light along a line passes the threshold
+// (lit_line.h); light between samples runs as it does in measurements. Over the drive: a quantile takes the moments next to it with their
+// weights, an extreme its moment, a figure at a distance the moments on both sides. All of it by the chain rule, in one pass, in double.
+// Aim, control and whatever else may follow from a table stay as they are.
+#pragma once
+
+#include "metrics/readings/readings.h"
+#include "metrics/road/lit_line.h"
+#include "scenarios/drives/drive.h"
+#include "scenarios/light/light_gradient.h"
+#include "scenarios/roads/route.h"
+
+#include <functional>
+
+namespace fernlicht {
+
+/// What readings there are importances of, for people.
+inline constexpr const char* importance_readings = "reach_*_m and width_*_m of a lane on road or target, sensor_*_reach_*_m, sensor_*_lx, "
+                                                   "glare_NAME_facing_*_lx and glare_NAME_eye_*_lx of "
+                                                   "an oncoming driver, kerb_*_lx, mirror_*_lx";
+
+class ReadingOfLight {
+  public:
+    /// Of the twin, over these moments, which are the drive's in their order. Route outlives it. Throws InputError naming --reading for a
+    /// reading that is none of importance_readings, or of what the drive does not ask for.
+    ReadingOfLight(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
+
+    ReadingOfLight(const ReadingOfLight&) = delete;
+    ReadingOfLight& operator=(const ReadingOfLight&) = delete;
+
+    /// One moment's part in the reading.
+    struct Decider {
+        std::size_t moment = 0; ///< among those given
+        double share = 0.0;     ///< d reading / d figure of the moment
+        Value figure;           ///< of the moment: reach, width or illuminance
+    };
+
+    /// With the moments' lamps as they are now: the same moments, perhaps with other tables.
+    Value value(const std::vector<Moment>& moments) const;
+    struct Found {
+        Value value;
+        std::vector<Decider> deciders; ///< by moment; none where the value is not a number
+        BeamGradient gradient;         ///< of the reading; without its lamps where nothing decides it
+    };
+    Found gradient(const std::vector<Moment>& moments) const;
+    /// Of the mean over the moments whose figure is a number, in place of the reading: what each of them turns on. Nothing of an approach,
+    /// whose moments are at all distances.
+    BeamGradient mean_gradient(const std::vector<Moment>& moments) const;
+
+  private:
+    /// Light at a place between up to four points: two across, and the same a row farther on.
+    struct Sample {
+        double at_m = 0.0;
+        bool there = true;
+        std::vector<LightPlace> places = {}; ///< near right, near left, far right, far left, as far as they count
+        double across = 0.0, along = 0.0;    ///< share of the way; 0: the first is all
+        double column_lx(const Moment& moment, std::size_t side) const;
+        double lx(const Moment& moment) const;
+        void add_gradient(BeamGradient& gradient, const Moment& moment, double per_lx) const;
+    };
+    /// What a moment's figure follows from.
+    struct InMoment {
+        std::size_t moment = 0;
+        double to_go_m = 0.0;
+        std::vector<Sample> samples = {}; ///< of a line, or one place
+        bool may_go_on = false;           ///< a line that ends lit says "at least", where it reaches so far:
+        double whole_m = 0.0;             ///< a reach that is cut off nearer is no figure
+    };
+    struct OverMoments {
+        Value value;
+        ValueShares shares; ///< by index into `figures`
+    };
+    using Fold = std::function<OverMoments(const std::vector<Value>& figures)>;
+
+    void add_lines(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
+    void add_place(std::size_t moment, double to_go_m, LightPlace place);
+    void add_sensor(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
+    void add_eye(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
+    void add_kerb(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
+    void add_mirror(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
+    Approach approach(const std::vector<Value>& figures) const;
+    std::vector<LineSample> line(const InMoment& part, const Moment& moment) const;
+    Value figure(const InMoment& part, const Moment& moment) const;
+    std::vector<Value> figures(const std::vector<Moment>& moments) const;
+    void add_gradient_of(BeamGradient& gradient, const InMoment& part, const Moment& moment, double weight) const;
+
+    Quantity quantity_;
+    double threshold_lx_ = 0.0; ///< of reach and width
+    std::vector<InMoment> parts_;
+    bool passed_ = false;
+    Fold over_moments_;
+};
+
+} // namespace fernlicht

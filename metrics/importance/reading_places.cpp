@@ -1,0 +1,321 @@
+// Which light each reading follows from, and which moments decide it.
+#include "metrics/folds/glare_fold.h"
+#include "metrics/folds/place_fold.h"
+#include "metrics/glare/wet_road.h"
+#include "metrics/importance/reading_of_light.h"
+#include "metrics/road/lit_road.h"
+#include "metrics/statistics/statistics.h"
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace fernlicht {
+namespace {
+
+[[noreturn]] void refuse_reading(const ReadingKey& key, const std::string& expected) {
+    throw InputError({{}, 0, 0, "--reading"}, "found '" + name_of(key) + "'", expected);
+}
+
+double share_of_statistic(const ReadingKey& key) {
+    switch (key.statistic) {
+    case Statistic::none:
+    case Statistic::median:
+        return 0.5;
+    case Statistic::minimum:
+        return 0.0;
+    case Statistic::maximum:
+        return 1.0;
+    case Statistic::p05:
+        return 0.05;
+    case Statistic::p95:
+        return 0.95;
+    default:
+        refuse_reading(key, "a median, a quantile or an extreme");
+    }
+}
+
+/// Of quantile_of() by those of the values that are numbers and may count.
+ValueShares quantile_shares(const std::vector<Value>& values, double share, const std::function<bool(std::size_t)>& counts = nullptr) {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (values[i].measured() && (!counts || counts(i)))
+            order.push_back(i);
+    if (order.empty())
+        return {};
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return *values[i].figure(); });
+    const double place = share * static_cast<double>(order.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, order.size() - 1);
+    const double rest = place - static_cast<double>(below);
+    return {{order[below], 1.0 - rest}, {order[above], rest}};
+}
+
+ValueShares largest_shares(const std::vector<Value>& values) {
+    const auto found = std::ranges::max_element(values, {}, [](const Value& value) { return value.number().value_or(-1.0); });
+    return found == values.end() ? ValueShares{} : ValueShares{{static_cast<std::size_t>(found - values.begin()), 1.0}};
+}
+
+/// A quantile of the moments in a range, or the largest figure of it, both ends among them.
+Value value_in_range(const Approach& approach, double near_m, double far_m, const std::optional<double>& share) {
+    const FollowedFigure followed{approach, std::vector<std::string>(approach.size())};
+    const std::string none = "no moment of the drive was measured";
+    return share ? followed.quantile_between(near_m, far_m, *share, none) : followed.extreme_between(near_m, far_m, true, none);
+}
+
+ValueShares shares_in_range(const Approach& approach, const std::vector<Value>& figures, double near_m, double far_m,
+                            const std::optional<double>& share) {
+    const auto within = [&](std::size_t i) { return approach[i].distance_m >= near_m && approach[i].distance_m <= far_m; };
+    if (share)
+        return quantile_shares(figures, *share, within);
+    ValueShares best = quantile_shares(figures, 1.0, within);
+    double most = best.empty() ? -1.0 : *figures[best.front().index].number();
+    for (const double end_m : {far_m, near_m})
+        if (const std::optional<double> lx = value_at(approach, end_m).number(); lx && *lx > most) {
+            most = *lx;
+            best = value_at_shares(approach, end_m);
+        }
+    return best;
+}
+
+/// Of each lamp, whether the road stands before it.
+std::vector<bool> hidden_by_road(const Moment& moment, const Route& route, double to_m, const glm::dvec3& point_m) {
+    const RoadBetween road(route, moment.distance_m, to_m);
+    std::vector<bool> hidden;
+    for (const LitLamp& lamp : moment.lamps)
+        hidden.push_back(lamp.intensity_factor > 0.0 && road.hides(lamp.pose.position_m, point_m));
+    return hidden;
+}
+
+} // namespace
+
+ReadingOfLight::ReadingOfLight(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments)
+    : quantity_(key.quantity) {
+    using enum Quantity;
+    const bool of_eye = (key.quantity == glare_facing || key.quantity == glare_eye) && !key.subject.empty();
+    const bool of_light = key.quantity == sensor_reach || key.quantity == sensor_illuminance || key.quantity == kerb_illuminance ||
+                          key.quantity == mirror_illuminance || of_eye;
+    if (key.aspect != Aspect::value || !(of_light || key.quantity == reach || key.quantity == width))
+        refuse_reading(key, fmt::format("a reading that is light or where light ends: {}", importance_readings));
+    if (of_light && std::ranges::any_of(moments, [](const Moment& moment) { return moment.weather.wetness > 0.0; }))
+        refuse_reading(key, "a dry road: what a wet one mirrors to a place comes from more than one direction of the beam");
+    if (key.quantity == reach || key.quantity == width)
+        add_lines(key, drive, route, moments);
+    else if (of_eye)
+        add_eye(key, drive, route, moments);
+    else if (key.quantity == kerb_illuminance)
+        add_kerb(key, drive, route, moments);
+    else if (key.quantity == mirror_illuminance)
+        add_mirror(key, drive, route, moments);
+    else
+        add_sensor(key, drive, route, moments);
+}
+
+void ReadingOfLight::add_place(std::size_t moment, double to_go_m, LightPlace place) {
+    InMoment& part = parts_.emplace_back(InMoment{moment, to_go_m});
+    part.samples.emplace_back().places.push_back(std::move(place));
+}
+
+void ReadingOfLight::add_lines(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments) {
+    if (!drive.extent)
+        refuse_reading(key, "a drive that measures its extent");
+    const bool all = key.lane == "all";
+    if (all && key.quantity == Quantity::reach && key.place == ReadingPlace::none)
+        refuse_reading(key, "the reach of one lane: of all, another line may reach farthest with every change");
+    const Surface surface = key.surface == ReadingSurface::road ? Surface::road : Surface::target;
+    threshold_lx_ = key.threshold.value;
+    for (std::size_t k = 0; k < moments.size(); ++k) {
+        const ExtentGrid grid = make_extent_grid(route, moments[k], drive.bumper_m, *drive.extent);
+        if (grid.ahead_m.size() < 2 || grid.offset_m.size() < 2)
+            continue;
+        const std::size_t columns = grid.offset_m.size();
+        const auto place = [&](std::size_t row, std::size_t column) {
+            const Pose& pose = grid.surface[row * columns + column];
+            return surface == Surface::road ? LightPlace{pose.position_m, Facing::surface, pose.up()}
+                                            : LightPlace{pose.position_m + grid.target_height_m * pose.up(), Facing::lamps, pose.up()};
+        };
+        const auto sample = [&](double at_m, std::size_t row, double along, double offset_m) {
+            const std::size_t left = column_left_of(grid.offset_m, offset_m);
+            Sample one{at_m};
+            one.across = (offset_m - grid.offset_m[left - 1]) / (grid.offset_m[left] - grid.offset_m[left - 1]);
+            one.along = along;
+            one.places = {place(row, left - 1)};
+            if (one.across > 0.0 || along > 0.0)
+                one.places.push_back(place(row, left));
+            if (along > 0.0)
+                one.places.insert(one.places.end(), {place(row + 1, left - 1), place(row + 1, left)});
+            return one;
+        };
+        const auto strip = std::ranges::find(grid.strips, key.lane, &LaneStrip::name);
+        if (!all && strip == grid.strips.end())
+            continue;
+        const auto span_in = [&](std::size_t row) {
+            return all ? std::optional(LaneSpan{grid.offset_m.back(), grid.offset_m.front()}) : strip->spans[row];
+        };
+        InMoment part{k};
+        if (key.quantity == Quantity::reach) {
+            part.whole_m = drive.extent->ahead_m - drive.extent->cell_m;
+            for (std::size_t row = 0; row < grid.ahead_m.size(); ++row) {
+                const std::optional<LaneSpan> span = span_in(row);
+                if (!span) {
+                    part.samples.push_back({grid.ahead_m[row], false});
+                    continue;
+                }
+                const double offset_m = key.place == ReadingPlace::left_edge    ? span->left_m
+                                        : key.place == ReadingPlace::right_edge ? span->right_m
+                                                                                : 0.5 * (span->left_m + span->right_m);
+                part.samples.push_back(sample(grid.ahead_m[row], row, 0.0, offset_m));
+            }
+        } else {
+            const double at_m = *key.distance_m;
+            if (at_m > grid.ahead_m.back())
+                continue;
+            const auto above = std::ranges::upper_bound(grid.ahead_m, at_m) - grid.ahead_m.begin();
+            const auto row = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - 1, 0, std::ssize(grid.ahead_m) - 2));
+            const double along = (at_m - grid.ahead_m[row]) / (grid.ahead_m[row + 1] - grid.ahead_m[row]);
+            const std::optional<LaneSpan> near = span_in(row), far = span_in(row + 1);
+            if ((along < 1.0 && !near) || (along > 0.0 && !far))
+                continue;
+            const LaneSpan &from = near ? *near : *far, &to = far ? *far : *near;
+            const double right_m = std::lerp(from.right_m, to.right_m, along), left_m = std::lerp(from.left_m, to.left_m, along);
+            part.may_go_on = all;
+            part.samples.push_back(sample(right_m, row, along, right_m));
+            for (const double offset_m : grid.offset_m)
+                if (offset_m > right_m && offset_m < left_m)
+                    part.samples.push_back(sample(offset_m, row, along, offset_m));
+            part.samples.push_back(sample(left_m, row, along, left_m));
+        }
+        parts_.push_back(std::move(part));
+    }
+    over_moments_ = [share = share_of_statistic(key)](const std::vector<Value>& figures) {
+        CensoredSamples samples;
+        for (const Value& figure : figures)
+            samples.add(figure);
+        return OverMoments{samples.quantile(share), quantile_shares(figures, share)};
+    };
+}
+
+void ReadingOfLight::add_sensor(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments) {
+    std::vector<std::string> names;
+    const Sensor* sensor = nullptr;
+    if (drive.seeing.sensors)
+        for (const Sensor& one : drive.seeing.sensors->points) {
+            names.push_back(one.name);
+            sensor = one.name == key.subject ? &one : sensor;
+        }
+    if (!sensor)
+        refuse_reading(key, names.empty() ? "a drive with sensors" : fmt::format("one of its sensors: {}", fmt::join(names, ", ")));
+    const std::optional<Pose> surface = place_on_road(route, sensor->across, sensor->at_m);
+    if (!surface)
+        refuse_reading(key, fmt::format("a place that is there: there is no {} at {} m", place_name(sensor->across), sensor->at_m));
+    const glm::dvec3 point_m = surface->position_m + sensor->above_m * surface->up();
+    for (std::size_t k = 0; k < moments.size(); ++k) {
+        const double to_go_m = sensor->at_m - moments[k].distance_m - drive.bumper_m;
+        passed_ = passed_ || to_go_m < 0.0;
+        if (to_go_m >= 0.0)
+            add_place(k, to_go_m, {point_m, Facing::lamps, {}, hidden_by_road(moments[k], route, sensor->at_m, point_m)});
+    }
+    if (key.quantity == Quantity::sensor_reach)
+        over_moments_ = [this, limit = key.threshold.value](const std::vector<Value>& figures) {
+            const Approach samples = approach(figures);
+            return OverMoments{reached_from_m(samples, limit, passed_), reached_from_shares(samples, limit)};
+        };
+    else if (key.distance_m)
+        over_moments_ = [this, at_m = *key.distance_m](const std::vector<Value>& figures) {
+            const Approach samples = approach(figures);
+            return OverMoments{value_at(samples, at_m), value_at_shares(samples, at_m)};
+        };
+    else
+        over_moments_ = [this](const std::vector<Value>& figures) {
+            return OverMoments{Value::of(largest(approach(figures)), "no moment of the drive before this place was measured"),
+                               largest_shares(figures)};
+        };
+}
+
+void ReadingOfLight::add_eye(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments) {
+    std::vector<std::string> names;
+    const GlareObserver* observer = nullptr;
+    if (drive.seeing.glare)
+        for (const GlareObserver& one : drive.seeing.glare->oncoming) {
+            names.push_back(one.name);
+            observer = one.name == key.subject ? &one : observer;
+        }
+    if (!observer)
+        refuse_reading(key, names.empty() ? "a drive with oncoming drivers (`glare`)"
+                                          : fmt::format("one of its oncoming drivers: {}", fmt::join(names, ", ")));
+    const std::optional<OncomingEye> eye = oncoming_eye(route, *observer);
+    if (!eye)
+        refuse_reading(key, fmt::format("a place that is there: there is no oncoming lane at {} m", observer->at_m));
+    for (std::size_t k = 0; k < moments.size(); ++k)
+        if (const double to_go_m = observer->at_m - moments[k].distance_m - drive.bumper_m; to_go_m >= 0.0)
+            add_place(k, to_go_m,
+                      {eye->place_m, key.quantity == Quantity::glare_facing ? Facing::lamps : Facing::eye, eye->gaze,
+                       hidden_by_road(moments[k], route, observer->at_m, eye->place_m)});
+    if (key.to_m) {
+        const std::optional<double> share = key.statistic == Statistic::maximum ? std::nullopt : std::optional(share_of_statistic(key));
+        over_moments_ = [this, near_m = *key.distance_m, far_m = *key.to_m, share](const std::vector<Value>& figures) {
+            const Approach samples = approach(figures);
+            return OverMoments{value_in_range(samples, near_m, far_m, share), shares_in_range(samples, figures, near_m, far_m, share)};
+        };
+    } else if (key.distance_m) {
+        over_moments_ = [this, at_m = *key.distance_m](const std::vector<Value>& figures) {
+            const Approach samples = approach(figures);
+            return OverMoments{value_at(samples, at_m), value_at_shares(samples, at_m)};
+        };
+    } else if (key.statistic == Statistic::maximum) {
+        over_moments_ = [this](const std::vector<Value>& figures) {
+            return OverMoments{Value::of(largest(approach(figures)), "no moment of the drive was measured"), largest_shares(figures)};
+        };
+    } else {
+        refuse_reading(key, "the largest of the approach (_max), or a range of it");
+    }
+}
+
+void ReadingOfLight::add_kerb(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments) {
+    bool everywhere = true; // else the median is not measured
+    for (std::size_t k = 0; k < moments.size(); ++k) {
+        const double at_m = moments[k].distance_m + drive.bumper_m + *key.distance_m;
+        const std::optional<Pose> edge = at_m <= route.length_m() ? place_on_road(route, Across::right_edge, at_m) : std::optional<Pose>();
+        everywhere = everywhere && edge;
+        if (!edge)
+            continue;
+        const bool on_road = key.surface == ReadingSurface::road;
+        const glm::dvec3 point_m = edge->position_m + (on_road ? 0.0 : kerb_target_m) * edge->up();
+        add_place(k, 0.0,
+                  {point_m, on_road ? Facing::surface : Facing::lamps, edge->up(), hidden_by_road(moments[k], route, at_m, point_m)});
+    }
+    over_moments_ = [everywhere](const std::vector<Value>& figures) {
+        std::vector<double> numbers;
+        for (const Value& figure : figures)
+            numbers.push_back(*figure.number());
+        return OverMoments{everywhere ? median_value(numbers, "no moment was played")
+                                      : Value::not_measured("no such lane, or beyond the route's end, in some moment"),
+                           quantile_shares(figures, 0.5)};
+    };
+}
+
+void ReadingOfLight::add_mirror(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments) {
+    const bool asked = drive.seeing.glare && drive.seeing.glare->mirrors;
+    const std::vector<Mirror> mirrors = asked ? drive.seeing.glare->mirrors->mirrors : std::vector<Mirror>{};
+    const auto mirror = std::ranges::find(mirrors, key.subject, &Mirror::name);
+    if (mirror == mirrors.end())
+        refuse_reading(key, "a drive with glare in a mirror of this name");
+    for (std::size_t k = 0; k < moments.size(); ++k) {
+        const double ahead_m = moments[k].distance_m + drive.bumper_m + *key.distance_m;
+        if (ahead_m + drive.wheelbase_m > route.length_m())
+            continue;
+        const glm::dvec3 point_m = to_parent(ego_pose(route, ahead_m, drive.wheelbase_m), mirror->position_m);
+        add_place(k, 0.0, {point_m, Facing::lamps, {}, hidden_by_road(moments[k], route, ahead_m, point_m)});
+    }
+    over_moments_ = [share = share_of_statistic(key)](const std::vector<Value>& figures) {
+        CensoredSamples samples("the car ahead is beyond the route's end in every moment");
+        for (const Value& figure : figures)
+            samples.add(figure);
+        return OverMoments{samples.quantile(share), quantile_shares(figures, share)};
+    };
+}
+
+} // namespace fernlicht

@@ -1,0 +1,76 @@
+#include "runner/commands/commands.h"
+
+#include "runner/commands/flag_values.h"
+#include "runner/experiments/importance/importance_run.h"
+#include "runner/write/document.h"
+#include "scenarios/values/files.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+/// The flags as typed.
+struct ImportanceFlags {
+    std::filesystem::path drive, recipe;
+    std::string reading, lamp_set, road, frames, out;
+    std::vector<std::string> lamps;
+    int check = 20;
+    std::uint64_t seed = 1;
+    const OutputFormat* tables = nullptr;
+};
+
+int tell_importance(const ImportanceFlags& flags, const std::vector<std::string>& command) {
+    DriveEdits edits;
+    edits.lamps = lamps_of(flags.lamps);
+    edits.lamp_recipe = flags.recipe;
+    if (!flags.road.empty())
+        edits.road = flags.road;
+    ImportanceRequest request;
+    request.drive = read_drive(flags.drive, edits);
+    request.lamp_set = flags.lamp_set;
+    request.reading = flags.reading;
+    request.ticks = tick_range(flags.frames);
+    request.check = flags.check;
+    request.seed = flags.seed;
+    request.folder = result_folder(flags.out, request.drive.name + "-importance");
+    request.command = command;
+    request.write = [&request, &flags](const ImportanceResult& result) {
+        write_file(request.folder / "importance.json", json_text(as_json(result, importance_members)));
+        write_file(request.folder / "importance.csv", importance_csv(result));
+        if (const std::string exr = importance_exr(result); !exr.empty())
+            write_file(request.folder / "importance.exr", exr);
+        write_document(document(result), result, request.folder, "report", flags.tables);
+    };
+    const ImportanceResult result = run_importance(request);
+    fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "report.html").string());
+    return result.value.number() && agrees(result) ? 0 : 1;
+}
+
+} // namespace
+
+void add_importance_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<ImportanceFlags>();
+    CLI::App* sub = app.add_subcommand("importance", "where in the beam a reading of a drive is decided");
+    sub->add_option("DRIVE", flags->drive, "drive file (YAML)")->required();
+    sub->add_option("--reading", flags->reading, fmt::format("one of {}", importance_readings))->required();
+    sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drive (default: its first)");
+    sub->add_option("--lamp", flags->lamps,
+                    "[SIDE=]FILE: use this lamp file for all lamps, or for those whose name contains SIDE (left, right)")
+        ->allow_extra_args(false);
+    add_recipe_flag(*sub, flags->recipe);
+    sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's");
+    sub->add_option("--frames", flags->frames, "FIRST:LAST of the drive's moments (default: all); N:N for one");
+    sub->add_option("--check", flags->check, "smooth random changes of the lamps with which the drive is read again; 0: none")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
+    add_seed_flag(*sub, flags->seed, "seed of these changes");
+    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    add_tables_flag(*sub, flags->tables);
+    sub->footer("Exit code 1 where the reading is not measured, or the smallest changes are not foretold. docs/importance.md tells more.");
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return tell_importance(*flags, command); }; });
+}
+
+} // namespace fernlicht

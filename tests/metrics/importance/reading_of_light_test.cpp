@@ -1,0 +1,212 @@
+// The gradient of a drive's readings against central differences, sample by sample, and against the readings as folds and extents have
+// them.
+#include "metrics/folds/glare_fold.h"
+#include "metrics/folds/place_fold.h"
+#include "metrics/importance/changed_beam.h"
+#include "metrics/road/extent.h"
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/values/errors.h"
+#include "tests/lamps.h"
+#include "tests/trial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <gmock/gmock.h>
+#include <numeric>
+
+namespace fernlicht {
+namespace {
+
+using testing::HasSubstr;
+
+struct PlayedDrive {
+    Drive drive;
+    RoadNetwork network;
+    Route route;
+    std::vector<Moment> moments;
+
+    PlayedDrive(const std::string& name, const std::string& lamp_set, int every, int first = 0, int last = 100000)
+        : drive(read_drive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/drives" / name)),
+          network(read_opendrive(drive.road_file)), route(network, drive.start, drive.via) {
+        const auto set = std::ranges::find(drive.lamp_sets, lamp_set, &LampSet::name);
+        for (int tick = first; tick < std::min(last, tick_count(drive)); tick += every)
+            moments.push_back(moment_at(state_at(tick, drive), drive, route, *set));
+    }
+};
+
+ReadingKey named_reading(const std::string& name) { return key_of(name).value(); }
+
+/// The samples that matter most, by central differences of the whole reading, others with them changed in nothing.
+void expect_gradient(const ReadingOfLight& reading, const std::vector<Moment>& moments, const std::string& what, std::size_t most = 6) {
+    const ReadingOfLight::Found found = reading.gradient(moments);
+    ASSERT_TRUE(found.value.number()) << what << found.value.reason();
+    ASSERT_FALSE(found.gradient.empty()) << what;
+    for (std::size_t k = 0; k < found.gradient.size(); ++k) {
+        const LampGradient& lamp = found.gradient[k];
+        std::vector<std::size_t> order(lamp.per_cd.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return std::abs(lamp.per_cd[i]); });
+        order.resize(most);
+        for (const std::size_t i : order) {
+            const double step = 1e-5 * lamp.file->table.cd[i];
+            if (lamp.per_cd[i] == 0.0 || step == 0.0)
+                continue;
+            const auto changed = [&](double by) {
+                ChangedTables tables;
+                for (const LampGradient& one : found.gradient)
+                    tables.push_back(one.file->table);
+                tables[k].cd[i] += by;
+                return reading.value(with_tables(moments, found.gradient, tables)).number().value();
+            };
+            const double by_difference = (changed(step) - changed(-step)) / (2.0 * step);
+            const double rounding = 1e-13 * std::abs(*found.value.number()) / step;
+            EXPECT_NEAR(lamp.per_cd[i], by_difference, 1e-6 * std::abs(by_difference) + rounding) << what << ", " << lamp.lamp << ' ' << i;
+        }
+    }
+}
+
+/// The twin's extent of these moments by a whole grid.
+Value extent_by_grid(const PlayedDrive& played, const ReadingKey& reading, double LaneExtent::*member) {
+    const Surface surface = reading.surface == ReadingSurface::road ? Surface::road : Surface::target;
+    std::vector<double> at;
+    if (reading.distance_m)
+        at.push_back(*reading.distance_m);
+    CensoredSamples samples;
+    for (const Moment& moment : played.moments) {
+        const ExtentGrid grid = make_extent_grid(played.route, moment, played.drive.bumper_m, *played.drive.extent);
+        for (const LaneExtent& extent :
+             measure_extent(grid, twin_illuminance_lx(grid, moment, surface), surface, {reading.threshold.value}, at))
+            if (extent.lane == reading.lane) {
+                if (!reading.distance_m)
+                    samples.add(extent.*member);
+                else if (!extent.widths.empty())
+                    samples.add(extent.widths[0].cut_off ? Value::at_least(extent.widths[0].width_m) : Value(extent.widths[0].width_m));
+            }
+    }
+    return samples.quantile(reading.statistic == Statistic::minimum ? 0.0 : reading.statistic == Statistic::p05 ? 0.05 : 0.5);
+}
+
+void expect_extent(const PlayedDrive& played, const std::string& name, double LaneExtent::*member = &LaneExtent::reach_centre_m) {
+    const ReadingOfLight reading(named_reading(name), played.drive, played.route, played.moments);
+    const Value by_grid = extent_by_grid(played, named_reading(name), member);
+    ASSERT_TRUE(by_grid.number()) << name;
+    EXPECT_NEAR(reading.value(played.moments).number().value(), *by_grid.number(), 1e-9) << name;
+    expect_gradient(reading, played.moments, name);
+}
+
+TEST(ReadingOfLight, IsReachAndWidthOfOneMomentWithItsGradient) {
+    const PlayedDrive played("straight.yaml", "xenon", 1, 20, 21);
+    ASSERT_EQ(played.moments.size(), 1U);
+    expect_extent(played, "reach_5lx_target_own_m");
+    expect_extent(played, "reach_1lx_target_own_m");
+    expect_extent(played, "reach_5lx_road_own_m");
+    expect_extent(played, "reach_3lx_target_left_1_m");
+    expect_extent(played, "reach_3lx_road_own_right_edge_m", &LaneExtent::reach_right_edge_m);
+    expect_extent(played, "reach_3lx_target_own_left_edge_m", &LaneExtent::reach_left_edge_m);
+    expect_extent(played, "width_3lx_road_all_at_20m_m");
+    expect_extent(played, "width_3lx_target_all_at_33m_m");
+}
+
+TEST(ReadingOfLight, IsDecidedByTheMomentsOfItsStatistic) {
+    const PlayedDrive played("s-bend.yaml", "halogen", 60);
+    ASSERT_EQ(played.moments.size() % 2, 1U);
+    for (const char* name : {"reach_3lx_target_own_m", "reach_3lx_target_own_min_m", "reach_3lx_target_own_p05_m", "reach_3lx_road_own_m",
+                             "width_1lx_road_all_at_20m_m"})
+        expect_extent(played, name);
+    const auto deciders = [&](const char* name) {
+        return ReadingOfLight(named_reading(name), played.drive, played.route, played.moments).gradient(played.moments).deciders;
+    };
+    EXPECT_EQ(deciders("reach_3lx_target_own_m").size(), 1U);
+    EXPECT_EQ(deciders("reach_3lx_target_own_min_m").size(), 1U);
+    const std::vector<ReadingOfLight::Decider> p05 = deciders("reach_3lx_target_own_p05_m");
+    ASSERT_EQ(p05.size(), 2U);
+    EXPECT_NEAR(p05[0].share + p05[1].share, 1.0, 1e-12);
+}
+
+TEST(ReadingOfLight, FollowsEverySensorEyeMirrorAndKerbAsTheirFoldsDo) {
+    PlayedDrive played("iihs-right-150.yaml", "halogen", 3);
+    played.drive.seeing.glare->mirrors = MirrorParameters{};
+    played.drive.seeing.glare->mirrors->gaps_m = {15.0};
+    played.drive.seeing.places = PlaceParameters{.kerb = true, .distances_m = {25.0}};
+    played.drive.seeing.glare->adaptation_cdm2 = 0.1;
+    SensorFold sensors(played.drive, played.route);
+    OncomingFold oncoming(played.drive, played.route);
+    MirrorFold mirrors(played.drive, played.route);
+    PlaceFold places(played.drive, played.route);
+    for (const Moment& moment : played.moments) {
+        sensors.add(moment);
+        oncoming.add(moment, played.drive.lamp_sets.front());
+        mirrors.add(moment, played.drive.lamp_sets.front());
+        places.add(moment);
+    }
+    int told = 0, refused = 0;
+    for (const Readings& readings : {sensors.readings(), oncoming.readings(), mirrors.readings(), places.readings()})
+        for (const Reading& one : readings) {
+            const std::string name = one.name();
+            try {
+                const ReadingOfLight reading(one.key, played.drive, played.route, played.moments);
+                const Value value = reading.value(played.moments);
+                EXPECT_EQ(value.kind(), one.value.kind()) << name << ": " << value.reason();
+                if (!one.value.number())
+                    continue;
+                EXPECT_NEAR(value.number().value(), *one.value.number(), 1e-9 * std::max(1.0, *one.value.number())) << name;
+                if (*one.value.number() > 0.0)
+                    expect_gradient(reading, played.moments, name, 3);
+                ++told;
+            } catch (const InputError& error) {
+                EXPECT_THAT(error.what(), HasSubstr("a reading that is light or where light ends")) << name;
+                ++refused;
+            }
+        }
+    EXPECT_GT(told, 40);
+    EXPECT_GT(refused, 20);
+}
+
+TEST(ReadingOfLight, RefusesWhatItCannotTell) {
+    const PlayedDrive played("straight.yaml", "xenon", 100);
+    const auto refusal = [&](const std::string& name) {
+        return tests::refusal_of([&] { ReadingOfLight(named_reading(name), played.drive, played.route, played.moments); });
+    };
+    EXPECT_THAT(refusal("area_3lx_road_own_m2"), HasSubstr("reach_*_m and width_*_m"));
+    EXPECT_THAT(refusal("reach_5lx_target_own_grid_error_m"), HasSubstr("reach_*_m and width_*_m"));
+    EXPECT_THAT(refusal("reach_5lx_target_all_m"), HasSubstr("one lane"));
+    EXPECT_THAT(refusal("sensor_edge_max_lx"), HasSubstr("a drive with sensors"));
+    EXPECT_THAT(refusal("glare_driver_facing_max_lx"), HasSubstr("oncoming drivers"));
+}
+
+TEST(ForetoldChange, AgreesWithWhatAHundredChangedLampsRead) {
+    const PlayedDrive played("s-bend.yaml", "xenon", 110);
+    for (const char* name : {"reach_5lx_target_own_m", "width_3lx_road_all_at_20m_m"}) {
+        const ReadingOfLight reading(named_reading(name), played.drive, played.route, played.moments);
+        const std::vector<double> sizes{1e-4, 1e-3};
+        const auto tried = try_changes(reading, played.moments, reading.gradient(played.moments), sizes, 100, 1);
+        for (std::size_t size = 0; size < sizes.size(); ++size) {
+            double found = 0.0, error = 0.0;
+            for (const ForetoldChange& one : tried[size]) {
+                found += std::pow(one.found.number().value(), 2.0);
+                error += std::pow(one.found.number().value() - one.foretold, 2.0);
+            }
+            EXPECT_GT(std::sqrt(found / 100.0), 1e-2 * sizes[size]) << name;                          // metres
+            EXPECT_LT(std::sqrt(error / found), 10.0 * sizes[size]) << name << " of " << sizes[size]; // of second order
+        }
+    }
+}
+
+TEST(SpotMap, SaysWhatASpotOfLightChanges) {
+    const PlayedDrive played("straight.yaml", "halogen", 1, 20, 21);
+    const ReadingOfLight reading(named_reading("reach_5lx_target_own_m"), played.drive, played.route, played.moments);
+    const ReadingOfLight::Found found = reading.gradient(played.moments);
+    const LampFile& file = *found.gradient.front().file;
+    const SpotMap map = spot_map(found.gradient, file, tests::steps(-3.0, 3.0, 0.1), tests::steps(-2.0, 1.0, 0.1), 0.5);
+    const auto most = static_cast<std::size_t>(std::ranges::max_element(map.per_cd) - map.per_cd.begin());
+    const BeamSpot spot{map.h_deg[most % map.h_deg.size()], map.v_deg[most / map.h_deg.size()], 0.5};
+    ChangedTables tables(found.gradient.size(), with_spot(file.table, spot, 1.0));
+    EXPECT_NEAR(foretold_change(found.gradient, tables), map.per_cd[most], 1e-9 * map.per_cd[most]);
+    const double changed = *reading.value(with_tables(played.moments, found.gradient, tables)).number() - *found.value.number();
+    EXPECT_NEAR(changed, map.per_cd[most], 1e-3 * map.per_cd[most]) << "1 cd more at " << spot.h_deg << ", " << spot.v_deg;
+    EXPECT_EQ(map.per_cd.front(), 0.0) << "far from where the reach is decided";
+}
+
+} // namespace
+} // namespace fernlicht
