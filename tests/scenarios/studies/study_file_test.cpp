@@ -172,11 +172,13 @@ TEST_F(StudyFile, RefusesInOneSentenceWithItsPlace) {
     EXPECT_THAT(refusal(with("measure: {extent: true}\n")), HasSubstr("extent"));
     EXPECT_THAT(refusal(with("conditons: {}\n")), HasSubstr("conditions"));
     EXPECT_THAT(refusal(with("conditions: {time_of_day: dusk}\n")), HasSubstr("night"));
-    EXPECT_THAT(refusal(with("conditions: {mirror: [true, true]}\n")), HasSubstr("value 2 again, the same as value 1, expected each value once"));
+    EXPECT_THAT(refusal(with("conditions: {mirror: [true, true]}\n")),
+                HasSubstr("value 2 again, the same as value 1, expected each value once"));
     EXPECT_THAT(refusal(with("conditions: {mirror: left}\n")), HasSubstr("conditions.mirror"));
     EXPECT_THAT(refusal(with("conditions: {weather: rain}\n")), HasSubstr("weather"));
     EXPECT_THAT(refusal(with("conditions: {voltage_v: 24}\n")), HasSubstr("13.8"));
-    EXPECT_THAT(refusal(with("conditions: {aim_percent: [-1, -1]}\n")), HasSubstr("value 2 again, the same as value 1, expected each value once"));
+    EXPECT_THAT(refusal(with("conditions: {aim_percent: [-1, -1]}\n")),
+                HasSubstr("value 2 again, the same as value 1, expected each value once"));
     EXPECT_THAT(refusal(with("compare: [{new: bb, against: a}]\n")), HasSubstr("no lamp 'bb' in this study, expected one of a, b"));
     EXPECT_THAT(refusal(with("compare: [{new: a, against: a}]\n")), HasSubstr("compared with itself"));
     EXPECT_THAT(refusal(with("limits: [{reading: x}]\n")), HasSubstr("a limit without a number"));
