@@ -1,0 +1,319 @@
+#include "runner/experiments/rating/rating_result.h"
+#include "runner/findings/figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <limits>
+
+namespace fernlicht {
+namespace {
+
+constexpr plots::Colour limit_colour{190, 30, 30};
+constexpr double drawn_from_lx = 1e-3;
+
+const char* word(RatingVerdict verdict) { return rating_verdict_words[static_cast<std::size_t>(verdict)]; }
+const char* word(Known known) { return known_words[static_cast<std::size_t>(known)]; }
+
+std::string section_verdict(RatingVerdict verdict) {
+    switch (verdict) {
+    case RatingVerdict::within:
+        return "pass";
+    case RatingVerdict::exceeded:
+        return "fail";
+    case RatingVerdict::not_measured:
+        return "not_measured";
+    case RatingVerdict::told:
+        break;
+    }
+    return "none";
+}
+
+/// Rounded as the rating rounds, else three digits.
+Cell lux_cell(double lx, const JudgingRules& rules) {
+    const int decimals = rules.round_lx ? std::max(0, static_cast<int>(std::ceil(-std::log10(*rules.round_lx) - 1e-9))) : lx < 1.0 ? 3 : 2;
+    return {figure(lx, decimals), lx};
+}
+
+Cell margin_cell(double margin) { return {signed_figure(100.0 * margin, 0), 100.0 * margin}; }
+
+std::string range_text(const LimitRange& range) { return fmt::format("{:g}–{:g}", range.from_m, range.to_m); }
+
+std::string limit_text(const LimitRange& range, const JudgingRules& rules) {
+    if (!range.at_most_lx)
+        return "none";
+    std::string text = lux_cell(*range.at_most_lx, rules).text;
+    if (range.at_most_lx_far)
+        text += "–" + lux_cell(*range.at_most_lx_far, rules).text;
+    return text;
+}
+
+std::string verdict_text(RatingVerdict verdict, const std::string& why) {
+    return why.empty() ? word(verdict) : fmt::format("{}: {}", word(verdict), why);
+}
+
+/// The range that decides: the smallest margin, or what is not measured; nullptr: none has a limit.
+const RangeJudgement* narrowest_range(const PhotometerFound& photometer) {
+    const RangeJudgement* narrowest = nullptr;
+    for (const RangeJudgement& range : photometer.ranges) {
+        if (range.verdict == RatingVerdict::told)
+            continue;
+        const auto is_narrower = [&] {
+            if (narrowest->verdict != range.verdict)
+                return worst_of(narrowest->verdict, range.verdict) == range.verdict;
+            return range.worst && narrowest->worst && range.margin() < narrowest->margin();
+        };
+        if (!narrowest || is_narrower())
+            narrowest = &range;
+    }
+    return narrowest;
+}
+
+void add_worst(std::vector<Cell>& cells, const RangeJudgement& range, const JudgingRules& rules) {
+    if (!range.worst) {
+        cells.insert(cells.end(), 5, "");
+        return;
+    }
+    cells.push_back(lux_cell(range.lx, rules));
+    cells.push_back(range.range.at_most_lx ? lux_cell(range.limit_lx, rules) : Cell("none"));
+    cells.push_back(range.range.at_most_lx ? margin_cell(range.margin()) : Cell(""));
+    cells.push_back({figure(range.worst->time_s, 2), range.worst->time_s});
+    cells.push_back({figure(range.worst->distance_m, 1), range.worst->distance_m});
+}
+
+Table light_table(const RatingFound& found) {
+    Table table{"verdicts",
+                "Each row and photometer where it is nearest to its limit or farthest above, and the moment of it. Place: whether a source "
+                "states where the photometer is",
+                columns_of("row<|lamp set<|photometer<|place<|verdict<|range [m]|light [lx]|limit [lx]|margin [%]|time [s]|distance [m]"),
+                {}};
+    for (const RowFound& row : found.rows) {
+        if (row.row.of_reading())
+            continue;
+        const std::string lamp_set = row.row.lamp_set.empty() ? found.lamp_set : row.row.lamp_set;
+        if (row.photometers.empty())
+            table.rows.push_back({row.row.title, lamp_set, "", "", verdict_text(row.verdict, row.why), "", "", "", "", "", ""});
+        for (const PhotometerFound& photometer : row.photometers) {
+            const RangeJudgement* const range = narrowest_range(photometer);
+            table.rows.push_back({row.row.title, lamp_set, photometer.photometer.name, word(photometer.photometer.is),
+                                  verdict_text(photometer.verdict, range ? range->why : ""), range ? range_text(range->range) : ""});
+            add_worst(table.rows.back(), range ? *range : RangeJudgement{}, found.rating.rules);
+        }
+    }
+    return table;
+}
+
+std::string threshold_text(const RatingRow& row) {
+    std::vector<std::string> parts;
+    if (row.at_least)
+        parts.push_back(fmt::format("at least {:g}", *row.at_least));
+    if (row.at_most)
+        parts.push_back(fmt::format("at most {:g}", *row.at_most));
+    return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
+}
+
+Table reading_table(const RatingFound& found) {
+    const bool with_points = found.score.most > 0.0;
+    Table table{
+        "readings",
+        "Readings of the drives. Row: whether a source states it",
+        columns_of(std::string("row<|drive<|lamp set<|row is<|reading`|value|in<|limit<|verdict<") + (with_points ? "|points" : "")),
+        {}};
+    for (const RowFound& row : found.rows) {
+        if (!row.row.of_reading())
+            continue;
+        table.rows.push_back(
+            {row.row.title, row.drive, row.row.lamp_set.empty() ? found.lamp_set : row.row.lamp_set, word(row.row.is), row.row.reading,
+             row.value.figure() ? Cell(with_bound(row.value, four_digits(*row.value.figure())), *row.value.figure()) : Cell(""),
+             unit_of(*row.key), threshold_text(row.row), verdict_text(row.verdict, row.why)});
+        if (with_points)
+            table.rows.back().push_back(row.points.number() ? Cell(four_digits(*row.points.number()), *row.points.number()) : Cell(""));
+    }
+    return table;
+}
+
+Table range_table(const RowFound& row, const RatingFound& found) {
+    Table table{
+        "light-" + row.row.name,
+        "By distance; light and limit at the worst moment of each range, the car comes nearer with time",
+        columns_of("photometer<|range [m]|light [lx]|limit [lx]|margin [%]|time [s]|distance [m]|moments|left out by pitch|verdict<"),
+        {}};
+    if (found.rating.rules.excess.allowed)
+        table.columns.insert(table.columns.end() - 1, columns_of("excused moments").front());
+    const auto count = [](std::size_t number) { return Cell(fmt::format("{}", number), static_cast<double>(number)); };
+    for (const PhotometerFound& photometer : row.photometers)
+        for (const RangeJudgement& range : photometer.ranges) {
+            std::vector<Cell>& cells = table.rows.emplace_back();
+            cells = {photometer.photometer.name, range_text(range.range)};
+            add_worst(cells, range, found.rating.rules);
+            cells.push_back(count(range.samples));
+            cells.push_back(count(range.left_out));
+            if (found.rating.rules.excess.allowed)
+                cells.push_back(count(range.excused));
+            cells.emplace_back(verdict_text(range.verdict, range.why));
+        }
+    return table;
+}
+
+void add_limits(plots::Figure& figure, const std::vector<RangeJudgement>& ranges, std::vector<double>& values) {
+    plots::Series steps{.name = "limit", .colour = limit_colour, .width_px = 2.2};
+    constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+    for (const RangeJudgement& judged : ranges) {
+        const LimitRange& range = judged.range;
+        if (!range.at_most_lx) {
+            steps.points.push_back({gap, gap});
+            continue;
+        }
+        for (const double at_m : {range.from_m, range.to_m}) {
+            steps.points.push_back({at_m, range.limit_lx(at_m)});
+            values.push_back(range.limit_lx(at_m));
+        }
+    }
+    if (std::ranges::any_of(steps.points, [](const plots::Point& point) { return std::isfinite(point.y); }))
+        figure.series.push_back(std::move(steps));
+}
+
+plots::Figure light_figure(const RowFound& row, const RatingFound& found) {
+    plots::Figure figure;
+    figure.title = row.row.title;
+    figure.height_px = 400.0;
+    std::vector<double> values;
+    double farthest_m = 0.0;
+    for (const PhotometerFound& photometer : row.photometers)
+        for (const RangeJudgement& range : photometer.ranges)
+            farthest_m = std::max(farthest_m, range.range.to_m);
+    add_limits(figure, row.photometers.front().ranges, values);
+    std::size_t number = 0;
+    for (const PhotometerFound& photometer : row.photometers) {
+        plots::Series light{.name = fmt::format("{} ({} place)", photometer.photometer.name, word(photometer.photometer.is)),
+                            .colour = plots::series_colour(number++)};
+        plots::Series out{.name = "left out by pitch", .colour = {150, 150, 150}, .dash = "2 3"};
+        for (const LightSample& sample : photometer.approach) {
+            if (sample.distance_m > farthest_m)
+                continue;
+            constexpr double none = std::numeric_limits<double>::quiet_NaN();
+            light.points.push_back({sample.distance_m, sample.left_out ? none : sample.lx});
+            out.points.push_back({sample.distance_m, sample.left_out ? sample.lx : none});
+            values.push_back(std::max(sample.lx, drawn_from_lx));
+        }
+        figure.series.push_back(std::move(light));
+        if (std::ranges::any_of(photometer.approach, &LightSample::left_out))
+            figure.series.push_back(std::move(out));
+        for (const RangeJudgement& range : photometer.ranges)
+            if (range.worst && range.verdict == RatingVerdict::exceeded)
+                figure.notes.push_back({range.worst->distance_m, range.worst->lx,
+                                        fmt::format("{} lx", lux_cell(range.lx, found.rating.rules).text), limit_colour, true});
+    }
+    figure.x = {"distance", "m", 0.0, farthest_m};
+    figure.y = plots::axis_around("illuminance on the photometer", "lx", values, plots::Scale::logarithmic);
+    return figure;
+}
+
+std::string excess_text(const MomentaryExcess& excess) {
+    return fmt::format("Momentary excess ({:g} % above a limit for at most {:g} s or {:g} m) is {}; {}{}", excess.percent, excess.for_s,
+                       excess.for_m, excess.allowed ? "let pass" : "not let pass", word(excess.is),
+                       excess.why.empty() ? "" : ": " + excess.why);
+}
+
+std::string distance_text(const JudgingRules& rules) {
+    return fmt::format("Distance runs horizontally from the {} to {}; {}",
+                       rules.from == DistanceFrom::lamps ? "middle of the lamps" : "front bumper's middle",
+                       rules.to == DistanceTo::photometer ? "the photometer" : "the nearer end of the road user that carries it",
+                       word(rules.distance_is));
+}
+
+void add_photometers(std::vector<std::string>& sentences, const RatingFound& found) {
+    static const char* const faces[] = {"facing each lamp", "facing forward", "facing backward"};
+    for (const Photometer& photometer : found.rating.photometers) {
+        const glm::dvec3& at = photometer.position_m;
+        static const char* const across[] = {"over the own lane's centre", "over the oncoming lane's centre",
+                                             "at the right edge of the lanes", "at the left edge of the lanes"};
+        const std::string where = photometer.on.empty()
+                                      ? fmt::format("{:g} m along the route {}, {:g} m above the road", *photometer.at_m,
+                                                    across[static_cast<std::size_t>(photometer.across)], photometer.above_m)
+                                      : fmt::format("on {}, {:g} m ahead of its rear axle, {:g} m to the {}, {:g} m above the road",
+                                                    photometer.on, at.x, std::abs(at.y), at.y < 0.0 ? "right" : "left", at.z);
+        sentences.push_back(fmt::format("Photometer {}: {}, {}; {}{}", photometer.name, where,
+                                        faces[static_cast<std::size_t>(photometer.faces)], word(photometer.is),
+                                        photometer.why.empty() ? "" : ": " + photometer.why));
+    }
+}
+
+std::vector<std::string> basis_of(const RatingFound& found) {
+    const Rating& rating = found.rating;
+    std::vector<std::string> sentences{fmt::format("Rating {}, edition {}; source: {}", rating.name, rating.edition, rating.source)};
+    for (const std::string& open : rating.unsettled)
+        sentences.push_back("Not settled: " + open);
+    if (!rating.photometers.empty()) {
+        sentences.push_back(distance_text(rating.rules));
+        sentences.push_back(excess_text(rating.rules.excess));
+    }
+    add_photometers(sentences, found);
+    for (const LimitCurve& limits : rating.limits)
+        sentences.push_back(fmt::format("Limits {}: {}{}", limits.name, word(limits.is), limits.why.empty() ? "" : ": " + limits.why));
+    sentences.emplace_back("By the twin: no shadows, nothing hides a lamp, no light but the own car's lamps, no filter on it");
+    sentences.insert(sentences.end(), found.notes.begin(), found.notes.end());
+    return sentences;
+}
+
+std::string counted_verdicts(const RatingFound& found) {
+    std::vector<std::string> counts;
+    for (const RatingVerdict verdict : {RatingVerdict::exceeded, RatingVerdict::not_measured, RatingVerdict::within, RatingVerdict::told})
+        if (const auto count = std::ranges::count(found.rows, verdict, &RowFound::verdict); count > 0)
+            counts.push_back(fmt::format("{} {}", count, verdict == RatingVerdict::not_measured ? "not measured" : word(verdict)));
+    return fmt::format("{}: {}.", counted(found.rows.size(), "row"), fmt::join(counts, ", "));
+}
+
+std::string score_text(const RatingFound& found) {
+    const Score& score = found.score;
+    if (score.most == 0.0)
+        return "The rating gives no points.";
+    if (!score.points.number())
+        return fmt::format("Points: not measured, {}.", score.points.reason());
+    return fmt::format("Points: {} of {}{}{}.", four_digits(*score.points.number()), four_digits(score.most),
+                       score.capped_by.empty() ? "" : fmt::format(", capped by row {}", score.capped_by),
+                       score.grade.empty() ? "" : ": " + score.grade);
+}
+
+} // namespace
+
+std::string modelled_text(const Rating& rating) {
+    return rating.modelled_on.empty() ? "" : fmt::format("modelled on {}, {}", rating.modelled_on, rating.edition);
+}
+
+Document document(const RatingFound& found) {
+    const Rating& rating = found.rating;
+    Document document{rating.title, {}};
+    Section& top = document.sections.emplace_back(Section{fmt::format("{}, {}", found.lamps, found.lamp_set), {}});
+    top.verdict = section_verdict(found.verdict());
+    if (!rating.modelled_on.empty())
+        top.blocks.emplace_back(fmt::format(
+            "This judgement is {}. It is not that test, and says nothing of whether lamps or a car meet it.", modelled_text(rating)));
+    top.blocks.emplace_back(counted_verdicts(found));
+    if (found.score.most > 0.0 || !rating.grades.empty())
+        top.blocks.emplace_back(score_text(found));
+    if (std::ranges::any_of(found.rows, [](const RowFound& row) { return !row.row.of_reading(); }))
+        top.blocks.emplace_back(light_table(found));
+    if (std::ranges::any_of(found.rows, [](const RowFound& row) { return row.row.of_reading(); }))
+        top.blocks.emplace_back(reading_table(found));
+    Listing basis(basis_of(found));
+    basis.caption = "What it rests on";
+    top.blocks.emplace_back(std::move(basis));
+    for (const RowFound& row : found.rows) {
+        if (row.photometers.empty())
+            continue;
+        Section& section = document.sections.emplace_back(Section{row.row.title, {}});
+        section.verdict = section_verdict(row.verdict);
+        std::string sentence =
+            fmt::format("Drive {}, row {}{}.", row.drive, word(row.row.is), row.row.why.empty() ? "" : ": " + row.row.why);
+        if (const std::optional<double>& pitch = row.photometers.front().pitch_deg)
+            sentence += fmt::format(" Mean pitch {}°.", figure(*pitch, 2));
+        section.blocks.emplace_back(std::move(sentence));
+        section.blocks.emplace_back(Plot{"light-" + row.row.name, light_figure(row, found)});
+        section.blocks.emplace_back(range_table(row, found));
+    }
+    return document;
+}
+
+} // namespace fernlicht
