@@ -40,15 +40,6 @@ Cell margin_cell(double margin) { return {signed_figure(100.0 * margin, 0), 100.
 
 std::string range_text(const LimitRange& range) { return fmt::format("{:g}–{:g}", range.from_m, range.to_m); }
 
-std::string limit_text(const LimitRange& range, const JudgingRules& rules) {
-    if (!range.at_most_lx)
-        return "none";
-    std::string text = lux_cell(*range.at_most_lx, rules).text;
-    if (range.at_most_lx_far)
-        text += "–" + lux_cell(*range.at_most_lx_far, rules).text;
-    return text;
-}
-
 std::string verdict_text(RatingVerdict verdict, const std::string& why) {
     return why.empty() ? word(verdict) : fmt::format("{}: {}", word(verdict), why);
 }
