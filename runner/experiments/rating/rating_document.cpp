@@ -40,20 +40,24 @@ Cell margin_cell(double margin) { return {signed_figure(100.0 * margin, 0), 100.
 
 std::string range_text(const LimitRange& range) { return fmt::format("{:g}–{:g}", range.from_m, range.to_m); }
 
+std::string lamp_set_of(const RowFound& row, const RatingFound& found) {
+    return row.row.lamp_set.empty() ? found.lamp_set : row.row.lamp_set;
+}
+
 std::string verdict_text(RatingVerdict verdict, const std::string& why) {
     return why.empty() ? word(verdict) : fmt::format("{}: {}", word(verdict), why);
 }
 
-/// The range that decides: the smallest margin, or what is not measured; nullptr: none has a limit.
+/// The range that decides: what is not measured, else the smallest margin, without limits the brightest.
 const RangeJudgement* narrowest_range(const PhotometerFound& photometer) {
     const RangeJudgement* narrowest = nullptr;
     for (const RangeJudgement& range : photometer.ranges) {
-        if (range.verdict == RatingVerdict::told)
-            continue;
         const auto is_narrower = [&] {
             if (narrowest->verdict != range.verdict)
                 return worst_of(narrowest->verdict, range.verdict) == range.verdict;
-            return range.worst && narrowest->worst && range.margin() < narrowest->margin();
+            if (!range.worst || !narrowest->worst)
+                return false;
+            return range.verdict == RatingVerdict::told ? range.lx > narrowest->lx : range.margin() < narrowest->margin();
         };
         if (!narrowest || is_narrower())
             narrowest = &range;
@@ -61,35 +65,51 @@ const RangeJudgement* narrowest_range(const PhotometerFound& photometer) {
     return narrowest;
 }
 
-void add_worst(std::vector<Cell>& cells, const RangeJudgement& range, const JudgingRules& rules) {
-    if (!range.worst) {
-        cells.insert(cells.end(), 5, "");
+/// Light, limit, margin, moment; then the light with the lamps aimed higher.
+void add_worst(std::vector<Cell>& cells, const PhotometerFound& photometer, const RangeJudgement* range, const JudgingRules& rules) {
+    if (!range || !range->worst) {
+        cells.insert(cells.end(), 6, "");
         return;
     }
-    cells.push_back(lux_cell(range.lx, rules));
-    cells.push_back(range.range.at_most_lx ? lux_cell(range.limit_lx, rules) : Cell("none"));
-    cells.push_back(range.range.at_most_lx ? margin_cell(range.margin()) : Cell(""));
-    cells.push_back({figure(range.worst->time_s, 2), range.worst->time_s});
-    cells.push_back({figure(range.worst->distance_m, 1), range.worst->distance_m});
+    const bool limited = range->range.at_most_lx.has_value();
+    cells.push_back(lux_cell(range->lx, rules));
+    cells.push_back(limited ? lux_cell(range->limit_lx, rules) : Cell("none"));
+    cells.push_back(limited ? margin_cell(range->margin()) : Cell(""));
+    cells.push_back({figure(range->worst->time_s, 2), range->worst->time_s});
+    cells.push_back({figure(range->worst->distance_m, 1), range->worst->distance_m});
+    const std::optional<double>& higher = photometer.higher_lx[static_cast<std::size_t>(range - photometer.ranges.data())];
+    cells.push_back(higher ? lux_cell(*higher, rules) : Cell(""));
 }
 
+constexpr const char* worst_columns = "range [m]|light [lx]|limit [lx]|margin [%]|time [s]|distance [m]|aimed 0.1° higher [lx]";
+
 Table light_table(const RatingFound& found) {
+    const bool several =
+        std::ranges::any_of(found.rows, [](const RowFound& row) { return !row.of_reading() && !row.row.lamp_set.empty(); });
     Table table{"verdicts",
-                "Each row and photometer where it is nearest to its limit or farthest above, and the moment of it. Place: whether a source "
-                "states where the photometer is",
-                columns_of("row<|lamp set<|photometer<|place<|verdict<|range [m]|light [lx]|limit [lx]|margin [%]|time [s]|distance [m]"),
+                "Each row and photometer where it is nearest to its limit or farthest above, without a limit where it is brightest, and "
+                "the moment of it. Place: whether a source states where the photometer is",
+                columns_of(std::string("row<|") + (several ? "lamp set<|" : "") + "photometer<|place<|verdict<|" + worst_columns),
                 {}};
     for (const RowFound& row : found.rows) {
-        if (row.row.of_reading())
+        if (row.of_reading())
             continue;
-        const std::string lamp_set = row.row.lamp_set.empty() ? found.lamp_set : row.row.lamp_set;
-        if (row.photometers.empty())
-            table.rows.push_back({row.row.title, lamp_set, "", "", verdict_text(row.verdict, row.why), "", "", "", "", "", ""});
+        std::vector<Cell> first{row.row.title};
+        if (several)
+            first.emplace_back(lamp_set_of(row, found));
+        if (row.photometers.empty()) {
+            std::vector<Cell>& cells = table.rows.emplace_back(first);
+            cells.insert(cells.end(), 2, "");
+            cells.emplace_back(verdict_text(row.verdict, row.why));
+        }
         for (const PhotometerFound& photometer : row.photometers) {
             const RangeJudgement* const range = narrowest_range(photometer);
-            table.rows.push_back({row.row.title, lamp_set, photometer.photometer.name, word(photometer.photometer.is),
-                                  verdict_text(photometer.verdict, range ? range->why : ""), range ? range_text(range->range) : ""});
-            add_worst(table.rows.back(), range ? *range : RangeJudgement{}, found.rating.rules);
+            std::vector<Cell>& cells = table.rows.emplace_back(first);
+            cells.emplace_back(photometer.photometer.name);
+            cells.emplace_back(word(photometer.photometer.is));
+            cells.emplace_back(verdict_text(photometer.verdict, range ? range->why : ""));
+            cells.emplace_back(range ? range_text(range->range) : "");
+            add_worst(cells, photometer, range, found.rating.rules);
         }
     }
     return table;
@@ -112,7 +132,7 @@ Table reading_table(const RatingFound& found) {
         columns_of(std::string("row<|drive<|lamp set<|row is<|reading`|value|in<|limit<|verdict<") + (with_points ? "|points" : "")),
         {}};
     for (const RowFound& row : found.rows) {
-        if (!row.row.of_reading())
+        if (!row.of_reading())
             continue;
         table.rows.push_back(
             {row.row.title, row.drive, row.row.lamp_set.empty() ? found.lamp_set : row.row.lamp_set, word(row.row.is), row.row.reading,
@@ -125,24 +145,24 @@ Table reading_table(const RatingFound& found) {
 }
 
 Table range_table(const RowFound& row, const RatingFound& found) {
-    Table table{
-        "light-" + row.row.name,
-        "By distance; light and limit at the worst moment of each range, the car comes nearer with time",
-        columns_of("photometer<|range [m]|light [lx]|limit [lx]|margin [%]|time [s]|distance [m]|moments|left out by pitch|verdict<"),
-        {}};
-    if (found.rating.rules.excess.allowed)
-        table.columns.insert(table.columns.end() - 1, columns_of("excused moments").front());
+    const JudgingRules& rules = found.rating.rules;
+    const bool pitching = rules.pitch_off_mean_deg.has_value(), excusing = rules.excess.allowed;
+    Table table{"light-" + row.row.name,
+                "By distance; light and limit at the worst moment of each range",
+                columns_of(std::string("photometer<|verdict<|") + worst_columns + "|moments" + (pitching ? "|left out by pitch" : "") +
+                           (excusing ? "|excused moments" : "")),
+                {}};
     const auto count = [](std::size_t number) { return Cell(fmt::format("{}", number), static_cast<double>(number)); };
     for (const PhotometerFound& photometer : row.photometers)
         for (const RangeJudgement& range : photometer.ranges) {
             std::vector<Cell>& cells = table.rows.emplace_back();
-            cells = {photometer.photometer.name, range_text(range.range)};
-            add_worst(cells, range, found.rating.rules);
+            cells = {photometer.photometer.name, verdict_text(range.verdict, range.why), range_text(range.range)};
+            add_worst(cells, photometer, &range, rules);
             cells.push_back(count(range.samples));
-            cells.push_back(count(range.left_out));
-            if (found.rating.rules.excess.allowed)
+            if (pitching)
+                cells.push_back(count(range.left_out));
+            if (excusing)
                 cells.push_back(count(range.excused));
-            cells.emplace_back(verdict_text(range.verdict, range.why));
         }
     return table;
 }
@@ -214,21 +234,23 @@ std::string distance_text(const JudgingRules& rules) {
                        word(rules.distance_is));
 }
 
-void add_photometers(std::vector<std::string>& sentences, const RatingFound& found) {
-    static const char* const faces[] = {"facing each lamp", "facing forward", "facing backward"};
-    for (const Photometer& photometer : found.rating.photometers) {
-        const glm::dvec3& at = photometer.position_m;
-        static const char* const across[] = {"over the own lane's centre", "over the oncoming lane's centre",
-                                             "at the right edge of the lanes", "at the left edge of the lanes"};
-        const std::string where = photometer.on.empty()
-                                      ? fmt::format("{:g} m along the route {}, {:g} m above the road", *photometer.at_m,
-                                                    across[static_cast<std::size_t>(photometer.across)], photometer.above_m)
-                                      : fmt::format("on {}, {:g} m ahead of its rear axle, {:g} m to the {}, {:g} m above the road",
-                                                    photometer.on, at.x, std::abs(at.y), at.y < 0.0 ? "right" : "left", at.z);
-        sentences.push_back(fmt::format("Photometer {}: {}, {}; {}{}", photometer.name, where,
-                                        faces[static_cast<std::size_t>(photometer.faces)], word(photometer.is),
-                                        photometer.why.empty() ? "" : ": " + photometer.why));
+Table photometer_table(const Rating& rating) {
+    static const char* const across[] = {"own lane's centre", "oncoming lane's centre", "right edge of the lanes",
+                                         "left edge of the lanes"};
+    static const char* const faces[] = {"each lamp", "forward", "backward"};
+    Table table{"photometers",
+                "Places of judgement. On a road user ahead counts from its rear axle, else along the route",
+                columns_of("photometer<|on<|ahead [m]|left [m]|above the road [m]|faces<|place<|why<"),
+                {}};
+    const auto metres = [](double m) { return Cell(figure(m, 2), m); };
+    for (const Photometer& one : rating.photometers) {
+        const bool ridden = !one.on.empty();
+        table.rows.push_back({one.name, ridden ? one.on : across[static_cast<std::size_t>(one.across)],
+                              metres(ridden ? one.position_m.x : *one.at_m), ridden ? metres(one.position_m.y) : Cell(""),
+                              metres(ridden ? one.position_m.z : one.above_m), faces[static_cast<std::size_t>(one.faces)], word(one.is),
+                              one.why});
     }
+    return table;
 }
 
 std::vector<std::string> basis_of(const RatingFound& found) {
@@ -236,15 +258,18 @@ std::vector<std::string> basis_of(const RatingFound& found) {
     std::vector<std::string> sentences{fmt::format("Rating {}, edition {}; source: {}", rating.name, rating.edition, rating.source)};
     for (const std::string& open : rating.unsettled)
         sentences.push_back("Not settled: " + open);
-    if (!rating.photometers.empty()) {
+    const auto is_limited = [](const LimitCurve& limits) {
+        return std::ranges::any_of(limits.ranges, [](const LimitRange& range) { return range.at_most_lx.has_value(); });
+    };
+    if (!rating.photometers.empty())
         sentences.push_back(distance_text(rating.rules));
+    if (std::ranges::any_of(rating.limits, is_limited))
         sentences.push_back(excess_text(rating.rules.excess));
-    }
-    add_photometers(sentences, found);
     for (const LimitCurve& limits : rating.limits)
-        sentences.push_back(fmt::format("Limits {}: {}{}", limits.name, word(limits.is), limits.why.empty() ? "" : ": " + limits.why));
-    sentences.emplace_back("By the twin: no shadows, nothing hides a lamp, no light but the own car's lamps, no filter on it");
-    sentences.insert(sentences.end(), found.notes.begin(), found.notes.end());
+        sentences.push_back(fmt::format("Limits {}: {}{}", limits.name, word(limits.is), limits.why.empty() ? "" : ", " + limits.why));
+    sentences.emplace_back("By the twin: no shadows, nothing hides a lamp, no light but that of the own car's lamps, no filter on it");
+    for (const auto& [note, drives] : found.notes)
+        sentences.push_back(fmt::format("{}: {}", fmt::join(drives, ", "), note));
     return sentences;
 }
 
@@ -284,20 +309,21 @@ Document document(const RatingFound& found) {
     top.blocks.emplace_back(counted_verdicts(found));
     if (found.score.most > 0.0 || !rating.grades.empty())
         top.blocks.emplace_back(score_text(found));
-    if (std::ranges::any_of(found.rows, [](const RowFound& row) { return !row.row.of_reading(); }))
+    if (std::ranges::any_of(found.rows, [](const RowFound& row) { return !row.of_reading(); }))
         top.blocks.emplace_back(light_table(found));
-    if (std::ranges::any_of(found.rows, [](const RowFound& row) { return row.row.of_reading(); }))
+    if (std::ranges::any_of(found.rows, &RowFound::of_reading))
         top.blocks.emplace_back(reading_table(found));
-    Listing basis(basis_of(found));
-    basis.caption = "What it rests on";
-    top.blocks.emplace_back(std::move(basis));
+    Section& basis = document.sections.emplace_back(Section{"What it rests on", {Listing(basis_of(found))}});
+    if (!rating.photometers.empty())
+        basis.blocks.emplace_back(photometer_table(rating));
     for (const RowFound& row : found.rows) {
         if (row.photometers.empty())
             continue;
         Section& section = document.sections.emplace_back(Section{row.row.title, {}});
         section.verdict = section_verdict(row.verdict);
-        std::string sentence =
-            fmt::format("Drive {}, row {}{}.", row.drive, word(row.row.is), row.row.why.empty() ? "" : ": " + row.row.why);
+        section.on_page_alone = true;
+        std::string sentence = fmt::format("Drive `{}`, lamp set {}. The row is {}{}.", row.drive, lamp_set_of(row, found),
+                                           word(row.row.is), row.row.why.empty() ? "" : ": " + row.row.why);
         if (const std::optional<double>& pitch = row.photometers.front().pitch_deg)
             sentence += fmt::format(" Mean pitch {}°.", figure(*pitch, 2));
         section.blocks.emplace_back(std::move(sentence));

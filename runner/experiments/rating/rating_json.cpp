@@ -46,7 +46,8 @@ JsonMembers photometer_members(PhotometerFound& found) {
             {"place_is", one_of(found.photometer.is, all_known_words())},
             {"verdict", one_of(found.verdict, verdict_words())},
             {"mean_pitch_deg", found.pitch_deg},
-            {"ranges", found.ranges, range_members}};
+            {"ranges", found.ranges, range_members},
+            {"higher_lx", found.higher_lx}};
 }
 
 JsonMembers row_members(RowFound& found) {
@@ -69,6 +70,9 @@ JsonMembers row_members(RowFound& found) {
 } // namespace
 
 JsonMembers rating_members(RatingFound& found) {
+    std::vector<std::string> notes;
+    for (const auto& [note, drives] : found.notes)
+        notes.push_back(note);
     return {{"schema", json_constant("fernlicht rating")},
             {"schema_version", json_constant(1)},
             {"context", context_members(found.context)},
@@ -87,7 +91,7 @@ JsonMembers rating_members(RatingFound& found) {
             {"most_points", found.score.most},
             {"capped_by", or_null(found.score.capped_by)},
             {"grade", or_null(found.score.grade)},
-            {"notes", found.notes}};
+            {"notes", std::move(notes)}};
 }
 
 std::string rating_csv(const RatingFound& found) {

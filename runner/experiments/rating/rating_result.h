@@ -11,9 +11,10 @@ namespace fernlicht {
 
 struct PhotometerFound {
     Photometer photometer;
-    LightApproach approach;             ///< all moments in which the car comes nearer; not in JSON
-    std::optional<double> pitch_deg;    ///< mean over the distance measured
-    std::vector<RangeJudgement> ranges; ///< by distance
+    LightApproach approach;                       ///< all moments in which the car comes nearer; not in JSON
+    std::optional<double> pitch_deg;              ///< mean over the distance measured
+    std::vector<RangeJudgement> ranges;           ///< by distance
+    std::vector<std::optional<double>> higher_lx; ///< of each: the light that decides with all lamps aimed 0.1 degrees higher
     RatingVerdict verdict = RatingVerdict::told;
     std::string why = {}; ///< not measured
 };
@@ -28,12 +29,13 @@ struct RowFound {
     std::optional<ReadingKey> key;            ///< of a row of a reading, as the next
     Value value;
     Value points; ///< not measured without points
+    bool of_reading() const { return row.of_reading(); }
 };
 
 struct RatingFound : Findings {
     Rating rating;
-    std::string lamps, lamp_set;    ///< file of the lamps under test; which of it is rated
-    std::vector<std::string> notes; ///< of the drives, one sentence each
+    std::string lamps, lamp_set;                                         ///< file of the lamps under test; which of it is rated
+    std::vector<std::pair<std::string, std::vector<std::string>>> notes; ///< one sentence each, and the drives that say it
     std::vector<RowFound> rows;
     Score score;
     RatingVerdict verdict() const;

@@ -7,6 +7,7 @@
 #include "runner/findings/run_context.h"
 #include "runner/play/stage.h"
 #include "scenarios/drives/play/advance.h"
+#include "scenarios/drives/play/nudge.h"
 #include "scenarios/light/light_gradient.h"
 #include "scenarios/values/errors.h"
 
@@ -125,8 +126,9 @@ class Photometry {
     std::optional<std::size_t> user_;
 };
 
-/// Of the moments in which the photometer lies ahead of the car's reference.
-LightApproach approach_of(const Rating& rating, const RatingRow& row, const Photometer& photometer, const PlayedRating& played) {
+/// Of the moments in which the photometer lies ahead of the car's reference; the lamps nudged.
+LightApproach approach_of(const Rating& rating, const RatingRow& row, const Photometer& photometer, const PlayedRating& played,
+                          const Nudge& nudge = {}) {
     const Photometry photometry(rating, row, photometer, played);
     const glm::dvec3 from_m = reference_m(played.stage, played.lamp_set, rating.rules.from);
     LightApproach approach;
@@ -137,7 +139,7 @@ LightApproach approach_of(const Rating& rating, const RatingRow& row, const Phot
         const glm::dvec3 way = placed->distance_to_m - to_parent(moment.ego, from_m);
         if (glm::dot(way, moment.ego.forward()) <= 0.0)
             continue;
-        approach.push_back({moment.tick, moment.time_s, std::hypot(way.x, way.y), light_lx(moment, placed->place),
+        approach.push_back({moment.tick, moment.time_s, std::hypot(way.x, way.y), light_lx(nudged(moment, nudge), placed->place),
                             std::asin(std::clamp(moment.ego.forward().z, -1.0, 1.0)) * 180.0 / std::numbers::pi});
     }
     return approach;
@@ -170,6 +172,17 @@ std::string not_as_asked(const RatingRow& row, const LightApproach& approach, co
     return "";
 }
 
+/// The same with all lamps aimed a little higher.
+void add_higher(PhotometerFound& found, const Rating& rating, const RatingRow& row, const LimitCurve& limits, const PlayedRating& played) {
+    Nudge up;
+    up.pitch_rad = nudge_aim_deg * std::numbers::pi / 180.0;
+    LightApproach higher = approach_of(rating, row, found.photometer, played, up);
+    if (rating.rules.pitch_off_mean_deg)
+        leave_out_pitching(higher, row.from_m, row.to_m, *rating.rules.pitch_off_mean_deg);
+    for (const RangeJudgement& range : judge_light(higher, limits, row.from_m, row.to_m, rating.rules))
+        found.higher_lx.push_back(range.worst ? std::optional(range.lx) : std::nullopt);
+}
+
 void judge_light_row(RowFound& found, const Rating& rating, const PlayedRating& played) {
     const RatingRow& row = found.row;
     const LimitCurve& limits = *limits_named(rating, row.limits);
@@ -186,6 +199,7 @@ void judge_light_row(RowFound& found, const Rating& rating, const PlayedRating& 
                 range.verdict = RatingVerdict::not_measured;
                 range.why = photometer.why;
             }
+        add_higher(photometer, rating, row, limits, played);
         for (const RangeJudgement& range : photometer.ranges)
             photometer.verdict = worst_of(photometer.verdict, range.verdict);
         found.verdict = worst_of(found.verdict, photometer.verdict);
@@ -194,8 +208,10 @@ void judge_light_row(RowFound& found, const Rating& rating, const PlayedRating& 
     }
 }
 
+bool needs_extent(const RowFound& row) { return row.key && (row.key->quantity == Quantity::reach || row.key->quantity == Quantity::width); }
+
 Value reading_value(const RowFound& found, const Rating& rating, PlayedRating& played) {
-    if (found.key->quantity == Quantity::reach || found.key->quantity == Quantity::width)
+    if (needs_extent(found))
         try {
             return ReadingOfLight(*found.key, played.stage.drive, played.stage.route, played.moments).value(played.moments);
         } catch (const InputError&) {
@@ -257,21 +273,26 @@ bool has_limit(const RatingRow& row, const Rating& rating) {
                                                   [](const LimitRange& range) { return range.at_most_lx.has_value(); });
 }
 
-void add_note(std::vector<std::string>& notes, const std::string& drive, const std::string& note) {
-    std::string said = fmt::format("{}: {}", drive, note);
-    if (std::ranges::find(notes, said) == notes.end())
-        notes.push_back(std::move(said));
+void add_notes(std::vector<std::pair<std::string, std::vector<std::string>>>& notes, const Drive& drive) {
+    for (const std::string& note : drive.notes) {
+        auto known = std::ranges::find(notes, note, &std::pair<std::string, std::vector<std::string>>::first);
+        if (known == notes.end())
+            known = notes.insert(notes.end(), {note, {}});
+        if (std::ranges::find(known->second, drive.name) == known->second.end())
+            known->second.push_back(drive.name);
+    }
 }
 
 /// Plays a drive with one of the lamp sets and judges the rows that ask for that.
 void judge_rows(RatingFound& found, std::vector<RowFound*> rows, const Drive& read, const std::string& lamp_set) {
     Drive drive = read;
     std::erase_if(drive.lamp_sets, [&](const LampSet& one) { return one.name != lamp_set; });
+    if (std::ranges::none_of(rows, [](const RowFound* row) { return needs_extent(*row); }))
+        drive.extent.reset();
     PlayedRating played(std::move(drive));
     for (const FilesRead* files : {&played.stage.drive.opened, &played.stage.network.opened})
         add_inputs(found.context.inputs, *files);
-    for (const std::string& note : played.stage.drive.notes)
-        add_note(found.notes, played.stage.drive.name, note);
+    add_notes(found.notes, played.stage.drive);
     for (RowFound* row : rows) {
         row->drive = played.stage.drive.name;
         if (row->row.of_reading())
