@@ -126,18 +126,19 @@ std::string threshold_text(const RatingRow& row) {
 
 Table reading_table(const RatingFound& found) {
     const bool with_points = found.score.most > 0.0;
-    Table table{
-        "readings",
-        "Readings of the drives. Row: whether a source states it",
-        columns_of(std::string("row<|drive<|lamp set<|row is<|reading`|value|in<|limit<|verdict<") + (with_points ? "|points" : "")),
-        {}};
+    Table table{"readings",
+                "Readings of the drives. Row: whether a source states it",
+                columns_of(std::string("row<|drive<|lamp set<|row is<|reading`|value|in<|aimed 0.1° higher|limit<|verdict<") +
+                           (with_points ? "|points" : "")),
+                {}};
     for (const RowFound& row : found.rows) {
         if (!row.of_reading())
             continue;
-        table.rows.push_back(
-            {row.row.title, row.drive, row.row.lamp_set.empty() ? found.lamp_set : row.row.lamp_set, word(row.row.is), row.row.reading,
-             row.value.figure() ? Cell(with_bound(row.value, four_digits(*row.value.figure())), *row.value.figure()) : Cell(""),
-             unit_of(*row.key), threshold_text(row.row), verdict_text(row.verdict, row.why)});
+        const auto told = [](const Value& value) {
+            return value.figure() ? Cell(with_bound(value, four_digits(*value.figure())), *value.figure()) : Cell("");
+        };
+        table.rows.push_back({row.row.title, row.drive, lamp_set_of(row, found), word(row.row.is), row.row.reading, told(row.value),
+                              unit_of(*row.key), told(row.higher), threshold_text(row.row), verdict_text(row.verdict, row.why)});
         if (with_points)
             table.rows.back().push_back(row.points.number() ? Cell(four_digits(*row.points.number()), *row.points.number()) : Cell(""));
     }

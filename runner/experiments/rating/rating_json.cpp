@@ -47,7 +47,7 @@ JsonMembers photometer_members(PhotometerFound& found) {
             {"verdict", one_of(found.verdict, verdict_words())},
             {"mean_pitch_deg", found.pitch_deg},
             {"ranges", found.ranges, range_members},
-            {"higher_lx", found.higher_lx}};
+            {"lx_aimed_higher", found.higher_lx}};
 }
 
 JsonMembers row_members(RowFound& found) {
@@ -61,6 +61,7 @@ JsonMembers row_members(RowFound& found) {
             {"reading", or_null(found.row.reading)},
             {"unit", found.key ? std::optional<std::string>(unit_of(*found.key)) : std::nullopt},
             {"value", found.value},
+            {"value_aimed_higher", found.higher},
             {"at_least", found.row.at_least},
             {"at_most", found.row.at_most},
             {"points", found.points},

@@ -27,8 +27,8 @@ struct RowFound {
     bool counts = true;                       ///< false: told alone, and of a lamp set that the lamps under test have not
     std::vector<PhotometerFound> photometers; ///< of a row of light
     std::optional<ReadingKey> key;            ///< of a row of a reading, as the next
-    Value value;
-    Value points; ///< not measured without points
+    Value value, higher;                      ///< higher: with all lamps aimed 0.1 degrees higher
+    Value points;                             ///< not measured without points
     bool of_reading() const { return row.of_reading(); }
 };
 

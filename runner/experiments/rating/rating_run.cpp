@@ -15,6 +15,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -33,7 +34,7 @@ struct PlayedRating {
     Stage stage;
     const LampSet& lamp_set;
     std::vector<Moment> moments;
-    Readings readings;
+    std::map<double, Readings> readings; ///< by how far all lamps are aimed higher, rad
 
     explicit PlayedRating(Drive drive) : stage(std::move(drive)), lamp_set(stage.drive.lamp_sets.front()) {
         std::vector<int> ticks(static_cast<std::size_t>(tick_count(stage.drive)));
@@ -172,11 +173,15 @@ std::string not_as_asked(const RatingRow& row, const LightApproach& approach, co
     return "";
 }
 
-/// The same with all lamps aimed a little higher.
-void add_higher(PhotometerFound& found, const Rating& rating, const RatingRow& row, const LimitCurve& limits, const PlayedRating& played) {
+Nudge aimed_higher() {
     Nudge up;
     up.pitch_rad = nudge_aim_deg * std::numbers::pi / 180.0;
-    LightApproach higher = approach_of(rating, row, found.photometer, played, up);
+    return up;
+}
+
+/// The same with all lamps aimed a little higher.
+void add_higher(PhotometerFound& found, const Rating& rating, const RatingRow& row, const LimitCurve& limits, const PlayedRating& played) {
+    LightApproach higher = approach_of(rating, row, found.photometer, played, aimed_higher());
     if (rating.rules.pitch_off_mean_deg)
         leave_out_pitching(higher, row.from_m, row.to_m, *rating.rules.pitch_off_mean_deg);
     for (const RangeJudgement& range : judge_light(higher, limits, row.from_m, row.to_m, rating.rules))
@@ -210,22 +215,27 @@ void judge_light_row(RowFound& found, const Rating& rating, const PlayedRating& 
 
 bool needs_extent(const RowFound& row) { return row.key && (row.key->quantity == Quantity::reach || row.key->quantity == Quantity::width); }
 
-Value reading_value(const RowFound& found, const Rating& rating, PlayedRating& played) {
-    if (needs_extent(found))
+Value reading_value(const RowFound& found, const Rating& rating, PlayedRating& played, const Nudge& nudge) {
+    if (needs_extent(found)) {
+        std::vector<Moment> moments;
+        for (const Moment& moment : played.moments)
+            moments.push_back(nudged(moment, nudge));
         try {
-            return ReadingOfLight(*found.key, played.stage.drive, played.stage.route, played.moments).value(played.moments);
+            return ReadingOfLight(*found.key, played.stage.drive, played.stage.route, moments).value(moments);
         } catch (const InputError&) {
             refuse_row(rating, found.row, "reading", fmt::format("'{}' of drive {}", found.row.reading, played.stage.drive.name),
                        "a reach or a width of one lane, over the drive, of a threshold and surface that the drive measures");
         }
-    if (played.readings.empty()) {
-        SeeingFold fold(played.stage.drive, played.stage.route);
+    }
+    Readings& readings = played.readings[nudge.pitch_rad];
+    if (readings.empty()) {
+        SeeingFold fold(played.stage.drive, played.stage.route, nudge);
         for (const Moment& moment : played.moments)
             fold.add(moment, played.lamp_set);
-        played.readings = fold.readings();
+        readings = fold.readings();
     }
-    const auto reading = std::ranges::find(played.readings, *found.key, &Reading::key);
-    if (reading == played.readings.end())
+    const auto reading = std::ranges::find(readings, *found.key, &Reading::key);
+    if (reading == readings.end())
         refuse_row(rating, found.row, "reading",
                    fmt::format("'{}', which drive {} does not measure", found.row.reading, played.stage.drive.name),
                    "a reading of what it measures, and that needs no picture");
@@ -234,7 +244,8 @@ Value reading_value(const RowFound& found, const Rating& rating, PlayedRating& p
 
 void judge_reading_row(RowFound& found, const Rating& rating, PlayedRating& played) {
     const RatingRow& row = found.row;
-    found.value = reading_value(found, rating, played);
+    found.value = reading_value(found, rating, played, {});
+    found.higher = reading_value(found, rating, played, aimed_higher());
     if (!found.value.measured()) {
         found.verdict = RatingVerdict::not_measured;
         found.why = found.value.reason();
