@@ -23,9 +23,10 @@ std::string text_of_file(const std::filesystem::path& file) {
     return text.str();
 }
 
-std::string rating_violation(const std::string& yaml) {
-    static SchemaCheck check{json::parse(std::ifstream(shipped_library / "../rating.schema.json"))};
-    return check.violation(to_json(parse_yaml(yaml, "test.yaml")));
+/// What an editor would say of a file.
+std::string violation_of(const std::filesystem::path& file, const char* schema) {
+    return SchemaCheck(json::parse(std::ifstream(shipped_library / ".." / schema)))
+        .violation(to_json(parse_yaml(text_of_file(file), file)));
 }
 
 TEST(RatingFile, AllThatShipAreGoodAndSoAreTheirDrives) {
@@ -34,10 +35,12 @@ TEST(RatingFile, AllThatShipAreGoodAndSoAreTheirDrives) {
         files.push_back(library_file("rating", name, "", {}));
     ASSERT_GE(files.size(), 3U);
     for (const std::filesystem::path& file : files) {
-        EXPECT_EQ(rating_violation(text_of_file(file)), "") << file;
+        EXPECT_EQ(violation_of(file, "rating.schema.json"), "") << file;
         const Rating rating = read_rating(file);
-        for (const RatingRow& row : rating.rows)
+        for (const RatingRow& row : rating.rows) {
+            EXPECT_EQ(violation_of(row.drive, "drive.schema.json"), "") << row.drive;
             EXPECT_NO_THROW(read_drive(row.drive)) << row.drive;
+        }
     }
 }
 
@@ -64,7 +67,7 @@ std::string rating_text(const std::string& row, const std::string& more = "") {
     return head +
            "limits: {glare: {is: stated, ranges: [{from_m: 15, to_m: 30, at_most_lx: 3}]}}\n"
            "photometers: {eye: {on: fixture, position_m: [1, 0, 1], is: assumed}}\n" +
-           fmt::format("rows:\n  r: {{drive: {}, {}}}\n", (shipped_drives / "adb-track/1.yaml").string(), row) + more;
+           fmt::format("rows:\n  r: {{drive: {}, {}}}\n", (shipped_library / "ratings/adb-track/1.yaml").string(), row) + more;
 }
 
 std::string rating_refusal(const std::string& text) {
@@ -117,7 +120,7 @@ Drive drive_with(const std::string& lamp_sets) {
     std::filesystem::copy_file(shipped_library / "lamps/xenon-low.ies", folder / "mine.ies");
     DriveEdits edits;
     edits.lamp_sets = tests::written("set.yaml", lamp_sets, folder);
-    return read_drive(shipped_drives / "adb-track/1.yaml", edits);
+    return read_drive(shipped_library / "ratings/adb-track/1.yaml", edits);
 }
 
 TEST(LampSetsOfAnotherFile, TakeThePlaceOfTheDrivesOwn) {
@@ -125,7 +128,7 @@ TEST(LampSetsOfAnotherFile, TakeThePlaceOfTheDrivesOwn) {
                                    "lamp_sets: {one: {lamps: {middle: mine.ies}}, two: {lamps: {middle: {file: mine.ies, level: 0.5}}}}\n");
     ASSERT_EQ(drive.lamp_sets.size(), 2U);
     EXPECT_EQ(drive.lamp_sets[0].lamps.at(0).position_m, glm::dvec3(3.5, 0.0, 0.7));
-    EXPECT_EQ(drive.lamp_sets[0].lamps[0].file->name, "mine.ies"); // beside that file
+    EXPECT_EQ(drive.lamp_sources.front().path.filename(), "mine.ies"); // beside that file
     EXPECT_EQ(drive.lamp_sets[1].lamps[0].level, 0.5);
     EXPECT_EQ(drive.bumper_m, 4.0);
     EXPECT_EQ(drive.traffic_rows.size(), 1U); // all else is the drive's
@@ -136,7 +139,7 @@ TEST(LampSetsOfAnotherFile, TakeThePlaceOfTheDrivesOwn) {
 TEST(LampSetsOfAnotherFile, MayBeAWholeDrivesWithItsControl) {
     DriveEdits edits;
     edits.lamp_sets = shipped_drives / "glare-free.yaml";
-    const Drive drive = read_drive(shipped_drives / "adb-track/1.yaml", edits);
+    const Drive drive = read_drive(shipped_library / "ratings/adb-track/1.yaml", edits);
     ASSERT_EQ(drive.lamp_sets.size(), 3U);
     EXPECT_TRUE(drive.lamp_sets[2].control->glare_free);
     EXPECT_EQ(drive.duration_s, 11.0);

@@ -25,7 +25,7 @@ std::string rating_of(const TemporaryFolder& folder, const std::string& limit, c
                                                        "photometers: {{eye: {{on: fixture, position_m: [1.3, 0.35, 0.65], is: assumed}}}}\n"
                                                        "limits: {{l: {{is: stated, ranges: [{{from_m: 30, to_m: 60, at_most_lx: {}}}]}}}}\n"
                                                        "rows:\n  straight: {{drive: {}, photometers: [eye], limits: l, is: stated{}",
-                                                       limit, library_file("drives/adb-track/1.yaml"), more);
+                                                       limit, library_file("ratings/adb-track/1.yaml"), more);
     return "rate " + (folder / "mine.yaml") + " --lamps " + even_lamps(folder, true) + " --out " + (folder / "out");
 }
 
