@@ -75,7 +75,7 @@ void judge_range(RangeJudgement& judged, std::vector<const LightSample*> countin
         **std::ranges::max_element(left, {}, [&](const LightSample* sample) { return sample->lx / range.limit_lx(sample->distance_m); });
     judged.lx = as_rounded(judged.worst->lx, rules);
     judged.limit_lx = as_rounded(range.limit_lx(judged.worst->distance_m), rules);
-    judged.verdict = judged.lx > judged.limit_lx && judged.excused < counting.size() ? RatingVerdict::exceeded : RatingVerdict::within;
+    judged.verdict = *judged.lx > *judged.limit_lx && judged.excused < counting.size() ? RatingVerdict::exceeded : RatingVerdict::within;
 }
 
 } // namespace

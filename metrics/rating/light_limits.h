@@ -31,12 +31,12 @@ struct RangeJudgement {
     std::size_t left_out = 0;         ///< by pitch
     std::size_t excused = 0;          ///< above the limit for a moment
     std::optional<LightSample> worst; ///< of those that count the nearest to its limit or the farthest above; without a limit the brightest
-    double lx = 0.0, limit_lx = 0.0;  ///< of it, rounded as asked
+    std::optional<double> lx, limit_lx; ///< of it, rounded as asked; nullopt: none, without a limit
     RatingVerdict verdict = RatingVerdict::not_measured;
     std::string why; ///< not measured
 
     /// Share of the limit that is left; negative above it. Of a range with limit and worst sample.
-    double margin() const { return (limit_lx - lx) / limit_lx; }
+    double margin() const { return (*limit_lx - *lx) / *limit_lx; }
 };
 
 /// To a multiple of `step` (> 0), halves to the even one, as ASTM E29 (6.4) rounds. What misses a half by 1e-9 of a step is one.

@@ -72,8 +72,8 @@ void add_worst(std::vector<Cell>& cells, const PhotometerFound& photometer, cons
         return;
     }
     const bool limited = range->range.at_most_lx.has_value();
-    cells.push_back(lux_cell(range->lx, rules));
-    cells.push_back(limited ? lux_cell(range->limit_lx, rules) : Cell("none"));
+    cells.push_back(lux_cell(*range->lx, rules));
+    cells.push_back(limited ? lux_cell(*range->limit_lx, rules) : Cell("none"));
     cells.push_back(limited ? margin_cell(range->margin()) : Cell(""));
     cells.push_back({figure(range->worst->time_s, 2), range->worst->time_s});
     cells.push_back({figure(range->worst->distance_m, 1), range->worst->distance_m});
@@ -138,7 +138,7 @@ Table reading_table(const RatingFound& found) {
             return value.figure() ? Cell(with_bound(value, four_digits(*value.figure())), *value.figure()) : Cell("");
         };
         table.rows.push_back({row.row.title, row.drive, lamp_set_of(row, found), word(row.row.is), row.row.reading, told(row.value),
-                              unit_of(*row.key), told(row.higher), threshold_text(row.row), verdict_text(row.verdict, row.why)});
+                              row.unit, told(row.higher), threshold_text(row.row), verdict_text(row.verdict, row.why)});
         if (with_points)
             table.rows.back().push_back(row.points.number() ? Cell(four_digits(*row.points.number()), *row.points.number()) : Cell(""));
     }
@@ -215,7 +215,7 @@ plots::Figure light_figure(const RowFound& row, const RatingFound& found) {
         for (const RangeJudgement& range : photometer.ranges)
             if (range.worst && range.verdict == RatingVerdict::exceeded)
                 figure.notes.push_back({range.worst->distance_m, range.worst->lx,
-                                        fmt::format("{} lx", lux_cell(range.lx, found.rating.rules).text), limit_colour, true});
+                                        fmt::format("{} lx", lux_cell(*range.lx, found.rating.rules).text), limit_colour, true});
     }
     figure.x = {"distance", "m", 0.0, farthest_m};
     figure.y = plots::axis_around("illuminance on the photometer", "lx", values, plots::Scale::logarithmic);

@@ -25,15 +25,15 @@ JsonMembers worst_members(LightSample& sample) {
 }
 
 JsonMembers range_members(RangeJudgement& judged) {
-    const bool limited = judged.range.at_most_lx && judged.worst;
+    const bool limited = judged.limit_lx.has_value();
     return {{"from_m", judged.range.from_m},
             {"to_m", judged.range.to_m},
             {"at_most_lx", judged.range.at_most_lx},
             {"at_most_lx_far", judged.range.at_most_lx_far},
             {"verdict", one_of(judged.verdict, verdict_words())},
             {"why_not_measured", or_null(judged.why)},
-            {"lx", judged.worst ? std::optional(judged.lx) : std::nullopt},
-            {"limit_lx", limited ? std::optional(judged.limit_lx) : std::nullopt},
+            {"lx", judged.lx},
+            {"limit_lx", judged.limit_lx},
             {"margin", limited ? std::optional(judged.margin()) : std::nullopt},
             {"worst", judged.worst, worst_members},
             {"samples", judged.samples},
@@ -50,6 +50,8 @@ JsonMembers photometer_members(PhotometerFound& found) {
             {"lx_aimed_higher", found.higher_lx}};
 }
 
+JsonMembers note_members(RatingNote& note) { return {{"note", note.note}, {"drives", note.drives}}; }
+
 JsonMembers row_members(RowFound& found) {
     return {{"row", found.row.name},
             {"title", found.row.title},
@@ -58,8 +60,9 @@ JsonMembers row_members(RowFound& found) {
             {"row_is", one_of(found.row.is, all_known_words())},
             {"verdict", one_of(found.verdict, verdict_words())},
             {"why_not_measured", or_null(found.why)},
+            {"counts", found.counts},
             {"reading", or_null(found.row.reading)},
-            {"unit", found.key ? std::optional<std::string>(unit_of(*found.key)) : std::nullopt},
+            {"unit", or_null(found.unit)},
             {"value", found.value},
             {"value_aimed_higher", found.higher},
             {"at_least", found.row.at_least},
@@ -71,9 +74,6 @@ JsonMembers row_members(RowFound& found) {
 } // namespace
 
 JsonMembers rating_members(RatingFound& found) {
-    std::vector<std::string> notes;
-    for (const auto& [note, drives] : found.notes)
-        notes.push_back(note);
     return {{"schema", json_constant("fernlicht rating")},
             {"schema_version", json_constant(1)},
             {"context", context_members(found.context)},
@@ -92,7 +92,7 @@ JsonMembers rating_members(RatingFound& found) {
             {"most_points", found.score.most},
             {"capped_by", or_null(found.score.capped_by)},
             {"grade", or_null(found.score.grade)},
-            {"notes", std::move(notes)}};
+            {"notes", found.notes, note_members}};
 }
 
 std::string rating_csv(const RatingFound& found) {
@@ -107,21 +107,19 @@ std::string rating_csv(const RatingFound& found) {
             out += csv_line(csv_text(row.row.name), csv_text(row.drive), csv_text(lamp_set),
                             csv_text(row.row.of_reading() ? row.row.reading : row.row.limits),
                             std::string(known_words[static_cast<std::size_t>(row.row.is)]), std::string(), std::string(),
-                            csv_number(row.value.figure()), std::string(row.key ? unit_of(*row.key) : "lx"),
+                            csv_number(row.value.figure()), row.unit.empty() ? std::string("lx") : csv_text(row.unit),
                             csv_number(row.row.at_least ? row.row.at_least : row.row.at_most), std::string(), std::string(), std::string(),
                             std::string(rating_verdict_words[static_cast<std::size_t>(row.verdict)]), csv_text(row.why));
         for (const PhotometerFound& photometer : row.photometers)
             for (const RangeJudgement& range : photometer.ranges) {
-                const bool limited = range.worst && range.range.at_most_lx;
-                out +=
-                    csv_line(csv_text(row.row.name), csv_text(row.drive), csv_text(lamp_set), csv_text(photometer.photometer.name),
-                             std::string(known_words[static_cast<std::size_t>(photometer.photometer.is)]), csv_number(range.range.from_m),
-                             csv_number(range.range.to_m), csv_number(range.worst ? Optional(range.lx) : std::nullopt), std::string("lx"),
-                             csv_number(limited ? Optional(range.limit_lx) : std::nullopt),
-                             csv_number(limited ? Optional(range.margin()) : std::nullopt),
-                             csv_number(range.worst ? Optional(range.worst->time_s) : std::nullopt),
-                             csv_number(range.worst ? Optional(range.worst->distance_m) : std::nullopt),
-                             std::string(rating_verdict_words[static_cast<std::size_t>(range.verdict)]), csv_text(range.why));
+                const bool limited = range.limit_lx.has_value();
+                out += csv_line(csv_text(row.row.name), csv_text(row.drive), csv_text(lamp_set), csv_text(photometer.photometer.name),
+                                std::string(known_words[static_cast<std::size_t>(photometer.photometer.is)]),
+                                csv_number(range.range.from_m), csv_number(range.range.to_m), csv_number(range.lx), std::string("lx"),
+                                csv_number(range.limit_lx), csv_number(limited ? Optional(range.margin()) : std::nullopt),
+                                csv_number(range.worst ? Optional(range.worst->time_s) : std::nullopt),
+                                csv_number(range.worst ? Optional(range.worst->distance_m) : std::nullopt),
+                                std::string(rating_verdict_words[static_cast<std::size_t>(range.verdict)]), csv_text(range.why));
             }
     }
     return out;

@@ -27,15 +27,22 @@ struct RowFound {
     bool counts = true;                       ///< false: told alone, and of a lamp set that the lamps under test have not
     std::vector<PhotometerFound> photometers; ///< of a row of light
     std::optional<ReadingKey> key;            ///< of a row of a reading, as the next
+    std::string unit;                         ///< "": none, or of a row of light
     Value value, higher;                      ///< higher: with all lamps aimed 0.1 degrees higher
     Value points;                             ///< not measured without points
     bool of_reading() const { return row.of_reading(); }
 };
 
+/// A sentence, and the drives that say it.
+struct RatingNote {
+    std::string note;
+    std::vector<std::string> drives;
+};
+
 struct RatingFound : Findings {
     Rating rating;
-    std::string lamps, lamp_set;                                         ///< file of the lamps under test; which of it is rated
-    std::vector<std::pair<std::string, std::vector<std::string>>> notes; ///< one sentence each, and the drives that say it
+    std::string lamps, lamp_set; ///< file of the lamps under test; which of it is rated
+    std::vector<RatingNote> notes;
     std::vector<RowFound> rows;
     Score score;
     RatingVerdict verdict() const;

@@ -185,7 +185,7 @@ void add_higher(PhotometerFound& found, const Rating& rating, const RatingRow& r
     if (rating.rules.pitch_off_mean_deg)
         leave_out_pitching(higher, row.from_m, row.to_m, *rating.rules.pitch_off_mean_deg);
     for (const RangeJudgement& range : judge_light(higher, limits, row.from_m, row.to_m, rating.rules))
-        found.higher_lx.push_back(range.worst ? std::optional(range.lx) : std::nullopt);
+        found.higher_lx.push_back(found.why.empty() ? range.lx : std::nullopt);
 }
 
 void judge_light_row(RowFound& found, const Rating& rating, const PlayedRating& played) {
@@ -199,9 +199,11 @@ void judge_light_row(RowFound& found, const Rating& rating, const PlayedRating& 
             photometer.pitch_deg = leave_out_pitching(photometer.approach, row.from_m, row.to_m, *rating.rules.pitch_off_mean_deg);
         photometer.ranges = judge_light(photometer.approach, limits, row.from_m, row.to_m, rating.rules);
         photometer.why = not_as_asked(row, photometer.approach, played);
-        for (RangeJudgement& range : photometer.ranges)
-            if (!photometer.why.empty()) {
-                range.verdict = RatingVerdict::not_measured;
+        if (!photometer.why.empty())
+            for (RangeJudgement& range : photometer.ranges) {
+                const LimitRange of = range.range;
+                range = {};
+                range.range = of;
                 range.why = photometer.why;
             }
         add_higher(photometer, rating, row, limits, played);
@@ -284,13 +286,13 @@ bool has_limit(const RatingRow& row, const Rating& rating) {
                                                   [](const LimitRange& range) { return range.at_most_lx.has_value(); });
 }
 
-void add_notes(std::vector<std::pair<std::string, std::vector<std::string>>>& notes, const Drive& drive) {
+void add_notes(std::vector<RatingNote>& notes, const Drive& drive) {
     for (const std::string& note : drive.notes) {
-        auto known = std::ranges::find(notes, note, &std::pair<std::string, std::vector<std::string>>::first);
+        auto known = std::ranges::find(notes, note, &RatingNote::note);
         if (known == notes.end())
             known = notes.insert(notes.end(), {note, {}});
-        if (std::ranges::find(known->second, drive.name) == known->second.end())
-            known->second.push_back(drive.name);
+        if (std::ranges::find(known->drives, drive.name) == known->drives.end())
+            known->drives.push_back(drive.name);
     }
 }
 
@@ -334,9 +336,13 @@ RatingFound run_rating(const RatingRequest& request) {
     for (const RatingRow& row : request.rating.rows) {
         RowFound& one = found.rows.emplace_back();
         one.row = row;
-        if (row.of_reading() && !(one.key = key_of(row.reading)))
+        if (!row.of_reading())
+            continue;
+        one.key = key_of(row.reading);
+        if (!one.key)
             refuse_row(request.rating, row, "reading", "'" + printable(row.reading) + "'",
                        "a reading's name; `fernlicht readings` lists them");
+        one.unit = unit_of(*one.key);
     }
     // Each drive is read once, and played once with each lamp set that its rows ask for.
     std::vector<const RowFound*> done;

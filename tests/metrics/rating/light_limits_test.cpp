@@ -52,7 +52,7 @@ TEST(LightLimits, TakesTheMaximumOfEachRangeRounded) {
     EXPECT_EQ(ranges[0].verdict, RatingVerdict::within); // 0.65 is 0.6, for 6 is even
     EXPECT_EQ(ranges[0].worst->distance_m, 60.0);
     EXPECT_EQ(ranges[0].samples, 2U); // 120 m begins the next range
-    EXPECT_DOUBLE_EQ(ranges[0].lx, 0.6);
+    EXPECT_DOUBLE_EQ(*ranges[0].lx, 0.6);
     EXPECT_DOUBLE_EQ(ranges[0].margin(), 0.0);
     EXPECT_EQ(ranges[1].verdict, RatingVerdict::within);
     EXPECT_EQ(ranges[1].samples, 3U); // the last range has its end
@@ -82,7 +82,7 @@ TEST(LightLimits, RunLinearlyBetweenTheEndsOfARange) {
     const auto ranges = judge_light(approach, curve, 15.0, 220.0, {});
     EXPECT_EQ(ranges[0].verdict, RatingVerdict::exceeded);
     EXPECT_EQ(ranges[0].worst->distance_m, 30.0);
-    EXPECT_NEAR(ranges[0].limit_lx, 2.0, 1e-12);
+    EXPECT_NEAR(*ranges[0].limit_lx, 2.0, 1e-12);
     EXPECT_NEAR(ranges[0].margin(), -0.05, 1e-12);
     const LimitRange cut = judge_light(approach, curve, 25.0, 35.0, {})[0].range;
     EXPECT_NEAR(*cut.at_most_lx, 2.5, 1e-12);
@@ -99,7 +99,7 @@ TEST(LightLimits, LeaveOutWhatPitchesAwayFromTheMean) {
     EXPECT_EQ(ranges[0].left_out, 1U);
     EXPECT_EQ(ranges[0].samples, 4U);
     EXPECT_EQ(ranges[0].verdict, RatingVerdict::within);
-    EXPECT_DOUBLE_EQ(ranges[0].lx, 0.2);
+    EXPECT_DOUBLE_EQ(*ranges[0].lx, 0.2);
     EXPECT_EQ(leave_out_pitching(approach, 1.0, 2.0, 0.3), std::nullopt);
 }
 
@@ -128,7 +128,7 @@ TEST(LightLimits, TellLightAloneWithoutALimit) {
     curve.ranges = {{20.0, 40.0, {}, {}}};
     const auto ranges = judge_light(nearing({{45.0, 9.0}, {30.0, 2.0}, {25.0, 1.0}, {15.0, 9.0}}), curve, 0.0, 100.0, {});
     EXPECT_EQ(ranges[0].verdict, RatingVerdict::told);
-    EXPECT_EQ(ranges[0].lx, 2.0);
+    EXPECT_EQ(*ranges[0].lx, 2.0);
 }
 
 TEST(RatingVerdicts, AreAsBadAsTheWorst) {
