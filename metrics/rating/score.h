@@ -1,11 +1,8 @@
 // What the rows of a rating come to together, in points.
-// The radius of a path as a track test knows it.
 #pragma once
 
 #include "metrics/rating/light_limits.h"
 #include "metrics/readings/value.h"
-
-#include <glm/vec2.hpp>
 
 namespace fernlicht {
 
@@ -29,12 +26,5 @@ struct Score {
     std::string grade;     ///< "": none, or not measured
 };
 Score score(const std::vector<ScoredRow>& rows, const std::vector<Grade>& grades);
-
-struct PathCircle {
-    double radius_m = 0.0; ///< through first, middle and last place, left positive; infinite on a straight
-    double off_m = 0.0;    ///< the farthest of all places from it
-};
-/// nullopt for fewer than three places.
-std::optional<PathCircle> path_circle(const std::vector<glm::dvec2>& places_m);
 
 } // namespace fernlicht

@@ -13,7 +13,9 @@ namespace {
 constexpr plots::Colour limit_colour{190, 30, 30};
 constexpr double drawn_from_lx = 1e-3;
 
-const char* word(RatingVerdict verdict) { return rating_verdict_words[static_cast<std::size_t>(verdict)]; }
+const char* word(RatingVerdict verdict) {
+    return verdict == RatingVerdict::not_measured ? "not measured" : rating_verdict_words[static_cast<std::size_t>(verdict)];
+}
 const char* word(Known known) { return known_words[static_cast<std::size_t>(known)]; }
 
 std::string section_verdict(RatingVerdict verdict) {
@@ -42,10 +44,6 @@ std::string range_text(const LimitRange& range) { return fmt::format("{:g}–{:g
 
 std::string lamp_set_of(const RowFound& row, const RatingFound& found) {
     return row.row.lamp_set.empty() ? found.lamp_set : row.row.lamp_set;
-}
-
-std::string verdict_text(RatingVerdict verdict, const std::string& why) {
-    return why.empty() ? word(verdict) : fmt::format("{}: {}", word(verdict), why);
 }
 
 /// The range that decides: what is not measured, else the smallest margin, without limits the brightest.
@@ -100,14 +98,14 @@ Table light_table(const RatingFound& found) {
         if (row.photometers.empty()) {
             std::vector<Cell>& cells = table.rows.emplace_back(first);
             cells.insert(cells.end(), 2, "");
-            cells.emplace_back(verdict_text(row.verdict, row.why));
+            cells.emplace_back(word(row.verdict));
         }
         for (const PhotometerFound& photometer : row.photometers) {
             const RangeJudgement* const range = narrowest_range(photometer);
             std::vector<Cell>& cells = table.rows.emplace_back(first);
             cells.emplace_back(photometer.photometer.name);
             cells.emplace_back(word(photometer.photometer.is));
-            cells.emplace_back(verdict_text(photometer.verdict, range ? range->why : ""));
+            cells.emplace_back(word(photometer.verdict));
             cells.emplace_back(range ? range_text(range->range) : "");
             add_worst(cells, photometer, range, found.rating.rules);
         }
@@ -138,7 +136,7 @@ Table reading_table(const RatingFound& found) {
             return value.figure() ? Cell(with_bound(value, four_digits(*value.figure())), *value.figure()) : Cell("");
         };
         table.rows.push_back({row.row.title, row.drive, lamp_set_of(row, found), word(row.row.is), row.row.reading, told(row.value),
-                              row.unit, told(row.higher), threshold_text(row.row), verdict_text(row.verdict, row.why)});
+                              row.unit, told(row.higher), threshold_text(row.row), word(row.verdict)});
         if (with_points)
             table.rows.back().push_back(row.points.number() ? Cell(four_digits(*row.points.number()), *row.points.number()) : Cell(""));
     }
@@ -157,7 +155,7 @@ Table range_table(const RowFound& row, const RatingFound& found) {
     for (const PhotometerFound& photometer : row.photometers)
         for (const RangeJudgement& range : photometer.ranges) {
             std::vector<Cell>& cells = table.rows.emplace_back();
-            cells = {photometer.photometer.name, verdict_text(range.verdict, range.why), range_text(range.range)};
+            cells = {photometer.photometer.name, word(range.verdict), range_text(range.range)};
             add_worst(cells, photometer, &range, rules);
             cells.push_back(count(range.samples));
             if (pitching)
@@ -274,11 +272,27 @@ std::vector<std::string> basis_of(const RatingFound& found) {
     return sentences;
 }
 
+std::vector<std::string> reasons_of(const RatingFound& found) {
+    std::vector<std::string> reasons;
+    for (const RowFound& row : found.rows) {
+        if (!row.why.empty() && row.photometers.empty())
+            reasons.push_back(fmt::format("{}: {}", row.row.title, row.why));
+        for (const PhotometerFound& photometer : row.photometers)
+            for (const RangeJudgement& range : photometer.ranges) {
+                std::string reason = fmt::format("{}, {}{}: {}", row.row.title, photometer.photometer.name,
+                                                 photometer.why.empty() ? fmt::format(", {} m", range_text(range.range)) : "", range.why);
+                if (!range.why.empty() && std::ranges::find(reasons, reason) == reasons.end())
+                    reasons.push_back(std::move(reason));
+            }
+    }
+    return reasons;
+}
+
 std::string counted_verdicts(const RatingFound& found) {
     std::vector<std::string> counts;
     for (const RatingVerdict verdict : {RatingVerdict::exceeded, RatingVerdict::not_measured, RatingVerdict::within, RatingVerdict::told})
         if (const auto count = std::ranges::count(found.rows, verdict, &RowFound::verdict); count > 0)
-            counts.push_back(fmt::format("{} {}", count, verdict == RatingVerdict::not_measured ? "not measured" : word(verdict)));
+            counts.push_back(fmt::format("{} {}", count, word(verdict)));
     return fmt::format("{}: {}.", counted(found.rows.size(), "row"), fmt::join(counts, ", "));
 }
 
@@ -314,6 +328,11 @@ Document document(const RatingFound& found) {
         top.blocks.emplace_back(light_table(found));
     if (std::ranges::any_of(found.rows, &RowFound::of_reading))
         top.blocks.emplace_back(reading_table(found));
+    if (const std::vector<std::string> reasons = reasons_of(found); !reasons.empty()) {
+        Listing listing(reasons);
+        listing.caption = "Why it is not measured";
+        top.blocks.emplace_back(std::move(listing));
+    }
     Section& basis = document.sections.emplace_back(Section{"What it rests on", {Listing(basis_of(found))}});
     if (!rating.photometers.empty())
         basis.blocks.emplace_back(photometer_table(rating));

@@ -3,6 +3,7 @@
 #include "metrics/folds/place_fold.h"
 #include "metrics/folds/seeing_fold.h"
 #include "metrics/importance/reading_of_light.h"
+#include "metrics/rating/path_circle.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
 #include "runner/play/stage.h"
@@ -22,7 +23,8 @@
 namespace fernlicht {
 namespace {
 
-constexpr double most_off_circle_m = 0.5; // of a path that counts as one of a radius: FMVSS 108 S14.9.3.12
+/// Of a path that counts as one of a radius: FMVSS 108 S14.9.3.12. The arc from which on its own radius counts: as that laboratory fits it.
+constexpr double most_off_circle_m = 0.5, least_arc_deg = 10.0;
 
 [[noreturn]] void refuse_row(const Rating& rating, const RatingRow& row, const std::string& key, const std::string& found,
                              const std::string& expected) {
@@ -163,13 +165,17 @@ std::string not_as_asked(const RatingRow& row, const LightApproach& approach, co
     if (!row.speed_kmh.empty() && (slowest < row.speed_kmh[0] - 1e-6 || fastest > row.speed_kmh[1] + 1e-6))
         return fmt::format("the car drives {:.1f} to {:.1f} km/h, asked for are {:g} to {:g}", slowest, fastest, row.speed_kmh[0],
                            row.speed_kmh[1]);
+    if (row.radius_m.empty())
+        return "";
     const std::optional<PathCircle> circle = path_circle(places_m);
-    if (row.radius_m.empty() || !circle)
-        return row.radius_m.empty() ? "" : "too few moments to know the path's radius";
-    if (circle->radius_m < row.radius_m[0] || circle->radius_m > row.radius_m[1] || circle->off_m > most_off_circle_m)
-        return fmt::format("the path has a radius of {:.1f} m (left positive) and is up to {:.2f} m off that circle, asked for are {:g} to "
-                           "{:g} m and at most {:g} m",
-                           circle->radius_m, circle->off_m, row.radius_m[0], row.radius_m[1], most_off_circle_m);
+    if (!circle)
+        return "too few moments to know the path's radius";
+    // A short arc does not tell its radius: any of the range will do that it follows.
+    const double radius_m = std::clamp(circle->radius_m, row.radius_m[0], row.radius_m[1]);
+    const bool told = circle->arc_rad >= least_arc_deg * std::numbers::pi / 180.0;
+    if (off_circle_m(places_m, radius_m) > most_off_circle_m || (told && radius_m != circle->radius_m))
+        return fmt::format("the path has a radius of {:.1f} m (left positive) and is {:.2f} m off the nearest circle of {:g} to {:g} m",
+                           circle->radius_m, off_circle_m(places_m, radius_m), row.radius_m[0], row.radius_m[1]);
     return "";
 }
 

@@ -1,3 +1,4 @@
+#include "metrics/rating/path_circle.h"
 #include "metrics/rating/score.h"
 
 #include <cmath>
@@ -51,11 +52,16 @@ TEST(PathCircle, FindsRadiusSideAndWhatStraysFromIt) {
         line.emplace_back(3.0 * i, 4.0 * i);
     }
     EXPECT_NEAR(path_circle(left)->radius_m, 100.0, 1e-6);
-    EXPECT_NEAR(path_circle(left)->off_m, 0.0, 1e-9);
+    EXPECT_NEAR(path_circle(left)->arc_rad, 0.6, 1e-9);
+    EXPECT_NEAR(off_circle_m(left, 100.0), 0.0, 1e-9);
+    // a chord of 200 sin 0.3 m: sagittas of 100 (1 - cos 0.3) m and, on 120 m, of 120 - sqrt(120^2 - (100 sin 0.3)^2) m
+    const double half_m = 100.0 * std::sin(0.3);
+    EXPECT_NEAR(off_circle_m(left, 120.0), 100.0 * (1.0 - std::cos(0.3)) - (120.0 - std::sqrt(120.0 * 120.0 - half_m * half_m)), 1e-6);
     EXPECT_NEAR(path_circle(right)->radius_m, -230.0, 1e-6);
+    EXPECT_NEAR(off_circle_m(right, -230.0), 0.0, 1e-9);
     EXPECT_TRUE(std::isinf(path_circle(line)->radius_m));
     left[5] += 0.7 * glm::dvec2(-std::sin(0.15), std::cos(0.15)); // towards the centre
-    EXPECT_NEAR(path_circle(left)->off_m, 0.7, 1e-6);
+    EXPECT_NEAR(off_circle_m(left, 100.0), 0.7, 1e-6);
     EXPECT_EQ(path_circle({{0.0, 0.0}, {1.0, 0.0}}), std::nullopt);
 }
 

@@ -75,7 +75,8 @@ TEST(RateCommand, DoesNotMeasureWhereTheDriveIsNotAsAskedOrDoesNotComeThere) {
     const TemporaryFolder folder;
     EXPECT_THAT(printed(rating_of(folder, "0.5", ", speed_kmh: [60, 80]}\n"), 1), HasSubstr("the car drives 104.6 to 104.6 km/h"));
     const TemporaryFolder other;
-    EXPECT_THAT(printed(rating_of(other, "0.5", ", radius_m: [85, 115]}\n"), 1), HasSubstr("the path has a radius of inf m"));
+    EXPECT_THAT(printed(rating_of(other, "0.5", ", radius_m: [85, 115]}\n"), 1),
+                HasSubstr("the path has a radius of inf m (left positive) and is "));
 }
 
 TEST(RateCommand, RefusesWhatItCannotRate) {
