@@ -195,10 +195,11 @@ plots::Figure light_figure(const RowFound& row, const RatingFound& found) {
             farthest_m = std::max(farthest_m, range.range.to_m);
     add_limits(figure, row.photometers.front().ranges, values);
     std::size_t number = 0;
+    bool any_out = false;
     for (const PhotometerFound& photometer : row.photometers) {
         plots::Series light{.name = fmt::format("{} ({} place)", photometer.photometer.name, word(photometer.photometer.is)),
                             .colour = plots::series_colour(number++)};
-        plots::Series out{.name = "left out by pitch", .colour = {150, 150, 150}, .dash = "2 3"};
+        plots::Series out{.name = any_out ? "" : "left out by pitch", .colour = {150, 150, 150}, .dash = "2 3"};
         for (const LightSample& sample : photometer.approach) {
             if (sample.distance_m > farthest_m)
                 continue;
@@ -208,8 +209,10 @@ plots::Figure light_figure(const RowFound& row, const RatingFound& found) {
             values.push_back(std::max(sample.lx, drawn_from_lx));
         }
         figure.series.push_back(std::move(light));
-        if (std::ranges::any_of(photometer.approach, &LightSample::left_out))
+        if (std::ranges::any_of(photometer.approach, &LightSample::left_out)) {
             figure.series.push_back(std::move(out));
+            any_out = true;
+        }
         for (const RangeJudgement& range : photometer.ranges)
             if (range.worst && range.verdict == RatingVerdict::exceeded)
                 figure.notes.push_back({range.worst->distance_m, range.worst->lx,
