@@ -78,9 +78,10 @@ TEST(DescribedKeys, AreTheSchemas) {
 TEST(DescribedKeys, AreTheReference) {
     Drive usual;
     usual.extent.emplace();
-    std::string text = "# Keys of drive and study files, of ratings and of recipes\n\nWritten by `ci/write-keys` from the descriptions of the keys. "
-                       "[drives.md](drives.md) explains drives, `scenarios/drive.example.yaml` shows one; "
-                       "[studies.md](studies.md) explains studies, [ratings.md](ratings.md) ratings, [lamps.md](lamps.md) the recipes of lamp files.\n\n";
+    std::string text =
+        "# Keys of drive and study files, of ratings and of recipes\n\nWritten by `ci/write-keys` from the descriptions of the keys. "
+        "[drives.md](drives.md) explains drives, `scenarios/drive.example.yaml` shows one; "
+        "[studies.md](studies.md) explains studies, [ratings.md](ratings.md) ratings, [lamps.md](lamps.md) the recipes of lamp files.\n\n";
     text += key_tables("", drive_fields(), &usual);
     for (const auto& [name, group] : definitions(drive_fields()))
         text += key_tables(std::string(name), *group, group->usual.get());
