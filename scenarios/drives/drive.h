@@ -156,6 +156,8 @@ struct DriveEdits {
     std::filesystem::path lamp_recipe; ///< of those that are text grids; "": none
     std::optional<BeamAim> aim;        ///< in place of what the drive says of the aim of the own car's low and high beams, angles included
     std::optional<std::filesystem::path> road;
+    /// A file with `lamp_sets`, or a whole drive: its car, vehicle, lamp sets, actuators, control and changes in place of the drive's.
+    std::optional<std::filesystem::path> lamp_sets;
     std::optional<std::string> technique;
     std::optional<std::string> shadows; ///< method by name
     std::optional<std::pair<int, int>> resolution;

@@ -2,12 +2,11 @@
 
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/read_fields.h"
+#include "scenarios/yaml/library_file.h"
 #include "scenarios/yaml/yaml_entry.h"
 #include "scenarios/yaml/yaml_tree.h"
 
 #include <algorithm>
-#include <fmt/format.h>
-#include <system_error>
 
 namespace fernlicht {
 namespace {
@@ -164,26 +163,8 @@ GridRecipe read_grid_recipe(const std::filesystem::path& file, FilesRead& opened
     return recipe;
 }
 
-std::vector<std::string> shipped_recipes() {
-    std::vector<std::string> names;
-    std::error_code none; // without the library there are none
-    for (const auto& entry : std::filesystem::directory_iterator(shipped_path("recipes"), none))
-        if (entry.path().extension() == ".yaml")
-            names.push_back(entry.path().stem().string());
-    std::ranges::sort(names);
-    return names;
-}
-
 std::filesystem::path recipe_file(const std::string& given, const std::filesystem::path& folder, const InputError::Where& where) {
-    const std::filesystem::path here = std::filesystem::absolute(folder / given).lexically_normal();
-    std::error_code ignored; // what cannot be looked at is not there
-    if (std::filesystem::is_regular_file(here, ignored))
-        return here;
-    const std::vector<std::string> names = shipped_recipes();
-    if (std::ranges::find(names, given) != names.end())
-        return std::filesystem::absolute(shipped_path("recipes/" + given + ".yaml")).lexically_normal();
-    throw InputError(where, fmt::format("there is no file {} and no recipe of that name", printable(here.string(), 400)),
-                     fmt::format("a recipe file, or {}", one_of_names(given, names)));
+    return library_file("recipe", given, folder, where);
 }
 
 } // namespace fernlicht

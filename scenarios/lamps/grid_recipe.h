@@ -82,7 +82,4 @@ GridRecipe read_grid_recipe(const std::filesystem::path& file, FilesRead& opened
 /// InputError at `where`.
 std::filesystem::path recipe_file(const std::string& given, const std::filesystem::path& folder, const InputError::Where& where);
 
-/// Names of those in scenarios/library/recipes, in order.
-std::vector<std::string> shipped_recipes();
-
 } // namespace fernlicht

@@ -15,6 +15,7 @@
 #include "scenarios/lamps/text_grid.h"
 #include "scenarios/models/model.h"
 #include "scenarios/openscenario/reader/read_storyboard.h"
+#include "scenarios/ratings/rating.h"
 #include "scenarios/roads/road_network.h"
 #include "scenarios/studies/study.h"
 #include "scenarios/values/picture_decoding.h"
@@ -121,6 +122,14 @@ void read_first_cell(const fs::path& folder) {
         cell_drive(study, cells_of(study).front());
 }
 
+/// A rating, and the lamps under it in the drive of its first row.
+void read_rated_lamps(const fs::path& folder) {
+    const Rating rating = read_rating(folder / "rating.yaml");
+    DriveEdits edits;
+    edits.lamp_sets = folder / "lamps.yaml";
+    read_drive(rating.rows.front().drive, edits);
+}
+
 /// A database, and what its signals make of a frame.
 void read_database(const fs::path& folder) {
     FilesRead opened;
@@ -189,6 +198,7 @@ std::span<const Reader> scenarios_readers() {
          read_first_cell,
          "scenarios/studies",
          "scenarios/study.example.yaml scenarios/library/studies/*.yaml"},
+        {"rating", {"rating.yaml", "lamps.yaml"}, read_rated_lamps, "scenarios/ratings", "scenarios/rating.example.yaml"},
         {"dbc", {"database.dbc"}, read_database, "scenarios/can/dbc", "scenarios/library/can/*.dbc"},
         {"candump", {"bus.log"}, read_log, "scenarios/can/candump_parse.cpp scenarios/can/can_frame.cpp", ""},
         {"gltf",

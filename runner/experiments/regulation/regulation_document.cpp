@@ -75,7 +75,7 @@ std::string as_found_text(const Aim& aim) {
 }
 
 /// Of G, which has none.
-std::string unit_text(const std::string& unit) { return unit.empty() ? "1" : unit; }
+std::string unit_or_one(const std::string& unit) { return unit.empty() ? "1" : unit; }
 
 std::string remark(const RowResult& row) {
     std::string text = row.verdict == RowVerdict::not_measured ? row.reason : row.note;
@@ -92,12 +92,12 @@ Table rows_table(const std::string& name, const std::vector<RowResult>& rows) {
     for (const RowResult& row : rows) {
         const std::string text = remark(row);
         if (row.verdict == RowVerdict::not_measured)
-            table.rows.push_back({row.id, "", limits_text(row), unit_text(row.unit), "", "", "not_measured: " + text});
+            table.rows.push_back({row.id, "", limits_text(row), unit_or_one(row.unit), "", "", "not_measured: " + text});
         else
             table.rows.push_back({row.id,
                                   {number(row.found, row.unit), row.found},
                                   limits_text(row),
-                                  unit_text(row.unit),
+                                  unit_or_one(row.unit),
                                   {fmt::format("{:+.1f}%", 100.0 * row.margin), row.margin},
                                   fmt::format("{:.2f}, {:.2f}", row.where.h_deg + 0.0, row.where.v_deg + 0.0),
                                   name_of(row.verdict) + (text.empty() ? "" : " (" + text + ")")});

@@ -46,7 +46,23 @@ void note_plugin_libraries(Drive& drive) {
     }
 }
 
-Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const DriveEdits& edits, LampCache& cache) {
+/// What of a drive says which lamps a car has, where, and how they move.
+constexpr std::string_view lamp_sets_keys[] = {"car", "vehicle", "actuators", "control", "lamp_sets", "changes"};
+
+YamlValue lamp_sets_document(const std::filesystem::path& path, FilesRead& opened) {
+    return parse_yaml(to_utf8(read_file(path, opened, max_bytes)), path);
+}
+
+/// Of a whole drive nothing else is heard.
+YamlMap lamp_sets_map(const YamlValue& document, const std::filesystem::path& path) {
+    const YamlEntry whole(document, path, "");
+    if (std::ranges::find(document.members, "fernlicht", &YamlMember::key) != document.members.end())
+        return {whole, keys_of(drive_fields())};
+    return {whole, lamp_sets_keys};
+}
+
+/// `of_car`: the keys of lamp_sets_keys, the drive's own or another file's.
+Drive read_all(const YamlMap& keys, const YamlMap& of_car, const std::filesystem::path& path, const DriveEdits& edits, LampCache& cache) {
     Drive drive;
     const auto read = [&](std::initializer_list<const char*> described) {
         for (const char* const key : described)
@@ -73,9 +89,9 @@ Drive read_all(const YamlMap& keys, const std::filesystem::path& path, const Dri
     }
     read({"daylight", "weather"});
     drive.street_lamps = read_street_lamps(keys, cache);
-    const Car car = read_car(keys, drive);
-    read({"vehicle"});
-    drive.lamp_sets = read_lamp_sets(keys, car, cache);
+    const Car car = read_car(of_car, drive);
+    read_field(drive_fields(), "vehicle", of_car, &drive);
+    drive.lamp_sets = read_lamp_sets(of_car, car, cache);
     note_plugin_libraries(drive);
     read_can(keys, edits, drive);
     read_traffic(keys, cache, drive);
@@ -117,7 +133,9 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     if (keys.require("fernlicht").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht").refuse(fmt::format("{}, the version of the drive file's schema", schema_version));
     LampCache cache;
-    Drive drive = read_all(keys, path, edits, cache);
+    const std::filesystem::path lamp_sets = edits.lamp_sets.value_or("");
+    const YamlValue of_lamp_sets = edits.lamp_sets ? lamp_sets_document(lamp_sets, opened) : YamlValue{};
+    Drive drive = read_all(keys, edits.lamp_sets ? lamp_sets_map(of_lamp_sets, lamp_sets) : keys, path, edits, cache);
     apply_edits(drive, edits, cache);
     drive.lamp_sources = cache.sources();
     if (edits.replay)

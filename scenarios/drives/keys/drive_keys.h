@@ -80,6 +80,7 @@ const Fields<DisplaySettings>& display_fields();
 /// A profile's file, which is opened, or a map.
 void read_display(const YamlEntry& given, Drive& drive);
 
+inline constexpr std::string_view across_words[] = {"own-centre", "oncoming-centre", "right-edge", "left-edge"}; ///< Across
 const Fields<Limit>& limit_fields();
 const Fields<ToleranceParameters>& tolerances_fields();
 /// `measure`'s keys of seeing and glare: sensors, glare, visibility, homogeneity, places and tolerances of them.

@@ -15,7 +15,6 @@ namespace fernlicht {
 namespace {
 
 constexpr double longest_route_m = 1.0e6, farthest_seen_m = 2000.0;
-constexpr std::string_view across_words[] = {"own-centre", "oncoming-centre", "right-edge", "left-edge"};
 
 FieldRule across() { return words(across_words); }
 FieldRule illuminances() { return numbers(0, 16, 1.0e-6, 1.0e6); }

@@ -1,4 +1,5 @@
 // Recipes themselves: their keys, those that ship, and how a lamp names one.
+#include "scenarios/yaml/library_file.h"
 #include "tests/scenarios/drives/yaml_schema_check.h"
 #include "tests/scenarios/lamps/recipe_trial.h"
 #include "tests/shipped.h"
@@ -113,8 +114,8 @@ TEST_F(Recipe, OfSpeosReadsWhatItsManualDescribes) {
 }
 
 TEST_F(Recipe, AllThatShipAreGoodAndSayWhereTheirLayoutIsPublic) {
-    ASSERT_FALSE(shipped_recipes().empty());
-    for (const std::string& name : shipped_recipes()) {
+    ASSERT_FALSE(library_names("recipe").empty());
+    for (const std::string& name : library_names("recipe")) {
         FilesRead opened;
         const std::filesystem::path file = recipe_file(name, folder_, {});
         EXPECT_EQ(file, (shipped_library / "recipes" / (name + ".yaml")).lexically_normal());

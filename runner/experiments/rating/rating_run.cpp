@@ -1,0 +1,397 @@
+#include "runner/experiments/rating/rating_run.h"
+
+#include "metrics/folds/place_fold.h"
+#include "metrics/folds/seeing_fold.h"
+#include "metrics/importance/reading_of_light.h"
+#include "metrics/rating/path_circle.h"
+#include "runner/files/output_folder.h"
+#include "runner/findings/run_context.h"
+#include "runner/play/stage.h"
+#include "scenarios/drives/play/advance.h"
+#include "scenarios/drives/play/nudge.h"
+#include "scenarios/light/light_gradient.h"
+#include "scenarios/values/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+namespace fernlicht {
+namespace {
+
+/// Of a path that counts as one of a radius: FMVSS 108 S14.9.3.12. The arc from which on its own radius counts: as that laboratory fits it.
+constexpr double most_off_circle_m = 0.5, least_arc_deg = 10.0;
+
+[[noreturn]] void refuse_row(const Rating& rating, const RatingRow& row, const std::string& key, const std::string& found,
+                             const std::string& expected) {
+    throw InputError({rating.file, row.line, 0, fmt::format("rows.{}.{}", row.name, key)}, found, expected);
+}
+
+/// A drive with one lamp set, played.
+struct PlayedRating {
+    Stage stage;
+    const LampSet& lamp_set;
+    std::vector<Moment> moments;
+    std::map<double, Readings> readings; ///< by how far all lamps are aimed higher, rad
+
+    explicit PlayedRating(Drive drive) : stage(std::move(drive)), lamp_set(stage.drive.lamp_sets.front()) {
+        std::vector<int> ticks(static_cast<std::size_t>(tick_count(stage.drive)));
+        std::iota(ticks.begin(), ticks.end(), 0);
+        moments = moments_at(ticks, stage, lamp_set);
+        if (std::ranges::any_of(moments, [](const Moment& moment) { return moment.weather.wetness > 0.0; }))
+            throw InputError({stage.drive.file, 0, 0, "weather"}, "a wet road, by way of which light comes, too", "a dry one in a rating");
+    }
+};
+
+/// What distance runs from, in the car's frame: the middle of the lamps, or of the bumper.
+glm::dvec3 reference_m(const Stage& stage, const LampSet& lamp_set, DistanceFrom from) {
+    if (from == DistanceFrom::bumper)
+        return {stage.drive.bumper_m, 0.0, 0.0};
+    glm::dvec3 sum(0.0);
+    for (const MountedLamp& lamp : lamp_set.lamps)
+        sum += lamp.position_m;
+    return sum / static_cast<double>(std::max<std::size_t>(1, lamp_set.lamps.size()));
+}
+
+/// Where a photometer is in a moment, where it faces, and what distance runs to.
+struct PlacedPhotometer {
+    LightPlace place;
+    glm::dvec3 distance_to_m{0.0};
+};
+
+class Photometry {
+  public:
+    Photometry(const Rating& rating, const RatingRow& row, const Photometer& photometer, const PlayedRating& played)
+        : rating_(rating), photometer_(photometer), played_(played) {
+        if (photometer.on.empty()) {
+            const double at_m = *photometer.at_m;
+            if (at_m > played.stage.route.length_m())
+                refuse_row(
+                    rating, row, "photometers",
+                    fmt::format("photometer '{}' {:g} m along a route of {:.1f} m", photometer.name, at_m, played.stage.route.length_m()),
+                    "a place on the drive's route");
+            road_ = place_on_road(played.stage.route, photometer.across, at_m);
+            if (!road_)
+                refuse_row(rating, row, "photometers", fmt::format("no {} at {:g} m", place_name(photometer.across), at_m),
+                           "a place that the drive's road has");
+            return;
+        }
+        const std::vector<RoadUser>& users = played.stage.drive.traffic;
+        const auto found = std::ranges::find(users, photometer.on, &RoadUser::name);
+        if (found == users.end()) {
+            std::vector<std::string> names;
+            for (const RoadUser& user : users)
+                names.push_back(user.name);
+            refuse_row(rating, row, "photometers",
+                       fmt::format("photometer '{}' on '{}', a road user that drive {} does not have", photometer.name, photometer.on,
+                                   played.stage.drive.name),
+                       names.empty() ? "a drive with traffic" : fmt::format("one of {}", fmt::join(names, ", ")));
+        }
+        user_ = static_cast<std::size_t>(found - users.begin());
+    }
+
+    /// nullopt: its road user is not there.
+    std::optional<PlacedPhotometer> at(const Moment& moment) const {
+        PlacedPhotometer placed;
+        glm::dvec3 forward(0.0);
+        if (road_) {
+            placed.place.point_m = road_->position_m + photometer_.above_m * road_->up();
+            placed.distance_to_m = placed.place.point_m;
+            forward = road_->forward();
+        } else {
+            const Body& body = moment.bodies[*user_];
+            if (!body.visible)
+                return std::nullopt;
+            const RoadUser& user = played_.stage.drive.traffic[*user_];
+            placed.place.point_m = to_parent(body.pose, photometer_.position_m);
+            forward = body.pose.forward();
+            const glm::dvec3 rear = to_parent(body.pose, {user.rear_m, 0.0, 0.0}),
+                             front = to_parent(body.pose, {user.rear_m + user.size_m.x, 0.0, 0.0});
+            const bool faces_us = glm::dot(forward, moment.ego.forward()) < 0.0;
+            placed.distance_to_m = rating_.rules.to == DistanceTo::photometer ? placed.place.point_m : faces_us ? front : rear;
+        }
+        if (photometer_.faces != PhotometerFacing::lamps) {
+            placed.place.facing = Facing::eye;
+            placed.place.normal = photometer_.faces == PhotometerFacing::forward ? forward : -forward;
+        }
+        return placed;
+    }
+
+  private:
+    const Rating& rating_;
+    const Photometer& photometer_;
+    const PlayedRating& played_;
+    std::optional<Pose> road_;
+    std::optional<std::size_t> user_;
+};
+
+/// Of the moments in which the photometer lies ahead of the car's reference; the lamps nudged.
+LightApproach approach_of(const Rating& rating, const RatingRow& row, const Photometer& photometer, const PlayedRating& played,
+                          const Nudge& nudge = {}) {
+    const Photometry photometry(rating, row, photometer, played);
+    const glm::dvec3 from_m = reference_m(played.stage, played.lamp_set, rating.rules.from);
+    LightApproach approach;
+    for (const Moment& moment : played.moments) {
+        const std::optional<PlacedPhotometer> placed = photometry.at(moment);
+        if (!placed)
+            continue;
+        const glm::dvec3 way = placed->distance_to_m - to_parent(moment.ego, from_m);
+        if (glm::dot(way, moment.ego.forward()) <= 0.0)
+            continue;
+        approach.push_back({moment.tick, moment.time_s, std::hypot(way.x, way.y), light_lx(nudged(moment, nudge), placed->place),
+                            std::asin(std::clamp(moment.ego.forward().z, -1.0, 1.0)) * 180.0 / std::numbers::pi});
+    }
+    return approach;
+}
+
+/// Why the drive is not what the row asks for where it measures; "": it is.
+std::string not_as_asked(const RatingRow& row, const LightApproach& approach, const PlayedRating& played) {
+    std::vector<glm::dvec2> places_m;
+    double slowest = 1.0e9, fastest = 0.0;
+    for (const LightSample& sample : approach) {
+        if (sample.distance_m < row.from_m || sample.distance_m > row.to_m)
+            continue;
+        const Moment& moment = played.moments[static_cast<std::size_t>(sample.tick)];
+        places_m.emplace_back(moment.ego.position_m.x, moment.ego.position_m.y);
+        slowest = std::min(slowest, 3.6 * moment.speed_mps);
+        fastest = std::max(fastest, 3.6 * moment.speed_mps);
+    }
+    if (places_m.empty())
+        return "no moment of the drive lies at the distances that are measured";
+    if (!row.speed_kmh.empty() && (slowest < row.speed_kmh[0] - 1e-6 || fastest > row.speed_kmh[1] + 1e-6))
+        return fmt::format("the car drives {:.1f} to {:.1f} km/h, asked for are {:g} to {:g}", slowest, fastest, row.speed_kmh[0],
+                           row.speed_kmh[1]);
+    if (row.radius_m.empty())
+        return "";
+    const std::optional<PathCircle> circle = path_circle(places_m);
+    if (!circle)
+        return "too few moments to know the path's radius";
+    // A short arc does not tell its radius: any of the range will do that it follows.
+    const double radius_m = std::clamp(circle->radius_m, row.radius_m[0], row.radius_m[1]);
+    const bool told = circle->arc_rad >= least_arc_deg * std::numbers::pi / 180.0;
+    if (off_circle_m(places_m, radius_m) > most_off_circle_m || (told && radius_m != circle->radius_m))
+        return fmt::format("the path has a radius of {:.1f} m (left positive) and is {:.2f} m off the nearest circle of {:g} to {:g} m",
+                           circle->radius_m, off_circle_m(places_m, radius_m), row.radius_m[0], row.radius_m[1]);
+    return "";
+}
+
+Nudge aimed_higher() {
+    Nudge up;
+    up.pitch_rad = nudge_aim_deg * std::numbers::pi / 180.0;
+    return up;
+}
+
+/// The same with all lamps aimed a little higher.
+void add_higher(PhotometerFound& found, const Rating& rating, const RatingRow& row, const LimitCurve& limits, const PlayedRating& played) {
+    LightApproach higher = approach_of(rating, row, found.photometer, played, aimed_higher());
+    if (rating.rules.pitch_off_mean_deg)
+        leave_out_pitching(higher, row.from_m, row.to_m, *rating.rules.pitch_off_mean_deg);
+    for (const RangeJudgement& range : judge_light(higher, limits, row.from_m, row.to_m, rating.rules))
+        found.higher_lx.push_back(found.why.empty() ? range.lx : std::nullopt);
+}
+
+void judge_light_row(RowFound& found, const Rating& rating, const PlayedRating& played) {
+    const RatingRow& row = found.row;
+    const LimitCurve& limits = *limits_named(rating, row.limits);
+    for (const std::string& name : row.photometers) {
+        PhotometerFound& photometer = found.photometers.emplace_back();
+        photometer.photometer = *photometer_named(rating, name);
+        photometer.approach = approach_of(rating, row, photometer.photometer, played);
+        if (rating.rules.pitch_off_mean_deg)
+            photometer.pitch_deg = leave_out_pitching(photometer.approach, row.from_m, row.to_m, *rating.rules.pitch_off_mean_deg);
+        photometer.ranges = judge_light(photometer.approach, limits, row.from_m, row.to_m, rating.rules);
+        photometer.why = not_as_asked(row, photometer.approach, played);
+        if (!photometer.why.empty())
+            for (RangeJudgement& range : photometer.ranges) {
+                const LimitRange of = range.range;
+                range = {};
+                range.range = of;
+                range.why = photometer.why;
+            }
+        add_higher(photometer, rating, row, limits, played);
+        for (const RangeJudgement& range : photometer.ranges)
+            photometer.verdict = worst_of(photometer.verdict, range.verdict);
+        found.verdict = worst_of(found.verdict, photometer.verdict);
+        if (found.why.empty() && photometer.verdict == RatingVerdict::not_measured)
+            found.why = std::ranges::find(photometer.ranges, RatingVerdict::not_measured, &RangeJudgement::verdict)->why;
+    }
+}
+
+bool needs_extent(const RowFound& row) { return row.key && (row.key->quantity == Quantity::reach || row.key->quantity == Quantity::width); }
+
+Value reading_value(const RowFound& found, const Rating& rating, PlayedRating& played, const Nudge& nudge) {
+    if (needs_extent(found)) {
+        std::vector<Moment> moments;
+        for (const Moment& moment : played.moments)
+            moments.push_back(nudged(moment, nudge));
+        try {
+            return ReadingOfLight(*found.key, played.stage.drive, played.stage.route, moments).value(moments);
+        } catch (const InputError&) {
+            refuse_row(rating, found.row, "reading", fmt::format("'{}' of drive {}", found.row.reading, played.stage.drive.name),
+                       "a reach or a width of one lane, over the drive, of a threshold and surface that the drive measures");
+        }
+    }
+    Readings& readings = played.readings[nudge.pitch_rad];
+    if (readings.empty()) {
+        SeeingFold fold(played.stage.drive, played.stage.route, nudge);
+        for (const Moment& moment : played.moments)
+            fold.add(moment, played.lamp_set);
+        readings = fold.readings();
+    }
+    const auto reading = std::ranges::find(readings, *found.key, &Reading::key);
+    if (reading == readings.end())
+        refuse_row(rating, found.row, "reading",
+                   fmt::format("'{}', which drive {} does not measure", found.row.reading, played.stage.drive.name),
+                   "a reading of what it measures, and that needs no picture");
+    return reading->value;
+}
+
+void judge_reading_row(RowFound& found, const Rating& rating, PlayedRating& played) {
+    const RatingRow& row = found.row;
+    found.value = reading_value(found, rating, played, {});
+    found.higher = reading_value(found, rating, played, aimed_higher());
+    if (!found.value.measured()) {
+        found.verdict = RatingVerdict::not_measured;
+        found.why = found.value.reason();
+        return;
+    }
+    if (!row.at_least && !row.at_most)
+        return;
+    const std::optional<bool> held = holds(found.value, row.at_least, row.at_most);
+    found.verdict = !held ? RatingVerdict::not_measured : *held ? RatingVerdict::within : RatingVerdict::exceeded;
+    if (!held)
+        found.why = "what is known of it leaves the limit open";
+}
+
+void give_points(RowFound& found) {
+    const RatingRow& row = found.row;
+    if (!row.points_by.empty())
+        found.points = found.verdict == RatingVerdict::not_measured && !found.value.measured() ? Value::not_measured(found.why)
+                                                                                               : points_at(row.points_by, found.value);
+    else if (row.points > 0.0)
+        found.points = found.verdict == RatingVerdict::not_measured ? Value::not_measured(found.why)
+                       : found.verdict == RatingVerdict::exceeded   ? Value(0.0)
+                                                                    : Value(row.points);
+}
+
+/// The names of the lamp sets under test: read once with the first row's drive.
+std::vector<std::string> lamp_set_names(const Drive& drive) {
+    std::vector<std::string> names;
+    for (const LampSet& lamp_set : drive.lamp_sets)
+        names.push_back(lamp_set.name);
+    return names;
+}
+
+bool has_limit(const RatingRow& row, const Rating& rating) {
+    return row.of_reading() ? row.at_least || row.at_most || row.points > 0.0
+                            : std::ranges::any_of(limits_named(rating, row.limits)->ranges,
+                                                  [](const LimitRange& range) { return range.at_most_lx.has_value(); });
+}
+
+void add_notes(std::vector<RatingNote>& notes, const Drive& drive) {
+    for (const std::string& note : drive.notes) {
+        auto known = std::ranges::find(notes, note, &RatingNote::note);
+        if (known == notes.end())
+            known = notes.insert(notes.end(), {note, {}});
+        if (std::ranges::find(known->drives, drive.name) == known->drives.end())
+            known->drives.push_back(drive.name);
+    }
+}
+
+/// Plays a drive with one of the lamp sets and judges the rows that ask for that.
+void judge_rows(RatingFound& found, std::vector<RowFound*> rows, const Drive& read, const std::string& lamp_set) {
+    Drive drive = read;
+    std::erase_if(drive.lamp_sets, [&](const LampSet& one) { return one.name != lamp_set; });
+    if (std::ranges::none_of(rows, [](const RowFound* row) { return needs_extent(*row); }))
+        drive.extent.reset();
+    PlayedRating played(std::move(drive));
+    for (const FilesRead* files : {&played.stage.drive.opened, &played.stage.network.opened})
+        add_inputs(found.context.inputs, *files);
+    add_notes(found.notes, played.stage.drive);
+    for (RowFound* row : rows) {
+        row->drive = played.stage.drive.name;
+        if (row->row.of_reading())
+            judge_reading_row(*row, found.rating, played);
+        else
+            judge_light_row(*row, found.rating, played);
+    }
+}
+
+} // namespace
+
+RatingVerdict RatingFound::verdict() const {
+    RatingVerdict all = RatingVerdict::told;
+    for (const RowFound& row : rows)
+        if (row.counts)
+            all = worst_of(all, row.verdict);
+    return all;
+}
+
+bool all_within(const RatingFound& found) { return found.verdict() == RatingVerdict::within || found.verdict() == RatingVerdict::told; }
+
+RatingFound run_rating(const RatingRequest& request) {
+    RatingFound found;
+    found.rating = request.rating;
+    found.lamps = request.lamps.filename().string();
+    found.context = make_context({}, request.command, 1);
+    add_inputs(found.context.inputs, request.rating.opened);
+    for (const RatingRow& row : request.rating.rows) {
+        RowFound& one = found.rows.emplace_back();
+        one.row = row;
+        if (!row.of_reading())
+            continue;
+        one.key = key_of(row.reading);
+        if (!one.key)
+            refuse_row(request.rating, row, "reading", "'" + printable(row.reading) + "'",
+                       "a reading's name; `fernlicht readings` lists them");
+        one.unit = unit_of(*one.key);
+    }
+    // Each drive is read once, and played once with each lamp set that its rows ask for.
+    std::vector<const RowFound*> done;
+    DriveEdits edits;
+    edits.lamp_sets = request.lamps;
+    for (RowFound& first : found.rows) {
+        if (std::ranges::find(done, &first) != done.end())
+            continue;
+        const Drive drive = read_drive(first.row.drive, edits);
+        if (found.lamp_set.empty())
+            found.lamp_set = lamp_set_of(drive, request.lamp_set).name;
+        const std::vector<std::string> names = lamp_set_names(drive);
+        std::vector<std::pair<std::string, std::vector<RowFound*>>> by_lamp_set;
+        for (RowFound& row : found.rows) {
+            if (row.row.drive != first.row.drive)
+                continue;
+            done.push_back(&row);
+            const std::string& lamp_set = row.row.lamp_set.empty() ? found.lamp_set : row.row.lamp_set;
+            row.drive = drive.name;
+            if (std::ranges::find(names, lamp_set) == names.end()) {
+                row.counts = has_limit(row.row, request.rating);
+                row.verdict = RatingVerdict::not_measured;
+                row.why = fmt::format("{} has no lamp set '{}'", found.lamps, lamp_set);
+                continue;
+            }
+            auto same = std::ranges::find(by_lamp_set, lamp_set, &std::pair<std::string, std::vector<RowFound*>>::first);
+            if (same == by_lamp_set.end())
+                same = by_lamp_set.insert(by_lamp_set.end(), {lamp_set, {}});
+            same->second.push_back(&row);
+        }
+        for (const auto& [lamp_set, rows] : by_lamp_set)
+            judge_rows(found, rows, drive, lamp_set);
+    }
+    std::vector<ScoredRow> scored;
+    for (RowFound& row : found.rows) {
+        give_points(row);
+        scored.push_back({row.row.name, row.verdict, row.points, row.row.points, row.row.weight, row.row.cap});
+    }
+    found.score = score(scored, request.rating.grades);
+    OutputFolder folder(request.folder);
+    request.write(found);
+    folder.finish();
+    return found;
+}
+
+} // namespace fernlicht

@@ -1,0 +1,19 @@
+// YAML files that are named by their path, or by a name of ours in scenarios/library.
+#pragma once
+
+#include "scenarios/values/errors.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fernlicht {
+
+/// Names of those in scenarios/library/KINDs ("recipe": recipes), in order.
+std::vector<std::string> library_names(const std::string& kind);
+
+/// `given` as a path from `folder`, or else such a name. Absolute and normal. Throws InputError at `where`.
+std::filesystem::path library_file(const std::string& kind, const std::string& given, const std::filesystem::path& folder,
+                                   const InputError::Where& where);
+
+} // namespace fernlicht
