@@ -80,6 +80,7 @@ struct HighBeamParameters {
 struct SegmentedLamp {
     std::string name;
     std::vector<std::pair<double, double>> windows_deg; ///< from, to; right positive as on the goniometer; ascending
+    bool pixels = false;                                ///< in place of windows those that its file describes
 
     bool operator==(const SegmentedLamp&) const = default;
 };
