@@ -135,6 +135,20 @@ double worst_error(const CandelaTable& table, const BeamTexture& texture, const 
     return worst;
 }
 
+/// The table on the texels' angles: a row in cd at a time, from low V.
+template <class Take> void sample(const CandelaTable& table, const Axis& h, const Axis& v, Take take) {
+    // The last texel may lie a rounding error beyond the table's edge, where the table is dark: stay inside.
+    const auto inside = [](double angle, const std::vector<double>& axis) { return std::clamp(angle, axis.front(), axis.back()); };
+    std::vector<double> h_deg;
+    for (std::size_t x = 0; x < h.count; ++x)
+        h_deg.push_back(inside(h.at(static_cast<double>(x)), table.h_deg));
+    IntensityAcross across(table, h_deg);
+    for (std::size_t y = 0; y < v.count; ++y)
+        take(y, across.at(inside(v.at(static_cast<double>(y)), table.v_deg)));
+}
+
+float in_steps(float cd, double step_cd) { return static_cast<float>(std::round(static_cast<double>(cd) / step_cd) * step_cd); }
+
 BeamTexture sampled(const CandelaTable& table, const Axis& h, const Axis& v, int bits) {
     BeamTexture texture;
     texture.width = static_cast<int>(h.count);
@@ -145,29 +159,29 @@ BeamTexture sampled(const CandelaTable& table, const Axis& h, const Axis& v, int
     texture.v_step_rad = radians(v.step_deg);
     texture.bits = bits;
     texture.cd.reserve(h.count * v.count);
-    // The last texel may lie a rounding error beyond the table's edge, where the table is dark: stay inside.
-    const auto inside = [](double angle, const std::vector<double>& axis) { return std::clamp(angle, axis.front(), axis.back()); };
-    std::vector<double> h_deg;
-    for (std::size_t x = 0; x < h.count; ++x)
-        h_deg.push_back(inside(h.at(static_cast<double>(x)), table.h_deg));
-    IntensityAcross across(table, h_deg);
-    for (std::size_t y = 0; y < v.count; ++y)
-        for (const double cd : across.at(inside(v.at(static_cast<double>(y)), table.v_deg)))
+    sample(table, h, v, [&](std::size_t, const std::vector<double>& row) {
+        for (const double cd : row)
             texture.cd.push_back(static_cast<float>(cd));
+    });
     texture.scale_cd = static_cast<double>(*std::ranges::max_element(texture.cd));
-    if (bits < 32 && texture.scale_cd > 0.0) {
-        const double step_cd = texture.scale_cd / largest_step(bits);
+    if (bits < 32 && texture.scale_cd > 0.0)
         for (float& cd : texture.cd)
-            cd = static_cast<float>(std::round(static_cast<double>(cd) / step_cd) * step_cd);
-    }
+            cd = in_steps(cd, texture.scale_cd / largest_step(bits));
     if (const double peak = peak_of(table).cd; peak > 0.0)
         texture.worst_error_of_peak = worst_error(table, texture, h, v) / peak;
     return texture;
 }
 
-} // namespace
+/// The axes of make_beam_texture(table, texels).
+std::pair<Axis, Axis> axes_of_texels(const CandelaTable& table, const BeamTexels& texels) {
+    const auto axis = [](const std::vector<double>& samples, Range range, int count) {
+        const double from = std::max(samples[range.first], -90.0), to = std::min(samples[range.last], 90.0);
+        return Axis{from, to > from ? (to - from) / (count - 1) : finest_needed_deg, static_cast<std::size_t>(count)};
+    };
+    return {axis(table.h_deg, lit_range(table, true), texels.width), axis(table.v_deg, lit_range(table, false), texels.height)};
+}
 
-BeamTexture make_beam_texture(const CandelaTable& table, std::size_t max_texels) {
+std::pair<Axis, Axis> axes_within(const CandelaTable& table, std::size_t max_texels) {
     const Range across = lit_range(table, true), up = lit_range(table, false);
     double coarser_h = 1.0, coarser_v = 1.0;
     Axis h = choose_axis(table.h_deg, across, -90.0, 90.0, coarser_h);
@@ -177,6 +191,13 @@ BeamTexture make_beam_texture(const CandelaTable& table, std::size_t max_texels)
         h = choose_axis(table.h_deg, across, -90.0, 90.0, coarser_h);
         v = choose_axis(table.v_deg, up, -90.0, 90.0, coarser_v);
     }
+    return {h, v};
+}
+
+} // namespace
+
+BeamTexture make_beam_texture(const CandelaTable& table, std::size_t max_texels) {
+    const auto [h, v] = axes_within(table, max_texels);
     return sampled(table, h, v, 32);
 }
 
@@ -185,12 +206,30 @@ BeamTexture make_beam_texture(const CandelaTable& table, const BeamTexels& texel
         if (texels_each_way < min_beam_texels || texels_each_way > max_beam_texels)
             throw std::invalid_argument(fmt::format("beam texture: {} x {} texels, expected {} to {} each way", texels.width, texels.height,
                                                     min_beam_texels, max_beam_texels));
-    const auto axis = [](const std::vector<double>& samples, Range range, int count) {
-        const double from = std::max(samples[range.first], -90.0), to = std::min(samples[range.last], 90.0);
-        return Axis{from, to > from ? (to - from) / (count - 1) : finest_needed_deg, static_cast<std::size_t>(count)};
-    };
-    return sampled(table, axis(table.h_deg, lit_range(table, true), texels.width),
-                   axis(table.v_deg, lit_range(table, false), texels.height), texels.bits);
+    const auto [h, v] = axes_of_texels(table, texels);
+    return sampled(table, h, v, texels.bits);
+}
+
+std::pair<int, int> draw_state(const CandelaTable& table, const CandelaTable& full, const std::optional<BeamTexels>& texels,
+                               BeamTexture& texture) {
+    const auto [h, v] = texels ? axes_of_texels(full, *texels) : axes_within(full, default_max_texels);
+    int first = texture.height, end = 0;
+    const double step_cd = texture.bits < 32 ? texture.scale_cd / largest_step(texture.bits) : 0.0;
+    sample(table, h, v, [&, count = h.count](std::size_t y, const std::vector<double>& row) {
+        bool changed = false;
+        float* const to = &texture.cd[y * count];
+        for (std::size_t x = 0; x < count; ++x) {
+            const float cd = step_cd > 0.0 ? in_steps(static_cast<float>(row[x]), step_cd) : static_cast<float>(row[x]);
+            changed = changed || cd != to[x];
+            to[x] = cd;
+        }
+        if (changed) {
+            first = std::min(first, static_cast<int>(y));
+            end = static_cast<int>(y) + 1;
+        }
+    });
+    ++texture.state;
+    return {std::min(first, end), end};
 }
 
 } // namespace fernlicht

@@ -67,6 +67,7 @@ LampSet without_control(const LampSet& lamp_set) {
     for (LampRun& lamp : run.runs) {
         lamp.swivel.reset();
         lamp.pitch.reset();
+        lamp.pixels.reset();
     }
     if (const auto& cornering = lamp_set.control->cornering)
         for (std::size_t i = 0; i < run.lamps.size(); ++i)

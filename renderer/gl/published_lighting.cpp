@@ -300,9 +300,13 @@ void PublishedLighting::prepare(const Shot& shot) {
 }
 
 UploadedBeam PublishedBeams::upload(const ProjectedBeam& beam) {
-    UploadedBeam uploaded{beam.window, beam.steps.empty() ? 1.0 : beam.scale_lx, beam.scale_lx, beam.worst_error_of_peak,
+    UploadedBeam uploaded{beam.window,
+                          beam.steps.empty() ? 1.0 : beam.scale_lx,
+                          beam.scale_lx,
+                          beam.worst_error_of_peak,
                           make_texels(context_, beam.width, beam.height, beam.bits, framed(beam.lx, beam.width, beam.height, 1),
-                                      framed(beam.steps, beam.width, beam.height, 1))};
+                                      framed(beam.steps, beam.width, beam.height, 1)),
+                          beam.bytes()};
     set_linear(context_.gl, uploaded.texture);
     texture_bytes_ += beam.bytes();
     context_.check("uploading a projected beam");
@@ -313,6 +317,13 @@ const UploadedBeam& PublishedBeams::of(const std::shared_ptr<const LampFile>& fi
     const auto known = beams_.find(file);
     if (known != beams_.end())
         return known->second;
+    if (file->state_of) { // its last state is not drawn again
+        const auto same_lamp = [&](const auto& entry) { return entry.first->state_of == file->state_of; };
+        for (const auto& entry : beams_)
+            texture_bytes_ -= same_lamp(entry) ? entry.second.bytes : 0;
+        std::erase_if(beams_, same_lamp);
+        std::erase_if(spots_, same_lamp);
+    }
     return beams_.emplace(file, upload(make_projected_beam(file->table, texels_))).first->second;
 }
 

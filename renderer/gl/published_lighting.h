@@ -21,6 +21,7 @@ struct UploadedBeam {
     TangentWindow window;
     double lx_a_unit = 1.0, peak_lx = 0.0, worst_error_of_peak = 0.0;
     Texture texture;
+    std::size_t bytes = 0;
 };
 
 struct UploadedMap {

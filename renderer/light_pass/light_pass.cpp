@@ -188,13 +188,17 @@ CpuLight::CpuLight(const Scene& scene, const ToneMapper& tone, double target_hei
 CpuLight::~CpuLight() = default;
 
 const std::vector<float>& CpuLight::padded(const BeamTexture& beam) {
-    std::vector<float>& cd = beams_[&beam];
-    if (cd.empty())
-        for (int row = 0; row <= beam.height; ++row)
-            for (int column = 0; column <= beam.width; ++column)
-                cd.push_back(
-                    beam.cd[static_cast<std::size_t>(std::min(row, beam.height - 1) * beam.width + std::min(column, beam.width - 1))]);
-    return cd;
+    Padded& padded = beams_[&beam];
+    if (!padded.cd.empty() && padded.state == beam.state)
+        return padded.cd;
+    padded.state = beam.state;
+    padded.cd.clear();
+    for (int row = 0; row <= beam.height; ++row) {
+        const auto from = beam.cd.begin() + std::ptrdiff_t{std::min(row, beam.height - 1)} * beam.width;
+        padded.cd.insert(padded.cd.end(), from, from + beam.width);
+        padded.cd.push_back(padded.cd.back());
+    }
+    return padded.cd;
 }
 
 void CpuLight::draw(const DrawnPicture& picture, const DrawnSurfaces& surfaces, Frame& frame) {

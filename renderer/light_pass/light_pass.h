@@ -89,7 +89,11 @@ class CpuLight {
     double target_height_m_;
     packs::Level level_;
     std::vector<packs::PassMaterial> materials_;
-    std::map<const BeamTexture*, std::vector<float>> beams_;
+    struct Padded {
+        std::uint64_t state = 0; ///< of the beam
+        std::vector<float> cd;
+    };
+    std::map<const BeamTexture*, Padded> beams_;
 };
 
 } // namespace fernlicht

@@ -111,7 +111,7 @@ std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, con
         Moment moment = moment_at(state, drive, route, lamp_set);
         std::vector<std::pair<const LampFile*, bool>> lamps;
         for (const LitLamp& lamp : moment.lamps)
-            lamps.emplace_back(lamp.file.get(), lamp.intensity_factor > 0.0);
+            lamps.emplace_back(lamp.file->state_of ? lamp.file->state_of.get() : lamp.file.get(), lamp.intensity_factor > 0.0);
         const int around = (moment.daylight.horizontal_illuminance_lx > 0.0 ? 1 : 0) + (moment.daylight.direct() ? 2 : 0) +
                            (moment.weather.extinction_per_m > 0.0 ? 4 : 0) + (moment.weather.wetness > 0.0 ? 8 : 0);
         if (drive.shadows.method == ShadowMethod::planar) // it refuses moments on ground that is not one plane, before the first frame

@@ -32,8 +32,10 @@ ControlLoop::ControlLoop(const ControlParameters& parameters, const std::vector<
                          const SolverOptions& options, const std::vector<std::string>& written)
     : parameters_(parameters), options_(options), table_(names_of(lamps)), controller_(parameters, lamps, car), runs_(lamps.size()),
       levels_(lamps.size(), 1.0), switches_(lamps.size(), 1.0), before_(table_.values()), out_of_range_(table_.size(), 0) {
-    for (const ControlledLamp& lamp : lamps)
-        segments_.emplace_back(lamp.windows_deg.size(), 1.0);
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+        segments_.emplace_back(lamps[i].windows.size(), 1.0);
+        runs_[i].pixels = lamps[i].pixels;
+    }
     for (const PluginParameters& plugin : parameters_.plugins)
         plugins_.emplace_back(plugin, lamps, parameters_.period_s);
     std::set<std::size_t> swivelling, levelled;
@@ -249,7 +251,9 @@ void ControlLoop::keep(double time_s) {
         for (const double segment : segments_[lamp])
             lit += segment;
         table_.of(lamp, lamp_signal::segments_lit) = lit;
-        if (segments_[lamp].size() == 1)
+        if (const auto& pixels = runs_[lamp].pixels)
+            pixels->ask(time_s, std::vector<float>(segments_[lamp].begin(), segments_[lamp].end()));
+        else if (segments_[lamp].size() == 1)
             level *= segments_[lamp].front();
         else
             changed(runs_[lamp].segments, segments_[lamp], std::vector<double>(segments_[lamp].size(), 1.0));
@@ -300,6 +304,7 @@ LampRun ControlLoop::lamp_at(std::size_t lamp, double time_s) const {
     now.levels = held(run.levels);
     now.modes = held(run.modes);
     now.segments = held(run.segments);
+    now.pixels = run.pixels;
     now.measured_swivel = held(run.measured_swivel);
     now.measured_pitch = held(run.measured_pitch);
     for (const Driven& driven : driven_)

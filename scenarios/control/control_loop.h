@@ -58,6 +58,7 @@ struct LampRun {
     std::vector<std::pair<double, double>> levels;                          ///< from when, which
     std::vector<std::pair<double, BeamMode>> modes;                         ///< from when, which; of lamps that have them
     std::vector<std::pair<double, std::vector<double>>> segments;           ///< from when, levels of its windows
+    std::shared_ptr<LevelTrack> pixels;                                     ///< in place of windows
 };
 
 class ControlLoop {

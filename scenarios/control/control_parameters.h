@@ -80,6 +80,7 @@ struct HighBeamParameters {
 struct SegmentedLamp {
     std::string name;
     std::vector<std::pair<double, double>> windows_deg; ///< from, to; right positive as on the goniometer; ascending
+    bool pixels = false;                                ///< in place of windows those that its file describes
 
     bool operator==(const SegmentedLamp&) const = default;
 };
@@ -89,6 +90,7 @@ struct GlareFreeParameters {
     std::vector<SegmentedLamp> lamps;
     double margin_rad = 0.0087; ///< to each side of others, 0.5 degrees
     double mask_delay_s = 0.1, relight_delay_s = 0.5;
+    double foresee_s = 0.0; ///< others are taken to be where they are and, going straight on, will be so much later
 
     bool operator==(const GlareFreeParameters&) const = default;
 };

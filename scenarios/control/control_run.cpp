@@ -43,6 +43,8 @@ const BeamModeSettings& ControlRun::mode(std::size_t lamp, double time_s) const 
 }
 
 std::shared_ptr<const LampFile> ControlRun::file(std::size_t lamp, double time_s) const {
+    if (runs[lamp].pixels)
+        return runs[lamp].pixels->at(time_s);
     const auto* const change = masks.empty() ? nullptr : held(masks[lamp], time_s);
     return change && change->second ? change->second : mode(lamp, time_s).file;
 }

@@ -25,8 +25,10 @@ LampController::LampController(const ControlParameters& parameters, std::vector<
         high_lamps_ = places(parameters_.high_beam->lamps);
     }
     if (parameters_.glare_free)
-        for (const SegmentedLamp& lamp : parameters_.glare_free->lamps)
-            windows_.emplace_back(places({lamp.name}).front(), LampWindows(lamp, *parameters_.glare_free));
+        for (const SegmentedLamp& segmented : parameters_.glare_free->lamps) {
+            const std::size_t lamp = places({segmented.name}).front();
+            windows_.emplace_back(lamp, LampWindows(lamps_[lamp].windows, *parameters_.glare_free));
+        }
 }
 
 std::vector<std::size_t> LampController::places(const std::vector<std::string>& names) const {
@@ -81,9 +83,13 @@ void LampController::level(SignalTable& table, double dt_s) {
 
 void LampController::glare_free(SignalTable& table, std::vector<std::vector<double>>& segments, const Surroundings& surroundings,
                                 double dt_s) {
+    const double body_rad = table[signal::ego_spring_pitch] + table[signal::ego_load_pitch];
+    const double v = table[signal::ego_speed], yaw_rate = table[signal::ego_yaw_rate];
+    const OwnMotion own{std::isfinite(v) ? v : 0.0, std::isfinite(yaw_rate) ? yaw_rate : 0.0};
     for (auto& [lamp, windows] : windows_) {
-        const double yaw_rad = lamps_[lamp].yaw_rad + table.of(lamp, lamp_signal::swivel);
-        segments[lamp] = windows.step(surroundings.others, *parameters_.high_beam, lamps_[lamp].position_m, yaw_rad, dt_s);
+        const LampPlace place{lamps_[lamp].position_m, lamps_[lamp].yaw_rad + table.of(lamp, lamp_signal::swivel),
+                              lamps_[lamp].pitch_rad + table.of(lamp, lamp_signal::pitch) + (std::isfinite(body_rad) ? body_rad : 0.0)};
+        segments[lamp] = windows.step(surroundings.others, *parameters_.high_beam, place, own, dt_s);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/control/laws.h"
 #include "scenarios/control/signals.h"
+#include "scenarios/lamps/level_track.h"
 
 #include <glm/vec3.hpp>
 
@@ -31,9 +32,11 @@ class BeamModes {
 
 struct ControlledLamp {
     std::string name;
-    glm::dvec3 position_m{0.0};                              ///< in the car's frame
-    double yaw_rad = 0.0;                                    ///< its aim, left positive
-    std::vector<std::pair<double, double>> windows_deg = {}; ///< of its segments: from, to; right positive
+    glm::dvec3 position_m{0.0};              ///< in the car's frame
+    double yaw_rad = 0.0;                    ///< its aim, left positive
+    std::vector<AngleBox> windows = {};      ///< of its segments or pixels
+    double pitch_rad = 0.0;                  ///< its aim, up positive
+    std::shared_ptr<LevelTrack> pixels = {}; ///< what its pixels do, one window each; nullptr: it has none
 };
 
 class LampController {

@@ -104,23 +104,47 @@ double HighBeam::step(const SignalTable& table, double dt_s) {
     return level_;
 }
 
-std::pair<double, double> seen_deg(const OtherUser& other, const glm::dvec3& position_m, double yaw_rad) {
-    const double ahead_m = other.ahead_m - position_m.x, left_m = other.left_m - position_m.y;
+std::optional<AngleBox> seen_box(const OtherUser& other, const LampPlace& lamp) {
+    const double ahead_m = other.ahead_m - lamp.position_m.x, left_m = other.left_m - lamp.position_m.y;
     if (!(ahead_m > 0.0))
-        return {1.0, -1.0};
-    const auto right_deg = [&](double y_m) { return degrees(yaw_rad - std::atan2(y_m, ahead_m)); };
-    return {right_deg(left_m + 0.5 * other.width_m), right_deg(left_m - 0.5 * other.width_m)};
+        return std::nullopt;
+    const auto right_deg = [&](double y_m) { return degrees(lamp.yaw_rad - std::atan2(y_m, ahead_m)); };
+    const auto up_deg = [&](double z_m) {
+        return degrees(std::atan2(other.up_m + z_m - lamp.position_m.z, std::hypot(ahead_m, left_m)) - lamp.pitch_rad);
+    };
+    return AngleBox{right_deg(left_m + 0.5 * other.width_m), right_deg(left_m - 0.5 * other.width_m), up_deg(0.0), up_deg(other.height_m)};
 }
 
-const std::vector<double>& LampWindows::step(const std::vector<OtherUser>& others, const HighBeamParameters& reach,
-                                             const glm::dvec3& position_m, double yaw_rad, double dt_s) {
+OtherUser seen_later(OtherUser other, const OwnMotion& own, double after_s) {
+    const double turned = own.yaw_rate_rad_s * after_s, half = 0.5 * turned, way_m = own.speed_mps * after_s;
+    // The chord of the car's arc, half the turn to the side.
+    const double chord_m = std::abs(half) > 1e-9 ? way_m * std::sin(half) / half : way_m;
+    const double x = other.ahead_m + other.speed_mps * std::cos(other.heading_rad) * after_s - chord_m * std::cos(half);
+    const double y = other.left_m + other.speed_mps * std::sin(other.heading_rad) * after_s - chord_m * std::sin(half);
+    other.ahead_m = x * std::cos(turned) + y * std::sin(turned);
+    other.left_m = y * std::cos(turned) - x * std::sin(turned);
+    other.heading_rad -= turned;
+    return other;
+}
+
+const std::vector<double>& LampWindows::step(const std::vector<OtherUser>& others, const HighBeamParameters& reach, const LampPlace& lamp,
+                                             const OwnMotion& own, double dt_s) {
     const double margin_deg = degrees(parameters_.margin_rad);
+    std::vector<AngleBox> spared;
+    for (const OtherUser& other : others)
+        if (other.lamps_on && std::hypot(other.ahead_m, other.left_m) <= (other.oncoming() ? reach.oncoming_m : reach.preceding_m))
+            if (const auto box = seen_box(other, lamp)) {
+                const AngleBox later =
+                    parameters_.foresee_s > 0.0 ? seen_box(seen_later(other, own, parameters_.foresee_s), lamp).value_or(*box) : *box;
+                spared.push_back(
+                    {std::min(box->left_deg, later.left_deg) - margin_deg, std::max(box->right_deg, later.right_deg) + margin_deg,
+                     std::min(box->bottom_deg, later.bottom_deg) - margin_deg, std::max(box->top_deg, later.top_deg) + margin_deg});
+            }
     for (std::size_t i = 0; i < levels_.size(); ++i) {
-        const auto& window_deg = lamp_.windows_deg[i];
-        const bool met = std::ranges::any_of(others, [&](const OtherUser& other) {
-            const auto [least, most] = seen_deg(other, position_m, yaw_rad);
-            return other.lamps_on && std::hypot(other.ahead_m, other.left_m) <= (other.oncoming() ? reach.oncoming_m : reach.preceding_m) &&
-                   least <= most && least - margin_deg < window_deg.second && most + margin_deg > window_deg.first;
+        const AngleBox& window = windows_[i];
+        const bool met = std::ranges::any_of(spared, [&](const AngleBox& box) {
+            return box.left_deg < window.right_deg && box.right_deg > window.left_deg && box.bottom_deg < window.top_deg &&
+                   box.top_deg > window.bottom_deg;
         });
         const double wanted = met ? 0.0 : 1.0;
         since_s_[i] = wanted == levels_[i] ? 0.0 : since_s_[i] + dt_s;

@@ -7,10 +7,12 @@
 
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/control/signals.h"
+#include "scenarios/lamps/pixel_lamp.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -89,6 +91,7 @@ struct OtherUser {
     double speed_mps = 0.0;
     double width_m = 1.8, height_m = 1.5;
     bool lamps_on = true;
+    double up_m = 0.0; ///< of the road under it, against the road under the own car
 
     bool oncoming() const { return heading_rad > 1.5707963267948966 || heading_rad < -1.5707963267948966; }
     bool operator==(const OtherUser&) const = default;
@@ -125,27 +128,40 @@ class HighBeam {
     double other_s_ = 0.0, level_ = 0.0;
 };
 
-/// Dark windows of one lamp.
+/// Where a lamp is in the car's frame, and where it points: left and up positive.
+struct LampPlace {
+    glm::dvec3 position_m{0.0};
+    double yaw_rad = 0.0, pitch_rad = 0.0;
+};
+
+struct OwnMotion {
+    double speed_mps = 0.0, yaw_rate_rad_s = 0.0;
+};
+
+/// Where the other will be in the car's frame then: straight on at his speed, the car on its circle.
+OtherUser seen_later(OtherUser other, const OwnMotion& own, double after_s);
+
+/// Dark windows, or pixels, of one lamp.
 class LampWindows {
   public:
-    LampWindows(SegmentedLamp lamp, const GlareFreeParameters& parameters)
-        : lamp_(std::move(lamp)), parameters_(parameters), levels_(lamp_.windows_deg.size(), 1.0), since_s_(levels_.size(), 0.0) {}
+    LampWindows(std::vector<AngleBox> windows, const GlareFreeParameters& parameters)
+        : windows_(std::move(windows)), parameters_(parameters), levels_(windows_.size(), 1.0), since_s_(levels_.size(), 0.0) {}
 
-    /// Level of each window. `position_m`: of the lamp in the car's frame; `yaw_rad`: where it points now, left positive. A window goes
-    /// dark `mask_delay_s` after some other user, with the margin to each side, is in it, and lights up `relight_delay_s` after the last.
-    const std::vector<double>& step(const std::vector<OtherUser>& others, const HighBeamParameters& reach, const glm::dvec3& position_m,
-                                    double yaw_rad, double dt_s);
+    /// Level of each window. A window goes dark `mask_delay_s` after some other user, with the margin to each side, is in it or between
+    /// where he is and where he will be `foresee_s` later, and lights up `relight_delay_s` after the last.
+    const std::vector<double>& step(const std::vector<OtherUser>& others, const HighBeamParameters& reach, const LampPlace& lamp,
+                                    const OwnMotion& own, double dt_s);
 
   private:
-    SegmentedLamp lamp_;
+    std::vector<AngleBox> windows_;
     GlareFreeParameters parameters_;
     std::vector<double> levels_;
     std::vector<double> since_s_; ///< how long each has been asked to be otherwise
     bool started_ = false;
 };
 
-/// The angles that a road user takes up, seen from a lamp: from, to, degrees, right positive; from > to: none, it is not before the lamp.
-std::pair<double, double> seen_deg(const OtherUser& other, const glm::dvec3& position_m, double yaw_rad);
+/// The angles that a road user takes up, seen from a lamp, from the road under it to its top; nullopt: it is not before the lamp.
+std::optional<AngleBox> seen_box(const OtherUser& other, const LampPlace& lamp);
 
 /// Between a dark window and its lit neighbour the light rises over this angle, inside the neighbour.
 inline constexpr double window_edge_deg = 0.1;

@@ -87,9 +87,9 @@ ControlPlugin::ControlPlugin(const PluginParameters& parameters, const std::vect
         p.may_move.push_back(std::ranges::find(parameters.lamps, lamp.name) != parameters.lamps.end());
         p.from_deg.emplace_back();
         p.to_deg.emplace_back();
-        for (const auto& [from, to] : lamp.windows_deg) {
-            p.from_deg.back().push_back(from);
-            p.to_deg.back().push_back(to);
+        for (const AngleBox& window : lamp.windows) {
+            p.from_deg.back().push_back(window.left_deg);
+            p.to_deg.back().push_back(window.right_deg);
         }
     }
     p.load();
@@ -142,7 +142,7 @@ void ControlPlugin::step(SignalTable& table, std::vector<std::vector<double>>& a
     for (std::size_t i = 0; i < p.lamps.size(); ++i) {
         const ControlledLamp& lamp = p.lamps[i];
         lamps.push_back({lamp.name.c_str(), lamp.position_m.x, lamp.position_m.y, lamp.position_m.z, lamp.yaw_rad,
-                         table.of(i, lamp_signal::swivel), table.of(i, lamp_signal::pitch), p.may_move[i] ? 1 : 0, lamp.windows_deg.size(),
+                         table.of(i, lamp_signal::swivel), table.of(i, lamp_signal::pitch), p.may_move[i] ? 1 : 0, lamp.windows.size(),
                          p.from_deg[i].data(), p.to_deg[i].data()});
         commands.push_back({table.of(i, lamp_signal::swivel_command), table.of(i, lamp_signal::pitch_command),
                             table.of(i, lamp_signal::level), segments[i].data()});

@@ -4,6 +4,8 @@
 #include "scenarios/lamps/eulumdat.h"
 #include "scenarios/lamps/ies.h"
 #include "scenarios/lamps/lamp_text.h"
+#include "scenarios/lamps/pixel_lamp.h"
+#include "scenarios/lamps/pixel_lamp_file.h"
 #include "scenarios/lamps/text_grid.h"
 
 #include <algorithm>
@@ -43,7 +45,8 @@ LampFile read_as_it_is(const std::filesystem::path& path, const LampReadOptions&
 } // namespace
 
 std::span<const LampFormat> lamp_formats() {
-    static constexpr LampFormat formats[]{{"IES LM-63", ".ies", looks_like_ies, read_ies},
+    static constexpr LampFormat formats[]{{"pixel lamp", ".yaml", looks_like_pixel_lamp, read_pixel_lamp},
+                                          {"IES LM-63", ".ies", looks_like_ies, read_ies},
                                           {"beam matrix", ".csv", looks_like_beam_matrix, read_beam_matrix},
                                           {"EULUMDAT", ".ldt", looks_like_eulumdat, read_eulumdat},
                                           {"beam texture", ".png, .exr", looks_like_beam_texture, read_beam_texture, true}};
@@ -69,6 +72,8 @@ void mirror(LampFile& lamp) {
     lamp.table = mirrored(lamp.table);
     if (lamp.measured)
         lamp.measured = mirrored(std::move(*lamp.measured));
+    if (lamp.pixels)
+        lamp.pixels = std::make_shared<const PixelLamp>(lamp.pixels->mirrored());
 }
 
 void write_lamp(const LampFile& lamp, const std::filesystem::path& path) {

@@ -4,6 +4,7 @@
 #include "scenarios/lamps/candela_table.h"
 #include "scenarios/values/files.h"
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,8 @@
 #include <utility>
 
 namespace fernlicht {
+
+class PixelLamp;
 
 /// Where a Type C file (and EULUMDAT) points its beam: at the horizon as headlamps are measured, or to the nadir as luminaires are.
 enum class TypeCAxis { automatic, horizontal, nadir };
@@ -42,6 +45,8 @@ struct LampFile {
     std::vector<std::pair<std::string, std::string>> labels = {}; ///< the file's own keywords and texts, UTF-8
     std::vector<std::string> notes = {}; ///< what was odd and how it was taken ("angles descend: sorted"), one sentence each
     FilesRead opened = {};
+    std::shared_ptr<const PixelLamp> pixels = {};  ///< whose light at full level `table` is; nullptr: nothing dims by itself
+    std::shared_ptr<const LampFile> state_of = {}; ///< of a state of pixels: the lamp with all of them at full level, one for each lamp
 };
 
 struct LampFormat {
@@ -58,7 +63,7 @@ std::string lamp_format_list(); ///< "IES LM-63 (.ies), ... or beam texture (.pn
 /// .ldt file by it. Throws InputError.
 LampFile read_lamp(const std::filesystem::path& path, const LampReadOptions& options = {});
 
-void mirror(LampFile& lamp); ///< H and -H exchanged, in both tables
+void mirror(LampFile& lamp); ///< H and -H exchanged, in all tables
 
 /// Writers; the extension decides in write_lamp: .ies (LM-63-2002 type A), .csv (beam matrix, cd), .exr (float beam texture).
 void write_lamp(const LampFile& lamp, const std::filesystem::path& path);

@@ -2,7 +2,7 @@
 // What happens to a mounted lamp at a time: switched, dimmed, aimed, replaced.
 #pragma once
 
-#include "scenarios/lamps/lamp_file.h"
+#include "scenarios/lamps/level_track.h"
 #include "scenarios/values/pose.h"
 
 #include <glm/vec3.hpp>
@@ -67,10 +67,12 @@ struct MountedLamp {
     std::optional<double> reference_voltage_v; ///< at which the file was measured; nullopt: not stated, taken as un_voltage_v
     SourceKind source = SourceKind::filament;
     LampColour colour;
-    std::optional<BeamFunction> function; ///< nullopt: not stated, recognised from the table where it matters
-    double photometric_distance_m = 0.0;  ///< nearer than this the point-source equation is marked near-field
-    Turn mount;                           ///< how its place on the car is turned; the aim turns it further
-    double flux_factor = 1.0;             ///< light of this very lamp against its file's, undimmed; >= 0
+    std::optional<BeamFunction> function;          ///< nullopt: not stated, recognised from the table where it matters
+    double photometric_distance_m = 0.0;           ///< nearer than this the point-source equation is marked near-field
+    Turn mount;                                    ///< how its place on the car is turned; the aim turns it further
+    double flux_factor = 1.0;                      ///< light of this very lamp against its file's, undimmed; >= 0
+    std::filesystem::path levels_file = {};        ///< of its pixels over time; empty: all at full, or as control has them
+    std::shared_ptr<const LevelTrack> levels = {}; ///< what that file says
 
     BeamAim aim_rule = BeamAim::as_is;
     double cut_off_percent = -1.0; ///< where an automatic aim puts the cut-off: -1 is 1 cm down in 1 m

@@ -22,16 +22,26 @@ struct Steepest {
     double cd = 0.0, cd_per_rad = 0.0;
 };
 
+void larger_differences(const double* a, const double* b, std::size_t count, double* __restrict most) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const double difference = std::abs(b[i] - a[i]);
+        most[i] = most[i] < difference ? difference : most[i];
+    }
+}
+
 Steepest steepest_of(const CandelaTable& table, bool vertical) {
     const std::vector<double>& axis = vertical ? table.v_deg : table.h_deg;
     const std::size_t columns = table.h_deg.size();
-    std::vector<double> most_cd(axis.size() - 1);
+    std::vector<double> most_cd(axis.size() - 1), across(columns);
     for (std::size_t v = 0; v + (vertical ? 1 : 0) < table.v_deg.size(); ++v) {
         const double *here = &table.cd[v * columns], *next = here + (vertical ? columns : 1);
-        for (std::size_t h = 0; h + (vertical ? 0 : 1) < columns; ++h) {
-            double& most = most_cd[vertical ? v : h];
-            most = std::max(most, std::abs(next[h] - here[h]));
-        }
+        // Column by column, which compilers do several at a time.
+        std::vector<double>& most = vertical ? across : most_cd;
+        if (vertical)
+            std::ranges::fill(across, 0.0);
+        larger_differences(here, next, columns - (vertical ? 0 : 1), most.data());
+        if (vertical)
+            most_cd[v] = *std::ranges::max_element(across);
     }
     Steepest steepest;
     for (std::size_t cell = 0; cell < most_cd.size(); ++cell) {

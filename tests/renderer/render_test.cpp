@@ -4,6 +4,8 @@
 #include "renderer/gpu_timer.h"
 #include "renderer/renderer.h"
 #include "renderer/twin.h"
+#include "scenarios/lamps/level_track.h"
+#include "scenarios/lamps/pixel_lamp.h"
 #include "scenarios/photometry.h"
 #include "scenarios/values/errors.h"
 #include "tests/renderer/device_test.h"
@@ -97,6 +99,38 @@ TEST_F(TwinTest, EveryPixelLiesWithinTheDerivedBound) {
         EXPECT_GT(c.compared, 3000);
         EXPECT_EQ(c.beyond, 0) << "worst " << c.worst_ratio << " of the bound";
         EXPECT_LT(c.worst_relative_luminance, place_px_ > 0.0 ? 5e-3 : 4e-3);
+    }
+}
+
+/// Twelve pixels whose levels differ from lamp to lamp and from moment to moment.
+TEST_F(TwinTest, StatesOfPixelsAreDrawnAsTheTwinHasThem) {
+    PixelParts parts;
+    parts.raster.push_back({4, 3, {-16.0, 16.0, -6.0, 3.0}, 0.6, 0.4, std::vector<double>(12, 20000.0)});
+    auto lamp = std::make_shared<LampFile>();
+    lamp->pixels = std::make_shared<const PixelLamp>(parts);
+    lamp->table = lamp->pixels->table(std::vector<float>(12, 1.0F));
+    std::vector<std::unique_ptr<LevelTrack>> tracks;
+    for (int side = 0; side < 2; ++side) {
+        tracks.push_back(std::make_unique<LevelTrack>(lamp));
+        for (int second = 0; second < 4; ++second) {
+            std::vector<float> levels;
+            for (int pixel = 0; pixel < 12; ++pixel)
+                levels.push_back(second == 3 ? 1.0F : static_cast<float>((pixel * (3 + second) + 5 * side) % 7) / 6.0F);
+            tracks.back()->ask(second, levels);
+        }
+    }
+    const Scene scene = small_scene({});
+    for (const LightPass pass : {LightPass::shader, LightPass::cpu}) {
+        Renderer renderer(device_, scene, {.shadows = {.method = ShadowMethod::none}, .light_pass = pass});
+        for (const double time_s : {0.0, 2.0, 1.0, 3.0, 0.0}) { // back, too
+            Moment moment = two_lamps({});
+            for (std::size_t i = 0; i < 2; ++i)
+                moment.lamps[i].file = tracks[i]->at(time_s);
+            const Frame frame = renderer.draw(moment, driver_view(96, 64), all_results);
+            const TwinComparison c = compare(frame, Twin(scene, false, place_px_), moment, driver_view(96, 64));
+            EXPECT_GT(c.compared, 3000);
+            EXPECT_EQ(c.beyond, 0) << time_s << " s: worst " << c.worst_ratio << " of the bound";
+        }
     }
 }
 

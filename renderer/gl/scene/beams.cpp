@@ -29,18 +29,35 @@ ShadowWindow window_of(const BeamTexture& g) {
     return w;
 }
 
-std::vector<std::uint16_t> steps_of(const BeamTexture& g) {
+std::vector<std::uint16_t> steps_of(std::span<const float> values, const BeamTexture& g) {
     std::vector<std::uint16_t> steps;
     if (g.bits < 32)
-        for (const float cd : g.cd)
+        for (const float cd : values)
             steps.push_back(static_cast<std::uint16_t>(
                 g.scale_cd > 0.0 ? std::lround(static_cast<double>(cd) / g.scale_cd * largest_step(g.bits)) : 0));
     return steps;
 }
 
+std::vector<std::uint16_t> steps_of(const BeamTexture& g) { return steps_of(g.cd, g); }
+
 bool same_grid(const BeamTexture& a, const BeamTexture& b) {
     return a.width == b.width && a.height == b.height && a.bits == b.bits && a.h_first_rad == b.h_first_rad &&
            a.v_first_rad == b.v_first_rad && a.h_step_rad == b.h_step_rad && a.v_step_rad == b.v_step_rad;
+}
+
+/// Whole rows, from `row` on.
+void send_texels(Context& context, const Texture& texture, int row, int width, int rows, int bits, std::span<const float> values,
+                 std::span<const std::uint16_t> steps) {
+    context.gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    const auto send = [&](GLenum type, const void* texels) {
+        context.gl.TextureSubImage2D(texture, 0, 0, row, width, rows, GL_RED, type, texels);
+    };
+    if (bits == 32)
+        send(GL_FLOAT, values.data());
+    else if (bits == 16)
+        send(GL_UNSIGNED_SHORT, steps.data());
+    else
+        send(GL_UNSIGNED_BYTE, std::vector<std::uint8_t>(steps.begin(), steps.end()).data());
 }
 
 constexpr int texels_a_cell = 32;
@@ -51,30 +68,24 @@ constexpr double slack_rad = 1e-3; // what the GPU's angles may differ, many tim
 Texture make_texels(Context& context, int width, int height, int bits, std::span<const float> values,
                     std::span<const std::uint16_t> steps) {
     Texture texture = make_texture(context, bits == 32 ? GL_R32F : (bits == 16 ? GL_R16 : GL_R8), width, height);
-    context.gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    const auto send = [&](GLenum type, const void* texels) {
-        context.gl.TextureSubImage2D(texture, 0, 0, 0, width, height, GL_RED, type, texels);
-    };
-    if (bits == 32)
-        send(GL_FLOAT, values.data());
-    else if (bits == 16)
-        send(GL_UNSIGNED_SHORT, steps.data());
-    else
-        send(GL_UNSIGNED_BYTE, std::vector<std::uint8_t>(steps.begin(), steps.end()).data());
+    send_texels(context, texture, 0, width, height, bits, values, steps);
     return texture;
 }
 
 const Beam& Beams::of(const std::shared_ptr<const LampFile>& file) {
-    if (const auto known = known_.find(file.get()); known != known_.end())
-        return known->second.second;
+    const std::shared_ptr<const LampFile>& whole = file->state_of ? file->state_of : file;
+    if (const auto known = known_.find(whole.get()); known != known_.end()) {
+        if (known->second.shown != file)
+            show(file, known->second);
+        return known->second.beam;
+    }
     Beam beam;
     beam.id = static_cast<int>(known_.size());
-    beam.grid = made(file->table);
+    beam.grid = made(whole->table);
     const BeamTexture& g = beam.grid;
-    const auto same = std::ranges::find_if(known_, [&](const auto& known) {
-        return known.second.second.id == known.second.second.shape && same_grid(known.second.second.grid, g);
-    });
-    beam.shape = same == known_.end() ? beam.id : same->second.second.id;
+    const auto same = std::ranges::find_if(
+        known_, [&](const auto& known) { return known.second.beam.id == known.second.beam.shape && same_grid(known.second.beam.grid, g); });
+    beam.shape = same == known_.end() ? beam.id : same->second.beam.shape;
     beam.bounds = BeamBounds(g);
     beam.window = window_of(g);
     constexpr double asin_reaches_rad = 0.5235; // 30 degrees
@@ -83,16 +94,28 @@ const Beam& Beams::of(const std::shared_ptr<const LampFile>& file) {
     beam.cd_a_unit = g.bits == 32 ? 1.0 : g.scale_cd;
     texture_bytes_ += static_cast<std::size_t>(g.bits / 8) * g.cd.size();
     context_.check("uploading a beam texture");
-    if (!kept_)
+    if (!kept_ && !whole->pixels)
         beam.grid.cd = std::vector<float>(); // = {} would keep the memory
-    return known_.emplace(file.get(), std::pair(file, std::move(beam))).first->second.second;
+    Known& known = known_.emplace(whole.get(), Known{whole, whole, std::move(beam)}).first->second;
+    if (file != whole)
+        show(file, known);
+    return known.beam;
+}
+
+void Beams::show(const std::shared_ptr<const LampFile>& state, Known& known) {
+    BeamTexture& g = known.beam.grid;
+    const auto [first, end] = draw_state(state->table, known.file->table, texels_, g);
+    known.shown = state;
+    if (first == end)
+        return;
+    const auto rows = std::span(g.cd).subspan(static_cast<std::size_t>(first * g.width), static_cast<std::size_t>((end - first) * g.width));
+    send_texels(context_, known.beam.texture, first, g.width, end - first, g.bits, rows, steps_of(rows, g));
+    context_.check("uploading a beam's state");
 }
 
 BeamTexture Beams::grid_of(const Beam& beam) const {
-    if (kept_)
-        return beam.grid;
-    const auto known = std::ranges::find_if(known_, [&](const auto& other) { return other.second.second.id == beam.id; });
-    return made(known->second.first->table);
+    const auto known = std::ranges::find_if(known_, [&](const auto& other) { return other.second.beam.id == beam.id; });
+    return beam.grid.cd.empty() ? made(known->second.file->table) : beam.grid;
 }
 
 std::vector<LitLamp> shining(const Moment& moment, bool all) {

@@ -53,13 +53,14 @@ class Beams {
     /// `kept`: texels stay in the beams' grids for who lights on the CPU; else they are on the device alone.
     Beams(Context& context, const std::optional<BeamTexels>& texels, bool kept = false) : context_(context), texels_(texels), kept_(kept) {}
 
+    /// Of a state of a lamp's pixels it is the beam of that lamp, which has the latest state that was asked for.
     const Beam& of(const std::shared_ptr<const LampFile>& file);
     /// The beam's grid with its texels, made anew where they are not kept.
     BeamTexture grid_of(const Beam& beam) const;
     /// Of the beam as it is drawn with against its table, relative to the peak.
     double error_of_peak(const LampFile& file) const {
-        const auto known = known_.find(&file);
-        return known != known_.end() ? known->second.second.grid.worst_error_of_peak : made(file.table).worst_error_of_peak;
+        const auto known = known_.find(file.state_of ? file.state_of.get() : &file);
+        return known != known_.end() ? known->second.beam.grid.worst_error_of_peak : made(file.table).worst_error_of_peak;
     }
     std::size_t texture_bytes() const { return texture_bytes_; }
 
@@ -69,7 +70,13 @@ class Beams {
     Context& context_;
     std::optional<BeamTexels> texels_;
     bool kept_;
-    std::map<const LampFile*, std::pair<std::shared_ptr<const LampFile>, Beam>> known_;
+    struct Known {
+        std::shared_ptr<const LampFile> file, shown; ///< the second differs where it is a state of the first
+        Beam beam;
+    };
+    void show(const std::shared_ptr<const LampFile>& state, Known& known);
+
+    std::map<const LampFile*, Known> known_;
     std::size_t texture_bytes_ = 0;
 };
 

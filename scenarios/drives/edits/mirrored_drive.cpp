@@ -1,7 +1,10 @@
 #include "scenarios/drives/edits/mirrored_drive.h"
 
+#include "scenarios/values/errors.h"
+
 #include <algorithm>
 #include <cctype>
+#include <fmt/format.h>
 #include <utility>
 
 namespace fernlicht {
@@ -75,7 +78,7 @@ std::shared_ptr<const LampFile> other_lamp(Drive& drive, const std::shared_ptr<c
             if (known.path == other.path && known.options == other.options)
                 return known.file;
         LampFile turned = *file;
-        turned.table = mirrored(file->table);
+        mirror(turned);
         other.file = std::make_shared<const LampFile>(std::move(turned));
         drive.lamp_sources.push_back(other);
         return other.file;
@@ -93,6 +96,9 @@ void mirror(std::vector<MountedLamp>& lamps, std::vector<LampChange>& changes, D
         change_sign(lamp.mount.roll_rad);
         change_sign(lamp.aligned.yaw_rad);
         change_sign(lamp.aligned.roll_rad);
+        if (lamp.levels)
+            throw InputError({drive.file, 0, 0, fmt::format("lamps.{}.levels", other_side(lamp.name))},
+                             "levels over time in a drive that is mirrored", "levels for the other side, in a drive of their own");
         lamp.file = other_lamp(drive, lamp.file);
     }
     for (LampChange& change : changes) {

@@ -28,8 +28,13 @@ double from_kg(double kg) { return 9.81 * kg; }
 double from_n(double n) { return n; }
 FieldRule load_of(const std::string& axle) { return units({axle + "_kg", from_kg, -2000.0, 5000.0}, {axle + "_n", from_n, -2.0e4, 5.0e4}); }
 
-/// [a, b, c]: edges of two windows; {windows_deg: [[a, b], ...]}: windows that may leave gaps.
+/// [a, b, c]: edges of two windows; [[a, b], ...]: windows that may leave gaps; pixels: those of its file.
 void read_windows(const YamlEntry& given, SegmentedLamp& lamp) {
+    if (given.is_scalar()) {
+        given.choice({"pixels"});
+        lamp.pixels = true;
+        return;
+    }
     std::vector<std::pair<double, double>>& windows = lamp.windows_deg;
     const std::vector<YamlEntry> items = given.list(1, max_windows + 1);
     if (items.front().is_list()) {
@@ -50,6 +55,8 @@ void read_windows(const YamlEntry& given, SegmentedLamp& lamp) {
 }
 
 std::string windows_text(const SegmentedLamp& lamp) {
+    if (lamp.pixels)
+        return "pixels";
     std::vector<std::string> windows;
     for (const auto& [from, to] : lamp.windows_deg)
         windows.push_back(fmt::format("[{}, {}]", from, to));
@@ -193,17 +200,19 @@ const Fields<GlareFreeParameters>& glare_free_fields() {
     static const Fields<GlareFree> fields =
         Fields<GlareFree>{
             named("windows_deg", 4, &GlareFree::lamps, max_control_lamps,
-                  Fields<SegmentedLamp>{own<SegmentedLamp>("windows", 1, read_windows, windows_text, R"({"anyOf": [
+                  Fields<SegmentedLamp>{own<SegmentedLamp>("windows", 1, read_windows, windows_text, R"({"anyOf": [{"const": "pixels"},
             {"type": "array", "minItems": 2, "maxItems": 257, "items": {"type": "number", "minimum": -180, "maximum": 180}},
             {"type": "array", "minItems": 1, "maxItems": 257, "items": {"type": "array", "minItems": 2, "maxItems": 2,
                 "items": {"type": "number", "minimum": -180, "maximum": 180}}}]})",
                                                            "")}
                       .bare(),
-                  "of each lamp: edges from left to right")
+                  "of each lamp: edges from left to right; pixels: those of a pixel lamp, each by itself")
                 .required(),
             field("margin", 1, &GlareFree::margin_rad, in_radians("margin", 20.0), "to each side of other road users"),
             field("mask_delay_s", 2, &GlareFree::mask_delay_s, range(0.0, 100.0), "until a window goes dark"),
             field("relight_delay_s", 3, &GlareFree::relight_delay_s, range(0.0, 100.0), "until it is lit again"),
+            field("foresee_s", 5, &GlareFree::foresee_s, range(0.0, 10.0),
+                  "windows are dark, too, where others will be so much later, both cars going as they go now: to make up for delays"),
         }
             .block();
     return fields;

@@ -120,6 +120,16 @@ GlareFreeParameters read_glare_free(const YamlEntry& given, const LampSet& lamp_
         lamp_name(YamlEntry(key, entry.file(), entry.key_path()), lamp_set);
     }
     read_group(glare_free_fields(), of, &glare_free);
+    for (const SegmentedLamp& segmented : glare_free.lamps) {
+        const MountedLamp& lamp = *std::ranges::find(lamp_set.lamps, segmented.name, &MountedLamp::name);
+        if (segmented.pixels != (lamp.file->pixels != nullptr))
+            of.require("windows_deg")
+                .refuse(fmt::format("{} of '{}', {} lamp", segmented.pixels ? "pixels" : "windows", lamp.name,
+                                    segmented.pixels ? "no pixel" : "a pixel"),
+                        segmented.pixels ? "windows" : "pixels");
+        if (lamp.levels)
+            given.refuse(fmt::format("a glare-free beam of '{}', whose levels come from a file", lamp.name), "one of them");
+    }
     return glare_free;
 }
 

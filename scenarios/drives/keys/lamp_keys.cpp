@@ -181,6 +181,8 @@ const Fields<MountedLamp>& lamp_fields() {
                   "results nearer than this are marked near-field"),
             field("flux_factor", 11, &Lamp::flux_factor, range(0.001, 1000.0), "light of this very lamp against its file's, as measured")
                 .written_off_default(),
+            field("levels", 13, &Lamp::levels_file, any(), "of a pixel lamp: a CSV of its pixels' levels over time; docs/pixel-lamps.md")
+                .written_off_default(),
         }
             .block()
             .defined_as("lamp");
@@ -191,7 +193,9 @@ const Group& light_fields() {
     static const Group fields = [] {
         Group of = lamp_fields();
         of.definition = {};
-        std::erase_if(of.fields, [](const Field& field) { return field.key.starts_with("mount") || field.key == "position_m"; });
+        std::erase_if(of.fields, [](const Field& field) {
+            return field.key.starts_with("mount") || field.key == "position_m" || field.key == "levels";
+        });
         return of;
     }();
     return fields;

@@ -47,8 +47,10 @@ MountedLamp build_lamp(const std::string& name, const YamlMap& keys, const Car& 
     if (!lamp.file)
         asked_by.refuse("a lamp without a file", "file, in the lamp or in its lamp set");
     for (const char* const key :
-         {"aim", "level", "voltage_v", "reference_voltage_v", "function", "photometric_distance_m", "flux_factor", "source"})
+         {"aim", "level", "voltage_v", "reference_voltage_v", "function", "photometric_distance_m", "flux_factor", "source", "levels"})
         read_field(lamp_fields(), key, keys, &lamp);
+    if (const auto levels = keys.find("levels"))
+        lamp.levels = cache.levels(lamp, *levels);
     lamp.colour = read_colour(keys, lamp.source, cache, asked_by);
     return lamp;
 }
@@ -170,6 +172,13 @@ LampColour LampCache::spectrum(const std::filesystem::path& path, const YamlEntr
         return known->second;
     check_file(path, asked_by);
     return spectra_.emplace(path, read_spectrum(path, opened_)).first->second;
+}
+
+std::shared_ptr<const LevelTrack> LampCache::levels(const MountedLamp& lamp, const YamlEntry& asked_by) {
+    if (!lamp.file->pixels)
+        asked_by.refuse("levels of a lamp without pixels", "a pixel lamp as its file");
+    check_file(lamp.levels_file, asked_by);
+    return read_levels(lamp.levels_file, lamp.file, opened_);
 }
 
 std::vector<std::string> lamp_names(const LampSet& lamp_set) {

@@ -18,6 +18,8 @@ class LampCache {
     std::shared_ptr<const LampFile> lamp(const std::filesystem::path& path, const LampReadOptions& options,
                                          const YamlEntry* asked_by = nullptr);
     LampColour spectrum(const std::filesystem::path& path, const YamlEntry& asked_by);
+    /// Of the lamp's pixels, by its levels_file; one track for each lamp.
+    std::shared_ptr<const LevelTrack> levels(const MountedLamp& lamp, const YamlEntry& asked_by);
 
     const std::vector<LampSource>& sources() const { return sources_; }
     const FilesRead& opened() const { return opened_; }

@@ -119,6 +119,8 @@ TrafficRow read_row(const std::string& name, const YamlEntry& entry, LampCache& 
         row.speed = read_speed(keys);
     if (keys.find("lamps") || keys.find("file")) {
         LampSet lamps = read_lamp_set(name, keys, front_of(row), cache);
+        if (std::ranges::any_of(lamps.lamps, [](const MountedLamp& lamp) { return lamp.levels != nullptr; }))
+            entry.refuse("levels over time of another road user's lamps", "levels in a lamp set of the own car");
         row.lamps = std::move(lamps.lamps);
         row.changes = std::move(lamps.changes);
     }

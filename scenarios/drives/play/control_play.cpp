@@ -40,11 +40,18 @@ SolverOptions actuator_options(const Drive& drive) {
 std::vector<ControlledLamp> controlled_lamps(const LampSet& lamp_set) {
     std::vector<ControlledLamp> lamps;
     for (const MountedLamp& lamp : lamp_set.lamps) {
-        lamps.push_back({lamp.name, lamp.position_m, lamp.mount.yaw_rad + lamp.yaw_rad + lamp.aligned.yaw_rad, {}});
-        if (lamp_set.control->glare_free)
+        ControlledLamp& controlled =
+            lamps.emplace_back(ControlledLamp{lamp.name, lamp.position_m, lamp.mount.yaw_rad + lamp.yaw_rad + lamp.aligned.yaw_rad});
+        controlled.pitch_rad = lamp.mount.pitch_rad + lamp.pitch_rad + lamp.aligned.pitch_rad;
+        if (lamp.file->pixels && !lamp.levels) {
+            controlled.pixels = std::make_shared<LevelTrack>(lamp.file);
+            for (std::size_t pixel = 0; pixel < lamp.file->pixels->count(); ++pixel)
+                controlled.windows.push_back(lamp.file->pixels->lights(pixel));
+        } else if (lamp_set.control->glare_free)
             for (const SegmentedLamp& segmented : lamp_set.control->glare_free->lamps)
                 if (segmented.name == lamp.name)
-                    lamps.back().windows_deg = segmented.windows_deg;
+                    for (const auto& [from, to] : segmented.windows_deg)
+                        controlled.windows.push_back({from, to, -90.0, 90.0});
     }
     return lamps;
 }
@@ -67,6 +74,8 @@ void BeamMasks::add(ControlRun& run) {
         return;
     run.masks.resize(run.lamps.size());
     for (const SegmentedLamp& segmented : lamp_set_.control->glare_free->lamps) {
+        if (segmented.pixels)
+            continue;
         const std::size_t lamp = run.lamp(segmented.name);
         for (const auto& [from_s, exact] : run.runs[lamp].segments) {
             std::vector<double> levels;

@@ -154,6 +154,7 @@ struct ControlWorld::Parts {
             const glm::dvec3 near_end = to_local(from, to_parent(at.pose, {near_x_m, 0.0, 0.0}));
             other.ahead_m = near_end.x;
             other.left_m = near_end.y;
+            other.up_m = near_end.z;
             other.speed_mps = at.speed_mps;
             other.width_m = user.size_m.y;
             other.height_m = user.size_m.z;

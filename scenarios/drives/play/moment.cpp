@@ -98,6 +98,9 @@ std::vector<MountedLamp> lamps_at(const State& state, const Drive& drive, const 
             turn(lamp, *lamp_set.motion, state.time_s);
     else if (lamp_set.control)
         throw std::logic_error("lamps_at: a drive with lamp control that was not simulated");
+    for (MountedLamp& lamp : lamps)
+        if (lamp.levels && lamp.levels->lamp() == lamp.file) // a change may have given it another file
+            lamp.file = lamp.levels->at(state.time_s + tick_tolerance * drive.step_s);
     return lamps;
 }
 

@@ -304,7 +304,9 @@ const CandelaTable& table(const std::string& name) {
     static std::map<std::string, CandelaTable> tables;
     auto [it, added] = tables.try_emplace(name);
     if (added)
-        it->second = read_lamp(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/lamps" / (name + ".ies")).table;
+        it->second = read_lamp(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/lamps" /
+                               (name.ends_with(".yaml") ? name : name + ".ies"))
+                         .table;
     return it->second;
 }
 
@@ -324,12 +326,17 @@ TEST(ShippedLamps, MeetTheRowsTheyAreBuiltToWithTheMarginsThatAreDocumented) {
     for (const auto& [lamp, id] : {std::pair{"halogen-low", "r112-b"},
                                    {"xenon-low", "r98-d"},
                                    {"halogen-high", "r112-driving-b"},
-                                   {"xenon-high", "r98-driving-d"}}) {
+                                   {"xenon-high", "r98-driving-d"},
+                                   {"led-low", "r149-c"},
+                                   {"led-high", "r149-driving-b"},
+                                   {"matrix-84.yaml", "r149-driving-b"},
+                                   {"pixels-16384.yaml", "r149-driving-b"}}) {
         const RegulationCheck check = check_regulation(regulation(id), {table(lamp)});
         EXPECT_EQ(check.verdict, RowVerdict::pass) << lamp;
         EXPECT_FALSE(check.was_re_aimed) << lamp; // as first aimed
         EXPECT_EQ(check_regulation(regulation(id), {table(lamp)}, {.aim = AimRule::automatic}).verdict, RowVerdict::pass) << lamp;
     }
+    EXPECT_TRUE(broken(sum(table("led-high"), table("laser-spot")), "r149-driving-b").empty()) << "the booster beside its high beam";
     // Read off the shipped files by `fernlicht lamp FILE --picture`, and from docs/lamps.md: B50L 248 cd, 75R 26 % above its minimum.
     const RegulationCheck halogen = check_regulation(regulation("r112-b"), {table("halogen-low")});
     EXPECT_NEAR(row(halogen, "B50L").margin, 0.29, 0.01);

@@ -146,10 +146,31 @@ TEST(ControlTraffic, OncomingCarsDipTheBeamOrDarkenItsWindows) {
     EXPECT_EQ(intensity_cd(dark, 4.0, 0.0), intensity_cd(whole, 4.0, 0.0)) << "it comes on the left";
 }
 
+/// Pixels 1 degree wide and 0.5 high: those that the other car covers go dark, all others stay lit, and the light above and below it stays.
+TEST(ControlTraffic, PixelsGoDarkWhereOthersAreAndNowhereElse) {
+    const std::filesystem::path file = tests::written(
+        "pixels.yaml",
+        "fernlicht_pixel_lamp: 1\nraster: {pixels: [24, 12], h_deg: [-12, 12], v_deg: [-2, 4], spread_deg: [0.05, 0.05], cd: 20000}\n");
+    const std::string lamps = "lamps: {high-left: {source: arc, file: " + file.string() + ", position_m: [3.4, 0.5, 0.65]}}";
+    const StagedDrive played(
+        straight("  masks: {" + lamps + ", control: {high_beam: automatic, glare_free: {windows_deg: {high-left: pixels}}}}\n",
+                 "traffic: {other: {oncoming: {gap_m: 300}, speed_kmh: 80, file: " + (shipped_library / "lamps/xenon-low.ies").string() +
+                     ", source: arc}}\n"));
+    const Moment moment = played.at(5.5); // about 55 m apart
+    const CandelaTable& table = moment.lamps[0].file->table;
+    const glm::dvec3 eye_m = moment.bodies.at(0).pose.position_m + glm::dvec3(0.0, 0.0, 1.1);
+    const glm::dvec3 seen = to_local(moment.lamps[0].pose, eye_m);
+    const double h_deg = degrees(-std::atan2(seen.y, seen.x)), v_deg = degrees(std::atan2(seen.z, seen.x));
+    EXPECT_LT(intensity_cd(table, h_deg, v_deg), 1.0) << h_deg << ' ' << v_deg;
+    EXPECT_GT(intensity_cd(table, h_deg, 3.2), 19900.0) << "above it";
+    EXPECT_GT(intensity_cd(table, h_deg + 6.0, v_deg), 19900.0) << "beside it";
+}
+
 // Control laws in shared libraries: the two examples as they are built, and small ones built here that misbehave.
 
 const std::filesystem::path build = std::filesystem::path(FERNLICHT_BINARY).parent_path();
-const std::vector<ControlledLamp> pair{{"left", {3.4, 0.6, 0.65}, 0.0}, {"high", {3.4, 0.5, 0.65}, 0.0, {{-4.0, 0.0}, {0.0, 4.0}}}};
+const std::vector<ControlledLamp> pair{{"left", {3.4, 0.6, 0.65}, 0.0},
+                                       {"high", {3.4, 0.5, 0.65}, 0.0, {{-4.0, 0.0, -90.0, 90.0}, {0.0, 4.0, -90.0, 90.0}}}};
 
 ControlParameters with(const std::filesystem::path& compiled_plugin, const std::string& parameters = "") {
     ControlParameters control{.plugins = {{compiled_plugin, parameters, {"left", "high"}}}};

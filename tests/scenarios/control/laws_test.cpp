@@ -116,19 +116,39 @@ TEST(HighBeam, DipsForOthersAfterItsDelaysAndStaysOffInTown) {
 /// 50 m before the lamp, 2 m wide, 3 m to the left of it: atan(2/50) to atan(4/50).
 TEST(GlareFree, WindowsKnowWhereOthersAre) {
     const OtherUser other{"car", 53.4, 3.6, 3.14, 20.0, 2.0, 1.5, true};
-    const auto [from, to] = seen_deg(other, {3.4, 0.6, 0.65}, 0.0);
-    EXPECT_NEAR(from, -4.5739, 1e-4);
-    EXPECT_NEAR(to, -2.2906, 1e-4);
-    const auto [turned, unused] = seen_deg(other, {3.4, 0.6, 0.65}, 0.1);
-    EXPECT_NEAR(turned, from + 5.7296, 1e-4) << "a lamp that looks to the left has it farther to the right";
-    EXPECT_GT(seen_deg({"behind", 3.0, 0.0}, {3.4, 0.6, 0.65}, 0.0).first, 0.0);
+    const LampPlace lamp{{3.4, 0.6, 0.65}};
+    const AngleBox seen = *seen_box(other, lamp);
+    EXPECT_NEAR(seen.left_deg, -4.5739, 1e-4);
+    EXPECT_NEAR(seen.right_deg, -2.2906, 1e-4);
+    EXPECT_NEAR(seen.bottom_deg, -0.7435, 1e-4) << "0.65 m below the lamp, 50.09 m away";
+    EXPECT_NEAR(seen.top_deg, 0.9722, 1e-4);
+    const AngleBox turned = *seen_box(other, {lamp.position_m, 0.1, 0.01});
+    EXPECT_NEAR(turned.left_deg, seen.left_deg + 5.7296, 1e-4) << "a lamp that looks to the left has it farther to the right";
+    EXPECT_NEAR(turned.top_deg, seen.top_deg - 0.573, 1e-4);
+    EXPECT_EQ(seen_box({"behind", 3.0, 0.0}, lamp), std::nullopt);
+    OtherUser higher = other;
+    higher.up_m = 1.0;
+    EXPECT_NEAR(seen_box(higher, lamp)->bottom_deg, 0.4004, 1e-4);
 
     GlareFreeParameters parameters;
-    LampWindows windows({"high", {{-9, -5.2}, {-5.2, -2}, {-2, -1.9}, {-1.9, 3}}}, parameters);
+    LampWindows windows({{-9, -5.2, -90, 90}, {-5.2, -2, -90, 90}, {-2, -1.9, -90, 90}, {-1.9, 3, -90, 90}}, parameters);
     const HighBeamParameters reach;
-    EXPECT_THAT(windows.step({other}, reach, {3.4, 0.6, 0.65}, 0.0, 0.0), testing::ElementsAre(1, 0, 0, 0)) << "half a degree of margin";
-    EXPECT_THAT(windows.step({}, reach, {3.4, 0.6, 0.65}, 0.0, 0.4), testing::ElementsAre(1, 0, 0, 0)) << "not lit again at once";
-    EXPECT_THAT(windows.step({}, reach, {3.4, 0.6, 0.65}, 0.0, 0.2), testing::ElementsAre(1, 1, 1, 1));
+    EXPECT_THAT(windows.step({other}, reach, lamp, {}, 0.0), testing::ElementsAre(1, 0, 0, 0)) << "half a degree of margin";
+    EXPECT_THAT(windows.step({}, reach, lamp, {}, 0.4), testing::ElementsAre(1, 0, 0, 0)) << "not lit again at once";
+    EXPECT_THAT(windows.step({}, reach, lamp, {}, 0.2), testing::ElementsAre(1, 1, 1, 1));
+    // 20 m/s towards it and 20 of its own: 30 m on it is 20 m away, atan(2/20) to atan(4/20) left. Its far side stays where it was.
+    const OtherUser later = seen_later(other, {20.0, 0.0}, 0.75);
+    EXPECT_NEAR(later.ahead_m, 23.4, 1e-3);
+    EXPECT_NEAR(seen_box(later, lamp)->left_deg, -11.310, 0.1);
+    const OtherUser turned_away = seen_later({"ahead", 50.0, 0.0, 0.0, 0.0}, {20.0, 0.2}, 1.0); // R 100 m, 0.2 rad
+    EXPECT_NEAR(turned_away.ahead_m, (50.0 - 19.8669) * std::cos(0.2) - 1.99334 * std::sin(0.2), 1e-3);
+    EXPECT_NEAR(turned_away.left_m, -1.99334 * std::cos(0.2) - (50.0 - 19.8669) * std::sin(0.2), 1e-3);
+    parameters.foresee_s = 0.75;
+    LampWindows foreseeing({{-12, -9, -90, 90}, {-9, -5.2, -90, 90}, {-2, -1.9, -90, 90}, {-1.7, 3, -90, 90}}, parameters);
+    EXPECT_THAT(foreseeing.step({other}, reach, lamp, {20.0, 0.0}, 0.0), testing::ElementsAre(0, 0, 0, 1));
+    parameters.foresee_s = 0.0;
+    LampWindows pixels({{-5, -2, -6, -1.3}, {-5, -2, -1.2, 0}, {-5, -2, 1.4, 3}, {-5, -2, 1.5, 3}}, parameters);
+    EXPECT_THAT(pixels.step({other}, reach, lamp, {}, 0.0), testing::ElementsAre(1, 0, 0, 1)) << "half a degree above and below, too";
 }
 
 TEST(GlareFree, AMaskedBeamIsDarkInItsWindowsAndWholeBesideThem) {

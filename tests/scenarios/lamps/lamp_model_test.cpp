@@ -55,7 +55,7 @@ Edge edge_at(const CandelaTable& t, double h) {
 }
 
 TEST(LampModel, CutOffIsSharpOnePercentDownAndRisesToTheKerb) {
-    for (const std::string lamp : {"halogen-low", "xenon-low"}) {
+    for (const std::string lamp : {"halogen-low", "xenon-low", "led-low"}) {
         const Edge edge = edge_at(table(lamp), -2.5);
         EXPECT_GE(edge.sharpness, 0.13) << lamp;
         EXPECT_LE(edge.sharpness, 0.40) << lamp;
@@ -82,6 +82,9 @@ TEST(LampModel, FluxAndMaximaAreThoseOfCommonLamps) {
     expect_between("xenon-low", 900, 1300, 60, 70);
     expect_between("halogen-high", 400, 900, 64, 120);
     expect_between("xenon-high", 900, 1700, 120, 220);
+    expect_between("led-low", 1000, 1400, 60, 70);
+    expect_between("led-high", 1000, 1700, 100, 220);
+    expect_between("laser-spot", 200, 400, 160, 200);
 }
 
 TEST(LampModel, TablesFollowTheModelBetweenTheirSamples) {

@@ -5,6 +5,7 @@
 #include "scenarios/fields/key_table.h"
 #include "scenarios/fields/schema.h"
 #include "scenarios/lamps/grid_recipe.h"
+#include "scenarios/lamps/pixel_lamp_file.h"
 #include "scenarios/ratings/rating.h"
 #include "scenarios/studies/study.h"
 
@@ -73,15 +74,18 @@ TEST(DescribedKeys, AreTheSchemas) {
     expect_schema(source / "scenarios/study.schema.json", study_fields(), {});
     expect_schema(source / "scenarios/recipe.schema.json", grid_recipe_fields(), definitions(grid_recipe_fields()));
     expect_schema(source / "scenarios/rating.schema.json", rating_fields(), {});
+    expect_schema(source / "scenarios/pixel-lamp.schema.json", pixel_lamp_fields(), {});
 }
 
 TEST(DescribedKeys, AreTheReference) {
     Drive usual;
     usual.extent.emplace();
     std::string text =
-        "# Keys of drive and study files, of ratings and of recipes\n\nWritten by `ci/write-keys` from the descriptions of the keys. "
+        "# Keys of drive and study files, ratings, recipes and pixel lamps\n\nWritten by `ci/write-keys` from the descriptions of the "
+        "keys. "
         "[drives.md](drives.md) explains drives, `scenarios/drive.example.yaml` shows one; "
-        "[studies.md](studies.md) explains studies, [ratings.md](ratings.md) ratings, [lamps.md](lamps.md) the recipes of lamp files.\n\n";
+        "[studies.md](studies.md) explains studies, [ratings.md](ratings.md) ratings, [lamps.md](lamps.md) the recipes of lamp files, "
+        "[pixel-lamps.md](pixel-lamps.md) pixel lamps.\n\n";
     text += key_tables("", drive_fields(), &usual);
     for (const auto& [name, group] : definitions(drive_fields()))
         text += key_tables(std::string(name), *group, group->usual.get());
@@ -90,6 +94,7 @@ TEST(DescribedKeys, AreTheReference) {
     text += key_tables("recipe", grid_recipe_fields(), grid_recipe_fields().usual.get());
     for (const auto& [name, group] : definitions(grid_recipe_fields()))
         text += key_tables(std::string(name), *group, group->usual.get());
+    text += key_tables("pixel lamp", pixel_lamp_fields(), pixel_lamp_fields().usual.get());
     text.pop_back();
     expect_file(source / "docs/keys.md", text);
 }
@@ -110,6 +115,7 @@ TEST(DescribedKeys, AreInTheExamples) {
     expect_in(content(source / "scenarios/study.example.yaml"), keys_of_study());
     expect_in(content(source / "scenarios/recipe.example.yaml"), grid_recipe_fields());
     expect_in(content(source / "scenarios/rating.example.yaml"), rating_fields());
+    expect_in(content(source / "scenarios/pixel-lamp.example.yaml"), pixel_lamp_fields());
 }
 
 void expect_ids_once(const std::string& path, const Group& group) {
@@ -128,6 +134,7 @@ TEST(DescribedKeys, HaveIdsOfTheirOwn) {
     expect_ids_once("study", study_fields());
     expect_ids_once("recipe", grid_recipe_fields());
     expect_ids_once("rating", rating_fields());
+    expect_ids_once("pixel lamp", pixel_lamp_fields());
 }
 
 } // namespace
