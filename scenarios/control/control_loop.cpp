@@ -38,6 +38,8 @@ ControlLoop::ControlLoop(const ControlParameters& parameters, const std::vector<
     }
     for (const PluginParameters& plugin : parameters_.plugins)
         plugins_.emplace_back(plugin, lamps, parameters_.period_s);
+    if (parameters_.camera)
+        camera_.emplace(*parameters_.camera);
     std::set<std::size_t> swivelling, levelled;
     if (parameters_.bend)
         for (const std::string& name : parameters_.bend->lamps)
@@ -268,7 +270,9 @@ void ControlLoop::keep(double time_s) {
         changed(runs_[lamp].modes, mode, BeamMode::c);
 }
 
-void ControlLoop::step(const ControlInputs& inputs) {
+void ControlLoop::step(ControlInputs inputs) {
+    if (camera_)
+        inputs.surroundings.others = camera_->step(inputs.time_s, inputs.surroundings.others);
     for (Driven& driven : driven_)
         if (driven.actuator) {
             advance(driven, inputs.time_s);

@@ -3,7 +3,7 @@
 // A swivel that does not do what it is asked: found by what lamp control knows of it, command and position.
 #pragma once
 
-#include "scenarios/control/control_parameters.h"
+#include "scenarios/control/control_camera.h"
 #include "scenarios/control/plugin.h"
 #include "scenarios/vehicle/actuator.h"
 
@@ -70,7 +70,7 @@ class ControlLoop {
 
     /// Moves everything on to `inputs.time_s`, which is not before the last one. Throws InputError when an actuator's solver gives up or a
     /// plug-in fails.
-    void step(const ControlInputs& inputs);
+    void step(ControlInputs inputs);
     const SignalTable& signals() const { return table_; }
     /// A lamp at a time before the last tick, from 0 s on: one entry each, and its angles as measured ones in place of actuators.
     LampRun lamp_at(std::size_t lamp, double time_s) const;
@@ -105,6 +105,7 @@ class ControlLoop {
     SignalTable table_;
     std::vector<std::vector<double>> segments_; ///< by lamp: levels of its windows
     LampController controller_;
+    std::optional<ControlCamera> camera_;
     std::vector<ControlPlugin> plugins_;
     std::vector<Driven> driven_;
     std::vector<LampRun> runs_;

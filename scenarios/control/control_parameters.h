@@ -95,6 +95,22 @@ struct GlareFreeParameters {
     bool operator==(const GlareFreeParameters&) const = default;
 };
 
+enum class CameraGrade { good, legal };
+
+/// By what laws know of others; without it they know all of them exactly and at once.
+struct ControlCameraParameters {
+    CameraGrade grade = CameraGrade::good;
+    std::optional<double> oncoming_m, preceding_m, bicycle_m; ///< reach; nullopt: the grade's
+    double field_rad = 0.8727;                                ///< 50 degrees, from side to side
+    double rate_hz = 20.0, latency_s = 0.1;                   ///< from a frame to what is told of it
+    double noise_rad = 0.0;                                   ///< standard deviation of a bearing, anew in each frame
+    double missed = 0.0;                                      ///< share of frames in which a road user is not found
+    bool hides = true;                                        ///< the road's crests and other vehicles hide those behind
+    int seed = 1;
+
+    bool operator==(const ControlCameraParameters&) const = default;
+};
+
 /// A control law in a shared library (fernlicht_control.h).
 struct PluginParameters {
     std::filesystem::path library;
@@ -150,7 +166,8 @@ struct ControlParameters {
     std::optional<ModeParameters> modes;
     std::optional<HighBeamParameters> high_beam;
     std::optional<GlareFreeParameters> glare_free; ///< only beside a high beam
-    std::vector<PluginParameters> plugins;         ///< called in this order, after the laws
+    std::optional<ControlCameraParameters> camera;
+    std::vector<PluginParameters> plugins; ///< called in this order, after the laws
     std::vector<ControlFailure> failures;
     double safe_pitch_rad = -0.01;                                               ///< of a lamp that cannot be trusted
     std::optional<StuckSwivelParameters> stuck_swivel = StuckSwivelParameters{}; ///< nullopt: nobody looks

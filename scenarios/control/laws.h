@@ -92,6 +92,8 @@ struct OtherUser {
     double width_m = 1.8, height_m = 1.5;
     bool lamps_on = true;
     double up_m = 0.0; ///< of the road under it, against the road under the own car
+    bool bicycle = false;
+    bool hidden = false; ///< its lamps, from the own car's camera, by the road or by other vehicles
 
     bool oncoming() const { return heading_rad > 1.5707963267948966 || heading_rad < -1.5707963267948966; }
     bool operator==(const OtherUser&) const = default;

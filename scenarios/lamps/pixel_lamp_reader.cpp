@@ -16,6 +16,7 @@ namespace fernlicht {
 namespace {
 
 constexpr int most_pixels_each_way = 4096;
+constexpr int widest_spread = 16; ///< in pixels: what lights a direction is added up pixel by pixel
 /// What of a segment's own peak counts as lit, where its file does not say which directions it lights.
 constexpr double lit_share = 0.05;
 
@@ -71,6 +72,13 @@ void check_raster(const YamlMap& keys, const PixelRasterKeys& raster) {
     for (const double pixels : raster.pixels)
         if (pixels != std::floor(pixels))
             keys.require("pixels").refuse("a part of a pixel", "[columns, rows], whole numbers");
+    const double pixel_deg[]{(raster.h_deg[1] - raster.h_deg[0]) / raster.pixels[0],
+                             (raster.v_deg[1] - raster.v_deg[0]) / raster.pixels[1]};
+    for (std::size_t way = 0; way < 2; ++way)
+        if (raster.spread_deg[way] > widest_spread * pixel_deg[way])
+            keys.require("spread_deg")
+                .refuse(fmt::format("{} degrees, of pixels {:.3g} degrees wide", raster.spread_deg[way], pixel_deg[way]),
+                        fmt::format("at most the width of {} pixels", widest_spread));
     for (const auto& [column, row] : raster.dead)
         if (column >= raster.pixels[0] || row >= raster.pixels[1])
             keys.require("dead").refuse(fmt::format("pixel [{}, {}]", column, row),

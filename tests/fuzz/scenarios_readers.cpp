@@ -11,7 +11,9 @@
 #include "scenarios/lamps/goniometer.h"
 #include "scenarios/lamps/ies.h"
 #include "scenarios/lamps/lamp_text.h"
+#include "scenarios/lamps/level_track.h"
 #include "scenarios/lamps/mounted_lamp.h"
+#include "scenarios/lamps/pixel_lamp_file.h"
 #include "scenarios/lamps/text_grid.h"
 #include "scenarios/models/model.h"
 #include "scenarios/openscenario/reader/read_storyboard.h"
@@ -60,6 +62,18 @@ void read_grid(const fs::path& folder) {
     const fs::path file = folder / "grid.txt";
     const GridRecipe recipe = read_grid_recipe(folder / "recipe.yaml", opened);
     check(read_text_grid(file, lamp_text(read_file(file, opened), file), recipe, {}, opened));
+}
+
+/// A pixel lamp, a segment or profile of it, and its levels over time.
+void read_pixels(const fs::path& folder) {
+    FilesRead opened;
+    const fs::path file = folder / "lamp.yaml";
+    const auto lamp =
+        std::make_shared<const LampFile>(read_pixel_lamp(file, lamp_text(read_file(file, opened), file), {}, std::move(opened)));
+    check(*lamp);
+    const auto track = read_levels(folder / "levels.csv", lamp, opened);
+    for (const double time_s : {0.0, 0.55, 0.3})
+        check_invariants(track->at(time_s)->table);
 }
 
 void append_number(std::string& bytes, std::uint32_t number) {
@@ -176,6 +190,11 @@ std::span<const Reader> scenarios_readers() {
          {"grid.txt", "recipe.yaml"},
          read_grid,
          "scenarios/lamps/grid_recipe.cpp scenarios/lamps/text_grid.cpp scenarios/lamps/list_grid.cpp",
+         ""},
+        {"pixels",
+         {"lamp.yaml", "segment.csv", "levels.csv"},
+         read_pixels,
+         "scenarios/lamps/pixel_lamp_reader.cpp scenarios/lamps/level_track_reader.cpp",
          ""},
         {"picture", {"picture.png"}, read_picture, "scenarios/values/picture_decoding.cpp scenarios/lamps/beam_texture.cpp", ""},
         {"opendrive",

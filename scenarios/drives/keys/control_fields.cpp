@@ -218,6 +218,27 @@ const Fields<GlareFreeParameters>& glare_free_fields() {
     return fields;
 }
 
+const Fields<ControlCameraParameters>& camera_fields() {
+    using Camera = ControlCameraParameters;
+    static const Fields<Camera> fields =
+        Fields<Camera>{
+            field("grade", 1, &Camera::grade, words({"good", "legal"}),
+                  "how far it finds others: as makers say of theirs, or as far as it must"),
+            field("oncoming_m", 2, &Camera::oncoming_m, range(0.0, 5000.0), "in place of the grade's 800 or 400"),
+            field("preceding_m", 3, &Camera::preceding_m, range(0.0, 5000.0), "in place of 400 or 100"),
+            field("bicycle_m", 4, &Camera::bicycle_m, range(0.0, 5000.0), "in place of 150 or 75"),
+            field("field", 5, &Camera::field_rad, in_radians("field", 180.0), "from side to side"),
+            field("rate_hz", 6, &Camera::rate_hz, range(0.1, 1000.0), "of its frames"),
+            field("latency_s", 7, &Camera::latency_s, range(0.0, 10.0), "from a frame to what is told of it"),
+            field("noise", 8, &Camera::noise_rad, in_radians("noise", 10.0), "standard deviation of a bearing, anew in each frame"),
+            field("missed", 9, &Camera::missed, range(0.0, 1.0), "share of frames in which a road user is not found"),
+            field("hides", 10, &Camera::hides, any(), "crests of the road and other vehicles hide those behind"),
+            field("seed", 11, &Camera::seed, range(0, 1'000'000'000), "of what is missed and of the noise"),
+        }
+            .block();
+    return fields;
+}
+
 const Fields<PluginParameters>& plugin_fields() {
     using Plugin = PluginParameters;
     static const Fields<Plugin> fields{
@@ -264,6 +285,8 @@ const Fields<ControlParameters>& law_fields() {
                 .written_off_default(),
             field("modes", 13, &Control::modes, modes_fields(), "classes of the low beam, by speed, light and weather"),
             field("high_beam", 8, &Control::high_beam, high_beam_fields(), "automatic").or_word("automatic"),
+            field("camera", 17, &Control::camera, camera_fields(), "by what laws know of other road users; exactly and at once by default")
+                .short_for("grade"),
             field("glare_free", 9, &Control::glare_free, glare_free_fields(), "dark windows where other road users are"),
             list("plugins", 10, &Control::plugins, 0, max_plugins, plugin_fields(), "laws in shared libraries").written_off_default(),
             field("safe_pitch", 3, &Control::safe_pitch_rad, in_radians("safe_pitch", 10.0),

@@ -200,6 +200,9 @@ ControlParameters read_laws(const YamlEntry& given, const LampSet& lamp_set, Lam
             glare_free->refuse("a glare-free high beam without an automatic one", "high_beam beside it, which says when it is on");
         control.glare_free = read_glare_free(*glare_free, lamp_set);
     }
+    read_field(law_fields(), "camera", keys, &control);
+    if (control.camera && !control.high_beam && !keys.find("plugins"))
+        keys.require("camera").refuse("a camera that nobody asks", "high_beam or plugins beside it");
     if (const auto plugins = keys.find("plugins"))
         for (const YamlEntry& plugin : plugins->list(0, max_plugins))
             control.plugins.push_back(read_plugin(plugin, lamp_set));

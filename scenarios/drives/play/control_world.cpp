@@ -12,6 +12,8 @@ namespace {
 
 constexpr double road_ahead_m = 200.0, road_step_m = 5.0; ///< what plug-ins are shown (fernlicht_control.h)
 constexpr double beside_route_m = 20.0;                   ///< farther from its route a track is somewhere else
+constexpr double camera_x_m = 1.9, camera_z_m = 1.3;      ///< behind the windscreen
+constexpr double seen_lamp_m = 0.65;                      ///< above the road
 constexpr double shortest_bearing_m = 5.0;                ///< nearer, the direction to a place on the lane says nothing of the bend
 
 } // namespace
@@ -33,6 +35,8 @@ struct ControlWorld::Parts {
             in.surroundings.road = road_ahead(in);
         if (!drive_.traffic.empty() && (control.high_beam || !control.plugins.empty()))
             see_others(in);
+        if (control.camera && control.camera->hides)
+            hide(in);
         in.load_pitch_rad = load_on_springs(control.load).spring_pitch_rad;
         in.illuminance_lx = horizontal_lx(time_s);
         in.wetness = weather_of(drive_, time_s).wetness;
@@ -159,8 +163,34 @@ struct ControlWorld::Parts {
             other.width_m = user.size_m.y;
             other.height_m = user.size_m.z;
             other.lamps_on = shines(user, in.time_s);
+            other.bicycle = user.kind == RoadUserKind::bicycle;
             if (other.ahead_m > 0.0)
                 in.surroundings.others.push_back(std::move(other));
+        }
+    }
+
+    /// From the camera to the middle of each other's lamps: what of the road, and which other vehicles, stand in between. A vehicle is a
+    /// wall of its width and height where its nearer end is.
+    void hide(ControlInputs& in) const {
+        const auto height_m = [](const glm::dvec2& to, double z_m, double ahead_m) {
+            return camera_z_m + (z_m - camera_z_m) * (ahead_m - camera_x_m) / (to.x - camera_x_m);
+        };
+        const Pose from = ego(in);
+        std::vector<OtherUser>& others = in.surroundings.others;
+        for (OtherUser& other : others) {
+            const glm::dvec2 to(other.ahead_m, other.left_m);
+            const double lamps_z_m = other.up_m + seen_lamp_m;
+            for (double along_m = road_step_m; !other.hidden && along_m < to.x && in.distance_m + along_m < route_.length_m();
+                 along_m += road_step_m) {
+                const glm::dvec3 road = to_local(from, to_parent(route_.pose(in.distance_m + along_m), {}));
+                other.hidden = road.x > camera_x_m && road.x < to.x && road.z > height_m(to, lamps_z_m, road.x);
+            }
+            for (const OtherUser& between : others)
+                if (between.ahead_m > camera_x_m && between.ahead_m < to.x && &between != &other) {
+                    const double left_m = to.y * (between.ahead_m - camera_x_m) / (to.x - camera_x_m);
+                    other.hidden = other.hidden || (std::abs(left_m - between.left_m) < 0.5 * between.width_m &&
+                                                    between.up_m + between.height_m > height_m(to, lamps_z_m, between.ahead_m));
+                }
         }
     }
 

@@ -138,8 +138,10 @@ TEST_F(Pixels, WhatIsWrongIsSaid) {
     EXPECT_THAT(said(head + "segments: [{file: pixels.yaml}]\n"), HasSubstr("a pixel lamp, expected a lamp file with one table"))
         << "itself";
     EXPECT_THAT(said(raster() + "slew: 3\n"), HasSubstr("'slew_per_s', the nearest known key"));
-    EXPECT_THAT(said(head + "raster: {pixels: [4096, 4096], h_deg: [-20, 20], v_deg: [-10, 10], spread_deg: [0.1, 0.1], cd: 1}\n"),
+    EXPECT_THAT(said(head + "raster: {pixels: [4096, 4096], h_deg: [-20, 20], v_deg: [-10, 10], spread_deg: [0.05, 0.05], cd: 1}\n"),
                 HasSubstr("4096 x 4096 pixels with their blur need a table of"));
+    EXPECT_THAT(said(head + "raster: {pixels: [400, 2], h_deg: [-20, 20], v_deg: [-10, 10], spread_deg: [2, 0.1], cd: 1}\n"),
+                HasSubstr("2 degrees, of pixels 0.1 degrees wide, expected at most the width of 16 pixels"));
     EXPECT_THAT(said(head + "raster: {pixels: [2, 2], h_deg: [2, -2], v_deg: [-1, 1], spread_deg: [0.1, 0.1], cd: 1}\n"),
                 HasSubstr("edges that do not ascend"));
 }
