@@ -111,7 +111,7 @@ TEST(RatingFile, SaysWhereAndWhyItCannotBeUsed) {
     EXPECT_THAT(tests::refusal_of([] {
                     library_file("rating", "adb-trak", "", {{}, 0, 0, "RATING"});
                 }),
-                HasSubstr("no rating of that name, expected a rating file, or one of adb-track, iihs (nearest: 'adb-track')"));
+                HasSubstr("no rating of that name, expected a rating file, or one of adb-lines, adb-track, iihs (nearest: 'adb-track')"));
 }
 
 /// `lamp_sets`: YAML of another file.
