@@ -45,6 +45,11 @@ class ReadingOfLight {
         BeamGradient gradient;         ///< of the reading; without its lamps where nothing decides it
     };
     Found gradient(const std::vector<Moment>& moments) const;
+    /// What it takes for the reading to be at least, else at most, some bound: that each of these figures is. Of a quantile they are those
+    /// of the moments on that side of it, as they stand now; of everything else it is the reading itself. Moments without a figure are
+    /// left out.
+    void each_side_figure(const std::vector<Moment>& moments, bool at_least,
+                          const std::function<void(double figure, const BeamGradient& gradient)>& take) const;
     /// Of the mean over the moments whose figure is a number, in place of the reading: what each of them turns on. Nothing of an approach,
     /// whose moments are at all distances.
     BeamGradient mean_gradient(const std::vector<Moment>& moments) const;
@@ -89,6 +94,8 @@ class ReadingOfLight {
     Quantity quantity_;
     double threshold_lx_ = 0.0; ///< of reach and width
     std::vector<InMoment> parts_;
+    std::optional<double> quantile_; ///< of the figures of parts that count, from 0 to 1; nullopt: it is none
+    double counted_from_m_ = 0.0, counted_to_m_ = std::numeric_limits<double>::infinity(); ///< left to go
     bool passed_ = false;
     Fold over_moments_;
 };

@@ -190,7 +190,8 @@ void ReadingOfLight::add_lines(const ReadingKey& key, const Drive& drive, const 
         }
         parts_.push_back(std::move(part));
     }
-    over_moments_ = [share = share_of_statistic(key)](const std::vector<Value>& figures) {
+    quantile_ = share_of_statistic(key);
+    over_moments_ = [share = *quantile_](const std::vector<Value>& figures) {
         CensoredSamples samples;
         for (const Value& figure : figures)
             samples.add(figure);
@@ -228,11 +229,13 @@ void ReadingOfLight::add_sensor(const ReadingKey& key, const Drive& drive, const
             const Approach samples = approach(figures);
             return OverMoments{value_at(samples, at_m), value_at_shares(samples, at_m)};
         };
-    else
+    else {
+        quantile_ = 1.0;
         over_moments_ = [this](const std::vector<Value>& figures) {
             return OverMoments{Value::of(largest(approach(figures)), "no moment of the drive before this place was measured"),
                                largest_shares(figures)};
         };
+    }
 }
 
 void ReadingOfLight::add_eye(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments) {
@@ -256,6 +259,17 @@ void ReadingOfLight::add_eye(const ReadingKey& key, const Drive& drive, const Ro
                        hidden_by_road(moments[k], route, observer->at_m, eye->place_m)});
     if (key.to_m) {
         const std::optional<double> share = key.statistic == Statistic::maximum ? std::nullopt : std::optional(share_of_statistic(key));
+        // Light at the ends of the range is taken from between moments: of an extreme the next beyond them counts, too.
+        quantile_ = share.value_or(1.0);
+        counted_from_m_ = *key.distance_m;
+        counted_to_m_ = *key.to_m;
+        if (!share)
+            for (const InMoment& part : parts_) {
+                if (part.to_go_m < *key.distance_m)
+                    counted_from_m_ = counted_from_m_ < *key.distance_m ? std::max(counted_from_m_, part.to_go_m) : part.to_go_m;
+                if (part.to_go_m > *key.to_m)
+                    counted_to_m_ = counted_to_m_ > *key.to_m ? std::min(counted_to_m_, part.to_go_m) : part.to_go_m;
+            }
         over_moments_ = [this, near_m = *key.distance_m, far_m = *key.to_m, share](const std::vector<Value>& figures) {
             const Approach samples = approach(figures);
             return OverMoments{value_in_range(samples, near_m, far_m, share), shares_in_range(samples, figures, near_m, far_m, share)};
@@ -266,6 +280,7 @@ void ReadingOfLight::add_eye(const ReadingKey& key, const Drive& drive, const Ro
             return OverMoments{value_at(samples, at_m), value_at_shares(samples, at_m)};
         };
     } else if (key.statistic == Statistic::maximum) {
+        quantile_ = 1.0;
         over_moments_ = [this](const std::vector<Value>& figures) {
             return OverMoments{Value::of(largest(approach(figures)), "no moment of the drive was measured"), largest_shares(figures)};
         };
@@ -287,6 +302,7 @@ void ReadingOfLight::add_kerb(const ReadingKey& key, const Drive& drive, const R
         add_place(k, 0.0,
                   {point_m, on_road ? Facing::surface : Facing::lamps, edge->up(), hidden_by_road(moments[k], route, at_m, point_m)});
     }
+    quantile_ = 0.5;
     over_moments_ = [everywhere](const std::vector<Value>& figures) {
         std::vector<double> numbers;
         for (const Value& figure : figures)
@@ -310,7 +326,8 @@ void ReadingOfLight::add_mirror(const ReadingKey& key, const Drive& drive, const
         const glm::dvec3 point_m = to_parent(ego_pose(route, ahead_m, drive.wheelbase_m), mirror->position_m);
         add_place(k, 0.0, {point_m, Facing::lamps, {}, hidden_by_road(moments[k], route, ahead_m, point_m)});
     }
-    over_moments_ = [share = share_of_statistic(key)](const std::vector<Value>& figures) {
+    quantile_ = share_of_statistic(key);
+    over_moments_ = [share = *quantile_](const std::vector<Value>& figures) {
         CensoredSamples samples("the car ahead is beyond the route's end in every moment");
         for (const Value& figure : figures)
             samples.add(figure);
