@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct QuadraticProgramme {
 
 struct QuadraticSolution {
     bool solved = false;
+    std::string by; ///< the solver, with its version
     std::vector<double> x;
     std::vector<double> prices; ///< by row, >= 0: how much the minimum falls for each unit by which the bound that holds it is loosened
 };
