@@ -127,6 +127,7 @@ const RowResult& RegulationRows::result_of(const RegulationCheck& check, std::si
 RegulationCheck RegulationRows::check(const CandelaTable& table) {
     CheckOptions options;
     options.left_hand_traffic = left_hand_traffic_;
+    options.re_aim = before_.rows.empty() || before_.was_re_aimed;
     RegulationCheck check = check_regulation(regulation_, {table}, options);
     for (std::size_t i = 0; i < asked_.size(); ++i) {
         const RowResult& found = result_of(check, i);

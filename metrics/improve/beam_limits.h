@@ -42,7 +42,7 @@ std::vector<LimitRow> table_rows(const BeamBasis& basis, const TableLimits& limi
 class RegulationRows {
   public:
     RegulationRows(const Regulation& regulation, bool left_hand_traffic, const CandelaTable& first);
-    /// Keeps in mind where the check found rows worst.
+    /// Keeps in mind where the check found rows worst. A lamp that was not re-aimed at first is not re-aimed.
     RegulationCheck check(const CandelaTable& table);
     /// What a step from here, checked just before, could break.
     std::vector<LimitRow> rows(const BeamBasis& basis, const CandelaTable& table, const RegulationCheck& check, const StepFrom& from) const;

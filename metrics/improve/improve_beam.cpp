@@ -42,8 +42,7 @@ class Improvement {
         ReadBeam here = first_;
         double step = 0.25;
         constexpr double shortest = 0.004, longest = 2.0;
-        bool settled = false;
-        while (!settled && step >= shortest && static_cast<int>(found.steps.size()) < problem_.max_steps) {
+        for (bool settled = false; !settled && step >= shortest && static_cast<int>(found.steps.size()) < problem_.max_steps;) {
             const auto [programme, rows] = programme_at(here, step);
             const QuadraticSolution solution = solve_(programme);
             if (!solution.solved) {
@@ -54,6 +53,8 @@ class Improvement {
             ReadBeam next = read_at({solution.x.begin(), solution.x.begin() + static_cast<std::ptrdiff_t>(basis_.size())});
             const double foretold_gain = here.cost - cost_of(programme, solution.x), gain = here.cost - next.cost;
             settled = foretold_gain <= 1e-4 * here.cost;
+            if (settled && gain <= 0.0)
+                break;
             ImproveStep& told = found.steps.emplace_back();
             told.longest = step;
             told.foretold = foretold(here, next);

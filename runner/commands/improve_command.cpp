@@ -121,7 +121,7 @@ void add_improve_command(CLI::App& app, const std::vector<std::string>& command,
     sub->add_option("--max-steepness", flags->steepness, "the steepest place between samples at most so many times as steep")
         ->check(CLI::Range(1.0, 100.0));
     sub->add_option("--floor", flags->floor_cd,
-                    "candela that a change counts against beside the light that is there (default: 1 % of the peak)")
+                    "candela that a change counts against beside the light that is there (default: 0.1 % of the peak)")
         ->check(CLI::Range(1.0, 1e6));
     sub->add_option("--narrowest", flags->narrowest_deg,
                     "degrees of H, half of it in V: narrower bends of the change count more than its size")

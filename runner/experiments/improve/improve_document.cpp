@@ -106,10 +106,11 @@ Table binding_table(const ImproveResult& result) {
 }
 
 Table row_table(const ImproveResult& result) {
-    Table table{"regulation",
-                fmt::format("{}, by our table of it, before and after; no approval", result.regulation_title),
-                columns_of("row<|limit|in<|before|margin:before [%]|verdict:before<|after|margin:after [%]|verdict:after<"),
-                {}};
+    Table table{
+        "regulation",
+        fmt::format("{}, by our table of it, before and after; no approval", result.regulation_title),
+        columns_of("row<|limit|in<|before: found|before: margin [%]|before: verdict<|after: found|after: margin [%]|after: verdict<"),
+        {}};
     const auto number = [](double value, const std::string& unit) {
         return Cell(unit == "cd" ? fmt::format("{:.0f}", value) : figure(value, 3), value);
     };

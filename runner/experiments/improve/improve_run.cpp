@@ -257,7 +257,7 @@ ImproveResult run_improve(const ImproveRequest& request) {
     problem.regulation = rows ? &*rows : nullptr;
     for (const auto& drive : drives)
         problem.drives.push_back(drive->moments);
-    result.floor_cd = problem.floor_cd = request.floor_cd.value_or(0.01 * peak_of(lamp.table).cd);
+    result.floor_cd = problem.floor_cd = request.floor_cd.value_or(0.001 * peak_of(lamp.table).cd);
     result.narrowest_deg = problem.narrowest_deg = request.narrowest_deg;
     const ImprovedBeam found = improve_beam(problem, [&](const QuadraticProgramme& programme) {
         QuadraticSolution solution = solved_by_ipopt(programme);

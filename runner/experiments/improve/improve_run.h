@@ -35,7 +35,7 @@ struct ImproveRequest : ExperimentRequest<ImproveResult> {
     TableLimits limits;
     std::string regulation; ///< "" for none
     bool left_hand_traffic = false;
-    std::optional<double> floor_cd; ///< nullopt: a hundredth of the lamp's peak
+    std::optional<double> floor_cd; ///< nullopt: a thousandth of the lamp's peak
     double narrowest_deg = 1.0;
 };
 
