@@ -192,13 +192,16 @@ std::vector<LimitRow> RegulationRows::rows(const BeamBasis& basis, const Candela
     return rows;
 }
 
-double RegulationRows::missed_by(const RegulationCheck& check) const {
-    double most = 0.0;
-    for (std::size_t i = 0; i < check.rows.size() && i < before_.rows.size(); ++i) {
-        const RowResult &now = check.rows[i], &first = before_.rows[i];
+RegulationRows::Missed RegulationRows::missed_by(const RegulationCheck& check) const {
+    Missed most;
+    for (const RowResult& first : before_.rows) {
         if (first.verdict == RowVerdict::not_measured)
             continue;
-        most = std::max(most, now.verdict == RowVerdict::not_measured ? 1.0 : std::min(0.0, first.margin) - now.margin);
+        const auto now = std::ranges::find(check.rows, first.id, &RowResult::id); // a cut-off that is none any more has no rows
+        const bool measured = now != check.rows.end() && now->verdict != RowVerdict::not_measured;
+        const double by = measured ? std::min(0.0, first.margin) - now->margin : 1.0;
+        if (by > most.by)
+            most = {by, first.id};
     }
     return most;
 }

@@ -46,8 +46,12 @@ class RegulationRows {
     RegulationCheck check(const CandelaTable& table);
     /// What a step from here, checked just before, could break.
     std::vector<LimitRow> rows(const BeamBasis& basis, const CandelaTable& table, const RegulationCheck& check, const StepFrom& from) const;
-    /// By how much the worst row is worse than it may be: in the limit's unit over the limit.
-    double missed_by(const RegulationCheck& check) const;
+    struct Missed {
+        double by = 0.0; ///< as a share of the limit
+        std::string row = {};
+    };
+    /// The row that is most worse than it may be; `by` 0 where none is.
+    Missed missed_by(const RegulationCheck& check) const;
     const RegulationCheck& before() const { return before_; }
     const Regulation& regulation() const { return regulation_; }
 

@@ -21,7 +21,7 @@ struct ReadBeam {
     std::vector<Value> values;
     std::optional<RegulationCheck> check;
     std::vector<double> missed; ///< by reading, in its scale
-    double regulation_missed = 0.0;
+    RegulationRows::Missed regulation;
     double cost = 0.0; ///< with what is missed
 };
 
@@ -60,7 +60,7 @@ class Improvement {
             told.foretold = foretold(here, next);
             told.found = next.values;
             told.size = std::sqrt(size_of(next.x));
-            told.regulation_missed = next.regulation_missed;
+            told.regulation_row = next.regulation.row;
             told.taken = gain > 0.0 && gain >= 0.1 * foretold_gain;
             if (!told.taken) {
                 step *= 0.5;
@@ -80,7 +80,7 @@ class Improvement {
             found.met.push_back(here.missed[i] <= 0.0);
             found.gain_missed = found.gain_missed || (problem_.readings[i].is_gain && here.missed[i] > 1e-3);
         }
-        found.regulation_met = here.regulation_missed <= 0.0;
+        found.regulation_met = here.regulation.by <= 0.0;
         return found;
     }
 
@@ -130,8 +130,8 @@ class Improvement {
         }
         if (problem_.regulation) {
             beam.check = problem_.regulation->check(beam.file->table);
-            beam.regulation_missed = problem_.regulation->missed_by(*beam.check);
-            beam.cost += kept_price * 100.0 * beam.regulation_missed;
+            beam.regulation = problem_.regulation->missed_by(*beam.check);
+            beam.cost += kept_price * 100.0 * beam.regulation.by;
         }
     }
 
@@ -271,6 +271,9 @@ class Improvement {
         for (std::size_t i = 0; i < rows.size(); ++i)
             worth[rows[i].of] += solution.prices[i] * rows[i].hundredth / all;
         found.binding.clear();
+        for (const SoughtReading& sought : problem_.readings)
+            if (gain_missed && sought.is_gain)
+                worth.erase(sought.name);
         for (const auto& [of, one] : worth)
             if (one > 1e-3)
                 found.binding.push_back({of, one});

@@ -40,7 +40,7 @@ struct ImproveProblem {
 struct ImproveStep {
     double longest = 0.0;               ///< any variable may change so much in it
     std::vector<Value> foretold, found; ///< by reading
-    double regulation_missed = 0.0;     ///< by how much its worst row is worse than it may be, as a share of the limit
+    std::string regulation_row;         ///< the one that is most worse than it may be; "" for none
     double size = 0.0;                  ///< of the whole change, root of the integral of x^2 and its bends over square degrees, degrees
     bool taken = false;
 };

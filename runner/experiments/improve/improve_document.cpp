@@ -37,7 +37,7 @@ Table reading_table(const ImproveResult& result) {
     for (const ImprovedReading& line : result.readings)
         table.rows.push_back({line.drive, name_of(line.reading), line.is_gain ? "gain" : "keep", sought_text(line), value_cell(line.before),
                               value_cell(line.foretold), value_cell(line.found), moved_cell(line.found, line.before),
-                              line.met ? "yes" : "no"});
+                              line.met ? "yes" : Cell("no")});
     return table;
 }
 
@@ -87,8 +87,8 @@ Table step_table(const ImproveResult& result) {
                                   result.readings[i].drive, value_cell(step.foretold[i]), value_cell(step.found[i]),
                                   i > 0                          ? ""
                                   : step.taken                   ? "yes"
-                                  : step.regulation_missed > 0.0 ? "no: a row of the regulation gets worse than it may"
-                                                                 : "no"});
+                                  : !step.regulation_row.empty() ? Cell("no: " + step.regulation_row + " gets worse than it may")
+                                                                 : Cell("no")});
     }
     table.folded = true;
     return table;

@@ -18,7 +18,7 @@ JsonMembers reading_members(ImprovedReading& line) {
 
 JsonMembers improve_step_members(ImproveStep& step) {
     return {{"longest", step.longest}, {"size", step.size},   {"foretold", step.foretold},
-            {"found", step.found},     {"taken", step.taken}, {"regulation_missed", step.regulation_missed}};
+            {"found", step.found},     {"taken", step.taken}, {"regulation_row", or_null(step.regulation_row)}};
 }
 
 JsonMembers binding_members(BindingLimit& limit) { return {{"of", limit.of}, {"worth", limit.worth}}; }

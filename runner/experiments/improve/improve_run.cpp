@@ -195,18 +195,19 @@ void tell_regulation(ImproveResult& result, const Regulation& regulation, const 
     result.regulation_title = regulation.title;
     result.verdict_before = before.verdict;
     result.verdict_after = after.verdict;
-    for (const RowResult& now : after.rows) {
-        const auto then = std::ranges::find(before.rows, now.id, &RowResult::id);
-        ImprovedRow row{.id = now.id,
-                        .unit = now.unit,
-                        .after_verdict = now.verdict,
-                        .after = now.found,
-                        .after_margin = now.margin,
-                        .limits = limits_of(now)};
-        if (then != before.rows.end()) {
-            row.before_verdict = then->verdict;
-            row.before = then->found;
-            row.before_margin = then->margin;
+    for (const RowResult& then : before.rows) {
+        ImprovedRow row{.id = then.id,
+                        .unit = then.unit,
+                        .before_verdict = then.verdict,
+                        .before = then.found,
+                        .before_margin = then.margin,
+                        .limits = limits_of(then)};
+        const auto now = std::ranges::find(after.rows, then.id, &RowResult::id); // a cut-off that is none any more has no rows
+        if (now != after.rows.end()) {
+            row.after_verdict = now->verdict;
+            row.after = now->found;
+            row.after_margin = now->margin;
+            row.limits = limits_of(*now);
         }
         result.rows.push_back(std::move(row));
     }
