@@ -23,9 +23,10 @@ inline constexpr const char* importance_readings = "reach_*_m and width_*_m of a
 
 class ReadingOfLight {
   public:
-    /// Of the twin, over these moments, which are the drive's in their order. Route outlives it. Throws InputError naming --reading for a
-    /// reading that is none of importance_readings, or of what the drive does not ask for.
-    ReadingOfLight(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
+    /// Of the twin, over these moments, which are the drive's in their order. Route outlives it. Throws InputError naming the flag that
+    /// asks for a reading that is none of importance_readings, or of what the drive does not ask for.
+    ReadingOfLight(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments,
+                   std::string asked_by = "--reading");
 
     ReadingOfLight(const ReadingOfLight&) = delete;
     ReadingOfLight& operator=(const ReadingOfLight&) = delete;
@@ -79,6 +80,8 @@ class ReadingOfLight {
     };
     using Fold = std::function<OverMoments(const std::vector<Value>& figures)>;
 
+    [[noreturn]] void refuse(const ReadingKey& key, const std::string& expected) const;
+    double share_of_statistic(const ReadingKey& key) const;
     void add_lines(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
     void add_place(std::size_t moment, double to_go_m, LightPlace place);
     void add_sensor(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
@@ -92,6 +95,7 @@ class ReadingOfLight {
     void add_gradient_of(BeamGradient& gradient, const InMoment& part, const Moment& moment, double weight) const;
 
     Quantity quantity_;
+    std::string asked_by_;
     double threshold_lx_ = 0.0; ///< of reach and width
     std::vector<InMoment> parts_;
     std::optional<double> quantile_; ///< of the figures of parts that count, from 0 to 1; nullopt: it is none

@@ -191,8 +191,12 @@ std::vector<std::string> sentences_of(const ImproveResult& result) {
     for (const ImprovedRow& row : result.rows)
         if (row.before_verdict == RowVerdict::pass && row.after_verdict != RowVerdict::pass)
             sentences.push_back(fmt::format("{} of {} passed before and does not now", row.id, result.regulation));
+    const auto refused = std::ranges::find_if(result.steps.rbegin(), result.steps.rend(),
+                                              [](const ImproveStep& step) { return !step.taken && !step.regulation_row.empty(); });
     if (result.gain_missed && !result.binding.empty())
         sentences.push_back(fmt::format("Most of all {} stands against it", result.binding.front().of));
+    else if (result.gain_missed && refused != result.steps.rend())
+        sentences.push_back(fmt::format("No step goes farther: {} gets worse than it may", refused->regulation_row));
     sentences.push_back(
         fmt::format("Every change counts against the light that is there and {} cd more; bends over less than {:g}° in H, and half of "
                     "that in V, count as much as size does. {} knots, solved by {}",

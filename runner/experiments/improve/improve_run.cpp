@@ -1,8 +1,8 @@
 #include "runner/experiments/improve/improve_run.h"
 
+#include "runner/experiments/improve/solve_quadratic.h"
 #include "runner/experiments/regulation/regulation_result.h"
 #include "runner/files/output_folder.h"
-#include "runner/files/program_module.h"
 #include "runner/findings/run_context.h"
 #include "runner/play/stage.h"
 #include "scenarios/drives/play/advance.h"
@@ -17,16 +17,6 @@
 
 namespace fernlicht {
 namespace {
-
-/// What the module fernlicht-ipopt does.
-extern "C" using SolveByIpopt = void(const QuadraticProgramme& programme, QuadraticSolution& solution);
-
-QuadraticSolution solved_by_ipopt(const QuadraticProgramme& programme) {
-    static const auto solve = reinterpret_cast<SolveByIpopt*>(module_function("fernlicht-ipopt", "fernlicht_solve_by_ipopt"));
-    QuadraticSolution solution;
-    solve(programme, solution);
-    return solution;
-}
 
 ImproveDemand demand_of(const char* flag, const std::string& text, const char* expected) {
     static const std::regex form(
@@ -96,15 +86,12 @@ struct Sought {
     std::vector<SoughtReading> sought;
 };
 
-ReadingOfLight& add_reading(Sought& sought, const ReadingKey& key, const StagedDrive& drive) {
-    return *sought.readings.emplace_back(std::make_unique<ReadingOfLight>(key, drive.stage.drive, drive.stage.route, drive.moments));
-}
-
 /// What is sought of one demand in one drive, and the line of the result.
 void add_sought(Sought& sought, ImproveResult& result, const ImproveDemand& demand, const StagedDrives& drives, std::size_t k) {
-    const ReadingOfLight& reading = add_reading(sought, demand.reading, *drives[k]);
-    const Value before = reading.value(drives[k]->moments);
     const char* const flag = demand.kind == ImproveDemand::Kind::gain ? "--gain" : "--keep";
+    const ReadingOfLight& reading = *sought.readings.emplace_back(std::make_unique<ReadingOfLight>(
+        demand.reading, drives[k]->stage.drive, drives[k]->stage.route, drives[k]->moments, fmt::format("{}, {}", flag, drives[k]->name)));
+    const Value before = reading.value(drives[k]->moments);
     const std::string name = fmt::format("{} of {}", name_of(demand.reading), drives[k]->name);
     if (!before.number())
         throw InputError({{}, 0, 0, flag},

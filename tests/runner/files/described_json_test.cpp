@@ -6,6 +6,7 @@
 #include "runner/experiments/compare/runs/run_comparison.h"
 #include "runner/experiments/fit/fit_result.h"
 #include "runner/experiments/importance/importance_result.h"
+#include "runner/experiments/improve/improve_result.h"
 #include "runner/experiments/reference/reference_result.h"
 #include "runner/experiments/run/run_report.h"
 #include "runner/experiments/shadows/shadow_result.h"
@@ -224,6 +225,7 @@ TEST(DescribedJson, IsTheSchema) {
     expect_schema("aliasing/aliasing.schema.json", json_schema(aliasing_members));
     expect_schema("fit/fit.schema.json", json_schema(fit_members));
     expect_schema("importance/importance.schema.json", json_schema(importance_members));
+    expect_schema("improve/improve.schema.json", json_schema(improve_members));
     expect_schema("run/report.schema.json", report_json_schema());
     expect_schema("compare/pictures.schema.json", json_schema(pictures_members));
     expect_schema("compare/lamps/lamps.schema.json", json_schema(lamps_members));
