@@ -274,8 +274,11 @@ class Improvement {
         for (const SoughtReading& sought : problem_.readings)
             if (gain_missed && sought.is_gain)
                 worth.erase(sought.name);
+        double most = 0.0;
         for (const auto& [of, one] : worth)
-            if (one > 1e-3)
+            most = std::max(most, one);
+        for (const auto& [of, one] : worth)
+            if (one > std::max(0.01 * most, 1e-6)) // a solver leaves all of them a little
                 found.binding.push_back({of, one});
         std::ranges::stable_sort(found.binding, std::greater(), &BindingLimit::worth);
     }

@@ -19,7 +19,7 @@ struct ImproveFlags {
     std::filesystem::path lamp, recipe, study;
     std::vector<std::filesystem::path> drives;
     std::vector<std::string> gains, kept, only;
-    std::string lamp_set, frames, out, regulation, as = "ies";
+    std::string frames, out, regulation, as = "ies";
     std::optional<double> change_percent, change_cd, flux_percent, steepness, floor_cd;
     bool left_hand_traffic = false;
     double narrowest_deg = 1.0;
@@ -34,7 +34,7 @@ std::vector<NamedDrive> named_drives(const ImproveFlags& flags, const std::files
         edits.lamp_recipe = lamp == flags.lamp ? flags.recipe : "";
         Drive drive = read_drive(file, edits);
         const std::string name = drive.name;
-        drives.push_back({name, flags.lamp_set, std::move(drive)});
+        drives.push_back({name, std::move(drive)});
     }
     return drives;
 }
@@ -53,7 +53,7 @@ std::vector<NamedDrive> named_cells(const ImproveFlags& flags, const std::filesy
     std::vector<NamedDrive> drives;
     for (const StudyCell& cell : chosen_cells(study, items_of("--only", flags.only)))
         if (has[cell.lamp] && cell.technique == 0 && !study.conditions.mirror[cell.mirror])
-            drives.push_back({cell.name, "", cell_drive(study, cell)});
+            drives.push_back({cell.name, cell_drive(study, cell)});
     if (drives.empty())
         throw InputError({flags.study, 0, 0, {}}, "has no cell with this lamp as both low beams", flags.lamp.string() + " among its lamps");
     return drives;
@@ -128,7 +128,6 @@ void add_improve_command(CLI::App& app, const std::vector<std::string>& command,
         ->check(CLI::Range(0.2, 10.0))
         ->capture_default_str();
     sub->add_option("--as", flags->as, "format of the lamp that is written")->check(CLI::IsMember({"ies", "csv"}))->capture_default_str();
-    sub->add_option("--lamp-set", flags->lamp_set, "with --drive: lamp set of the drives (default: the first)");
     add_recipe_flag(*sub, flags->recipe);
     sub->add_option("--frames", flags->frames, "FIRST:LAST of each drive's moments (default: all)");
     sub->add_option("--out", flags->out, "new or empty folder for the results");

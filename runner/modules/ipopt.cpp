@@ -43,7 +43,8 @@ class Programme : public Ipopt::TNLP {
 
     bool get_starting_point(Index variables, bool, Number* x, bool, Number*, Number*, Index, bool, Number*) override {
         for (std::size_t i = 0; i < static_cast<std::size_t>(variables); ++i)
-            x[i] = std::isfinite(programme_.high[i]) ? 0.5 * (programme_.low[i] + programme_.high[i]) : programme_.low[i] + 1.0;
+            x[i] = 0.5 * (std::max(programme_.low[i], std::min(programme_.high[i], 0.0) - 1.0) +
+                          std::min(programme_.high[i], std::max(programme_.low[i], 0.0) + 1.0));
         return true;
     }
 

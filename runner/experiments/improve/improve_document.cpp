@@ -1,5 +1,4 @@
 #include "runner/experiments/improve/improve_result.h"
-#include "runner/experiments/regulation/regulation_result.h"
 #include "runner/findings/figures.h"
 #include "runner/findings/plots/isocandela.h"
 
@@ -117,8 +116,8 @@ Table row_table(const ImproveResult& result) {
     const auto margin = [](double value) { return Cell(std::isfinite(value) ? signed_figure(100.0 * value, 1) : "", value); };
     for (const ImprovedRow& row : result.rows)
         table.rows.push_back({row.id, row.limits, row.unit.empty() ? "1" : row.unit, number(row.before, row.unit),
-                              margin(row.before_margin), name_of(row.before_verdict), number(row.after, row.unit), margin(row.after_margin),
-                              name_of(row.after_verdict)});
+                              margin(row.before_margin), row.before_verdict, number(row.after, row.unit), margin(row.after_margin),
+                              row.after_verdict});
     return table;
 }
 
@@ -189,7 +188,7 @@ std::vector<std::string> sentences_of(const ImproveResult& result) {
                                          : fmt::format("{} of {} is not kept", name_of(line.reading), line.drive));
     }
     for (const ImprovedRow& row : result.rows)
-        if (row.before_verdict == RowVerdict::pass && row.after_verdict != RowVerdict::pass)
+        if (row.before_verdict == "pass" && row.after_verdict != "pass")
             sentences.push_back(fmt::format("{} of {} passed before and does not now", row.id, result.regulation));
     const auto refused = std::ranges::find_if(result.steps.rbegin(), result.steps.rend(),
                                               [](const ImproveStep& step) { return !step.taken && !step.regulation_row.empty(); });
@@ -221,8 +220,7 @@ Document document(const ImproveResult& result) {
                                         "`" + result.written + "`", fmt::join(drives, "; ")));
     top.blocks.emplace_back(reading_table(result));
     if (!result.regulation.empty())
-        top.blocks.emplace_back(
-            fmt::format("{}: {} before, {} after.", result.regulation, name_of(result.verdict_before), name_of(result.verdict_after)));
+        top.blocks.emplace_back(fmt::format("{}: {} before, {} after.", result.regulation, result.verdict_before, result.verdict_after));
     top.blocks.emplace_back(Listing(sentences_of(result)));
     Section& more = document.sections.emplace_back();
     if (result.samples_changed > 0) {

@@ -1,5 +1,4 @@
 #include "runner/experiments/improve/improve_result.h"
-#include "runner/experiments/regulation/regulation_result.h"
 #include "runner/findings/context_json.h"
 
 namespace fernlicht {
@@ -31,8 +30,8 @@ JsonMembers row_members(ImprovedRow& row) {
             {"after", row.after},
             {"before_margin", row.before_margin},
             {"after_margin", row.after_margin},
-            {"before_verdict", std::string(name_of(row.before_verdict))},
-            {"after_verdict", std::string(name_of(row.after_verdict))}};
+            {"before_verdict", row.before_verdict},
+            {"after_verdict", row.after_verdict}};
 }
 
 JsonMembers extreme_members(ImproveExtreme& extreme) {
@@ -54,20 +53,20 @@ JsonMembers improve_members(ImproveResult& result) {
             {"steps", result.steps, improve_step_members},
             {"gain_missed", result.gain_missed},
             {"binding", result.binding, binding_members},
-            {"variables", static_cast<int>(result.variables)},
+            {"variables", result.variables},
             {"floor_cd", result.floor_cd},
             {"narrowest_deg", result.narrowest_deg},
-            {"samples_changed", static_cast<int>(result.samples_changed)},
+            {"samples_changed", result.samples_changed},
             {"flux_before_lm", result.flux_before_lm},
             {"flux_after_lm", result.flux_after_lm},
             {"steepest_before", result.steepest_before},
             {"steepest_after", result.steepest_after},
-            {"most", extreme_members(result.most)},
-            {"least", extreme_members(result.least)},
-            {"brightest", extreme_members(result.brightest)},
+            {"most", result.most, extreme_members},
+            {"least", result.least, extreme_members},
+            {"brightest", result.brightest, extreme_members},
             {"regulation", or_null(result.regulation)},
-            {"verdict_before", std::string(name_of(result.verdict_before))},
-            {"verdict_after", std::string(name_of(result.verdict_after))},
+            {"verdict_before", or_null(result.verdict_before)},
+            {"verdict_after", or_null(result.verdict_after)},
             {"rows", result.rows, row_members}};
 }
 

@@ -26,7 +26,7 @@ struct ImproveDrive {
 /// A row of the regulation before and after.
 struct ImprovedRow {
     std::string id, unit;
-    RowVerdict before_verdict = RowVerdict::not_measured, after_verdict = RowVerdict::not_measured;
+    std::string before_verdict, after_verdict; ///< "pass", "fail", "not_measured"
     double before = 0.0, after = 0.0, before_margin = 0.0, after_margin = 0.0;
     std::string limits; ///< ">= 850"
 };
@@ -42,14 +42,14 @@ struct ImproveResult : Findings {
     std::vector<ImproveStep> steps;
     std::vector<BindingLimit> binding;
     bool gain_missed = false;
-    std::size_t variables = 0;
+    int variables = 0;
     double floor_cd = 0.0, narrowest_deg = 0.0;
     double flux_before_lm = 0.0, flux_after_lm = 0.0;
     ImproveExtreme most, least, brightest;              ///< more light, less light, and of the changed lamp
     double steepest_before = 0.0, steepest_after = 0.0; ///< cd/deg
-    std::size_t samples_changed = 0;
+    int samples_changed = 0;
     std::string regulation, regulation_title; ///< "" for none
-    RowVerdict verdict_before = RowVerdict::not_measured, verdict_after = RowVerdict::not_measured;
+    std::string verdict_before, verdict_after;
     std::vector<ImprovedRow> rows;
     CandelaTable before, after; ///< not in JSON
 };

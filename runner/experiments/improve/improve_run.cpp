@@ -58,7 +58,7 @@ struct StagedDrive {
     std::vector<Moment> moments;
 
     StagedDrive(NamedDrive named, const TickRange& range)
-        : name(std::move(named.name)), stage(std::move(named.drive)), lamp_set(&lamp_set_of(stage.drive, named.lamp_set)) {
+        : name(std::move(named.name)), stage(std::move(named.drive)), lamp_set(&stage.drive.lamp_sets.front()) {
         const int count = ticks_to_play(stage.drive, range);
         if (count < 1)
             throw InputError({{}, 0, 0, "--frames"}, fmt::format("found no moment of {}", name),
@@ -165,7 +165,7 @@ void tell_tables(ImproveResult& result, CandelaTable before, CandelaTable after)
     std::size_t most = 0, least = 0, brightest = 0;
     const auto change = [&](std::size_t i) { return after.cd[i] - before.cd[i]; };
     for (std::size_t i = 0; i < before.cd.size(); ++i) {
-        result.samples_changed += change(i) != 0.0 ? 1U : 0U;
+        result.samples_changed += change(i) != 0.0 ? 1 : 0;
         most = change(i) > change(most) ? i : most;
         least = change(i) < change(least) ? i : least;
         brightest = after.cd[i] > after.cd[brightest] ? i : brightest;
@@ -180,18 +180,19 @@ void tell_tables(ImproveResult& result, CandelaTable before, CandelaTable after)
 void tell_regulation(ImproveResult& result, const Regulation& regulation, const RegulationCheck& before, const RegulationCheck& after) {
     result.regulation = regulation.id;
     result.regulation_title = regulation.title;
-    result.verdict_before = before.verdict;
-    result.verdict_after = after.verdict;
+    result.verdict_before = name_of(before.verdict);
+    result.verdict_after = name_of(after.verdict);
     for (const RowResult& then : before.rows) {
         ImprovedRow row{.id = then.id,
                         .unit = then.unit,
-                        .before_verdict = then.verdict,
+                        .before_verdict = name_of(then.verdict),
+                        .after_verdict = name_of(RowVerdict::not_measured),
                         .before = then.found,
                         .before_margin = then.margin,
                         .limits = limits_of(then)};
         const auto now = std::ranges::find(after.rows, then.id, &RowResult::id); // a cut-off that is none any more has no rows
         if (now != after.rows.end()) {
-            row.after_verdict = now->verdict;
+            row.after_verdict = name_of(now->verdict);
             row.after = now->found;
             row.after_margin = now->margin;
             row.limits = limits_of(*now);
@@ -212,7 +213,7 @@ ImproveDemand kept_of(const std::string& text) {
 
 bool improved(const ImproveResult& result) {
     return std::ranges::all_of(result.readings, &ImprovedReading::met) && std::ranges::none_of(result.rows, [](const ImprovedRow& row) {
-               return row.before_verdict == RowVerdict::pass && row.after_verdict != RowVerdict::pass;
+               return row.before_verdict == "pass" && row.after_verdict != "pass";
            });
 }
 
@@ -255,7 +256,7 @@ ImproveResult run_improve(const ImproveRequest& request) {
     result.steps = found.steps;
     result.binding = found.binding;
     result.gain_missed = found.gain_missed;
-    result.variables = found.variables;
+    result.variables = static_cast<int>(found.variables);
 
     result.lamp = lamp.name;
     result.written = request.lamp.stem().string() + "-improved" + request.extension;

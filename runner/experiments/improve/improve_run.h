@@ -20,8 +20,8 @@ ImproveDemand gain_of(const std::string& text);
 ImproveDemand kept_of(const std::string& text);
 
 struct NamedDrive {
-    std::string name, lamp_set; ///< lamp set ""; the drive's first
-    Drive drive;
+    std::string name;
+    Drive drive; ///< its first lamp set is played
 };
 
 struct ImproveRequest : ExperimentRequest<ImproveResult> {

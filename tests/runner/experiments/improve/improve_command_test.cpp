@@ -36,16 +36,16 @@ TEST(ImproveCommand, ProposesALampAndProvesIt) {
     EXPECT_EQ(content_of(folder / "out/xenon-low-improved.ies"), content_of(folder / "again/xenon-low-improved.ies"));
     EXPECT_THAT(printed("lamp " + (folder / "out/xenon-low-improved.ies") + " --regulation r149-c"), HasSubstr("meets all 25 rows"));
     printed("importance " + library_file("drives/straight.yaml") + " --lamp " + (folder / "out/xenon-low-improved.ies") +
-            " --lamp-set xenon --frames 30:40 --check 0 --reading reach_5lx_target_own_right_edge_m --out " + (folder / "read"));
+            " --frames 30:40 --check 0 --reading reach_5lx_target_own_right_edge_m --out " + (folder / "read"));
     EXPECT_NEAR(json::parse(content_of(folder / "read/importance.json")).at("value").get<double>(), reach.at("found").get<double>(), 1e-9);
 }
 
 TEST(ImproveCommand, SaysWhatIsNotToBeHad) {
     const TemporaryFolder folder;
-    const std::string said = printed(
-        improve_xenon + "--drive " + library_file("drives/straight.yaml") +
-            " --lamp-set xenon --frames 30:30 --gain 'reach_5lx_target_own_m by 20%' --max-change 10 --as csv --out " + (folder / "out"),
-        1);
+    const std::string said =
+        printed(improve_xenon + "--drive " + library_file("drives/straight.yaml") +
+                    " --frames 30:30 --gain 'reach_5lx_target_own_m by 20%' --max-change 10 --as csv --out " + (folder / "out"),
+                1);
     EXPECT_THAT(said, HasSubstr("+9.10 m were asked, +"));
     EXPECT_THAT(said, HasSubstr("Most of all the most that a sample may change stands against it"));
     EXPECT_TRUE(std::filesystem::exists(folder / "out/xenon-low-improved.csv"));
