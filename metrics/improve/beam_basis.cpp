@@ -81,11 +81,17 @@ LinearForm BeamBasis::form(const std::vector<double>& per_cd) const {
 }
 
 LinearForm BeamBasis::form(const std::vector<SampleWeight>& per_cd) const {
-    std::vector<double> sums(size());
+    LinearForm parts, form;
     for (const auto& [sample, weight] : per_cd)
         for (const auto& [variable, share] : at_sample(sample))
-            sums[variable] += share * weight * weight_cd(sample);
-    return sparse(sums);
+            parts.emplace_back(variable, share * weight * weight_cd(sample));
+    std::ranges::stable_sort(parts, {}, &LinearForm::value_type::first);
+    for (const auto& [variable, factor] : parts)
+        if (!form.empty() && form.back().first == variable)
+            form.back().second += factor;
+        else
+            form.emplace_back(variable, factor);
+    return form;
 }
 
 CandelaTable BeamBasis::changed(const std::vector<double>& x) const {

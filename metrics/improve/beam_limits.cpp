@@ -6,8 +6,8 @@
 namespace fernlicht {
 namespace {
 
-constexpr double lattice_h_deg = 0.5, lattice_v_deg = 0.25;
-constexpr double most_aim_deg = 0.1;  ///< hands aim to it: what moves a cut-off so far is another lamp
+constexpr double lattice_h_deg = 0.25, lattice_v_deg = 0.125;
+constexpr double most_aim_h_deg = 0.1, most_aim_v_deg = 0.05; ///< as procedures find it again: what moves a cut-off farther is another lamp
 constexpr double inner_share = 0.002; ///< limits are held by so much more: places between those that are held, and rounding
 
 LinearForm difference_of(const LinearForm& a, double by_a, const LinearForm& b, double by_b, std::size_t variables) {
@@ -196,7 +196,7 @@ std::vector<LimitRow> RegulationRows::rows(const BeamBasis& basis, const Candela
 RegulationRows::Missed RegulationRows::missed_by(const RegulationCheck& check) const {
     Missed most;
     const Direction aim = check.aims.front().turned, first_aim = before_.aims.front().turned;
-    if (std::abs(aim.v_deg - first_aim.v_deg) > most_aim_deg || std::abs(aim.h_deg - first_aim.h_deg) > 4.0 * most_aim_deg)
+    if (std::abs(aim.h_deg - first_aim.h_deg) > most_aim_h_deg || std::abs(aim.v_deg - first_aim.v_deg) > most_aim_v_deg)
         return {1.0, "the aim by the cut-off"};
     for (const RowResult& first : before_.rows) {
         if (first.verdict == RowVerdict::not_measured)

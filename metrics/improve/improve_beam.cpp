@@ -40,9 +40,12 @@ class Improvement {
         found.before = found.foretold = first_.values;
         found.variables = basis_.size();
         ReadBeam here = first_;
-        double step = 0.25;
-        constexpr double shortest = 0.004, longest = 2.0;
-        for (bool settled = false; !settled && step >= shortest && static_cast<int>(found.steps.size()) < problem_.max_steps;) {
+        constexpr double first_step = 0.25, shortest = 0.004, longest = 2.0;
+        double step = first_step;
+        std::vector<double> refused; // by the regulation, in a step as long
+        constexpr int most_looks = 4;
+        int looks = 0;
+        while (step >= shortest && static_cast<int>(found.steps.size()) < problem_.max_steps) {
             const auto [programme, rows] = programme_at(here, step);
             const QuadraticSolution solution = solve_(programme);
             if (!solution.solved) {
@@ -52,8 +55,8 @@ class Improvement {
             keep_prices(found, solution, rows);
             ReadBeam next = read_at({solution.x.begin(), solution.x.begin() + static_cast<std::ptrdiff_t>(basis_.size())});
             const double foretold_gain = here.cost - cost_of(programme, solution.x), gain = here.cost - next.cost;
-            settled = foretold_gain <= 1e-4 * here.cost;
-            if (settled && gain <= 0.0)
+            found.settled = foretold_gain <= 1e-3 * here.cost * std::min(1.0, step / first_step);
+            if (found.settled && gain <= 0.0)
                 break;
             ImproveStep& told = found.steps.emplace_back();
             told.longest = step;
@@ -63,9 +66,18 @@ class Improvement {
             told.regulation_row = next.regulation.row;
             told.taken = gain > 0.0 && gain >= 0.1 * foretold_gain;
             if (!told.taken) {
-                step *= 0.5;
+                // The regulation's check has found places that are held from now on: once more, unless that changes nothing.
+                const bool changes = refused.empty() || !std::ranges::equal(refused, next.x, [&](double a, double b) {
+                                         return std::abs(a - b) < 0.02 * step;
+                                     });
+                const bool again = next.regulation.by > 0.0 && changes && ++looks < most_looks;
+                refused = again ? next.x : std::vector<double>();
+                looks = again ? looks : 0;
+                step *= again ? 1.0 : 0.5;
                 continue;
             }
+            refused.clear();
+            looks = 0;
             double farthest = 0.0;
             for (std::size_t i = 0; i < next.x.size(); ++i)
                 farthest = std::max(farthest, std::abs(next.x[i] - here.x[i]));
@@ -73,6 +85,8 @@ class Improvement {
                 step = std::min(2.0 * step, longest);
             found.foretold = told.foretold;
             here = std::move(next);
+            if (found.settled)
+                break;
         }
         found.found = here.values;
         found.table = here.file->table;

@@ -34,7 +34,7 @@ struct ImproveProblem {
     RegulationRows* regulation = nullptr; ///< nullptr: none
     double floor_cd = 100.0;
     double narrowest_deg = 1.0; ///< bends of the change over less than this in H, and half of it in V, count as its size does
-    int max_steps = 30;
+    int max_steps = 60;
 };
 
 struct ImproveStep {
@@ -60,6 +60,7 @@ struct ImprovedBeam {
     std::vector<ImproveStep> steps;
     std::vector<BindingLimit> binding; ///< the one worth most first
     bool gain_missed = false;
+    bool settled = false; ///< no step would do better; else they became too short or too many
     std::size_t variables = 0;
 };
 

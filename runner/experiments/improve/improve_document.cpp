@@ -86,7 +86,7 @@ Table step_table(const ImproveResult& result) {
                                   result.readings[i].drive, value_cell(step.foretold[i]), value_cell(step.found[i]),
                                   i > 0                          ? ""
                                   : step.taken                   ? "yes"
-                                  : !step.regulation_row.empty() ? Cell("no: " + step.regulation_row + " gets worse than it may")
+                                  : !step.regulation_row.empty() ? Cell("no: " + step.regulation_row + " would get worse than it may")
                                                                  : Cell("no")});
     }
     table.folded = true;
@@ -192,10 +192,13 @@ std::vector<std::string> sentences_of(const ImproveResult& result) {
             sentences.push_back(fmt::format("{} of {} passed before and does not now", row.id, result.regulation));
     const auto refused = std::ranges::find_if(result.steps.rbegin(), result.steps.rend(),
                                               [](const ImproveStep& step) { return !step.taken && !step.regulation_row.empty(); });
-    if (result.gain_missed && !result.binding.empty())
+    if (result.gain_missed && !result.settled)
+        sentences.push_back(
+            refused != result.steps.rend()
+                ? fmt::format("No step was found that goes farther: {} would get worse than it may", refused->regulation_row)
+                : fmt::format("No step was found that goes farther within {}", counted(result.steps.size(), "step")));
+    else if (result.gain_missed && !result.binding.empty())
         sentences.push_back(fmt::format("Most of all {} stands against it", result.binding.front().of));
-    else if (result.gain_missed && refused != result.steps.rend())
-        sentences.push_back(fmt::format("No step goes farther: {} gets worse than it may", refused->regulation_row));
     sentences.push_back(
         fmt::format("Every change counts against the light that is there and {} cd more; bends over less than {:g}° in H, and half of "
                     "that in V, count as much as size does. {} knots, solved by {}",

@@ -52,6 +52,7 @@ JsonMembers improve_members(ImproveResult& result) {
             {"improved", improved(result)},
             {"steps", result.steps, improve_step_members},
             {"gain_missed", result.gain_missed},
+            {"settled", result.settled},
             {"binding", result.binding, binding_members},
             {"variables", result.variables},
             {"floor_cd", result.floor_cd},

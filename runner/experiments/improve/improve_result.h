@@ -41,7 +41,7 @@ struct ImproveResult : Findings {
     std::vector<ImprovedReading> readings;
     std::vector<ImproveStep> steps;
     std::vector<BindingLimit> binding;
-    bool gain_missed = false;
+    bool gain_missed = false, settled = false; ///< as ImprovedBeam has them
     int variables = 0;
     double floor_cd = 0.0, narrowest_deg = 0.0;
     double flux_before_lm = 0.0, flux_after_lm = 0.0;

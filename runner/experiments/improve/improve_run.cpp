@@ -256,6 +256,7 @@ ImproveResult run_improve(const ImproveRequest& request) {
     result.steps = found.steps;
     result.binding = found.binding;
     result.gain_missed = found.gain_missed;
+    result.settled = found.settled;
     result.variables = static_cast<int>(found.variables);
 
     result.lamp = lamp.name;
