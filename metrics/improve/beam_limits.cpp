@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace fernlicht {
 namespace {
@@ -110,8 +111,9 @@ std::vector<LimitRow> table_rows(const BeamBasis& basis, const TableLimits& limi
     return rows;
 }
 
-RegulationRows::RegulationRows(const Regulation& regulation, bool left_hand_traffic, const CandelaTable& first)
-    : regulation_(regulation), left_hand_traffic_(left_hand_traffic) {
+RegulationRows::RegulationRows(const Regulation& regulation, bool left_hand_traffic, const CandelaTable& first,
+                               std::vector<std::string> kept)
+    : regulation_(regulation), left_hand_traffic_(left_hand_traffic), kept_(std::move(kept)) {
     for (const RegulationRow& row : regulation.rows)
         if (row.scope != Scope::each_of_two) {
             asked_.push_back(&row);
@@ -119,7 +121,12 @@ RegulationRows::RegulationRows(const Regulation& regulation, bool left_hand_traf
             places_.push_back(by_lattice ? lattice_of(row) : row.places);
         }
     before_ = check(first);
+    for (const std::string& id : kept_)
+        if (std::ranges::find(before_.rows, id, &RowResult::id) == before_.rows.end())
+            throw std::invalid_argument(id);
 }
+
+bool RegulationRows::is_kept(const std::string& id) const { return std::ranges::find(kept_, id) != kept_.end(); }
 
 const RowResult& RegulationRows::result_of(const RegulationCheck& check, std::size_t row) const {
     return check.rows[check.rows.size() - asked_.size() + row]; // behind those about the cut-off
@@ -153,7 +160,7 @@ std::vector<LimitRow> RegulationRows::rows(const BeamBasis& basis, const Candela
         if (now.verdict == RowVerdict::not_measured)
             continue;
         Limits limits{now.limits.min_cd * (1.0 + inner_share), now.limits.max_cd * (1.0 - inner_share)};
-        if (first.verdict != RowVerdict::not_measured && first.margin < inner_share)
+        if (first.verdict != RowVerdict::not_measured && (first.margin < inner_share || is_kept(now.id)))
             (first.minimum_decides ? limits.min_cd : limits.max_cd) = first.found;
         const auto add = [&](const std::vector<Direction>& places, bool minimum, bool maximum) {
             std::vector<SampleWeight> weights;
@@ -203,7 +210,7 @@ RegulationRows::Missed RegulationRows::missed_by(const RegulationCheck& check) c
             continue;
         const auto now = std::ranges::find(check.rows, first.id, &RowResult::id); // a cut-off that is none any more has no rows
         const bool measured = now != check.rows.end() && now->verdict != RowVerdict::not_measured;
-        const double by = measured ? std::min(0.0, first.margin) - now->margin : 1.0;
+        const double by = measured ? (is_kept(first.id) ? first.margin - 1e-6 : std::min(0.0, first.margin)) - now->margin : 1.0;
         if (by > most.by)
             most = {by, first.id};
     }

@@ -41,7 +41,9 @@ std::vector<LimitRow> table_rows(const BeamBasis& basis, const TableLimits& limi
 /// more. Aim, and limits that are another row's share, are as the last check found them.
 class RegulationRows {
   public:
-    RegulationRows(const Regulation& regulation, bool left_hand_traffic, const CandelaTable& first);
+    /// `kept`: rows by their ids that may get no worse at all. Throws std::invalid_argument for one that the check of this lamp does not
+    /// have.
+    RegulationRows(const Regulation& regulation, bool left_hand_traffic, const CandelaTable& first, std::vector<std::string> kept = {});
     /// Keeps in mind where the check found rows worst. A lamp that was not re-aimed at first is not re-aimed.
     RegulationCheck check(const CandelaTable& table);
     /// What a step from here, checked just before, could break.
@@ -56,12 +58,14 @@ class RegulationRows {
     const Regulation& regulation() const { return regulation_; }
 
   private:
+    bool is_kept(const std::string& id) const;
     const RowResult& result_of(const RegulationCheck& check, std::size_t row) const;
 
     const Regulation& regulation_;
     bool left_hand_traffic_;
     std::vector<const RegulationRow*> asked_;    ///< of one lamp
     std::vector<std::vector<Direction>> places_; ///< of asked_, for right-hand traffic, aimed
+    std::vector<std::string> kept_;
     RegulationCheck before_;
 };
 

@@ -18,7 +18,7 @@ namespace {
 struct ImproveFlags {
     std::filesystem::path lamp, recipe, study;
     std::vector<std::filesystem::path> drives;
-    std::vector<std::string> gains, kept, only;
+    std::vector<std::string> gains, kept, kept_rows, only;
     std::string frames, out, regulation, as = "ies";
     std::optional<double> change_percent, change_cd, flux_percent, steepness, floor_cd;
     bool left_hand_traffic = false;
@@ -83,6 +83,9 @@ int tell_improvement(const ImproveFlags& flags, const std::vector<std::string>& 
         request.limits.flux_share = 0.01 * *flags.flux_percent;
     request.limits.steepness = flags.steepness;
     request.regulation = flags.regulation;
+    request.kept_rows = flags.kept_rows;
+    if (flags.regulation.empty() && !flags.kept_rows.empty())
+        refuse_flag("--keep-row", flags.kept_rows.front(), "--regulation, whose row it is");
     request.left_hand_traffic = flags.left_hand_traffic;
     request.floor_cd = flags.floor_cd;
     request.narrowest_deg = flags.narrowest_deg;
@@ -112,6 +115,7 @@ void add_improve_command(CLI::App& app, const std::vector<std::string>& command,
     sub->add_option("--keep", flags->kept, "'[DRIVE:]READING' that gets no worse, 'READING within AMOUNT', 'READING at least|most FIGURE'");
     sub->add_option("--regulation", flags->regulation,
                     "table whose rows get no worse than it allows; `fernlicht lamp --regulation list FILE` names all");
+    sub->add_option("--keep-row", flags->kept_rows, "row of the regulation that gets no worse at all, such as 'zone III'");
     sub->add_flag("--left-hand-traffic", flags->left_hand_traffic, "use the regulation's mirrored table");
     sub->add_option("--max-change", flags->change_percent, "the most that a sample may change, per cent of it")
         ->check(CLI::Range(0.1, 1e4));

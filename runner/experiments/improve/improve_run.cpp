@@ -231,7 +231,12 @@ ImproveResult run_improve(const ImproveRequest& request) {
     const Sought sought = sought_of(request.demands, drives, result);
     std::optional<RegulationRows> rows;
     if (asked)
-        rows.emplace(*asked, request.left_hand_traffic, lamp.table);
+        try {
+            rows.emplace(*asked, request.left_hand_traffic, lamp.table, request.kept_rows);
+        } catch (const std::invalid_argument& row) {
+            throw InputError({{}, 0, 0, "--keep-row"}, "found '" + printable(row.what()) + "'",
+                             fmt::format("a row that `fernlicht lamp {} --regulation {}` prints", request.lamp.string(), asked->id));
+        }
     OutputFolder folder(request.folder);
     result.context = make_context({}, request.command, 1);
     add_inputs(result.context.inputs, lamp.opened);

@@ -33,7 +33,8 @@ struct ImproveRequest : ExperimentRequest<ImproveResult> {
     TickRange ticks;
     std::vector<ImproveDemand> demands;
     TableLimits limits;
-    std::string regulation; ///< "" for none
+    std::string regulation;             ///< "" for none
+    std::vector<std::string> kept_rows; ///< of it, which get no worse at all
     bool left_hand_traffic = false;
     std::optional<double> floor_cd; ///< nullopt: a thousandth of the lamp's peak
     double narrowest_deg = 1.0;

@@ -204,6 +204,20 @@ TEST_F(Rows, LetStandWhatTheBeamBrokeFromTheFirst) {
     EXPECT_EQ(rows.missed_by(rows.check(scaled(table, 0.99))).row, "point");
 }
 
+TEST_F(Rows, KeepWhatIsToGetNoWorse) {
+    const Regulation r = regulation();
+    const CandelaTable table = sloping_table();
+    const BeamBasis basis(table, {-1.0, 1.0, -0.5, 0.5}, 0.4, 0.2, 50.0);
+    RegulationRows rows(r, false, table, {"zone"});
+    const std::vector<double> none(basis.size());
+    const double most = 1000.0 + 100.0 * 0.6 - 200.0 * 0.1; // of the zone, at its lower right corner
+    for (const LinearRow& row : rows_of(rows.rows(basis, table, rows.before(), {none, 0.5}), "zone"))
+        EXPECT_LE(row.high, 100.0 * (most - 900.0) / most);
+    EXPECT_EQ(rows.missed_by(rows.before()).by, 0.0);
+    EXPECT_EQ(rows.missed_by(rows.check(scaled(table, 1.002))).row, "zone"); // far from the limit itself
+    EXPECT_THROW(RegulationRows(r, false, table, {"Zone"}), std::invalid_argument);
+}
+
 TEST(RegulationRows, HoldALowBeamsMirrorImageAlike) {
     const CandelaTable table = read_lamp(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/lamps/halogen-low.ies").table,
                        left = mirrored(table);

@@ -67,6 +67,10 @@ TEST(ImproveCommand, RefusesWhatItCannotSeek) {
     EXPECT_THAT(refusal(straight + "--gain 'width_0.01lx_target_all_at_20m_m by 5'"), HasSubstr("only known to be beyond a bound"));
     EXPECT_THAT(refusal("--study " + library_file("studies/aim-alone.yaml") + " --gain 'reach_5lx_target_own_m by 5'"),
                 HasSubstr("has no cell with this lamp"));
+    EXPECT_THAT(refusal(straight + "--gain 'reach_5lx_target_own_m by 5' --keep-row 'zone III'"),
+                HasSubstr("--regulation, whose row it is"));
+    EXPECT_THAT(refusal(straight + "--gain 'reach_5lx_target_own_m by 5' --regulation r98-d --keep-row 'zone 3'"),
+                HasSubstr("--keep-row: found 'zone 3'"));
     EXPECT_FALSE(std::filesystem::exists(folder / "a"));
 }
 
