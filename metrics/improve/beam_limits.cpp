@@ -9,6 +9,7 @@ namespace {
 
 constexpr double lattice_h_deg = 0.25, lattice_v_deg = 0.125;
 constexpr double most_aim_h_deg = 0.1, most_aim_v_deg = 0.05; ///< as procedures find it again: what moves a cut-off farther is another lamp
+constexpr double kept_within = 0.005;                         ///< of the limit: with every change the aim moves a little
 constexpr double inner_share = 0.002; ///< limits are held by so much more: places between those that are held, and rounding
 
 LinearForm difference_of(const LinearForm& a, double by_a, const LinearForm& b, double by_b, std::size_t variables) {
@@ -210,7 +211,7 @@ RegulationRows::Missed RegulationRows::missed_by(const RegulationCheck& check) c
             continue;
         const auto now = std::ranges::find(check.rows, first.id, &RowResult::id); // a cut-off that is none any more has no rows
         const bool measured = now != check.rows.end() && now->verdict != RowVerdict::not_measured;
-        const double by = measured ? (is_kept(first.id) ? first.margin - 1e-6 : std::min(0.0, first.margin)) - now->margin : 1.0;
+        const double by = measured ? (is_kept(first.id) ? first.margin - kept_within : std::min(0.0, first.margin)) - now->margin : 1.0;
         if (by > most.by)
             most = {by, first.id};
     }

@@ -41,8 +41,8 @@ std::vector<LimitRow> table_rows(const BeamBasis& basis, const TableLimits& limi
 /// more. Aim, and limits that are another row's share, are as the last check found them.
 class RegulationRows {
   public:
-    /// `kept`: rows by their ids that may get no worse at all. Throws std::invalid_argument for one that the check of this lamp does not
-    /// have.
+    /// `kept`: rows by their ids that may get no worse, but for half a per cent of the limit. Throws std::invalid_argument for one that the
+    /// check of this lamp does not have.
     RegulationRows(const Regulation& regulation, bool left_hand_traffic, const CandelaTable& first, std::vector<std::string> kept = {});
     /// Keeps in mind where the check found rows worst. A lamp that was not re-aimed at first is not re-aimed.
     RegulationCheck check(const CandelaTable& table);

@@ -84,6 +84,7 @@ class Improvement {
             if (gain > 0.75 * foretold_gain && farthest > 0.9 * step)
                 step = std::min(2.0 * step, longest);
             found.foretold = told.foretold;
+            found.settled = found.settled || (gain < 0.01 * here.cost && is_met(next));
             here = std::move(next);
             if (found.settled)
                 break;
@@ -191,6 +192,10 @@ class Improvement {
         for (const QuadraticProgramme::Term& term : hessian_)
             twice += (term.row == term.column ? 1.0 : 2.0) * term.value * x[term.row] * x[term.column];
         return 0.5 * twice;
+    }
+
+    static bool is_met(const ReadBeam& beam) {
+        return beam.regulation.by <= 0.0 && std::ranges::all_of(beam.missed, [](double missed) { return missed <= 0.0; });
     }
 
     double cost_of(const QuadraticProgramme& programme, const std::vector<double>& x) const {

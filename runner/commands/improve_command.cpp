@@ -115,7 +115,7 @@ void add_improve_command(CLI::App& app, const std::vector<std::string>& command,
     sub->add_option("--keep", flags->kept, "'[DRIVE:]READING' that gets no worse, 'READING within AMOUNT', 'READING at least|most FIGURE'");
     sub->add_option("--regulation", flags->regulation,
                     "table whose rows get no worse than it allows; `fernlicht lamp --regulation list FILE` names all");
-    sub->add_option("--keep-row", flags->kept_rows, "row of the regulation that gets no worse at all, such as 'zone III'");
+    sub->add_option("--keep-row", flags->kept_rows, "row of the regulation that gets no worse, such as 'zone III'");
     sub->add_flag("--left-hand-traffic", flags->left_hand_traffic, "use the regulation's mirrored table");
     sub->add_option("--max-change", flags->change_percent, "the most that a sample may change, per cent of it")
         ->check(CLI::Range(0.1, 1e4));

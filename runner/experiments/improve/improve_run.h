@@ -34,7 +34,7 @@ struct ImproveRequest : ExperimentRequest<ImproveResult> {
     std::vector<ImproveDemand> demands;
     TableLimits limits;
     std::string regulation;             ///< "" for none
-    std::vector<std::string> kept_rows; ///< of it, which get no worse at all
+    std::vector<std::string> kept_rows; ///< of it, which get no worse
     bool left_hand_traffic = false;
     std::optional<double> floor_cd; ///< nullopt: a thousandth of the lamp's peak
     double narrowest_deg = 1.0;
