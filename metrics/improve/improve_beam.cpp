@@ -10,8 +10,8 @@
 namespace fernlicht {
 namespace {
 
-// What a miss costs, against squares of a change: a hundredfold change over a square degree is 10^4.
-constexpr double gain_price = 1e4, kept_price = 1e5;
+// What a miss costs, against squares of a change: thirty times the light over a square degree is 10^3.
+constexpr double gain_price = 1e3, kept_price = 1e4;
 
 /// A beam that was read.
 struct ReadBeam {

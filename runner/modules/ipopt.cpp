@@ -128,7 +128,7 @@ extern "C" __attribute__((visibility("default"))) void fernlicht_solve_by_ipopt(
     solver->Options()->SetStringValue("option_file_name", ""); // nothing that lies in the folder
     for (const char* constant : {"hessian_constant", "jac_c_constant", "jac_d_constant"})
         solver->Options()->SetStringValue(constant, "yes");
-    solver->Options()->SetStringValue("mehrotra_algorithm", "yes"); // for convex quadratic programmes
+    solver->Options()->SetStringValue("nlp_scaling_method", "none"); // all is near 1 but what a miss costs
     if (solver->Initialize() != Ipopt::Solve_Succeeded)
         return;
     const Ipopt::ApplicationReturnStatus status = solver->OptimizeTNLP(asked);
