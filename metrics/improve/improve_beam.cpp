@@ -55,7 +55,8 @@ class Improvement {
             keep_prices(found, solution, rows);
             ReadBeam next = read_at({solution.x.begin(), solution.x.begin() + static_cast<std::ptrdiff_t>(basis_.size())});
             const double foretold_gain = here.cost - cost_of(programme, solution.x), gain = here.cost - next.cost;
-            found.settled = foretold_gain <= 1e-3 * here.cost * std::min(1.0, step / first_step);
+            // Where all is met, what a step may still save must be worth it.
+            found.settled = foretold_gain <= (is_met(here) ? 0.01 : 1e-3 * std::min(1.0, step / first_step)) * here.cost;
             if (found.settled && gain <= 0.0)
                 break;
             ImproveStep& told = found.steps.emplace_back();
@@ -84,7 +85,6 @@ class Improvement {
             if (gain > 0.75 * foretold_gain && farthest > 0.9 * step)
                 step = std::min(2.0 * step, longest);
             found.foretold = told.foretold;
-            found.settled = found.settled || (gain < 0.01 * here.cost && is_met(next));
             here = std::move(next);
             if (found.settled)
                 break;
