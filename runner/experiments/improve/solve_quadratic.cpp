@@ -2,6 +2,8 @@
 
 #include "runner/files/program_module.h"
 
+#include <cstdlib>
+
 namespace fernlicht {
 namespace {
 
@@ -11,7 +13,12 @@ extern "C" using SolveByIpopt = void(const QuadraticProgramme& programme, Quadra
 } // namespace
 
 QuadraticSolution solved_by_ipopt(const QuadraticProgramme& programme) {
-    static const auto solve = reinterpret_cast<SolveByIpopt*>(module_function("fernlicht-ipopt", "fernlicht_solve_by_ipopt"));
+    static const auto solve = [] {
+        // Debian 13 builds Ipopt with Open MPI, which starts as it is loaded and ends a process that has no home. Nobody else takes part.
+        ::setenv("HOME", "/", 0);
+        ::setenv("OMPI_MCA_btl", "self", 0);
+        return reinterpret_cast<SolveByIpopt*>(module_function("fernlicht-ipopt", "fernlicht_solve_by_ipopt"));
+    }();
     QuadraticSolution solution;
     solve(programme, solution);
     return solution;
