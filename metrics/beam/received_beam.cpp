@@ -21,7 +21,7 @@ std::vector<double> pieces(const std::vector<double>& axis, double low, double h
 double widening(double v_deg) { return 1.0 / std::max(0.1, std::cos(radians(v_deg))); }
 
 /// Weighted sums over the parts that have data.
-struct Sums {
+struct LightSums {
     double light = 0.0, weight = 0.0;
     void add(const CandelaTable& table, double h, double v, double w) {
         if (w <= 0.0 || !has_data(table, h, v))
@@ -31,8 +31,22 @@ struct Sums {
     }
 };
 
+/// The same, sample by sample.
+struct SampleSums {
+    std::vector<SampleWeight> samples = {};
+    double weight = 0.0;
+    void add(const CandelaTable& table, double h, double v, double w) {
+        const auto weights = w > 0.0 ? sample_weights(table, h, v) : std::nullopt;
+        if (!weights)
+            return;
+        for (const SampleWeight& one : *weights)
+            samples.push_back({one.sample, w * one.weight});
+        weight += w;
+    }
+};
+
 /// Over [h0, h1] x [v0, v1], one cell's piece or less.
-void add_piece(Sums& sums, const CandelaTable& table, double h0, double h1, double v0, double v1) {
+template <class Sums> void add_piece(Sums& sums, const CandelaTable& table, double h0, double h1, double v0, double v1) {
     const double area = (h1 - h0) * (v1 - v0), h = (h0 + h1) / 2.0, v = (v0 + v1) / 2.0;
     if (table.rule == BetweenSamples::linear_cd) {
         sums.add(table, h, v, area);
@@ -44,7 +58,7 @@ void add_piece(Sums& sums, const CandelaTable& table, double h0, double h1, doub
             sums.add(table, h + x, v + y, area / 4.0);
 }
 
-Sums over_square(const CandelaTable& table, double half, Direction to) {
+template <class Sums> Sums over_square(const CandelaTable& table, double half, Direction to) {
     const double half_h = half * widening(to.v_deg);
     const std::vector<double> h = pieces(table.h_deg, to.h_deg - half_h, to.h_deg + half_h);
     const std::vector<double> v = pieces(table.v_deg, to.v_deg - half, to.v_deg + half);
@@ -56,7 +70,7 @@ Sums over_square(const CandelaTable& table, double half, Direction to) {
 }
 
 /// v = middle + radius sin t, a chord's half length radius cos t: the area element is 2 radius^2 cos^2 t dt.
-Sums over_disc(const CandelaTable& table, double radius, Direction to) {
+template <class Sums> Sums over_disc(const CandelaTable& table, double radius, Direction to) {
     static constexpr std::array<double, 4> node{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
     static constexpr std::array<double, 4> weight{0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
     const double wide = widening(to.v_deg);
@@ -86,6 +100,11 @@ Sums over_disc(const CandelaTable& table, double radius, Direction to) {
     return sums;
 }
 
+template <class Sums> Sums over_receiver(const CandelaTable& table, const Receiver& receiver, Direction to) {
+    const double half = receiver.size_deg / 2.0;
+    return receiver.shape == Receiver::Shape::square ? over_square<Sums>(table, half, to) : over_disc<Sums>(table, half, to);
+}
+
 /// The samples from the last one at or below `low` to the first one at or above `high`.
 std::pair<std::size_t, std::size_t> around(const std::vector<double>& axis, double low, double high) {
     auto first = std::upper_bound(axis.begin(), axis.end(), low);
@@ -104,9 +123,21 @@ std::optional<double> received_cd(const CandelaTable& table, const Receiver& rec
         return std::nullopt;
     if (receiver.size_deg <= 0.0)
         return intensity_cd(table, to.h_deg, to.v_deg);
-    const double half = receiver.size_deg / 2.0;
-    const Sums sums = receiver.shape == Receiver::Shape::square ? over_square(table, half, to) : over_disc(table, half, to);
+    const auto sums = over_receiver<LightSums>(table, receiver, to);
     return sums.weight > 0.0 ? sums.light / sums.weight : intensity_cd(table, to.h_deg, to.v_deg);
+}
+
+std::vector<SampleWeight> received_weights(const CandelaTable& table, const Receiver& receiver, Direction to) {
+    if (!has_data(table, to.h_deg, to.v_deg))
+        return {};
+    SampleSums sums;
+    if (receiver.size_deg > 0.0)
+        sums = over_receiver<SampleSums>(table, receiver, to);
+    if (sums.weight <= 0.0)
+        sums.add(table, to.h_deg, to.v_deg, 1.0);
+    for (SampleWeight& one : sums.samples)
+        one.weight /= sums.weight;
+    return sums.samples;
 }
 
 ReceivedBeam::ReceivedBeam(std::vector<AimedLamp> lamps, Receiver receiver)

@@ -29,6 +29,9 @@ struct Receiver {
 /// error below 1e-6). log_cd takes 2 x 2 Gauss points a piece: relative error (change of ln I over the piece)^4 / 4320.
 std::optional<double> received_cd(const CandelaTable& table, const Receiver& receiver, Direction to);
 
+/// How received_cd() answers to the samples of the table: some may come more than once. Empty where the table has no data.
+std::vector<SampleWeight> received_weights(const CandelaTable& table, const Receiver& receiver, Direction to);
+
 /// `turned` is how far the aim turned the beam to the right and up, as offsets of the goniometer's two angles.
 struct AimedLamp {
     const CandelaTable* table = nullptr;

@@ -1,6 +1,7 @@
 #include "metrics/importance/reading_of_light.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace fernlicht {
@@ -96,6 +97,32 @@ ReadingOfLight::Found ReadingOfLight::gradient(const std::vector<Moment>& moment
         add_gradient_of(found.gradient, part, moments[part.moment], share);
     }
     return found;
+}
+
+void ReadingOfLight::each_side_figure(const std::vector<Moment>& moments, bool at_least,
+                                      const std::function<void(double, const BeamGradient&)>& take) const {
+    if (!quantile_) {
+        const Found found = gradient(moments);
+        if (found.value.number())
+            take(*found.value.number(), found.gradient);
+        return;
+    }
+    const std::vector<Value> all = figures(moments);
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (all[i].measured() && parts_[i].to_go_m >= counted_from_m_ && parts_[i].to_go_m <= counted_to_m_)
+            order.push_back(i);
+    if (order.empty())
+        return;
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return *all[i].figure(); });
+    const double place = *quantile_ * static_cast<double>(order.size() - 1);
+    const auto from = static_cast<std::ptrdiff_t>(at_least ? std::floor(place) : 0.0);
+    const auto to = static_cast<std::ptrdiff_t>(at_least ? static_cast<double>(order.size()) : std::ceil(place) + 1.0);
+    for (auto i = order.begin() + from; i != order.begin() + to; ++i) {
+        BeamGradient gradient;
+        add_gradient_of(gradient, parts_[*i], moments[parts_[*i].moment], 1.0);
+        take(*all[*i].figure(), gradient);
+    }
 }
 
 BeamGradient ReadingOfLight::mean_gradient(const std::vector<Moment>& moments) const {

@@ -23,9 +23,10 @@ inline constexpr const char* importance_readings = "reach_*_m and width_*_m of a
 
 class ReadingOfLight {
   public:
-    /// Of the twin, over these moments, which are the drive's in their order. Route outlives it. Throws InputError naming --reading for a
-    /// reading that is none of importance_readings, or of what the drive does not ask for.
-    ReadingOfLight(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
+    /// Of the twin, over these moments, which are the drive's in their order. Route outlives it. Throws InputError naming the flag that
+    /// asks for a reading that is none of importance_readings, or of what the drive does not ask for.
+    ReadingOfLight(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments,
+                   std::string asked_by = "--reading");
 
     ReadingOfLight(const ReadingOfLight&) = delete;
     ReadingOfLight& operator=(const ReadingOfLight&) = delete;
@@ -45,6 +46,11 @@ class ReadingOfLight {
         BeamGradient gradient;         ///< of the reading; without its lamps where nothing decides it
     };
     Found gradient(const std::vector<Moment>& moments) const;
+    /// What it takes for the reading to be at least, else at most, some bound: that each of these figures is. Of a quantile they are those
+    /// of the moments on that side of it, as they stand now; of everything else it is the reading itself. Moments without a figure are
+    /// left out.
+    void each_side_figure(const std::vector<Moment>& moments, bool at_least,
+                          const std::function<void(double figure, const BeamGradient& gradient)>& take) const;
     /// Of the mean over the moments whose figure is a number, in place of the reading: what each of them turns on. Nothing of an approach,
     /// whose moments are at all distances.
     BeamGradient mean_gradient(const std::vector<Moment>& moments) const;
@@ -74,6 +80,8 @@ class ReadingOfLight {
     };
     using Fold = std::function<OverMoments(const std::vector<Value>& figures)>;
 
+    [[noreturn]] void refuse(const ReadingKey& key, const std::string& expected) const;
+    double share_of_statistic(const ReadingKey& key) const;
     void add_lines(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
     void add_place(std::size_t moment, double to_go_m, LightPlace place);
     void add_sensor(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
@@ -87,8 +95,11 @@ class ReadingOfLight {
     void add_gradient_of(BeamGradient& gradient, const InMoment& part, const Moment& moment, double weight) const;
 
     Quantity quantity_;
+    std::string asked_by_;
     double threshold_lx_ = 0.0; ///< of reach and width
     std::vector<InMoment> parts_;
+    std::optional<double> quantile_; ///< of the figures of parts that count, from 0 to 1; nullopt: it is none
+    double counted_from_m_ = 0.0, counted_to_m_ = std::numeric_limits<double>::infinity(); ///< left to go
     bool passed_ = false;
     Fold over_moments_;
 };

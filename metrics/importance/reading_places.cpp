@@ -16,28 +16,6 @@
 namespace fernlicht {
 namespace {
 
-[[noreturn]] void refuse_reading(const ReadingKey& key, const std::string& expected) {
-    throw InputError({{}, 0, 0, "--reading"}, "found '" + name_of(key) + "'", expected);
-}
-
-double share_of_statistic(const ReadingKey& key) {
-    switch (key.statistic) {
-    case Statistic::none:
-    case Statistic::median:
-        return 0.5;
-    case Statistic::minimum:
-        return 0.0;
-    case Statistic::maximum:
-        return 1.0;
-    case Statistic::p05:
-        return 0.05;
-    case Statistic::p95:
-        return 0.95;
-    default:
-        refuse_reading(key, "a median, a quantile or an extreme");
-    }
-}
-
 /// Of quantile_of() by those of the values that are numbers and may count.
 ValueShares quantile_shares(const std::vector<Value>& values, double share, const std::function<bool(std::size_t)>& counts = nullptr) {
     std::vector<std::size_t> order;
@@ -92,16 +70,39 @@ std::vector<bool> hidden_by_road(const Moment& moment, const Route& route, doubl
 
 } // namespace
 
-ReadingOfLight::ReadingOfLight(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments)
-    : quantity_(key.quantity) {
+void ReadingOfLight::refuse(const ReadingKey& key, const std::string& expected) const {
+    throw InputError({{}, 0, 0, asked_by_}, "found '" + name_of(key) + "'", expected);
+}
+
+double ReadingOfLight::share_of_statistic(const ReadingKey& key) const {
+    switch (key.statistic) {
+    case Statistic::none:
+    case Statistic::median:
+        return 0.5;
+    case Statistic::minimum:
+        return 0.0;
+    case Statistic::maximum:
+        return 1.0;
+    case Statistic::p05:
+        return 0.05;
+    case Statistic::p95:
+        return 0.95;
+    default:
+        refuse(key, "a median, a quantile or an extreme");
+    }
+}
+
+ReadingOfLight::ReadingOfLight(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments,
+                               std::string asked_by)
+    : quantity_(key.quantity), asked_by_(std::move(asked_by)) {
     using enum Quantity;
     const bool of_eye = (key.quantity == glare_facing || key.quantity == glare_eye) && !key.subject.empty();
     const bool of_light = key.quantity == sensor_reach || key.quantity == sensor_illuminance || key.quantity == kerb_illuminance ||
                           key.quantity == mirror_illuminance || of_eye;
     if (key.aspect != Aspect::value || !(of_light || key.quantity == reach || key.quantity == width))
-        refuse_reading(key, fmt::format("a reading that is light or where light ends: {}", importance_readings));
+        refuse(key, fmt::format("a reading that is light or where light ends: {}", importance_readings));
     if (of_light && std::ranges::any_of(moments, [](const Moment& moment) { return moment.weather.wetness > 0.0; }))
-        refuse_reading(key, "a dry road: what a wet one mirrors to a place comes from more than one direction of the beam");
+        refuse(key, "a dry road: what a wet one mirrors to a place comes from more than one direction of the beam");
     if (key.quantity == reach || key.quantity == width)
         add_lines(key, drive, route, moments);
     else if (of_eye)
@@ -121,10 +122,10 @@ void ReadingOfLight::add_place(std::size_t moment, double to_go_m, LightPlace pl
 
 void ReadingOfLight::add_lines(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments) {
     if (!drive.extent)
-        refuse_reading(key, "a drive that measures its extent");
+        refuse(key, "a drive that measures its extent");
     const bool all = key.lane == "all";
     if (all && key.quantity == Quantity::reach && key.place == ReadingPlace::none)
-        refuse_reading(key, "the reach of one lane: of all, another line may reach farthest with every change");
+        refuse(key, "the reach of one lane: of all, another line may reach farthest with every change");
     const Surface surface = key.surface == ReadingSurface::road ? Surface::road : Surface::target;
     threshold_lx_ = key.threshold.value;
     for (std::size_t k = 0; k < moments.size(); ++k) {
@@ -190,7 +191,8 @@ void ReadingOfLight::add_lines(const ReadingKey& key, const Drive& drive, const 
         }
         parts_.push_back(std::move(part));
     }
-    over_moments_ = [share = share_of_statistic(key)](const std::vector<Value>& figures) {
+    quantile_ = share_of_statistic(key);
+    over_moments_ = [share = *quantile_](const std::vector<Value>& figures) {
         CensoredSamples samples;
         for (const Value& figure : figures)
             samples.add(figure);
@@ -207,10 +209,10 @@ void ReadingOfLight::add_sensor(const ReadingKey& key, const Drive& drive, const
             sensor = one.name == key.subject ? &one : sensor;
         }
     if (!sensor)
-        refuse_reading(key, names.empty() ? "a drive with sensors" : fmt::format("one of its sensors: {}", fmt::join(names, ", ")));
+        refuse(key, names.empty() ? "a drive with sensors" : fmt::format("one of its sensors: {}", fmt::join(names, ", ")));
     const std::optional<Pose> surface = place_on_road(route, sensor->across, sensor->at_m);
     if (!surface)
-        refuse_reading(key, fmt::format("a place that is there: there is no {} at {} m", place_name(sensor->across), sensor->at_m));
+        refuse(key, fmt::format("a place that is there: there is no {} at {} m", place_name(sensor->across), sensor->at_m));
     const glm::dvec3 point_m = surface->position_m + sensor->above_m * surface->up();
     for (std::size_t k = 0; k < moments.size(); ++k) {
         const double to_go_m = sensor->at_m - moments[k].distance_m - drive.bumper_m;
@@ -228,11 +230,13 @@ void ReadingOfLight::add_sensor(const ReadingKey& key, const Drive& drive, const
             const Approach samples = approach(figures);
             return OverMoments{value_at(samples, at_m), value_at_shares(samples, at_m)};
         };
-    else
+    else {
+        quantile_ = 1.0;
         over_moments_ = [this](const std::vector<Value>& figures) {
             return OverMoments{Value::of(largest(approach(figures)), "no moment of the drive before this place was measured"),
                                largest_shares(figures)};
         };
+    }
 }
 
 void ReadingOfLight::add_eye(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments) {
@@ -244,11 +248,11 @@ void ReadingOfLight::add_eye(const ReadingKey& key, const Drive& drive, const Ro
             observer = one.name == key.subject ? &one : observer;
         }
     if (!observer)
-        refuse_reading(key, names.empty() ? "a drive with oncoming drivers (`glare`)"
-                                          : fmt::format("one of its oncoming drivers: {}", fmt::join(names, ", ")));
+        refuse(key, names.empty() ? "a drive with oncoming drivers (`glare`)"
+                                  : fmt::format("one of its oncoming drivers: {}", fmt::join(names, ", ")));
     const std::optional<OncomingEye> eye = oncoming_eye(route, *observer);
     if (!eye)
-        refuse_reading(key, fmt::format("a place that is there: there is no oncoming lane at {} m", observer->at_m));
+        refuse(key, fmt::format("a place that is there: there is no oncoming lane at {} m", observer->at_m));
     for (std::size_t k = 0; k < moments.size(); ++k)
         if (const double to_go_m = observer->at_m - moments[k].distance_m - drive.bumper_m; to_go_m >= 0.0)
             add_place(k, to_go_m,
@@ -256,6 +260,17 @@ void ReadingOfLight::add_eye(const ReadingKey& key, const Drive& drive, const Ro
                        hidden_by_road(moments[k], route, observer->at_m, eye->place_m)});
     if (key.to_m) {
         const std::optional<double> share = key.statistic == Statistic::maximum ? std::nullopt : std::optional(share_of_statistic(key));
+        // Light at the ends of the range is taken from between moments: of an extreme the next beyond them counts, too.
+        quantile_ = share.value_or(1.0);
+        counted_from_m_ = *key.distance_m;
+        counted_to_m_ = *key.to_m;
+        if (!share)
+            for (const InMoment& part : parts_) {
+                if (part.to_go_m < *key.distance_m)
+                    counted_from_m_ = counted_from_m_ < *key.distance_m ? std::max(counted_from_m_, part.to_go_m) : part.to_go_m;
+                if (part.to_go_m > *key.to_m)
+                    counted_to_m_ = counted_to_m_ > *key.to_m ? std::min(counted_to_m_, part.to_go_m) : part.to_go_m;
+            }
         over_moments_ = [this, near_m = *key.distance_m, far_m = *key.to_m, share](const std::vector<Value>& figures) {
             const Approach samples = approach(figures);
             return OverMoments{value_in_range(samples, near_m, far_m, share), shares_in_range(samples, figures, near_m, far_m, share)};
@@ -266,11 +281,12 @@ void ReadingOfLight::add_eye(const ReadingKey& key, const Drive& drive, const Ro
             return OverMoments{value_at(samples, at_m), value_at_shares(samples, at_m)};
         };
     } else if (key.statistic == Statistic::maximum) {
+        quantile_ = 1.0;
         over_moments_ = [this](const std::vector<Value>& figures) {
             return OverMoments{Value::of(largest(approach(figures)), "no moment of the drive was measured"), largest_shares(figures)};
         };
     } else {
-        refuse_reading(key, "the largest of the approach (_max), or a range of it");
+        refuse(key, "the largest of the approach (_max), or a range of it");
     }
 }
 
@@ -287,6 +303,7 @@ void ReadingOfLight::add_kerb(const ReadingKey& key, const Drive& drive, const R
         add_place(k, 0.0,
                   {point_m, on_road ? Facing::surface : Facing::lamps, edge->up(), hidden_by_road(moments[k], route, at_m, point_m)});
     }
+    quantile_ = 0.5;
     over_moments_ = [everywhere](const std::vector<Value>& figures) {
         std::vector<double> numbers;
         for (const Value& figure : figures)
@@ -302,7 +319,7 @@ void ReadingOfLight::add_mirror(const ReadingKey& key, const Drive& drive, const
     const std::vector<Mirror> mirrors = asked ? drive.seeing.glare->mirrors->mirrors : std::vector<Mirror>{};
     const auto mirror = std::ranges::find(mirrors, key.subject, &Mirror::name);
     if (mirror == mirrors.end())
-        refuse_reading(key, "a drive with glare in a mirror of this name");
+        refuse(key, "a drive with glare in a mirror of this name");
     for (std::size_t k = 0; k < moments.size(); ++k) {
         const double ahead_m = moments[k].distance_m + drive.bumper_m + *key.distance_m;
         if (ahead_m + drive.wheelbase_m > route.length_m())
@@ -310,7 +327,8 @@ void ReadingOfLight::add_mirror(const ReadingKey& key, const Drive& drive, const
         const glm::dvec3 point_m = to_parent(ego_pose(route, ahead_m, drive.wheelbase_m), mirror->position_m);
         add_place(k, 0.0, {point_m, Facing::lamps, {}, hidden_by_road(moments[k], route, ahead_m, point_m)});
     }
-    over_moments_ = [share = share_of_statistic(key)](const std::vector<Value>& figures) {
+    quantile_ = share_of_statistic(key);
+    over_moments_ = [share = *quantile_](const std::vector<Value>& figures) {
         CensoredSamples samples("the car ahead is beyond the route's end in every moment");
         for (const Value& figure : figures)
             samples.add(figure);

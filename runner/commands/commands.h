@@ -28,6 +28,7 @@ AddCommand add_aliasing_command;   // how much of what a picture shows is not th
 AddCommand add_fit_command;        // aim, flux and height of lamps that explain measured lux points
 AddCommand add_importance_command; // where in the beam a reading of a drive is decided
 AddCommand add_rate_command;       // one lamp set judged by a rating: drives, limits over distance, points
+AddCommand add_improve_command;    // the smallest change of a lamp that gains what is asked of readings
 AddCommand add_shadows_command;    // how wrong each shadow method is, and what it costs
 AddCommand add_reference_command;  // one moment by rays, each pixel with its standard error
 AddCommand add_list_commands;      // list the ways to light a scene, what is read of a drive, what lamp control reads and writes

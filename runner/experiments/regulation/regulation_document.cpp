@@ -23,15 +23,6 @@ std::string limit_number(double value, const std::string& unit) {
     return unit == "cd" ? fmt::format("{:.0f}", value) : fmt::format("{:g}", value);
 }
 
-std::string limits_text(const RowResult& row) {
-    const bool min = row.limits.min_cd > 0.0, max = !std::isinf(row.limits.max_cd);
-    if (min && max)
-        return limit_number(row.limits.min_cd, row.unit) + " to " + limit_number(row.limits.max_cd, row.unit);
-    if (min)
-        return ">= " + limit_number(row.limits.min_cd, row.unit);
-    return max ? "<= " + limit_number(row.limits.max_cd, row.unit) : "";
-}
-
 std::string receiver_text(const Receiver& receiver) {
     const char* shape = receiver.shape == Receiver::Shape::square ? "square" : "disc";
     return fmt::format("mean over a {} of {:.3f} degrees", shape, receiver.size_deg);
@@ -75,7 +66,7 @@ std::string as_found_text(const Aim& aim) {
 }
 
 /// Of G, which has none.
-std::string unit_or_one(const std::string& unit) { return unit.empty() ? "1" : unit; }
+std::string unit_of_row(const std::string& unit) { return unit.empty() ? "1" : unit; }
 
 std::string remark(const RowResult& row) {
     std::string text = row.verdict == RowVerdict::not_measured ? row.reason : row.note;
@@ -92,12 +83,12 @@ Table rows_table(const std::string& name, const std::vector<RowResult>& rows) {
     for (const RowResult& row : rows) {
         const std::string text = remark(row);
         if (row.verdict == RowVerdict::not_measured)
-            table.rows.push_back({row.id, "", limits_text(row), unit_or_one(row.unit), "", "", "not_measured: " + text});
+            table.rows.push_back({row.id, "", limits_of(row), unit_of_row(row.unit), "", "", "not_measured: " + text});
         else
             table.rows.push_back({row.id,
                                   {number(row.found, row.unit), row.found},
-                                  limits_text(row),
-                                  unit_or_one(row.unit),
+                                  limits_of(row),
+                                  unit_of_row(row.unit),
                                   {fmt::format("{:+.1f}%", 100.0 * row.margin), row.margin},
                                   fmt::format("{:.2f}, {:.2f}", row.where.h_deg + 0.0, row.where.v_deg + 0.0),
                                   name_of(row.verdict) + (text.empty() ? "" : " (" + text + ")")});
@@ -129,6 +120,15 @@ std::string scan_text(const CutOffScan& s, const char* axis) {
 }
 
 } // namespace
+
+std::string limits_of(const RowResult& row) {
+    const bool min = row.limits.min_cd > 0.0, max = !std::isinf(row.limits.max_cd);
+    if (min && max)
+        return limit_number(row.limits.min_cd, row.unit) + " to " + limit_number(row.limits.max_cd, row.unit);
+    if (min)
+        return ">= " + limit_number(row.limits.min_cd, row.unit);
+    return max ? "<= " + limit_number(row.limits.max_cd, row.unit) : "";
+}
 
 const char* name_of(RowVerdict verdict) {
     return verdict == RowVerdict::pass ? "pass" : verdict == RowVerdict::fail ? "fail" : "not_measured";

@@ -37,8 +37,9 @@ std::string regulation_list_json();
 /// The scans, what they found, and the elbow's fit over the isocandela diagram.
 plots::Figure cut_off_figure(const CutOffFound& found);
 
-const char* name_of(RowVerdict verdict); ///< "pass", "fail", "not_measured"
-const char* name_of(AimRule rule);       ///< "auto", "cut-off-line"
+const char* name_of(RowVerdict verdict);     ///< "pass", "fail", "not_measured"
+const char* name_of(AimRule rule);           ///< "auto", "cut-off-line"
+std::string limits_of(const RowResult& row); ///< ">= 850", "0.13 to 0.4"
 /// The regulation's notes. That on its aim says so where the lamp was aimed in another way.
 std::vector<std::string> notes_of(const RegulationFound& found);
 /// At most `count` of the rows that were measured, the smallest margin first.

@@ -124,6 +124,52 @@ TEST(ReadingOfLight, IsDecidedByTheMomentsOfItsStatistic) {
     EXPECT_NEAR(p05[0].share + p05[1].share, 1.0, 1e-12);
 }
 
+TEST(ReadingOfLight, TellsWhatItTakesToStayBeyondABound) {
+    const PlayedDrive played("s-bend.yaml", "halogen", 60);
+    const auto side = [&](const char* name, bool at_least) {
+        std::vector<std::pair<double, BeamGradient>> figures;
+        ReadingOfLight(named_reading(name), played.drive, played.route, played.moments)
+            .each_side_figure(played.moments, at_least,
+                              [&](double figure, const BeamGradient& gradient) { figures.emplace_back(figure, gradient); });
+        return figures;
+    };
+    const std::size_t moments = played.moments.size();
+    ASSERT_EQ(moments % 2, 1U);
+    EXPECT_EQ(side("reach_3lx_target_own_min_m", true).size(), moments);
+    EXPECT_EQ(side("reach_3lx_target_own_min_m", false).size(), 1U);
+    EXPECT_EQ(side("reach_3lx_target_own_p05_m", false).size(), 2U); // between two
+    const auto figures = side("reach_3lx_target_own_m", true);
+    ASSERT_EQ(figures.size(), moments / 2 + 1);
+    const auto found =
+        ReadingOfLight(named_reading("reach_3lx_target_own_m"), played.drive, played.route, played.moments).gradient(played.moments);
+    EXPECT_EQ(figures.front().first, *found.value.number()); // its median moment first
+    ASSERT_EQ(figures.front().second.size(), found.gradient.size());
+    for (std::size_t k = 0; k < found.gradient.size(); ++k)
+        EXPECT_EQ(figures.front().second[k].per_cd, found.gradient[k].per_cd);
+    for (const auto& [figure, gradient] : figures)
+        EXPECT_GE(figure, *found.value.number());
+}
+
+TEST(ReadingOfLight, TellsWhatItTakesOfAnEyeInARange) {
+    PlayedDrive played("iihs-right-150.yaml", "halogen", 3);
+    const auto count = [&](const std::string& statistic, bool at_least) {
+        std::size_t figures = 0;
+        const ReadingKey key =
+            named_reading(fmt::format("glare_{}_facing_from_40_to_100m{}_lx", played.drive.seeing.glare->oncoming.front().name, statistic));
+        ReadingOfLight(key, played.drive, played.route, played.moments)
+            .each_side_figure(played.moments, at_least, [&](double, const BeamGradient&) { ++figures; });
+        return figures;
+    };
+    const auto within = static_cast<std::size_t>(std::ranges::count_if(played.moments, [&](const Moment& moment) {
+        const double to_go_m = played.drive.seeing.glare->oncoming.front().at_m - moment.distance_m - played.drive.bumper_m;
+        return to_go_m >= 40.0 && to_go_m <= 100.0;
+    }));
+    ASSERT_GT(within, 5U);
+    EXPECT_EQ(count("_max", false), within + 2); // light at both ends comes from between moments
+    EXPECT_EQ(count("_max", true), 1U);
+    EXPECT_NEAR(static_cast<double>(count("", false)), 0.5 * static_cast<double>(within), 1.1);
+}
+
 TEST(ReadingOfLight, FollowsEverySensorEyeMirrorAndKerbAsTheirFoldsDo) {
     PlayedDrive played("iihs-right-150.yaml", "halogen", 3);
     played.drive.seeing.glare->mirrors = MirrorParameters{};
