@@ -1,7 +1,10 @@
 #include "metrics/importance/reading_of_light.h"
 
+#include "scenarios/values/errors.h"
+
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <numeric>
 
 namespace fernlicht {
@@ -82,7 +85,17 @@ void ReadingOfLight::add_gradient_of(BeamGradient& gradient, const InMoment& par
 
 Value ReadingOfLight::value(const std::vector<Moment>& moments) const { return over_moments_(figures(moments)).value; }
 
+/// A gradient over a table means one table.
+static void refuse_changing_tables(const std::vector<Moment>& moments) {
+    for (const Moment& moment : moments)
+        for (const LitLamp& lamp : moment.lamps)
+            if (lamp.file->state_of)
+                throw InputError({{}, 0, 0, "lamp " + lamp.name}, "pixels that dim while driving",
+                                 "lamps whose candela tables stay as they are");
+}
+
 ReadingOfLight::Found ReadingOfLight::gradient(const std::vector<Moment>& moments) const {
+    refuse_changing_tables(moments);
     const std::vector<Value> all = figures(moments);
     OverMoments over = over_moments_(all);
     Found found{std::move(over.value), {}, {}};
@@ -101,6 +114,7 @@ ReadingOfLight::Found ReadingOfLight::gradient(const std::vector<Moment>& moment
 
 void ReadingOfLight::each_side_figure(const std::vector<Moment>& moments, bool at_least,
                                       const std::function<void(double, const BeamGradient&)>& take) const {
+    refuse_changing_tables(moments);
     if (!quantile_) {
         const Found found = gradient(moments);
         if (found.value.number())

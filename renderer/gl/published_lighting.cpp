@@ -313,17 +313,21 @@ UploadedBeam PublishedBeams::upload(const ProjectedBeam& beam) {
     return uploaded;
 }
 
+void PublishedBeams::forget_other_states(const LampFile& file) {
+    if (!file.state_of)
+        return;
+    const auto same_lamp = [&](const auto& entry) { return entry.first->state_of == file.state_of; };
+    for (const auto& entry : beams_)
+        texture_bytes_ -= same_lamp(entry) ? entry.second.bytes : 0;
+    std::erase_if(beams_, same_lamp);
+    std::erase_if(spots_, same_lamp);
+}
+
 const UploadedBeam& PublishedBeams::of(const std::shared_ptr<const LampFile>& file) {
     const auto known = beams_.find(file);
     if (known != beams_.end())
         return known->second;
-    if (file->state_of) { // its last state is not drawn again
-        const auto same_lamp = [&](const auto& entry) { return entry.first->state_of == file->state_of; };
-        for (const auto& entry : beams_)
-            texture_bytes_ -= same_lamp(entry) ? entry.second.bytes : 0;
-        std::erase_if(beams_, same_lamp);
-        std::erase_if(spots_, same_lamp);
-    }
+    forget_other_states(*file);
     return beams_.emplace(file, upload(make_projected_beam(file->table, texels_))).first->second;
 }
 
@@ -334,7 +338,10 @@ double PublishedBeams::error_of_peak(const LampFile& file) const {
 
 const std::vector<Spot>& PublishedBeams::spots_of(const std::shared_ptr<const LampFile>& file) {
     const auto known = spots_.find(file);
-    return known != spots_.end() ? known->second : spots_.emplace(file, fit_spots(file->table, max_spots).spots).first->second;
+    if (known != spots_.end())
+        return known->second;
+    forget_other_states(*file);
+    return spots_.emplace(file, fit_spots(file->table, max_spots).spots).first->second;
 }
 
 template <class Made, class Make> const Made& PublishedBeams::kept(std::list<Kept<Made>>& list, const Moment& moment, Make make) {

@@ -42,6 +42,7 @@ class PublishedBeams {
     std::size_t texture_bytes() const { return texture_bytes_; }
 
   private:
+    void forget_other_states(const LampFile& file); ///< of its pixels: they are not drawn again
     template <class Made> struct Kept {
         std::vector<LitLamp> arrangement; ///< the lamps that are on, in the car's frame
         Made made;

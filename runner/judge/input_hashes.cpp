@@ -37,6 +37,11 @@ std::vector<std::pair<std::string, std::string>> input_hashes(const Drive& drive
             source.options.recipe.clear(); // its content is among what was opened
             lamps.emplace_back(source.path.string(), hash_of(source.file->opened));
         }
+    for (MountedLamp& lamp : one.lamp_sets.front().lamps)
+        if (lamp.levels) {
+            lamp.levels_file.clear();
+            lamps.emplace_back("levels of " + lamp.name, hash_of(lamp.levels->opened()));
+        }
     const std::string bits = drive_bits(one) + fmt::format("moments: [{}, {}]\n", first_tick, last_tick);
     std::vector<std::pair<std::string, std::string>> inputs{{"drive", content_hash(bits.data(), bits.size())}, {"road", hash_of(road)}};
     std::ranges::move(lamps, std::back_inserter(inputs));

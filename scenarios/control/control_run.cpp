@@ -42,11 +42,13 @@ const BeamModeSettings& ControlRun::mode(std::size_t lamp, double time_s) const 
     return change ? modes[static_cast<std::size_t>(change->second)] : has_modes[lamp] ? modes.front() : own;
 }
 
-std::shared_ptr<const LampFile> ControlRun::file(std::size_t lamp, double time_s) const {
-    if (runs[lamp].pixels)
-        return runs[lamp].pixels->at(time_s);
+std::shared_ptr<const LampFile> ControlRun::file(std::size_t lamp, double time_s, const std::shared_ptr<const LampFile>& own) const {
     const auto* const change = masks.empty() ? nullptr : held(masks[lamp], time_s);
-    return change && change->second ? change->second : mode(lamp, time_s).file;
+    if (change && change->second)
+        return change->second;
+    if (const auto& of_mode = mode(lamp, time_s).file)
+        return of_mode;
+    return runs[lamp].pixels && runs[lamp].pixels->lamp() == own ? runs[lamp].pixels->at(time_s) : nullptr;
 }
 
 ControlRunner::ControlRunner(const ControlParameters& parameters, const std::vector<ControlledLamp>& lamps, const ControlledCar& car,

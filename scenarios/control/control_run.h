@@ -25,8 +25,9 @@ struct ControlRun {
     double swivel_rad(std::size_t lamp, double time_s) const;
     double pitch_rad(std::size_t lamp, double time_s) const;
     double level(std::size_t lamp, double time_s) const;
-    const BeamModeSettings& mode(std::size_t lamp, double time_s) const;         ///< nothing for a lamp without
-    std::shared_ptr<const LampFile> file(std::size_t lamp, double time_s) const; ///< nullptr: the lamp's own
+    const BeamModeSettings& mode(std::size_t lamp, double time_s) const; ///< nothing for a lamp without
+    /// Of a lamp that has `own` then; nullptr: that. Pixels are those of the lamp's first file alone.
+    std::shared_ptr<const LampFile> file(std::size_t lamp, double time_s, const std::shared_ptr<const LampFile>& own) const;
 };
 
 struct ControlSpan {

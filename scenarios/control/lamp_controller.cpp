@@ -88,7 +88,8 @@ void LampController::glare_free(SignalTable& table, std::vector<std::vector<doub
     const OwnMotion own{std::isfinite(v) ? v : 0.0, std::isfinite(yaw_rate) ? yaw_rate : 0.0};
     for (auto& [lamp, windows] : windows_) {
         const LampPlace place{lamps_[lamp].position_m, lamps_[lamp].yaw_rad + table.of(lamp, lamp_signal::swivel),
-                              lamps_[lamp].pitch_rad + table.of(lamp, lamp_signal::pitch) + (std::isfinite(body_rad) ? body_rad : 0.0)};
+                              lamps_[lamp].pitch_rad + table.of(lamp, lamp_signal::pitch) + (std::isfinite(body_rad) ? body_rad : 0.0),
+                              lamps_[lamp].roll_rad};
         segments[lamp] = windows.step(surroundings.others, *parameters_.high_beam, place, own, dt_s);
     }
 }

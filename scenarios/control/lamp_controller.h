@@ -36,6 +36,7 @@ struct ControlledLamp {
     double yaw_rad = 0.0;                    ///< its aim, left positive
     std::vector<AngleBox> windows = {};      ///< of its segments or pixels
     double pitch_rad = 0.0;                  ///< its aim, up positive
+    double roll_rad = 0.0;                   ///< its aim, left side up
     std::shared_ptr<LevelTrack> pixels = {}; ///< what its pixels do, one window each; nullptr: it has none
 };
 

@@ -105,14 +105,18 @@ double HighBeam::step(const SignalTable& table, double dt_s) {
 }
 
 std::optional<AngleBox> seen_box(const OtherUser& other, const LampPlace& lamp) {
-    const double ahead_m = other.ahead_m - lamp.position_m.x, left_m = other.left_m - lamp.position_m.y;
-    if (!(ahead_m > 0.0))
+    if (!(other.ahead_m > lamp.position_m.x))
         return std::nullopt;
-    const auto right_deg = [&](double y_m) { return degrees(lamp.yaw_rad - std::atan2(y_m, ahead_m)); };
-    const auto up_deg = [&](double z_m) {
-        return degrees(std::atan2(other.up_m + z_m - lamp.position_m.z, std::hypot(ahead_m, left_m)) - lamp.pitch_rad);
-    };
-    return AngleBox{right_deg(left_m + 0.5 * other.width_m), right_deg(left_m - 0.5 * other.width_m), up_deg(0.0), up_deg(other.height_m)};
+    const glm::dmat3 axes = axes_from_angles(lamp.yaw_rad, lamp.pitch_rad, lamp.roll_rad);
+    AngleBox box{180.0, -180.0, 90.0, -90.0};
+    for (const double left_m : {other.left_m + 0.5 * other.width_m, other.left_m - 0.5 * other.width_m})
+        for (const double up_m : {other.up_m, other.up_m + other.height_m}) {
+            const glm::dvec3 seen = (glm::dvec3(other.ahead_m, left_m, up_m) - lamp.position_m) * axes; // forward, left, up
+            const double h_deg = degrees(std::atan2(-seen.y, seen.x)), v_deg = degrees(std::atan2(seen.z, std::hypot(seen.x, seen.y)));
+            box = {std::min(box.left_deg, h_deg), std::max(box.right_deg, h_deg), std::min(box.bottom_deg, v_deg),
+                   std::max(box.top_deg, v_deg)};
+        }
+    return box;
 }
 
 OtherUser seen_later(OtherUser other, const OwnMotion& own, double after_s) {
@@ -134,8 +138,13 @@ const std::vector<double>& LampWindows::step(const std::vector<OtherUser>& other
     for (const OtherUser& other : others)
         if (other.lamps_on && std::hypot(other.ahead_m, other.left_m) <= (other.oncoming() ? reach.oncoming_m : reach.preceding_m))
             if (const auto box = seen_box(other, lamp)) {
-                const AngleBox later =
-                    parameters_.foresee_s > 0.0 ? seen_box(seen_later(other, own, parameters_.foresee_s), lamp).value_or(*box) : *box;
+                AngleBox later = *box;
+                if (parameters_.foresee_s > 0.0) {
+                    if (const auto then = seen_box(seen_later(other, own, parameters_.foresee_s), lamp))
+                        later = *then;
+                    else // beside the lamp by then: all of its side
+                        (box->left_deg + box->right_deg < 0.0 ? later.left_deg = -90.0 : later.right_deg = 90.0);
+                }
                 spared.push_back(
                     {std::min(box->left_deg, later.left_deg) - margin_deg, std::max(box->right_deg, later.right_deg) + margin_deg,
                      std::min(box->bottom_deg, later.bottom_deg) - margin_deg, std::max(box->top_deg, later.top_deg) + margin_deg});

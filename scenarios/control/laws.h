@@ -133,7 +133,7 @@ class HighBeam {
 /// Where a lamp is in the car's frame, and where it points: left and up positive.
 struct LampPlace {
     glm::dvec3 position_m{0.0};
-    double yaw_rad = 0.0, pitch_rad = 0.0;
+    double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0; ///< as axes_from_angles has them
 };
 
 struct OwnMotion {

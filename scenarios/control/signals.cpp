@@ -43,7 +43,7 @@ constexpr std::array<SignalKind, std::size_t{signal::count} + std::size_t{lamp_s
     {"lamp.*.pitch_command_rad", "rad", -0.3, 0.3, "laws", "asked of the levelling, up positive"},
     {"lamp.*.pitch_rad", "rad", -0.3, 0.3, "actuators", "what it has done"},
     {"lamp.*.level", "1", 0.0, 1.0, "laws", "times the level that the drive gives the lamp"},
-    {"lamp.*.segments_lit", "1", 0.0, 256.0, "laws", "of a lamp in segments: the sum of their levels"},
+    {"lamp.*.segments_lit", "1", 0.0, 4.0e6, "laws", "of a lamp in segments or pixels: the sum of their levels"},
     {"lamp.*.swivel_stuck", "1", 0.0, 1.0, "laws", "1: found to be stuck, by command and position; stays so"},
     {"lamp.*.switch", "1", 0.0, 1.0, "driver", "times the laws' level: what the driver's switch gives the lamp; lost: as it was"},
 }};

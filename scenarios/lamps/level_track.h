@@ -27,6 +27,8 @@ class LevelTrack {
     std::vector<float> levels(double time_s) const;
     /// With its light then, of the same axes as the lamp's own table. Where nothing changes it is the same file; the last few are kept.
     std::shared_ptr<const LampFile> at(double time_s) const;
+    void came_from(FilesRead files) { opened_ = std::move(files); }
+    const FilesRead& opened() const { return opened_; }   ///< of levels from files
     std::size_t changes() const { return asked_.size(); } ///< at how many times something was asked for
 
   private:
@@ -49,6 +51,7 @@ class LevelTrack {
     std::vector<float> locked_levels(double time_s) const;
 
     std::shared_ptr<const LampFile> lamp_, full_; ///< the second is this lamp's alone
+    FilesRead opened_;
     std::vector<Asked> asked_;
     std::vector<float> last_; ///< asked for
     std::size_t kept_changes_ = 0;

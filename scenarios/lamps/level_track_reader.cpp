@@ -30,7 +30,7 @@ std::vector<float> levels_of_picture(const std::filesystem::path& picture, const
         throw InputError(asked_by, fmt::format("there is no file {}", printable(picture.string(), 400)),
                          "a picture (relative paths start at this file's folder)");
     const std::string bytes = read_file(picture, opened, max_lamp_text_bytes);
-    const Image<float> image = decode_texture(picture, bytes, max_made_samples).value;
+    const Image<float> image = decode_texture(picture, bytes, max_made_samples, 1).value;
     const bool raster = !lamp.parts().raster.empty();
     const int columns = raster ? lamp.parts().raster.front().columns : static_cast<int>(lamp.count());
     const int rows = raster ? lamp.parts().raster.front().rows : 1;
@@ -67,7 +67,8 @@ std::vector<float> levels_of_line(const std::vector<std::string_view>& cells, bo
 } // namespace
 
 std::shared_ptr<const LevelTrack> read_levels(const std::filesystem::path& path, std::shared_ptr<const LampFile> lamp, FilesRead& opened) {
-    const std::string text = lamp_text(read_file(path, opened, max_lamp_text_bytes), path);
+    FilesRead own;
+    const std::string text = lamp_text(read_file(path, own, max_lamp_text_bytes), path);
     const PixelLamp& pixels = *lamp->pixels;
     auto track = std::make_shared<LevelTrack>(lamp);
     std::optional<char> separator;
@@ -94,10 +95,12 @@ std::shared_ptr<const LevelTrack> read_levels(const std::filesystem::path& path,
             throw InputError(time_at, fmt::format("found {}", time_s),
                              last_s < 0.0 ? std::string("a time from 0 on, s") : fmt::format("a time after {} s", last_s));
         last_s = time_s;
-        track->ask(time_s, levels_of_line(cells, *pictures, pixels, at, opened), at);
+        track->ask(time_s, levels_of_line(cells, *pictures, pixels, at, own), at);
     }
     if (track->changes() == 0)
         throw InputError({path, 0, 0, {}}, "holds no levels", "lines of a time and levels");
+    opened.insert(opened.end(), own.begin(), own.end());
+    track->came_from(std::move(own));
     return track;
 }
 

@@ -57,7 +57,11 @@ CandelaTable raster_table(const PixelRaster& raster) {
     if (const double samples = across.samples(parts_h) * up.samples(parts_v); samples > static_cast<double>(PixelLamp::most_samples))
         throw std::invalid_argument(fmt::format("{} x {} pixels with their blur need a table of {:.0f} samples, expected at most {}",
                                                 raster.columns, raster.rows, samples, PixelLamp::most_samples));
-    return dark_table(across.axis(parts_h), up.axis(parts_v));
+    CandelaTable table = dark_table(across.axis(parts_h), up.axis(parts_v));
+    if (table.v_deg.front() < -90.0 || table.v_deg.back() > 90.0)
+        throw std::invalid_argument(fmt::format("with their blur the pixels light from V {:.1f} to {:.1f} degrees, expected -90 to 90",
+                                                table.v_deg.front(), table.v_deg.back()));
+    return table;
 }
 
 /// On the axes of both, each by its own rule there.
@@ -77,13 +81,17 @@ PixelLamp::PixelLamp(PixelParts parts) : parts_(std::move(parts)) {
         dark_ = raster_table(parts_.raster.front());
     else
         dark_ = parts_.segments.front().table;
+    const auto unite = [this](const CandelaTable& table) {
+        dark_ = on_axes_of_both(dark_, table);
+        if (dark_.cd.size() > most_samples)
+            throw std::invalid_argument(
+                fmt::format("the tables together need {} samples or more, expected at most {}", dark_.cd.size(), most_samples));
+    };
     for (const PixelSegment& segment : parts_.segments)
-        dark_ = on_axes_of_both(dark_, segment.table);
+        unite(segment.table);
     std::ranges::fill(dark_.cd, 0.0);
     if (!parts_.base.empty())
-        dark_ = on_axes_of_both(dark_, parts_.base.front());
-    if (dark_.cd.size() > most_samples)
-        throw std::invalid_argument(fmt::format("all tables together need {} samples, expected at most {}", dark_.cd.size(), most_samples));
+        unite(parts_.base.front());
     if (parts_.raster.empty()) {
         dead_.resize(parts_.segments.size());
         for (const PixelSegment& segment : parts_.segments) {

@@ -223,7 +223,10 @@ bool looks_like_pixel_lamp(std::string_view text) {
     return false;
 }
 
-LampFile read_pixel_lamp(const std::filesystem::path& path, std::string_view text, const LampReadOptions&, FilesRead opened) {
+LampFile read_pixel_lamp(const std::filesystem::path& path, std::string_view text, const LampReadOptions& options, FilesRead opened) {
+    if (options.rule != BetweenSamples::linear_cd || !options.recipe.empty())
+        throw InputError({path, 0, 0, options.recipe.empty() ? "between_samples" : "recipe"}, "a way to read the table of a pixel lamp",
+                         "none: its table is the sum of its pixels', linear between samples");
     const YamlValue document = parse_yaml(std::string(text), path);
     const YamlEntry entry(document, path, "");
     const PixelLampKeys keys = read_fields(pixel_lamp_fields(), entry);
@@ -233,10 +236,13 @@ LampFile read_pixel_lamp(const std::filesystem::path& path, std::string_view tex
     } catch (const std::invalid_argument& error) {
         throw InputError({path, 0, 0, {}}, error.what());
     }
-    lamp.format = fmt::format("pixel lamp, {} {}", lamp.pixels->count(), keys.raster ? "pixels" : "segments");
+    const auto counted = [&](std::size_t count) {
+        return fmt::format("{} {}{}", count, keys.raster ? "pixel" : "segment", count == 1 ? "" : "s");
+    };
+    lamp.format = "pixel lamp, " + counted(lamp.pixels->count());
     lamp.table = lamp.pixels->table(std::vector<float>(lamp.pixels->count(), 1.0F));
     if (!lamp.pixels->parts().dead.empty())
-        lamp.notes.push_back(fmt::format("{} of {} pixels are dead", lamp.pixels->parts().dead.size(), lamp.pixels->count()));
+        lamp.notes.push_back(fmt::format("{} of {} dead", lamp.pixels->parts().dead.size(), counted(lamp.pixels->count())));
     return lamp;
 }
 

@@ -96,13 +96,13 @@ DecodedPicture decode_picture(const std::filesystem::path& file, const std::stri
     return out;
 }
 
-TextureImage decode_texture(const std::filesystem::path& path, const std::string& bytes, std::size_t max_pixels) {
+TextureImage decode_texture(const std::filesystem::path& path, const std::string& bytes, std::size_t max_pixels, int least_side) {
     const auto fail = [&](const std::string& found) { throw InputError({path, 0, 0, {}}, found, "a PNG or EXR picture"); };
     const bool png = bytes.starts_with("\x89PNG");
     if (png && !is_whole_png(bytes))
         fail("ends early or is damaged");
     const auto check = [&](int width, int height, std::size_t channels) {
-        if (width < 2 || height < 2 || channels < 1 || channels > 64)
+        if (width < least_side || height < least_side || channels < 1 || channels > 64)
             fail(fmt::format("has {} x {} pixels of {} channels", width, height, channels));
         if (static_cast<std::size_t>(width) * static_cast<std::size_t>(height) > max_pixels)
             throw InputError({path, 0, 0, {}}, fmt::format("has {} x {} pixels", width, height), fmt::format("at most {}", max_pixels));

@@ -27,8 +27,8 @@ struct DecodedPicture {
 /// PNG or JPEG within a file; `key` says where in it. Throws InputError: not decodable, or more than `max_pixels`.
 DecodedPicture decode_picture(const std::filesystem::path& file, const std::string& key, const std::string& bytes, std::size_t max_pixels);
 
-/// Throws InputError: not decodable, or more than `max_pixels`.
-TextureImage decode_texture(const std::filesystem::path& path, const std::string& bytes, std::size_t max_pixels);
+/// Throws InputError: not decodable, fewer than `least_side` pixels to a side, or more than `max_pixels`.
+TextureImage decode_texture(const std::filesystem::path& path, const std::string& bytes, std::size_t max_pixels, int least_side = 2);
 
 /// A float EXR with one channel. Throws std::runtime_error when the library cannot.
 std::string encode_texture(const Image<float>& value, const std::string& channel, const std::map<std::string, std::string>& attributes);

@@ -50,9 +50,9 @@ JsonMembers photometer_members(PhotometerFound& found) {
             {"lx_aimed_higher", found.higher_lx}};
 }
 
-JsonMembers note_members(RatingNote& note) { return {{"note", note.note}, {"drives", note.drives}}; }
+JsonMembers rating_note_members(RatingNote& note) { return {{"note", note.note}, {"drives", note.drives}}; }
 
-JsonMembers row_members(RowFound& found) {
+JsonMembers rated_row_members(RowFound& found) {
     return {{"row", found.row.name},
             {"title", found.row.title},
             {"drive", found.drive},
@@ -87,12 +87,12 @@ JsonMembers rating_members(RatingFound& found) {
             {"lamps", found.lamps},
             {"lamp_set", found.lamp_set},
             {"verdict", std::string(rating_verdict_words[static_cast<std::size_t>(found.verdict())])},
-            {"rows", found.rows, row_members},
+            {"rows", found.rows, rated_row_members},
             {"points", found.score.points},
             {"most_points", found.score.most},
             {"capped_by", or_null(found.score.capped_by)},
             {"grade", or_null(found.score.grade)},
-            {"notes", found.notes, note_members}};
+            {"notes", found.notes, rating_note_members}};
 }
 
 std::string rating_csv(const RatingFound& found) {

@@ -8,7 +8,9 @@
 #include "runner/findings/run_context.h"
 #include "runner/play/stage.h"
 #include "scenarios/drives/play/advance.h"
+#include "scenarios/drives/play/moment.h"
 #include "scenarios/drives/play/nudge.h"
+#include "scenarios/drives/play/storyboard_timeline.h"
 #include "scenarios/light/light_gradient.h"
 #include "scenarios/values/errors.h"
 
@@ -18,7 +20,6 @@
 #include <fmt/ranges.h>
 #include <map>
 #include <numbers>
-#include <numeric>
 
 namespace fernlicht {
 namespace {
@@ -31,20 +32,22 @@ constexpr double most_off_circle_m = 0.5, least_arc_deg = 10.0;
     throw InputError({rating.file, row.line, 0, fmt::format("rows.{}.{}", row.name, key)}, found, expected);
 }
 
-/// A drive with one lamp set, played.
+/// A drive with one lamp set, played. Its moments are made one at a time: a state of a lamp's pixels is a whole table.
 struct PlayedRating {
     Stage stage;
     const LampSet& lamp_set;
-    std::vector<Moment> moments;
+    std::vector<State> states;
     std::map<double, Readings> readings; ///< by how far all lamps are aimed higher, rad
 
     explicit PlayedRating(Drive drive) : stage(std::move(drive)), lamp_set(stage.drive.lamp_sets.front()) {
-        std::vector<int> ticks(static_cast<std::size_t>(tick_count(stage.drive)));
-        std::iota(ticks.begin(), ticks.end(), 0);
-        moments = moments_at(ticks, stage, lamp_set);
-        if (std::ranges::any_of(moments, [](const Moment& moment) { return moment.weather.wetness > 0.0; }))
-            throw InputError({stage.drive.file, 0, 0, "weather"}, "a wet road, by way of which light comes, too", "a dry one in a rating");
+        for (State state = start(stage.drive); state.tick < tick_count(stage.drive); state = advance(state, stage.drive)) {
+            if (weather_of(stage.drive, state.time_s).wetness > 0.0)
+                throw InputError({stage.drive.file, 0, 0, "weather"}, "a wet road, by way of which light comes, too",
+                                 "a dry one in a rating");
+            states.push_back(state);
+        }
     }
+    Moment at(const State& state) const { return moment_at(state, stage.drive, stage.route, lamp_set); }
 };
 
 /// What distance runs from, in the car's frame: the middle of the lamps, or of the bumper.
@@ -129,36 +132,60 @@ class Photometry {
     std::optional<std::size_t> user_;
 };
 
-/// Of the moments in which the photometer lies ahead of the car's reference; the lamps nudged.
-LightApproach approach_of(const Rating& rating, const RatingRow& row, const Photometer& photometer, const PlayedRating& played,
-                          const Nudge& nudge = {}) {
-    const Photometry photometry(rating, row, photometer, played);
+Nudge aimed_higher() {
+    Nudge up;
+    up.pitch_rad = nudge_aim_deg * std::numbers::pi / 180.0;
+    return up;
+}
+
+/// What a row's photometers get while the car comes nearer, and where it was, tick by tick.
+struct Approaches {
+    struct Place {
+        glm::dvec2 ego_m;
+        double speed_mps;
+    };
+    std::vector<LightApproach> as_aimed, higher; ///< by photometer: as lamps are, and all of them aimed a little higher
+    std::vector<Place> places;
+};
+
+/// Of the moments in which a photometer lies ahead of the car's reference.
+Approaches approaches_of(const Rating& rating, const RatingRow& row, const std::vector<Photometer>& photometers,
+                         const PlayedRating& played) {
+    std::vector<Photometry> photometry;
+    for (const Photometer& photometer : photometers)
+        photometry.emplace_back(rating, row, photometer, played);
     const glm::dvec3 from_m = reference_m(played.stage, played.lamp_set, rating.rules.from);
-    LightApproach approach;
-    for (const Moment& moment : played.moments) {
-        const std::optional<PlacedPhotometer> placed = photometry.at(moment);
-        if (!placed)
-            continue;
-        const glm::dvec3 way = placed->distance_to_m - to_parent(moment.ego, from_m);
-        if (glm::dot(way, moment.ego.forward()) <= 0.0)
-            continue;
-        approach.push_back({moment.tick, moment.time_s, std::hypot(way.x, way.y), light_lx(nudged(moment, nudge), placed->place),
-                            std::asin(std::clamp(moment.ego.forward().z, -1.0, 1.0)) * 180.0 / std::numbers::pi});
+    Approaches found{std::vector<LightApproach>(photometers.size()), std::vector<LightApproach>(photometers.size()), {}};
+    for (const State& state : played.states) {
+        const Moment moment = played.at(state), up = nudged(moment, aimed_higher());
+        found.places.push_back({glm::dvec2(moment.ego.position_m), moment.speed_mps});
+        const double pitch_deg = std::asin(std::clamp(moment.ego.forward().z, -1.0, 1.0)) * 180.0 / std::numbers::pi;
+        for (std::size_t i = 0; i < photometers.size(); ++i) {
+            const std::optional<PlacedPhotometer> placed = photometry[i].at(moment);
+            if (!placed)
+                continue;
+            const glm::dvec3 way = placed->distance_to_m - to_parent(moment.ego, from_m);
+            if (glm::dot(way, moment.ego.forward()) <= 0.0)
+                continue;
+            const double distance_m = std::hypot(way.x, way.y);
+            found.as_aimed[i].push_back({moment.tick, moment.time_s, distance_m, light_lx(moment, placed->place), pitch_deg});
+            found.higher[i].push_back({moment.tick, moment.time_s, distance_m, light_lx(up, placed->place), pitch_deg});
+        }
     }
-    return approach;
+    return found;
 }
 
 /// Why the drive is not what the row asks for where it measures; "": it is.
-std::string not_as_asked(const RatingRow& row, const LightApproach& approach, const PlayedRating& played) {
+std::string not_as_asked(const RatingRow& row, const LightApproach& approach, const std::vector<Approaches::Place>& all) {
     std::vector<glm::dvec2> places_m;
     double slowest = 1.0e9, fastest = 0.0;
     for (const LightSample& sample : approach) {
         if (sample.distance_m < row.from_m || sample.distance_m > row.to_m)
             continue;
-        const Moment& moment = played.moments[static_cast<std::size_t>(sample.tick)];
-        places_m.emplace_back(moment.ego.position_m.x, moment.ego.position_m.y);
-        slowest = std::min(slowest, 3.6 * moment.speed_mps);
-        fastest = std::max(fastest, 3.6 * moment.speed_mps);
+        const Approaches::Place& place = all[static_cast<std::size_t>(sample.tick)];
+        places_m.push_back(place.ego_m);
+        slowest = std::min(slowest, 3.6 * place.speed_mps);
+        fastest = std::max(fastest, 3.6 * place.speed_mps);
     }
     if (places_m.empty())
         return "no moment of the drive lies at the distances that are measured";
@@ -179,15 +206,8 @@ std::string not_as_asked(const RatingRow& row, const LightApproach& approach, co
     return "";
 }
 
-Nudge aimed_higher() {
-    Nudge up;
-    up.pitch_rad = nudge_aim_deg * std::numbers::pi / 180.0;
-    return up;
-}
-
 /// The same with all lamps aimed a little higher.
-void add_higher(PhotometerFound& found, const Rating& rating, const RatingRow& row, const LimitCurve& limits, const PlayedRating& played) {
-    LightApproach higher = approach_of(rating, row, found.photometer, played, aimed_higher());
+void add_higher(PhotometerFound& found, LightApproach higher, const Rating& rating, const RatingRow& row, const LimitCurve& limits) {
     if (rating.rules.pitch_off_mean_deg)
         leave_out_pitching(higher, row.from_m, row.to_m, *rating.rules.pitch_off_mean_deg);
     for (const RangeJudgement& range : judge_light(higher, limits, row.from_m, row.to_m, rating.rules))
@@ -197,14 +217,18 @@ void add_higher(PhotometerFound& found, const Rating& rating, const RatingRow& r
 void judge_light_row(RowFound& found, const Rating& rating, const PlayedRating& played) {
     const RatingRow& row = found.row;
     const LimitCurve& limits = *limits_named(rating, row.limits);
-    for (const std::string& name : row.photometers) {
+    std::vector<Photometer> photometers;
+    for (const std::string& name : row.photometers)
+        photometers.push_back(*photometer_named(rating, name));
+    Approaches approaches = approaches_of(rating, row, photometers, played);
+    for (std::size_t i = 0; i < photometers.size(); ++i) {
         PhotometerFound& photometer = found.photometers.emplace_back();
-        photometer.photometer = *photometer_named(rating, name);
-        photometer.approach = approach_of(rating, row, photometer.photometer, played);
+        photometer.photometer = photometers[i];
+        photometer.approach = std::move(approaches.as_aimed[i]);
         if (rating.rules.pitch_off_mean_deg)
             photometer.pitch_deg = leave_out_pitching(photometer.approach, row.from_m, row.to_m, *rating.rules.pitch_off_mean_deg);
         photometer.ranges = judge_light(photometer.approach, limits, row.from_m, row.to_m, rating.rules);
-        photometer.why = not_as_asked(row, photometer.approach, played);
+        photometer.why = not_as_asked(row, photometer.approach, approaches.places);
         if (!photometer.why.empty())
             for (RangeJudgement& range : photometer.ranges) {
                 const LimitRange of = range.range;
@@ -212,7 +236,7 @@ void judge_light_row(RowFound& found, const Rating& rating, const PlayedRating& 
                 range.range = of;
                 range.why = photometer.why;
             }
-        add_higher(photometer, rating, row, limits, played);
+        add_higher(photometer, std::move(approaches.higher[i]), rating, row, limits);
         for (const RangeJudgement& range : photometer.ranges)
             photometer.verdict = worst_of(photometer.verdict, range.verdict);
         found.verdict = worst_of(found.verdict, photometer.verdict);
@@ -226,8 +250,8 @@ bool needs_extent(const RowFound& row) { return row.key && (row.key->quantity ==
 Value reading_value(const RowFound& found, const Rating& rating, PlayedRating& played, const Nudge& nudge) {
     if (needs_extent(found)) {
         std::vector<Moment> moments;
-        for (const Moment& moment : played.moments)
-            moments.push_back(nudged(moment, nudge));
+        for (const State& state : played.states)
+            moments.push_back(nudged(played.at(state), nudge));
         try {
             return ReadingOfLight(*found.key, played.stage.drive, played.stage.route, moments).value(moments);
         } catch (const InputError&) {
@@ -238,11 +262,13 @@ Value reading_value(const RowFound& found, const Rating& rating, PlayedRating& p
     Readings& readings = played.readings[nudge.pitch_rad];
     if (readings.empty()) {
         SeeingFold fold(played.stage.drive, played.stage.route, nudge);
-        for (const Moment& moment : played.moments)
-            fold.add(moment, played.lamp_set);
+        for (const State& state : played.states)
+            fold.add(played.at(state), played.lamp_set);
         readings = fold.readings();
     }
     const auto reading = std::ranges::find(readings, *found.key, &Reading::key);
+    if (reading == readings.end() && found.row.reading.starts_with("control_"))
+        return Value::not_measured("the lamp set has no such law");
     if (reading == readings.end())
         refuse_row(rating, found.row, "reading",
                    fmt::format("'{}', which drive {} does not measure", found.row.reading, played.stage.drive.name),

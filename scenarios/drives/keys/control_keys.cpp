@@ -201,6 +201,8 @@ ControlParameters read_laws(const YamlEntry& given, const LampSet& lamp_set, Lam
         control.glare_free = read_glare_free(*glare_free, lamp_set);
     }
     read_field(law_fields(), "camera", keys, &control);
+    if (control.camera && !(control.camera->field_rad > 0.0 && control.camera->noise_rad >= 0.0))
+        keys.require("camera").refuse("a field or a noise below 0", "field_deg above 0, noise_deg from 0");
     if (control.camera && !control.high_beam && !keys.find("plugins"))
         keys.require("camera").refuse("a camera that nobody asks", "high_beam or plugins beside it");
     if (const auto plugins = keys.find("plugins"))

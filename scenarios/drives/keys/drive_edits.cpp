@@ -38,10 +38,21 @@ void replace_lamps(Drive& drive, const std::string& side, const std::shared_ptr<
             known.insert(lamp.name);
             if (!is_meant(lamp.name, side))
                 continue;
+            if (lamp.levels)
+                throw InputError({drive.file, 0, 0, "lamp " + side},
+                                 fmt::format("another file for '{}', whose pixels have levels from a file", lamp.name),
+                                 "a lamp without them");
             lamp.file = file;
             replaced.insert(lamp_set.name + '/' + lamp.name);
             found = true;
         }
+        if (lamp_set.control && lamp_set.control->glare_free)
+            for (const SegmentedLamp& segmented : lamp_set.control->glare_free->lamps)
+                if (is_meant(segmented.name, side) && segmented.pixels != (file->pixels != nullptr))
+                    throw InputError({drive.file, 0, 0, "lamp " + side},
+                                     fmt::format("{} pixel lamp for '{}', whose glare_free has {}", file->pixels ? "a" : "no",
+                                                 segmented.name, segmented.pixels ? "pixels" : "windows"),
+                                     segmented.pixels ? "a pixel lamp" : "a lamp of one table");
         std::erase_if(lamp_set.changes, [&](LampChange& change) { return is_meant(change.lamp, side) && becomes_empty(change); });
     }
     if (!found)

@@ -124,11 +124,43 @@ LampSet read_lamps_of_set(const std::string& name, const YamlMap& keys, const Ca
     return lamp_set;
 }
 
+/// Levels and masks are those of one file.
+void check_pixels_stay(const YamlMap& drive, const YamlMap* keys, const LampSet& lamp_set) {
+    const ControlParameters* const control = lamp_set.control.get();
+    const auto refuse = [&](const char* key, const std::string& found, const char* expected) {
+        const auto given = keys ? keys->find(key) : std::nullopt;
+        (given ? *given : drive.require(key)).refuse(found, expected);
+    };
+    for (const MountedLamp& lamp : lamp_set.lamps) {
+        const bool masked =
+            control && control->glare_free &&
+            std::ranges::find(control->glare_free->lamps, lamp.name, &SegmentedLamp::name) != control->glare_free->lamps.end();
+        if (!masked && !lamp.levels)
+            continue;
+        if (std::ranges::any_of(lamp_set.changes, [&](const LampChange& change) { return change.lamp == lamp.name && change.file; }))
+            refuse("changes",
+                   fmt::format("another file for '{}', whose {}", lamp.name, masked ? "beam is masked" : "pixels have levels from a file"),
+                   "a lamp set of its own for it");
+        if (!control)
+            continue;
+        if (control->modes && std::ranges::find(control->modes->lamps, lamp.name) != control->modes->lamps.end() &&
+            std::ranges::any_of(control->modes->settings, [](const BeamModeSettings& mode) { return mode.file != nullptr; }))
+            refuse(
+                "control",
+                fmt::format("files of modes for '{}', whose {}", lamp.name, masked ? "beam is masked" : "pixels have levels from a file"),
+                "modes without files for it");
+        for (const PluginParameters& plugin : control->plugins)
+            if (lamp.levels && std::ranges::find(plugin.lamps, lamp.name) != plugin.lamps.end())
+                refuse("control", fmt::format("a plug-in for '{}', whose pixels have levels from a file", lamp.name), "one of them");
+    }
+}
+
 /// Of the one lamp set of a drive without lamp sets `keys` are nullptr.
 LampSet whole_lamp_set(LampSet lamp_set, const YamlMap& drive, const YamlMap* keys, LampCache& cache) {
     read_changes({&drive, keys}, lamp_set, cache);
     read_actuators(drive, keys, lamp_set);
     read_control(drive, keys, lamp_set, cache);
+    check_pixels_stay(drive, keys, lamp_set);
     return lamp_set;
 }
 

@@ -42,6 +42,7 @@ std::vector<ControlledLamp> controlled_lamps(const LampSet& lamp_set) {
     for (const MountedLamp& lamp : lamp_set.lamps) {
         ControlledLamp& controlled =
             lamps.emplace_back(ControlledLamp{lamp.name, lamp.position_m, lamp.mount.yaw_rad + lamp.yaw_rad + lamp.aligned.yaw_rad});
+        controlled.roll_rad = lamp.mount.roll_rad + lamp.roll_rad + lamp.aligned.roll_rad;
         controlled.pitch_rad = lamp.mount.pitch_rad + lamp.pitch_rad + lamp.aligned.pitch_rad;
         if (lamp.file->pixels && !lamp.levels) {
             controlled.pixels = std::make_shared<LevelTrack>(lamp.file);

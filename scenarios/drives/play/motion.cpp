@@ -202,7 +202,7 @@ void turn(MountedLamp& lamp, const Motion& motion, double time_s) {
     lamp.yaw_rad += control.swivel_rad(controlled, time_s);
     lamp.level *= control.level(controlled, time_s);
     lamp.pitch_rad += control.mode(controlled, time_s).pitch_rad;
-    if (const auto file = control.file(controlled, time_s))
+    if (const auto file = control.file(controlled, time_s, lamp.file))
         lamp.file = file;
 }
 

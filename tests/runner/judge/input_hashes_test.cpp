@@ -58,6 +58,25 @@ TEST(CellInputs, WhatChangesResultsCountsAndNothingElse) {
     EXPECT_EQ(inputs_of(other_other)[0], before[0]) << "a lamp's bytes are told from the drive's";
 }
 
+TEST(CellInputs, LevelsOfPixelsCountByTheirContentNotByTheirPlace) {
+    const auto inputs = [&](const std::string& level) {
+        const auto folder = tests::new_folder();
+        tests::written("levels.csv", "0 1 1\n1 0 " + level + "\n", folder);
+        tests::written(
+            "pixels.yaml",
+            "fernlicht_pixel_lamp: 1\nraster: {pixels: [2, 1], h_deg: [-4, 4], v_deg: [-1, 1], spread_deg: [0.2, 0.2], cd: 1000}\n",
+            folder);
+        return inputs_of(read_drive(tests::written("drive.yaml",
+                                                   "fernlicht: 1\nname: one\nroad: " + library_file("roads/straight.xodr").string() +
+                                                       "\nspeed_kmh: 72\nduration_s: 3\nlamp_sets:\n  one: {lamps: {left: {file: "
+                                                       "pixels.yaml, levels: levels.csv}}}\n",
+                                                   folder)));
+    };
+    const Inputs before = inputs("0.5");
+    EXPECT_EQ(inputs("0.5"), before) << "in another folder";
+    EXPECT_NE(inputs("0.25"), before);
+}
+
 TEST(CellInputs, ARecipeCountsByItsContentNotByItsPlace) {
     const std::string grid = "V;-1;1\n-1;500;500\n1;500;500\n";
     const std::string recipe = "fernlicht_recipe: 1\nlayout: matrix\ndelimiter: semicolon\nunit: cd\n";

@@ -106,6 +106,7 @@ TEST_F(HiddenOthers, ComeOverACrestOneAfterTheOther) {
         ++first;
     EXPECT_GT(first, 5U);
     EXPECT_LT(first, 70U) << "it comes over";
+    EXPECT_EQ(known(sees, first), 1.0) << "the one behind it does not";
 }
 
 TEST_F(HiddenOthers, ACameraThatNobodyAsksIsRefused) {

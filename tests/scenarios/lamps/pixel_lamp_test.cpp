@@ -92,7 +92,7 @@ TEST_F(Pixels, DeadOnesStayDark) {
     const auto file = lamp(raster("cd: 1000, dead: [[1, 1]]"));
     EXPECT_LT(intensity_cd(file->table, -2.0, 0.0), 1.0);
     EXPECT_NEAR(intensity_cd(file->table, 2.0, 0.0), 1000.0, 0.1);
-    EXPECT_THAT(file->notes, testing::Contains("1 of 12 pixels are dead"));
+    EXPECT_THAT(file->notes, testing::Contains("1 of 12 pixels dead"));
 }
 
 TEST_F(Pixels, AProfileSaysWhatEachShines) {
@@ -140,6 +140,8 @@ TEST_F(Pixels, WhatIsWrongIsSaid) {
     EXPECT_THAT(said(raster() + "slew: 3\n"), HasSubstr("'slew_per_s', the nearest known key"));
     EXPECT_THAT(said(head + "raster: {pixels: [4096, 4096], h_deg: [-20, 20], v_deg: [-10, 10], spread_deg: [0.05, 0.05], cd: 1}\n"),
                 HasSubstr("4096 x 4096 pixels with their blur need a table of"));
+    EXPECT_THAT(said(head + "raster: {pixels: [4, 4], h_deg: [-20, 20], v_deg: [-90, 90], spread_deg: [0.1, 0.3], cd: 1}\n"),
+                HasSubstr("with their blur the pixels light from V -91"));
     EXPECT_THAT(said(head + "raster: {pixels: [400, 2], h_deg: [-20, 20], v_deg: [-10, 10], spread_deg: [2, 0.1], cd: 1}\n"),
                 HasSubstr("2 degrees, of pixels 0.1 degrees wide, expected at most the width of 16 pixels"));
     EXPECT_THAT(said(head + "raster: {pixels: [2, 2], h_deg: [2, -2], v_deg: [-1, 1], spread_deg: [0.1, 0.1], cd: 1}\n"),
