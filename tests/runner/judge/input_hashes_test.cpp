@@ -67,7 +67,7 @@ TEST(CellInputs, LevelsOfPixelsCountByTheirContentNotByTheirPlace) {
             "fernlicht_pixel_lamp: 1\nraster: {pixels: [2, 1], h_deg: [-4, 4], v_deg: [-1, 1], spread_deg: [0.2, 0.2], cd: 1000}\n",
             folder);
         return inputs_of(read_drive(tests::written("drive.yaml",
-                                                   "fernlicht: 1\nname: one\nroad: " + library_file("roads/straight.xodr").string() +
+                                                   "fernlicht: 1\nname: one\nroad: " + library_file("roads/straight.xodr") +
                                                        "\nspeed_kmh: 72\nduration_s: 3\nlamp_sets:\n  one: {lamps: {left: {file: "
                                                        "pixels.yaml, levels: levels.csv}}}\n",
                                                    folder)));
