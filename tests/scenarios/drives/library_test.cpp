@@ -47,12 +47,13 @@ TEST(ShippedDrives, AreAllTested) {
     std::set<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(shipped_drives))
         names.insert(entry.path().stem().string());
-    // The worked example is not a route: the runner's tests play it and hold it to its own limits. Braking, bend light and glare-free beam
-    // are tested with their motion, the storyboard where the runner's tests play it.
-    EXPECT_THAT(names, testing::ElementsAre("bench", "braking", "country", "dusk", "first-light", "fog", "glare-free", "iihs-left-150",
-                                            "iihs-left-250", "iihs-right-150", "iihs-right-250", "iihs-straight", "motorway", "oncoming",
-                                            "rough-road", "s-bend", "s-bend-alc", "s-bend-can", "s-bend-story", "shelter", "straight",
-                                            "village", "village-lit", "worked-example"));
+    // The worked example is not a route: the runner's tests play it and hold it to its own limits. Braking, bend light, glare-free and
+    // adaptive beams are tested with their motion, the storyboard where the runner's tests play it.
+    EXPECT_THAT(names,
+                testing::ElementsAre("adaptive-crest", "adaptive-motorway", "adaptive-village", "bench", "braking", "country", "dusk",
+                                     "first-light", "fog", "glare-free", "iihs-left-150", "iihs-left-250", "iihs-right-150",
+                                     "iihs-right-250", "iihs-straight", "motorway", "oncoming", "rough-road", "s-bend", "s-bend-alc",
+                                     "s-bend-can", "s-bend-story", "shelter", "straight", "village", "village-lit", "worked-example"));
 }
 
 TEST(ShippedDrives, TheIihsSensorsStandInTheBend) {

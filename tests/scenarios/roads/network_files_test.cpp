@@ -247,7 +247,7 @@ TEST(LibraryRoads, AreNamedReadWithoutWarningAndContinueFromRecordToRecord) {
             }
         }
     }
-    EXPECT_EQ(road_files(library_roads).size(), 10U);
+    EXPECT_EQ(road_files(library_roads).size(), 16U);
 }
 
 /// Signed radius of the reference line, left positive, from three of its points.
