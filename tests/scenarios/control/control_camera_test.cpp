@@ -50,7 +50,7 @@ TEST(ControlCamera, TellsOfAFrameAfterItsLatency) {
     ControlCamera camera({.rate_hz = 10.0, .latency_s = 0.15});
     std::vector<double> told;
     for (int tick = 0; tick < 20; ++tick) {
-        const auto& now = camera.step(0.02 * tick, {user_at("other", 100.0 - tick)});
+        const std::vector<OtherUser> now = camera.step(0.02 * tick, {user_at("other", 100.0 - tick)});
         told.push_back(now.empty() ? 0.0 : now[0].ahead_m);
     }
     for (int tick = 0; tick < 20; ++tick) // 0.16 s is the first tick at or after 0.15; then that of 0.1 at 0.26, 0.2 at 0.36
@@ -60,9 +60,10 @@ TEST(ControlCamera, TellsOfAFrameAfterItsLatency) {
 TEST(ControlCamera, MissesAndErrsBySeed) {
     const auto played = [](int seed) {
         ControlCamera camera({.rate_hz = 100.0, .latency_s = 0.0, .noise_rad = 0.01, .missed = 0.3, .seed = seed});
+        const std::vector<OtherUser> there{user_at("other", 100.0, 10.0)};
         std::vector<double> bearings;
         for (int tick = 0; tick < 4000; ++tick)
-            for (const OtherUser& other : camera.step(0.01 * tick, {user_at("other", 100.0, 10.0)}))
+            for (const OtherUser& other : camera.step(0.01 * tick, there))
                 bearings.push_back(std::atan2(other.left_m, other.ahead_m) - std::atan2(10.0, 100.0));
         return bearings;
     };
