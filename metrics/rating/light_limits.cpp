@@ -72,11 +72,9 @@ void judge_range(RangeJudgement& judged, std::vector<const LightSample*> countin
     if (left.empty())
         left = counting; // all of it was a moment's excess: within, and told
     // Rounding may put the farthest above its limit within, and another above.
-    const auto is_over = [&](const LightSample* sample) {
-        return as_rounded(sample->lx, rules) > as_rounded(range.limit_lx(sample->distance_m), rules);
-    };
-    if (std::ranges::any_of(left, is_over))
-        std::erase_if(left, std::not_fn(is_over));
+    const auto over = [&](const LightSample* sample) { return is_over(*sample, range, rules); };
+    if (std::ranges::any_of(left, over))
+        std::erase_if(left, [&](const LightSample* sample) { return !over(sample); });
     judged.worst =
         **std::ranges::max_element(left, {}, [&](const LightSample* sample) { return sample->lx / range.limit_lx(sample->distance_m); });
     judged.lx = as_rounded(judged.worst->lx, rules);

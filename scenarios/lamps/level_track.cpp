@@ -19,9 +19,7 @@ constexpr std::size_t most_changes = std::size_t{1} << 28; ///< 2 GiB
 LevelTrack::LevelTrack(std::shared_ptr<const LampFile> lamp) : lamp_(std::move(lamp)) {
     if (!lamp_->pixels)
         throw std::invalid_argument("level track: a lamp without pixels");
-    auto full = std::make_shared<LampFile>(*lamp_);
-    full->state_of.reset();
-    full_ = std::move(full);
+    full_ = std::make_shared<const LampFile>(*lamp_);
     last_.assign(lamp_->pixels->count(), 1.0F);
     course_ = at_the_beginning();
 }

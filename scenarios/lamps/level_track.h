@@ -27,8 +27,9 @@ class LevelTrack {
     std::vector<float> levels(double time_s) const;
     /// With its light then, of the same axes as the lamp's own table. Where nothing changes it is the same file; the last few are kept.
     std::shared_ptr<const LampFile> at(double time_s) const;
+    /// The files that its levels were read from: inputs of what is computed with it.
     void came_from(FilesRead files) { opened_ = std::move(files); }
-    const FilesRead& opened() const { return opened_; }   ///< of levels from files
+    const FilesRead& opened() const { return opened_; }   ///< empty: levels from no file
     std::size_t changes() const { return asked_.size(); } ///< at how many times something was asked for
 
   private:

@@ -139,5 +139,16 @@ TEST(RatingVerdicts, AreAsBadAsTheWorst) {
     EXPECT_EQ(worst_of(told, told), told);
 }
 
+/// 0.349 of 0.34 lx is farther above its limit than 3.16 of 3.1, but rounds to 0.3 of 0.3; 3.16 rounds to 3.2 of 3.1.
+TEST(RatingLimits, RoundingDoesNotHideAnotherMomentAboveItsLimit) {
+    LimitCurve falling;
+    falling.ranges = {{30.0, 60.0, 3.1, 0.3}};
+    const LightApproach approach = nearing({{60.0, 0.1}, {30.0 + 30.0 * (3.1 - 0.34) / 2.8, 0.349}, {30.0, 3.16}});
+    const RangeJudgement judged = judge_light(approach, falling, 30.0, 60.0, rounding()).at(0);
+    EXPECT_EQ(judged.verdict, RatingVerdict::exceeded);
+    EXPECT_EQ(judged.worst->tick, 2);
+    EXPECT_DOUBLE_EQ(*judged.lx, 3.2);
+}
+
 } // namespace
 } // namespace fernlicht
