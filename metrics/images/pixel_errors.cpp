@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
+#include <span>
 #include <stdexcept>
 
 namespace fernlicht {
@@ -17,11 +19,10 @@ void check(const ComparedPixel& p) {
                                                 p.picture, p.tested, p.reference, p.standard_error, p.area_m2.value_or(0.0)));
 }
 
-ErrorQuantiles quantiles_of(std::vector<float> values) {
-    if (values.empty())
+ErrorQuantiles quantiles_of(const std::vector<float>& ascending) {
+    if (ascending.empty())
         return {};
-    std::ranges::sort(values);
-    return {quantile_of(values, 0.5), quantile_of(values, 0.95), quantile_of(values, 0.99)};
+    return {quantile_of(ascending, 0.5), quantile_of(ascending, 0.95), quantile_of(ascending, 0.99)};
 }
 
 void keep_worse(WorstPixel& worst, double error, const ComparedPixel& p, bool first) {
@@ -56,16 +57,47 @@ void PixelErrorFold::add(const ComparedPixel& p) {
             beyond_[i] += weight;
 }
 
-std::optional<PixelErrors> PixelErrorFold::finish() const {
+// Woodruff (1952): the share of pixels beyond the sample's quantile is a ratio of tiles' sums, k of n pixels each, whose variance is that
+// of k - p n within the rows that tiles were drawn from (Cochran 1977, 6.3 and 5.6, with the correction for a finite number of tiles); two
+// standard deviations of that share to both sides are ranks of the sample.
+std::optional<QuantileInterval> PixelErrorFold::p95_between(const std::vector<float>& ascending, std::size_t tiles_of_row) const {
+    if (ascending.empty() || tiles_.empty())
+        return std::nullopt;
+    constexpr double share = 0.05;
+    const double beyond = quantile_of(ascending, 1.0 - share), pixels = static_cast<double>(errors_.size());
+    std::map<int, std::vector<double>> rows;
+    for (std::size_t t = 0; t < tiles_.size(); ++t) {
+        const std::size_t end = t + 1 < tiles_.size() ? tiles_[t + 1].first : errors_.size();
+        const std::span<const float> here(errors_.data() + tiles_[t].first, end - tiles_[t].first);
+        const auto over = std::ranges::count_if(here, [&](float error) { return static_cast<double>(error) > beyond; });
+        rows[tiles_[t].row].push_back(static_cast<double>(over) - share * static_cast<double>(here.size()));
+    }
+    if (std::ranges::all_of(rows, [&](const auto& row) { return row.second.size() >= tiles_of_row; }))
+        return std::nullopt; // none is missing
+    double variance = 0.0;
+    for (const auto& [row, of_tile] : rows) {
+        if (of_tile.size() < 2)
+            return std::nullopt;
+        const double deviation = spread_of(of_tile)->standard_deviation, drawn = static_cast<double>(of_tile.size());
+        variance += (1.0 - drawn / static_cast<double>(tiles_of_row)) * drawn * deviation * deviation;
+    }
+    const double two_deviations = 2.0 * std::sqrt(variance) / pixels;
+    return QuantileInterval{quantile_of(ascending, std::max(0.0, 1.0 - share - two_deviations)),
+                            quantile_of(ascending, std::min(1.0, 1.0 - share + two_deviations))};
+}
+
+std::optional<PixelErrors> PixelErrorFold::finish(std::size_t tiles_of_row) const {
     if (errors_.empty() && dark_errors_.empty())
         return std::nullopt;
     PixelErrors all = so_far_;
     all.pixels = errors_.size();
     all.dark_pixels = dark_errors_.size();
-    all.error = quantiles_of(errors_);
-    all.floor = quantiles_of(floors_);
-    all.dark_error = quantiles_of(dark_errors_);
-    all.dark_floor = quantiles_of(dark_floors_);
+    const std::vector<float> ascending = in_order(errors_);
+    all.error = quantiles_of(ascending);
+    all.p95_between = p95_between(ascending, tiles_of_row);
+    all.floor = quantiles_of(in_order(floors_));
+    all.dark_error = quantiles_of(in_order(dark_errors_));
+    all.dark_floor = quantiles_of(in_order(dark_floors_));
     all.mean = errors_.empty() ? 0.0 : signed_sum_ / static_cast<double>(errors_.size());
     if (without_area_ == 0)
         all.area_m2 = sum_;

@@ -38,14 +38,19 @@ struct ErrorQuantiles {
     double median = 0.0, p95 = 0.0, p99 = 0.0;
 };
 
+struct QuantileInterval {
+    double low = 0.0, high = 0.0;
+};
+
 struct PixelErrors {
     // Where the reference is at least relative_from; shares of the reference.
     std::size_t pixels = 0;
-    ErrorQuantiles error;                   ///< of |tested - reference| / reference
-    ErrorQuantiles floor;                   ///< of sure * standard error / reference: errors below are the reference's own
-    double mean = 0.0;                      ///< signed, over the pixels: above 0 the picture is too bright
-    WorstPixel worst;                       ///< the largest error
-    std::optional<double> area_m2;          ///< together; nullopt where the pixels came without areas
+    ErrorQuantiles error;                        ///< of |tested - reference| / reference
+    std::optional<QuantileInterval> p95_between; ///< with 95 % confidence, where some tiles stand for all; nullopt: all, or too few to say
+    ErrorQuantiles floor;                        ///< of sure * standard error / reference: errors below are the reference's own
+    double mean = 0.0;                           ///< signed, over the pixels: above 0 the picture is too bright
+    WorstPixel worst;                            ///< the largest error
+    std::optional<double> area_m2;               ///< together; nullopt where the pixels came without areas
     std::array<double, 3> percent_beyond{}; ///< of that area, else of the pixels, beyond counted_errors by more than the noise; 0 of 0 m2
     // Where it is less; in the picture's unit.
     std::size_t dark_pixels = 0;
@@ -63,10 +68,18 @@ class PixelErrorFold {
     /// Either all pixels have an area or none has. Throws std::invalid_argument for a value that is not finite, an error or area below 0,
     /// and a pixel with an area among others without, naming the pixel.
     void add(const ComparedPixel& pixel);
-    /// nullopt where no pixel was compared.
-    std::optional<PixelErrors> finish() const;
+    /// The pixels that follow are of a tile that was drawn at random from this row of tiles (sampling_order()).
+    void begin_tile(int row) { tiles_.push_back({row, errors_.size()}); }
+    /// nullopt where no pixel was compared. `tiles_of_row`: among how many the tiles of a row were drawn.
+    std::optional<PixelErrors> finish(std::size_t tiles_of_row = 0) const;
 
   private:
+    struct Tile {
+        int row = 0;
+        std::size_t first = 0; ///< of errors_
+    };
+    std::optional<QuantileInterval> p95_between(const std::vector<float>& ascending, std::size_t tiles_of_row) const;
+
     ErrorRule rule_;
     PixelErrors so_far_;
     double signed_sum_ = 0.0;
@@ -74,6 +87,7 @@ class PixelErrorFold {
     double sum_ = 0.0;               ///< m2 or pixels
     std::array<double, 3> beyond_{}; ///< of these
     std::vector<float> errors_, floors_, dark_errors_, dark_floors_;
+    std::vector<Tile> tiles_;
 };
 
 } // namespace fernlicht

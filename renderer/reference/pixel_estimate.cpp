@@ -195,9 +195,9 @@ std::uint64_t draw_ids(const Shot& shot, const CentreRow& row, int x0, int y, Re
 /// its own samples: they are its pilot, and cost nothing.
 class FirstRounds {
   public:
-    FirstRounds(const Shot& shot, int x0, int y0)
-        : shot_(shot), left_(x0), top_(y0), width_(std::min(tile_px, shot.view.width_px - x0)),
-          height_(std::min(tile_px, shot.view.height_px - y0)) {
+    FirstRounds(const Shot& shot, int x0, int y0, int size_px)
+        : shot_(shot), left_(x0), top_(y0), width_(std::min(size_px, shot.view.width_px - x0)),
+          height_(std::min(size_px, shot.view.height_px - y0)) {
         rounds_.reserve(static_cast<std::size_t>(width_ * height_));
         for (int y = y0; y < y0 + height_; ++y)
             for (int x = x0; x < x0 + width_; ++x) {
@@ -291,15 +291,15 @@ class FirstRounds {
     std::uint64_t rays_ = 0;
 };
 
-std::uint64_t draw_pixels(const Shot& shot, int x0, int y0, ReferenceImage& image) {
+std::uint64_t draw_pixels(const Shot& shot, int x0, int y0, int size_px, ReferenceImage& image) {
     std::uint64_t rays = 0;
-    const int width = std::min(tile_px, image.samples.width() - x0), bottom = std::min(y0 + tile_px, image.samples.height());
+    const int width = std::min(size_px, image.samples.width() - x0), bottom = std::min(y0 + size_px, image.samples.height());
     if (is_certain(shot.settings)) {
         for (int y = y0; y < bottom; ++y)
             rays += draw_certain_row(shot, centre_row(shot, x0, y, width), x0, y, image);
         return rays;
     }
-    const FirstRounds first(shot, x0, y0);
+    const FirstRounds first(shot, x0, y0, size_px);
     rays += first.rays();
     for (int y = y0; y < bottom; ++y) {
         rays += draw_ids(shot, centre_row(shot, x0, y, width), x0, y, image);
@@ -386,12 +386,12 @@ int samples_for(double error, double target, double power, int now, int most) {
     return count;
 }
 
-std::uint64_t draw_tile(const Shot& shot, int x0, int y0, ReferenceImage& image) {
+std::uint64_t draw_tile(const Shot& shot, int x0, int y0, int size_px, ReferenceImage& image) {
     try {
-        return draw_pixels(shot, x0, y0, image);
+        return draw_pixels(shot, x0, y0, size_px, image);
     } catch (const Stopped&) {
-        for (int y = y0; y < std::min(y0 + tile_px, image.samples.height()); ++y)
-            for (int x = x0; x < std::min(x0 + tile_px, image.samples.width()); ++x) {
+        for (int y = y0; y < std::min(y0 + size_px, image.samples.height()); ++y)
+            for (int x = x0; x < std::min(x0 + size_px, image.samples.width()); ++x) {
                 store(image, x, y, {}, 0, 0);
                 image.ids.at(x, y) = 0;
             }

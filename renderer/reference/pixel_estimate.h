@@ -99,10 +99,10 @@ struct PixelEstimate {
 
 PixelEstimate estimate_pixel(const Shot& shot, int x, int y, const Drawing& first, const Advice& advice);
 
-inline constexpr int tile_px = 16;
+inline constexpr int tile_px = 16; ///< at most
 
-/// Draws the tile whose first pixel is (x0, y0) into `image`. Returns the rays cast; none for a tile that was left because a stop was asked
-/// for, whose pixels are as if never drawn.
-std::uint64_t draw_tile(const Shot& shot, int x0, int y0, ReferenceImage& image);
+/// Draws the tile of `size_px` pixels each way whose first pixel is (x0, y0) into `image`. Returns the rays cast; none for a tile that was
+/// left because a stop was asked for, whose pixels are as if never drawn.
+std::uint64_t draw_tile(const Shot& shot, int x0, int y0, int size_px, ReferenceImage& image);
 
 } // namespace fernlicht::reference

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <limits>
 #include <mutex>
@@ -88,25 +89,38 @@ struct Corner {
     int x, y;
 };
 
-/// Tiles of which no pixel is drawn yet.
-std::vector<Corner> open_tiles(const ReferenceImage& image) {
-    std::vector<Corner> tiles;
-    for (int y = 0; y < image.samples.height(); y += reference::tile_px)
-        for (int x = 0; x < image.samples.width(); x += reference::tile_px)
-            if (image.samples.at(x, y) == 0)
-                tiles.push_back({x, y});
-    return tiles;
+std::vector<Corner> corners_of(const ReferenceTiles& tiles, const ReferenceImage& image) {
+    if (tiles.size_px < 1 || tiles.size_px > reference::tile_px)
+        throw std::invalid_argument(fmt::format("reference: tiles of {} pixels, not of 1 to {}", tiles.size_px, reference::tile_px));
+    std::vector<Corner> all;
+    for (int y = 0; y < image.samples.height(); y += tiles.size_px)
+        for (int x = 0; x < image.samples.width(); x += tiles.size_px)
+            all.push_back({x, y});
+    if (tiles.only.empty())
+        return all;
+    std::vector<Corner> chosen;
+    for (const int number : tiles.only) {
+        if (number < 0 || static_cast<std::size_t>(number) >= all.size())
+            throw std::invalid_argument(fmt::format("reference: tile {} of {}", number, all.size()));
+        chosen.push_back(all[static_cast<std::size_t>(number)]);
+    }
+    return chosen;
+}
+
+/// Takes away those that are drawn.
+void keep_open(std::vector<Corner>& tiles, const ReferenceImage& image) {
+    std::erase_if(tiles, [&](const Corner& tile) { return image.samples.at(tile.x, tile.y) != 0; });
 }
 
 /// Draws tiles, the first for certain, others if they can begin in time. Which were drawn tells the picture; what is in them does not
 /// depend on it. Returns the rays cast.
-std::uint64_t draw_batch(const reference::Shot& shot, std::span<const Corner> tiles, ReferenceImage& image, double latest_s) {
+std::uint64_t draw_batch(const reference::Shot& shot, std::span<const Corner> tiles, int size_px, ReferenceImage& image, double latest_s) {
     std::atomic<std::uint64_t> rays = 0;
     const auto start = std::chrono::steady_clock::now();
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 1), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i)
             if (i == 0 || seconds_since(start) < latest_s)
-                rays += reference::draw_tile(shot, tiles[i].x, tiles[i].y, image);
+                rays += reference::draw_tile(shot, tiles[i].x, tiles[i].y, size_px, image);
     });
     return rays;
 }
@@ -174,7 +188,7 @@ std::shared_ptr<const reference::EmbreeScene> Reference::geometry(const Moment& 
 }
 
 ReferenceImage Reference::render(const Moment& moment, const View& view, const FrameOutputs& outputs, const ReferenceSettings& settings,
-                                 const GoOn& go_on, ReferenceImage from, const StopAsked& stop_asked) const {
+                                 const GoOn& go_on, ReferenceImage from, const StopAsked& stop_asked, const ReferenceTiles& tiles) const {
     TraceSpan span("reference", "reference");
     if (span)
         span.tell("view", view.name);
@@ -207,19 +221,21 @@ ReferenceImage Reference::render(const Moment& moment, const View& view, const F
         return image;
     }
     image.rays += image.preparation.rays;
-    std::vector<Corner> tiles = open_tiles(image);
-    std::size_t batch = go_on ? first_batch : tiles.size();
+    std::vector<Corner> open = corners_of(tiles, image);
+    keep_open(open, image);
+    std::size_t batch = go_on ? first_batch : open.size();
     bool goes_on = true;
-    while (goes_on && !tiles.empty()) {
+    while (goes_on && !open.empty()) {
         const auto batch_start = std::chrono::steady_clock::now();
-        image.rays += draw_batch(shot, std::span(tiles).first(std::min(batch, tiles.size())), image, go_on ? latest_start_s : no_limit_s);
+        image.rays += draw_batch(shot, std::span(open).first(std::min(batch, open.size())), tiles.size_px, image,
+                                 go_on ? latest_start_s : no_limit_s);
         batch = std::clamp(static_cast<std::size_t>(static_cast<double>(batch) * batch_s / std::max(seconds_since(batch_start), 1e-3)),
                            batch / 4 + 1, 2 * batch);
-        tiles = open_tiles(image);
+        keep_open(open, image);
         const bool stopped = stop_asked && stop_asked(); // before go_on, which then knows of it
         goes_on = told() && !stopped;
     }
-    image.complete = tiles.empty();
+    image.complete = open.empty();
     return image;
 }
 

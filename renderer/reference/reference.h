@@ -28,6 +28,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 
 namespace fernlicht {
 
@@ -88,6 +89,13 @@ struct Estimate {
     Image<float> mean, standard_error; ///< of the mean
 };
 
+/// The squares that a picture is drawn in, those at its right and lower edge cut short. A pixel asks its neighbours in the same square how
+/// many samples it needs.
+struct ReferenceTiles {
+    int size_px = 16;            ///< 1 to 16
+    std::span<const int> only{}; ///< which are drawn, counted along rows from 0; empty: all
+};
+
 /// Bits of ReferenceImage::mixed.
 inline constexpr std::uint8_t several_surfaces = 1, shadow_edge = 2;
 
@@ -131,11 +139,13 @@ class Reference {
     Reference& operator=(const Reference&) = delete;
 
     /// Draws illuminance, target and luminance as wanted. Maps see ground surfaces only; everything casts shadows. The same bytes for any
-    /// number of threads, and for a picture drawn in one go or gone on with from `from`, an incomplete picture of the same call.
-    /// Throws DeviceError (Embree, memory), std::invalid_argument for settings that make no sense, a `from` of another size, and fog or
-    /// water where the integrator knows neither (knows_weather).
+    /// number of threads, and for a picture drawn in one go or gone on with from `from`, an incomplete picture of the same call. Of some
+    /// `tiles` alone, other pixels keep 0 samples, and the picture is complete without them. Throws DeviceError (Embree, memory),
+    /// std::invalid_argument for settings or tiles that make no sense, a `from` of another size, and fog or water where the integrator
+    /// knows neither (knows_weather).
     ReferenceImage render(const Moment& moment, const View& view, const FrameOutputs& outputs, const ReferenceSettings& settings,
-                          const GoOn& go_on = {}, ReferenceImage from = {}, const StopAsked& stop_asked = {}) const;
+                          const GoOn& go_on = {}, ReferenceImage from = {}, const StopAsked& stop_asked = {},
+                          const ReferenceTiles& tiles = {}) const;
 
     /// Rays' geometry about a point near the car; built when first asked for, kept until another is needed.
     std::shared_ptr<const reference::EmbreeScene> geometry(const Moment& moment) const;

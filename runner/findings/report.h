@@ -106,6 +106,7 @@ struct PruningSavings {
 struct DriveError {
     std::vector<int> ticks; ///< the moments compared
     int width_px = 0, height_px = 0;
+    int tiles = 0, tiles_of = 0;                  ///< compared, at random; in all moments' pictures
     double lamp_radius_m = 0.0;                   ///< of lamps in the reference: discs, but for reach; 0: points
     std::optional<PixelErrors> road, whole;       ///< of illuminance, in the driver's view; road: by area
     std::optional<PixelErrors> target, luminance; ///< of targets above the road; of the whole view

@@ -1,5 +1,6 @@
 #include "runner/experiments/accuracy/drive_error.h"
 
+#include "metrics/images/tile_sample.h"
 #include "renderer/reference/reference.h"
 #include "renderer/technique.h"
 #include "runner/experiments/accuracy/picture_errors.h"
@@ -14,7 +15,9 @@
 namespace fernlicht {
 namespace {
 
-constexpr int max_moments = 3, max_width_px = 192, max_height_px = 144, max_samples = 64, fewer_samples = 32;
+constexpr int max_moments = 3, max_width_px = 192, max_height_px = 144, max_samples = 64;
+/// Small tiles tell more for as many pixels, as what one pixel is off by its neighbours are too.
+constexpr int tile_px = 4, first_rounds = 8;
 
 /// In the same shape, with at most so many pixels each way.
 View small_enough(const View& view) {
@@ -35,31 +38,103 @@ ReferenceSettings settings_for(const Drive& drive) {
     return settings;
 }
 
-/// In the middle moment alone, with half the samples, as each costs rays of its own. Pixels of another size would be off by other errors.
-void add_target_and_luminance(const Stage& stage, const std::vector<Moment>& moments, const View& view, const Reference& reference,
-                              Renderer& renderer, DriveError& error) {
-    const Technique& technique = renderer.technique();
-    error.no_target = technique.target ? "" : fmt::format("technique {} does not compute the illuminance of targets", technique.name);
-    error.no_luminance = technique.luminance ? "" : fmt::format("technique {} does not compute a luminance", technique.name);
-    const FrameOutputs outputs{.target = technique.target, .luminance = technique.luminance};
-    if (!outputs.target && !outputs.luminance)
-        return;
-    ReferenceSettings settings = settings_for(stage.drive);
-    settings.max_samples = fewer_samples;
-    const std::size_t middle = moments.size() / 2;
-    FrameOutputs drawn = outputs;
-    drawn.depth = drawn.ids = true;
-    const Frame frame = renderer.draw(moments[middle], view, drawn);
-    const ReferenceImage image = reference.render(moments[middle], view, outputs, settings);
-    const Image<float> areas = road_areas_m2(stage.scene, moments[middle], view, frame);
-    PixelErrorFold target(ErrorRule{settings.floor_lx}), luminance(ErrorRule{settings.floor_cdm2});
-    if (outputs.target)
-        add_pixels(target, frame.target_lx, image.target_lx, &areas, static_cast<int>(middle));
-    if (outputs.luminance)
-        add_pixels(luminance, frame.luminance_cdm2, image.luminance_cdm2, nullptr, static_cast<int>(middle));
-    error.target = target.finish();
-    error.luminance = luminance.finish();
-    error.rays += image.rays;
+/// Moments as the technique draws them beside the reference's tiles of them.
+class ComparedTiles {
+  public:
+    ComparedTiles(const Stage& stage, const std::vector<Moment>& moments, const View& view, const Reference& reference, Renderer& renderer)
+        : moments_(moments), view_(view), reference_(reference), settings_(settings_for(stage.drive)), across_(tiles_along(view.width_px)),
+          down_(tiles_along(view.height_px)), order_(sampling_order(static_cast<int>(moments.size()), across_, down_, stage.drive.seed)) {
+        const Technique& technique = renderer.technique();
+        outputs_ = {.illuminance = true, .target = technique.target, .luminance = technique.luminance};
+        FrameOutputs drawn = outputs_;
+        drawn.depth = drawn.ids = true;
+        for (const Moment& moment : moments) {
+            frames_.push_back(renderer.draw(moment, view, drawn));
+            areas_.push_back(road_areas_m2(stage.scene, moment, view, frames_.back()));
+        }
+        images_.resize(moments.size());
+    }
+
+    int rounds() const { return across_ * static_cast<int>(moments_.size()); }
+
+    /// The errors of so many rounds of tiles.
+    void compare(int rounds, DriveError& error) {
+        const auto count = static_cast<std::size_t>(rounds * down_);
+        draw(count);
+        PixelErrorFold road(ErrorRule{settings_.floor_lx}), whole(road), target(road), luminance(ErrorRule{settings_.floor_cdm2});
+        std::vector<PixelErrorFold> of_moment(moments_.size(), road);
+        for (std::size_t t = 0; t < count; ++t) {
+            const SampledTile& tile = order_[t];
+            const auto m = static_cast<std::size_t>(tile.picture);
+            const PixelBox box{tile.column * tile_px, tile.row * tile_px, tile_px, tile_px};
+            const Frame& frame = frames_[m];
+            const ReferenceImage& image = images_[m];
+            for (PixelErrorFold* const fold : {&road, &whole, &target, &luminance})
+                fold->begin_tile(tile.row);
+            for (PixelErrorFold* const fold : {&road, &of_moment[m]})
+                add_pixels(*fold, frame.illuminance_lx, image.illuminance_lx, &areas_[m], tile.picture, box);
+            add_pixels(whole, frame.illuminance_lx, image.illuminance_lx, nullptr, tile.picture, box);
+            if (outputs_.target)
+                add_pixels(target, frame.target_lx, image.target_lx, &areas_[m], tile.picture, box);
+            if (outputs_.luminance)
+                add_pixels(luminance, frame.luminance_cdm2, image.luminance_cdm2, nullptr, tile.picture, box);
+        }
+        const auto of_row = static_cast<std::size_t>(this->rounds());
+        error.road = road.finish(of_row);
+        error.whole = whole.finish(of_row);
+        error.target = target.finish(of_row);
+        error.luminance = luminance.finish(of_row);
+        error.road_p95.clear();
+        for (const PixelErrorFold& fold : of_moment)
+            if (const auto errors = fold.finish(); errors && errors->pixels > 0)
+                error.road_p95.push_back(errors->error.p95);
+        error.tiles = static_cast<int>(count);
+        error.tiles_of = static_cast<int>(order_.size());
+        error.rays = 0;
+        for (const ReferenceImage& image : images_)
+            error.rays += image.rays;
+    }
+
+  private:
+    static int tiles_along(int pixels) { return (pixels + tile_px - 1) / tile_px; }
+
+    void draw(std::size_t count) {
+        std::vector<std::vector<int>> numbers(moments_.size());
+        for (std::size_t t = 0; t < count; ++t)
+            numbers[static_cast<std::size_t>(order_[t].picture)].push_back(order_[t].row * across_ + order_[t].column);
+        for (std::size_t m = 0; m < moments_.size(); ++m)
+            if (!numbers[m].empty())
+                images_[m] =
+                    reference_.render(moments_[m], view_, outputs_, settings_, {}, std::move(images_[m]), {}, {tile_px, numbers[m]});
+    }
+
+    const std::vector<Moment>& moments_;
+    View view_;
+    const Reference& reference_;
+    ReferenceSettings settings_;
+    int across_, down_;
+    std::vector<SampledTile> order_;
+    FrameOutputs outputs_;
+    std::vector<Frame> frames_;
+    std::vector<Image<float>> areas_;
+    std::vector<ReferenceImage> images_;
+};
+
+/// How many rounds of tiles make all errors as sure as they are to be: `rounds` where these do.
+int rounds_wanted(const DriveError& error, int rounds, int all) {
+    int wanted = rounds;
+    for (const std::optional<PixelErrors>* const errors : {&error.road, &error.target, &error.luminance}) {
+        if (!*errors || (*errors)->pixels == 0)
+            continue;
+        const PixelErrors& e = **errors;
+        if (!e.p95_between)
+            return std::min(all, 2 * rounds);
+        const double half_width = 0.5 * (e.p95_between->high - e.p95_between->low),
+                     enough = std::max(error_precision * e.error.p95, e.floor.p95);
+        if (half_width > enough)
+            wanted = std::max(wanted, enough > 0.0 ? rounds_for(half_width, enough, rounds, all) : all);
+    }
+    return wanted;
 }
 
 /// What the run measured of these moments against a map of the reference's, one ray a pixel: a lux map has no noise then, and its pixels of
@@ -99,26 +174,18 @@ DriveError measure_drive_error(const Stage& stage, const LampSet& lamp_set, cons
     error.lamp_radius_m = lamp_disc_radius_m(stage.drive);
     for (const int tick : ticks_over(played.ticks_done, std::min(max_moments, played.ticks_done)))
         error.ticks.push_back(first_tick + tick);
-    const ReferenceSettings settings = settings_for(stage.drive);
     const Reference reference(stage.scene);
     const std::vector<Moment> moments = moments_at(error.ticks, stage, lamp_set);
-    PixelErrorFold road(ErrorRule{settings.floor_lx}), whole(road);
-    for (std::size_t m = 0; m < moments.size(); ++m) {
-        const Frame frame = renderer.draw(moments[m], view, {.illuminance = true, .depth = true, .ids = true});
-        const ReferenceImage image = reference.render(moments[m], view, {.illuminance = true}, settings);
-        const Image<float> areas = road_areas_m2(stage.scene, moments[m], view, frame);
-        const auto picture = static_cast<int>(m);
-        PixelErrorFold here(ErrorRule{settings.floor_lx});
-        for (PixelErrorFold* const fold : {&road, &here})
-            add_pixels(*fold, frame.illuminance_lx, image.illuminance_lx, &areas, picture);
-        add_pixels(whole, frame.illuminance_lx, image.illuminance_lx, nullptr, picture);
-        if (const auto errors = here.finish(); errors && errors->pixels > 0)
-            error.road_p95.push_back(errors->error.p95);
-        error.rays += image.rays;
+    const Technique& technique = renderer.technique();
+    error.no_target = technique.target ? "" : fmt::format("technique {} does not compute the illuminance of targets", technique.name);
+    error.no_luminance = technique.luminance ? "" : fmt::format("technique {} does not compute a luminance", technique.name);
+    renderer.keep_programs_of(moments);
+    ComparedTiles tiles(stage, moments, view, reference, renderer);
+    for (int rounds = 0, wanted = std::min(first_rounds, tiles.rounds()); wanted > rounds;
+         wanted = rounds_wanted(error, rounds, tiles.rounds())) {
+        rounds = wanted;
+        tiles.compare(rounds, error);
     }
-    error.road = road.finish();
-    error.whole = whole.finish();
-    add_target_and_luminance(stage, moments, view, reference, renderer, error);
     if (stage.drive.extent)
         error.reach = errors_of_reach(stage, played, moments, reference, error);
     error.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

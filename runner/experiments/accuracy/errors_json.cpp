@@ -11,6 +11,8 @@ namespace {
 
 JsonMembers quantile_members(ErrorQuantiles& q) { return {{"median", q.median}, {"p95", q.p95}, {"p99", q.p99}}; }
 
+JsonMembers between_members(QuantileInterval& interval) { return {{"low", interval.low}, {"high", interval.high}}; }
+
 JsonMembers beyond_members(std::array<double, 3>& percent) { return {{"1", percent[0]}, {"5", percent[1]}, {"20", percent[2]}}; }
 
 } // namespace
@@ -49,6 +51,7 @@ JsonPart errors_part(std::optional<PixelErrors>& errors, const std::string& why_
         const bool lit = e.pixels > 0, dark = e.dark_pixels > 0;
         const auto area = through([&e] { return e.area_m2.value_or(0.0); }, [&e](double m2) { e.area_m2 = m2; });
         return joined({{"pixels", e.pixels}, {"dark_pixels", e.dark_pixels}},
+                      when(lit && e.p95_between, {{"relative_p95_between", e.p95_between, between_members}}),
                       when(lit, {{"relative", e.error, quantile_members},
                                  {"relative_floor", e.floor, quantile_members},
                                  {"mean", e.mean},

@@ -57,14 +57,19 @@ Draw drawn_by(const Reference& reference, const ReferenceSettings& settings, con
     };
 }
 
-void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate& reference, const Image<float>* road_m2, int picture) {
-    for (int y = 0; y < tested.height(); ++y)
-        for (int x = 0; x < tested.width(); ++x) {
+void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate& reference, const Image<float>* road_m2, int picture,
+                const PixelBox& box) {
+    for (int y = box.y; y < std::min(box.y + box.height, tested.height()); ++y)
+        for (int x = box.x; x < std::min(box.x + box.width, tested.width()); ++x) {
             const std::optional<double> m2 = road_m2 ? std::optional(static_cast<double>(road_m2->at(x, y))) : std::nullopt;
             if (!m2 || *m2 >= 0.0)
                 fold.add({static_cast<double>(tested.at(x, y)), static_cast<double>(reference.mean.at(x, y)),
                           static_cast<double>(reference.standard_error.at(x, y)), m2, picture, x, y});
         }
+}
+
+void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate& reference, const Image<float>* road_m2, int picture) {
+    add_pixels(fold, tested, reference, road_m2, picture, {0, 0, tested.width(), tested.height()});
 }
 
 ReferencePictures::ReferencePictures(const Stage& stage, const Drive& drive, Device& device, const std::vector<Moment>& moments,

@@ -67,7 +67,9 @@ class ReferencePictures {
 Draw drawn_by(const Reference& reference, const ReferenceSettings& settings, const std::function<void(const ReferenceImage&)>& seen,
               const StopAsked& stop = {});
 
-/// Adds the pixels that `road_m2` knows with their areas (road_areas_m2), or all pixels without it.
+/// Adds the pixels that `road_m2` knows with their areas (road_areas_m2), or all pixels without it; of the picture's part in `box`.
+void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate& reference, const Image<float>* road_m2, int picture,
+                const PixelBox& box);
 void add_pixels(PixelErrorFold& fold, const Image<float>& tested, const Estimate& reference, const Image<float>* road_m2, int picture);
 
 /// Errors of moments together, without times; maps for reach are drawn with `map_scale` times the reference's pixels each way. What the

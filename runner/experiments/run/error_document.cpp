@@ -13,6 +13,14 @@ Cell share_cell(double share, double floor) {
     return {share < floor ? "< " + two_digits(100.0 * floor) : two_digits(100.0 * share), 100.0 * share};
 }
 
+/// With the interval that holds it, where tiles stand for the picture and it is no noise.
+Cell p95_cell(const PixelErrors& errors) {
+    Cell cell = share_cell(errors.error.p95, errors.floor.p95);
+    if (errors.p95_between && !errors.below_floor())
+        cell.text += fmt::format(" ({} to {})", two_digits(100.0 * errors.p95_between->low), two_digits(100.0 * errors.p95_between->high));
+    return cell;
+}
+
 void add_error_row(Table& table, const Cell& lamp, const char* where, const std::optional<PixelErrors>& errors,
                    const std::string& why_not) {
     std::vector<Cell>& row = table.rows.emplace_back(std::vector<Cell>{lamp, where});
@@ -22,7 +30,7 @@ void add_error_row(Table& table, const Cell& lamp, const char* where, const std:
     }
     const ErrorQuantiles &e = errors->error, &f = errors->floor;
     row.insert(row.end(), {share_cell(e.median, f.median),
-                           share_cell(e.p95, f.p95),
+                           p95_cell(*errors),
                            share_cell(e.p99, f.p99),
                            {two_digits(100.0 * f.p95), 100.0 * f.p95},
                            {signed_figure(100.0 * errors->mean, 2), 100.0 * errors->mean}});
@@ -50,9 +58,12 @@ std::string compared_words(const PlayedCell& played) {
             ? fmt::format(", with lamps that are discs of {:g} cm radius, as soft-map renders them (for reach, points)",
                           100.0 * error.lamp_radius_m)
             : ""; // where lamps of the reference are no points
+    const std::string tiles =
+        error.tiles < error.tiles_of
+            ? fmt::format(", {} of {} tiles at random (in brackets: what holds the 95 % with 95 % confidence)", error.tiles, error.tiles_of)
+            : "";
     return fmt::format("{} against {} at {} × {} pixels{}{}, which took {} s; {}", played.technique, counted(error.ticks.size(), "moment"),
-                       error.width_px, error.height_px, error.ticks.size() > 1 ? ", targets and luminance in the middle one" : "", discs,
-                       figure(error.seconds, 1),
+                       error.width_px, error.height_px, tiles, discs, figure(error.seconds, 1),
                        played.throughput.view_s  ? fmt::format("a frame of the run takes {}", time_text(*played.throughput.view_s))
                        : played.no_times.empty() ? "too few moments were played to time a frame"
                                                  : "times are not measured: " + played.no_times);

@@ -203,6 +203,8 @@ JsonPart accuracy_part(DriveError& error) {
         joined(when(error.measured(), {{"frames", error.ticks},
                                        {"width_px", error.width_px},
                                        {"height_px", error.height_px},
+                                       {"tiles", error.tiles},
+                                       {"tiles_of", error.tiles_of},
                                        {"rays", error.rays},
                                        {"road", errors_part(error.road, "", nullptr, ticks)},
                                        {"road_p95_by_moment", error.road_p95},

@@ -52,6 +52,27 @@ TEST(ReferenceDirect, AveragesAPixelOfThePlaneUnderALampAsTheIntegralDoes) {
     }
 }
 
+TEST(ReferenceDirect, DrawsOnlyTheTilesAskedForWithWhatTheyHaveInAWholePicture) {
+    const Scene scene = level_ground(50.0, lambert(0.2));
+    Moment moment{.lamps = {even_lamp(1000.0, looking({0, 0, 0.65}, 0, -90))}};
+    const View view = map_about({1.0, 0.5}, 4.0, 10); // tiles of 4, 4 and 2
+    const Reference reference(scene);
+    const auto drawn = [&](const std::vector<int>& only, ReferenceImage from = {}) {
+        return reference.render(moment, view, lux, {}, {}, std::move(from), {}, {4, only});
+    };
+    const ReferenceImage whole = drawn({}), some = drawn({0, 5, 7}), more = drawn({1, 5}, some);
+    EXPECT_TRUE(some.complete && more.complete);
+    for (const auto& [x, y] : each_pixel(10, 10)) {
+        const int tile = y / 4 * 3 + x / 4;
+        const bool is_drawn = tile == 0 || tile == 5 || tile == 7;
+        EXPECT_EQ(some.samples.at(x, y), is_drawn ? whole.samples.at(x, y) : 0U) << x << " " << y;
+        EXPECT_EQ(some.illuminance_lx.mean.at(x, y), is_drawn ? whole.illuminance_lx.mean.at(x, y) : 0.0F) << x << " " << y;
+        EXPECT_EQ(more.samples.at(x, y) > 0, is_drawn || tile == 1) << x << " " << y;
+    }
+    EXPECT_THROW(drawn({9}), std::invalid_argument);
+    EXPECT_THROW(reference.render(moment, view, lux, {}, {}, {}, {}, {17, {}}), std::invalid_argument);
+}
+
 /// A lamp 2 m up at x = 0, a thin wall 1 m high at x = 4 across: its shadow ends at x = 8.
 struct Wall {
     Scene scene = level_ground(30.0, lambert(0.2));

@@ -36,7 +36,15 @@ TEST(DriveError, StandsInEveryReport) {
         const json& accuracy = drive.at("accuracy");
         EXPECT_EQ(accuracy.at("frames"), json({0, 1, 2}));
         EXPECT_EQ(accuracy.at("width_px"), 160);
-        EXPECT_GT(accuracy.at("road").at("pixels"), 3000);
+        EXPECT_GT(accuracy.at("road").at("pixels"), 1000);
+        EXPECT_LT(accuracy.at("tiles"), accuracy.at("tiles_of"));
+        for (const char* errors : {"road", "target", "luminance"}) { // to a quarter, or to the reference's noise
+            const json& e = accuracy.at(errors);
+            const double low = e.at("relative_p95_between").at("low"), high = e.at("relative_p95_between").at("high"),
+                         p95 = e.at("relative").at("p95"), floor = e.at("relative_floor").at("p95");
+            EXPECT_LE(0.5 * (high - low), std::max(0.25 * p95, floor)) << errors;
+            EXPECT_TRUE(low <= p95 && p95 <= high) << errors;
+        }
         EXPECT_LT(accuracy.at("road").at("relative").at("median"), 0.005); // what so few samples leave
         EXPECT_GT(accuracy.at("rays"), 100000);
         EXPECT_LT(accuracy.at("target").at("relative").at("median"), 0.005);
