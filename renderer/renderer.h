@@ -110,8 +110,12 @@ class Renderer {
     void render(const Moment& moment, const View& view, const FrameOutputs& outputs);
     void finish();
 
-    /// Compiles all that drawing these moments so can need; nothing compiles afterwards.
-    void prepare(const std::vector<Moment>& moments, const View& view, const FrameOutputs& outputs);
+    /// Compiles all that drawing these moments so can need, wherever things stand in them; `here`: only what they need as they stand.
+    /// Nothing compiles afterwards.
+    void prepare(const std::vector<Moment>& moments, const View& view, const FrameOutputs& outputs, bool here = false);
+    /// Drops the programs that lamps of these moments do not need; they compile anew where they are drawn with again. Where others have
+    /// lamps, a lamp set's programs take some hundred MB on llvmpipe.
+    void keep_programs_of(const std::vector<Moment>& moments);
     /// Draws once more and counts, fragments too; `light`: also what lighting took, which lights the picture five times more.
     Work count(const Moment& moment, const View& view, const FrameOutputs& outputs, bool light = false);
     /// What the moment drawn last did not need.

@@ -19,6 +19,8 @@ class PhotometricLighting : public Lighting {
 
     void draw(const Shot& shot) override;
     void prepare(const Shot& shot) override;
+    void prepare_here(const Shot& shot) override;
+    void keep_programs_of(const std::vector<Moment>& moments) override;
     std::optional<double> beam_error(const LampFile& lamp) const override { return beams_.error_of_peak(lamp); }
     std::vector<PrunedFeature> pruned() const override { return pruned_features_; }
     /// Why the shader lights such a picture though the CPU was to; "" where the CPU does.
@@ -56,6 +58,8 @@ class PhotometricLighting : public Lighting {
     Features features_of(const Shot& shot, const Group& group, int sun) const;
     const Compiled& variant(const Features& features, const FrameOutputs& outputs);
     void use(const Compiled& v, const Shot& shot) const;
+    void set_for_preparing(const Shot& shot);
+    void compile_visible(const Shot& shot);
     void compile(const Features& features, const Shot& shot);
     const Program& visible_program(bool textured, bool moving);
     void use_visible(const Features& features, const Shot& shot);

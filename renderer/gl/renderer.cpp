@@ -186,15 +186,17 @@ void Renderer::render(const Moment& moment, const View& view, const FrameOutputs
 
 void Renderer::finish() { state_->context.gl.Finish(); }
 
-void Renderer::prepare(const std::vector<Moment>& moments, const View& view, const FrameOutputs& outputs) {
+void Renderer::prepare(const std::vector<Moment>& moments, const View& view, const FrameOutputs& outputs, bool here) {
     TraceSpan span("compile", "renderer");
     if (span)
         span.tell("view", view.name);
     PassClock passes(state_->context, false, false);
     for (const Moment& moment : moments)
-        state_->shoot(moment, view, available(outputs), passes, &gl::Lighting::prepare);
+        state_->shoot(moment, view, available(outputs), passes, here ? &gl::Lighting::prepare_here : &gl::Lighting::prepare);
     finish();
 }
+
+void Renderer::keep_programs_of(const std::vector<Moment>& moments) { state_->lighting->keep_programs_of(moments); }
 
 Work Renderer::count(const Moment& moment, const View& view, const FrameOutputs& outputs, bool light) {
     PassClock passes(state_->context, false, false);

@@ -100,15 +100,28 @@ std::vector<std::pair<View, FrameOutputs>> pictures_of(const Drive& drive) {
     return pictures;
 }
 
+namespace {
+
+void each_moment(const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks,
+                 const std::function<void(Moment)>& take) {
+    State state = start(drive);
+    for (int tick = 0; tick <= std::min(ticks.last, tick_count(drive) - 1); ++tick, state = advance(state, drive))
+        if (tick >= ticks.first)
+            take(moment_at(state, drive, route, lamp_set));
+}
+
+/// Lamps of others, sun, moon, fog or water: shaders that look at all this come in many variants.
+bool has_many_variants(const Moment& moment) {
+    return !moment.other_lamps.empty() || moment.daylight.direct() || moment.weather.extinction_per_m > 0.0 || moment.weather.wetness > 0.0;
+}
+
+} // namespace
+
 std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks) {
     // Light and weather, lamps of others, and the own lamps with whether they shine.
     std::set<std::tuple<int, bool, std::vector<std::pair<const LampFile*, bool>>>> seen;
     std::vector<Moment> moments;
-    State state = start(drive);
-    for (int tick = 0; tick <= std::min(ticks.last, tick_count(drive) - 1); ++tick, state = advance(state, drive)) {
-        if (tick < ticks.first)
-            continue;
-        Moment moment = moment_at(state, drive, route, lamp_set);
+    each_moment(drive, route, lamp_set, ticks, [&](Moment moment) {
         std::vector<std::pair<const LampFile*, bool>> lamps;
         for (const LitLamp& lamp : moment.lamps)
             lamps.emplace_back(lamp.file->state_of ? lamp.file->state_of.get() : lamp.file.get(), lamp.intensity_factor > 0.0);
@@ -118,7 +131,7 @@ std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, con
             moments.push_back(std::move(moment));
         else if (seen.emplace(around, !moment.other_lamps.empty(), std::move(lamps)).second)
             moments.push_back(std::move(moment));
-    }
+    });
     for (std::size_t i = 0, count = moments.size(); i < count; ++i) // reach is measured without lamps of others
         if (!moments[i].other_lamps.empty()) {
             moments.push_back(moments[i]);
@@ -127,12 +140,26 @@ std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, con
     return moments;
 }
 
-void prepare(Renderer& renderer, const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks) {
+void prepare(Renderer& renderer, const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks, bool foreseen) {
     const TraceSpan span("prepare", "play");
     const int before = renderer.compiled_programs();
     const auto start = std::chrono::steady_clock::now();
     const std::vector<Moment> moments = distinct_moments(drive, route, lamp_set, ticks);
-    for (const auto& [view, outputs] : pictures_of(drive))
+    renderer.keep_programs_of(moments);
+    std::vector<std::pair<View, FrameOutputs>> pictures = pictures_of(drive);
+    if (foreseen && std::ranges::any_of(moments, has_many_variants)) {
+        const auto maps = pictures.begin() + static_cast<std::ptrdiff_t>(drive.views.empty() ? 0 : drive.views.size() + 1);
+        const std::vector<std::pair<View, FrameOutputs>> views(pictures.begin(), maps);
+        pictures.erase(pictures.begin(), maps);
+        each_moment(drive, route, lamp_set, ticks, [&](Moment moment) {
+            for (LitLamp& lamp : moment.lamps)
+                if (lamp.file->state_of)
+                    lamp.file = lamp.file->state_of; // whatever its levels
+            for (const auto& [view, outputs] : views)
+                renderer.prepare({moment}, view, outputs, true);
+        });
+    }
+    for (const auto& [view, outputs] : pictures)
         renderer.prepare(moments, view, outputs);
     const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const int compiled = renderer.compiled_programs() - before;

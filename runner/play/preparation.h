@@ -19,8 +19,9 @@ std::vector<std::pair<View, FrameOutputs>> pictures_of(const Drive& drive);
 /// Moments of the ticks to be played, one for each set of lamps that shine together under each sky: what variants follow from.
 std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks);
 
-/// Compiles for all of these. Nothing compiles afterwards while the lamp set is played.
-void prepare(Renderer& renderer, const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks);
+/// Compiles for all of these. Nothing compiles afterwards while the lamp set is played: `foreseen`, as the drive says; else wherever the
+/// car and others may come to stand, for several times the variants where others have lamps, or there is weather or a sun.
+void prepare(Renderer& renderer, const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks, bool foreseen = true);
 
 /// Draws the driver's view of moments evenly spread over the drive, small, with each of its lamp sets, and closes the drive's tone mapper
 /// by what is seen there: one exposure for all its pictures. Adds a note with the numbers. Nothing for a mapper that is closed. Throws

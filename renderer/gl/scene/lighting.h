@@ -30,6 +30,10 @@ class Lighting {
     virtual void draw(const Shot& shot) = 0;
     /// Compiles every variant that drawing moments with these lamps and this sky can need, and makes the driver compile it too.
     virtual void prepare(const Shot& shot) = 0;
+    /// Only those that drawing this very shot needs, where that is less.
+    virtual void prepare_here(const Shot& shot) { prepare(shot); }
+    /// Drops the programs that no shot with the lamps of these moments is drawn with, and what the driver holds of them.
+    virtual void keep_programs_of(const std::vector<Moment>&) {}
     /// What the last drawn shot did not need.
     virtual std::vector<PrunedFeature> pruned() const = 0;
     virtual std::string why_shader(const Shot&) const { return ""; }
