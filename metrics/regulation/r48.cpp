@@ -1,13 +1,13 @@
 #include "metrics/regulation/r48.h"
 
+#include "scenarios/vehicle/car_model.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 namespace fernlicht {
 namespace {
-
-constexpr double earth_gravity_mps2 = 9.80665;
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 glm::dvec2 left_of(glm::dvec2 d) { return {-d.y, d.x}; }
@@ -66,7 +66,7 @@ std::vector<LoadState> r48_load_states(const VehicleParameters& car, double whee
 
 LoadedBody loaded_body(const VehicleParameters& car, double wheelbase_m, const std::optional<LevellingParameters>& levelling,
                        const LoadState& load) {
-    const double front_n = earth_gravity_mps2 * load.front_kg, rear_n = earth_gravity_mps2 * load.rear_kg;
+    const double front_n = gravity_mps2 * load.front_kg, rear_n = gravity_mps2 * load.rear_kg;
     const double in_springs_rad = (rear_n / car.rear.spring_n_per_m - front_n / car.front.spring_n_per_m) / wheelbase_m;
     const double in_tyres_rad = (rear_n / car.rear.tyre_spring_n_per_m - front_n / car.front.tyre_spring_n_per_m) / wheelbase_m;
     LoadedBody body{.pitch_rad = in_springs_rad + in_tyres_rad};

@@ -41,7 +41,7 @@ void add_inclinations(InstalledLamp& found, const LowBeam& beam, const std::vect
 /// One moment of a lamp: where its kink looks, from the car's middle and from its own place.
 struct KinkLook {
     glm::dvec2 towards, from_middle_m, from_lamp_m;
-    double yaw_deg;
+    double right_deg; ///< of the car's axis
 };
 
 KinkLook look_of(const Moment& moment, const LitLamp& lamp, const AimMark& mark) {
@@ -50,7 +50,7 @@ KinkLook look_of(const Moment& moment, const LitLamp& lamp, const AimMark& mark)
     const glm::dvec3 of_lamp(std::cos(v) * std::cos(h), -std::cos(v) * std::sin(h), std::sin(v));
     const glm::dvec3 in_world = lamp.pose.axes * of_lamp, at = to_local(moment.ego, lamp.pose.position_m),
                      middle = to_parent(moment.ego, {at.x, 0.0, at.z}), ahead = glm::transpose(moment.ego.axes) * in_world;
-    return {glm::dvec2(in_world), glm::dvec2(middle), glm::dvec2(lamp.pose.position_m), degrees(std::atan2(ahead.y, ahead.x))};
+    return {glm::dvec2(in_world), glm::dvec2(middle), glm::dvec2(lamp.pose.position_m), 0.0 - degrees(std::atan2(ahead.y, ahead.x))};
 }
 
 /// Of one lamp in bends to one side, moment by moment.
@@ -88,7 +88,9 @@ void sum_up(KinkFound& found, KinkSamples& samples, double limit_m, double step_
 /// Over all moments but the first and the last, which have no circle.
 void add_kinks(std::vector<InstalledLamp>& found, const std::vector<LowBeam>& beams, const Stage& stage, const LampSet& lamp_set,
                double centre_of_gravity_m) {
-    std::vector<std::pair<double, double>> yaws(beams.size(), {1e9, -1e9});
+    std::vector<double> rest_deg;
+    for (const LowBeam& beam : beams)
+        rest_deg.push_back(mark_on_car(*beam.lamp, beam.mark.place()).right_deg);
     std::vector<std::array<KinkSamples, 2>> samples(beams.size()); // of left bends, of right ones
     std::vector<glm::dvec2> places;
     std::optional<Moment> before;
@@ -100,7 +102,7 @@ void add_kinks(std::vector<InstalledLamp>& found, const std::vector<LowBeam>& be
             if (lit == before->lamps.end())
                 continue;
             const KinkLook look = look_of(*before, *lit, beams[i].mark);
-            yaws[i] = {std::min(yaws[i].first, look.yaw_deg), std::max(yaws[i].second, look.yaw_deg)};
+            found[i].moved_deg = std::max(found[i].moved_deg, std::abs(look.right_deg - rest_deg[i]));
             if (places.size() < 3)
                 continue;
             const std::size_t n = places.size();
@@ -114,7 +116,6 @@ void add_kinks(std::vector<InstalledLamp>& found, const std::vector<LowBeam>& be
         before = std::move(moment);
     }
     for (std::size_t i = 0; i < beams.size(); ++i) {
-        found[i].moved_deg = std::max(0.0, yaws[i].second - yaws[i].first);
         sum_up(found[i].left_bends, samples[i][0], found[i].kink_limit_m(), stage.drive.step_s);
         sum_up(found[i].right_bends, samples[i][1], found[i].kink_limit_m(), stage.drive.step_s);
     }

@@ -28,7 +28,7 @@ struct InstalledLamp {
     double height_m = 0.0;
     std::optional<InclinationBand> band;
     std::vector<double> percent; ///< of the cut-off against the road, by load; empty: not found
-    double moved_deg = 0.0;      ///< how far it turned sideways over the drive, from side to side
+    double moved_deg = 0.0;      ///< how far at most it was turned sideways from how it is aimed
     bool has_kink = false;
     KinkFound left_bends, right_bends;
     std::string why_not; ///< of what was not found
