@@ -67,16 +67,17 @@ Regulation driving(const Driving& d) {
     const auto both_sides = [&](double h, const char* left, const char* right, double least) {
         if (least <= 0.0)
             return;
-        r.rows.push_back(point(left, -h, 0, at_least(least)));
-        r.rows.push_back(point(right, h, 0, at_least(least)));
+        // Held against a second print of table 5 (a collection of clauses), which at hand ends before the right one at 12 degrees.
+        r.rows.push_back(sure(point(left, -h, 0, at_least(least)), Sureness::two_sources));
+        r.rows.push_back(sure(point(right, h, 0, at_least(least)), h < 12.0 ? Sureness::two_sources : Sureness::one_source));
     };
     r.rows.push_back(brightest("Imax", everywhere, at_least(d.imax)));
     r.rows.push_back(
         scoped(noted(brightest("Imax, each lamp", everywhere, at_most(215000)), "in no direction more, of any lamp"), Scope::each_side));
     if (d.hv > 0.0)
-        r.rows.push_back(point("HV", 0, 0, at_least(d.hv)));
+        r.rows.push_back(sure(point("HV", 0, 0, at_least(d.hv)), Sureness::two_sources));
     else {
-        r.rows.push_back(at_least_of(point("HV", 0, 0, {}), "Imax", 0.8));
+        r.rows.push_back(sure(at_least_of(point("HV", 0, 0, {}), "Imax", 0.8), Sureness::two_sources));
         r.rows.push_back(scoped(point("HV, each lamp of a pair", 0, 0, at_least(0.4 * d.imax)), Scope::each_of_two));
     }
     if (d.at_2u > 0.0)

@@ -167,6 +167,8 @@ TEST(Regulations, SayOfEachRowHowSureItIs) {
     EXPECT_EQ(known_by("r149-c", "75R"), "two prints, one reader");
     EXPECT_EQ(known_by("r149-c", "P"), "one source");
     EXPECT_EQ(known_by("r112-b", "75R"), "two sources");
+    EXPECT_EQ(known_by("r149-driving-b", "H-3L"), "two sources");
+    EXPECT_EQ(known_by("r149-driving-b", "Imax"), "one source");
     EXPECT_EQ(known_by("r123-c", "P"), "one source");
     EXPECT_EQ(known_by("r149-adb-oncoming-50m", "line 1"), "inferred, not read");
     const std::vector<RegulationRow>&a = regulation("r149-adb-preceding-50m").rows, &b = regulation("r123-adb-preceding-50m").rows;
