@@ -90,8 +90,8 @@ Turn turn_within(const Turn& mount, const Turn& turn) {
     return turn_of(glm::transpose(mount.axes()) * axes_from_angles(mount.yaw_rad + turn.yaw_rad, turn.pitch_rad, turn.roll_rad));
 }
 
-MarkOnCar mark_on_car(const MountedLamp& lamp, Direction of_table) {
-    const glm::dvec3 d = lamp.pose().axes * direction_of(of_table);
+MarkOnCar mark_on_car(const MountedLamp& lamp, Direction of_table, double body_pitch_rad) {
+    const glm::dvec3 d = axes_from_angles(0.0, body_pitch_rad, 0.0) * (lamp.pose().axes * direction_of(of_table));
     const double right_deg = 0.0 - degrees(std::atan2(d.y, d.x));
     return {100.0 * d.z / std::hypot(d.x, d.y), std::abs(right_deg) < 1e-9 ? 0.0 : right_deg};
 }
@@ -99,8 +99,10 @@ MarkOnCar mark_on_car(const MountedLamp& lamp, Direction of_table) {
 bool InclinationBand::holds(double percent) const { return percent > lowest_percent - 5e-4 && percent < highest_percent + 5e-4; }
 
 std::optional<InclinationBand> r48_band(double height_m) {
-    if (height_m < 0.5 || height_m > 0.9)
+    if (height_m < 0.5 || height_m > 1.2)
         return std::nullopt;
+    if (height_m > 0.9)
+        return InclinationBand{-(2.17 * height_m + 0.15), -(2.17 * height_m - 1.45)};
     return InclinationBand{-(height_m + 1.2), -0.5};
 }
 

@@ -36,19 +36,20 @@ Turn turn_to(const AimMark& mark, double cut_off_percent);
 Turn turn_within(const Turn& mount, const Turn& turn);
 
 /// Height over run in per cent, up positive, of a direction of a lamp's table as it is mounted, and its angle to the right of the car's
-/// axis.
+/// axis. `body_pitch_rad`: of the car's body on its wheels, nose up positive; both then count against the road.
 struct MarkOnCar {
     double percent = 0.0, right_deg = 0.0;
 };
-MarkOnCar mark_on_car(const MountedLamp& lamp, Direction of_table);
+MarkOnCar mark_on_car(const MountedLamp& lamp, Direction of_table, double body_pitch_rad = 0.0);
 
 /// Limits of a low beam's inclination in per cent, up positive.
 struct InclinationBand {
     double lowest_percent = 0.0, highest_percent = 0.0;
     bool holds(double percent) const; ///< to a thousandth of a per cent, which no aim comes nearer to
 };
-/// UN R48, 09 series, 6.2.6.1.2, with automatic levelling: from -(h + 1.2) % to -0.5 % for a height h of 0.5 to 0.9 m, by `height_m` of
-/// the lamp over the road. The text takes the lower edge of the lens, which a drive does not know. nullopt: no band is known here.
+/// UN R48, 09 series, 6.2.6.1.2, by `height_m` of the lamp over the road: from -(h + 1.2) % to -0.5 % for 0.5 to 0.9 m, from -(2.17 h +
+/// 0.15) % to -(2.17 h - 1.45) % above, up to 1.2 m. It holds over all loads of annex 5. The text takes the lower edge of the lens, which a
+/// drive does not know. nullopt: no band, as no passing beam of a car may be mounted there.
 std::optional<InclinationBand> r48_band(double height_m);
 inline constexpr const char* r48_band_source = "UN R48 (09 series, 6.2.6.1.2)";
 

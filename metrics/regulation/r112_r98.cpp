@@ -9,6 +9,7 @@ const char* const edition_ab = "UN R112, 01 series = UN R149, 00 series (ECE/TRA
 const char* const edition_d = "UN R98 = UN R149, 00 series (ECE/TRANS/WP.29/2018/158/Rev.1) with supplements 1 to 10, class D";
 const char* const two_sources = "two published transcriptions, of R149 and of R112 in the EU's Official Journal of 2014, agree";
 const char* const one_source = "one published transcription of the text";
+const char* const two_prints = "one published transcription of the text, held by its maker against India's AIS-199 (draft of 2024) as well";
 
 void add_signs(Regulation& r) {
     r.rows.push_back(sum_of("B1 + B2 + B3", signs_4u, at_least(190)));
@@ -18,7 +19,8 @@ void add_signs(Regulation& r) {
 }
 
 Regulation passing(const char* id, const char* title, bool d) {
-    Regulation r = un_table(id, title, d ? edition_d : edition_ab, d ? one_source : two_sources);
+    Regulation r = un_table(id, title, d ? edition_d : edition_ab, d ? two_prints : two_sources);
+    r.sureness = d ? Sureness::two_prints : Sureness::two_sources;
     r.aim = AimRule::automatic;
     r.re_aim = {0.5, 0.75, 0.25};
     r.rows = {point("B50L", -3.43, 0.57, at_most(350)), zone("zone III", zone_3, at_most(625))};

@@ -146,10 +146,10 @@ Regulation driving_beam() {
     return r;
 }
 
-/// One state of adaptation. `rows` are its line of part A; part B holds where no passing beam stays on.
-Regulation adaptive(const std::string& id, const std::string& title, std::vector<RegulationRow> rows) {
-    Regulation r = of_both_sides("r123-adb-" + id, "adaptive driving beam, " + title);
-    r.rows = std::move(rows);
+/// One state of adaptation: its line of part A; part B holds where no passing beam stays on.
+Regulation adaptive(const AdaptiveLine& line) {
+    Regulation r = of_both_sides("r123-adb-" + line.id, "adaptive driving beam, " + line.title);
+    r.rows = line.rows;
     const char* const note = "part B: not asked where a passing beam stays on";
     for (const RegulationRow& row :
          {point("50R", 1.72, -0.86, at_least(5100)), point("50V", 0, -0.86, at_least(5100)), point("50L", -3.43, -0.86, at_least(2550)),
@@ -161,6 +161,21 @@ Regulation adaptive(const std::string& id, const std::string& title, std::vector
 }
 
 } // namespace
+
+const std::vector<AdaptiveLine>& adaptive_lines() {
+    static const std::vector<AdaptiveLine> lines{
+        {"oncoming-50m", "oncoming vehicle at 50 m", {segment("line 1", -4.8, -2, 0.57, at_most(625))}},
+        {"oncoming-100m", "oncoming vehicle at 100 m", {segment("line 2", -2.4, -1, 0.30, at_most(1750))}},
+        {"oncoming-200m", "oncoming vehicle at 200 m", {segment("line 3", -1.2, -0.5, 0.15, at_most(5450))}},
+        {"preceding-50m",
+         "preceding vehicle at 50 m",
+         {segment("line 4", -1.7, 1, 0.30, at_most(1850)), segment("line 4, beyond 1 R", 1, 1.7, 0.30, at_most(2500))}},
+        {"preceding-100m",
+         "preceding vehicle at 100 m",
+         {segment("line 5", -0.9, 0.5, 0.15, at_most(5300)), segment("line 5, beyond 0.5 R", 0.5, 0.9, 0.15, at_most(7000))}},
+        {"preceding-200m", "preceding vehicle at 200 m", {segment("line 6", -0.45, 0.45, 0.10, at_most(16000))}}};
+    return lines;
+}
 
 std::vector<Regulation> r123_regulations() {
     std::vector<Regulation> all{passing_beam("r123-c", "C (basic)", 'C'),
@@ -180,17 +195,10 @@ std::vector<Regulation> r123_regulations() {
     add_bending("r123-v-bending", 'V', bending(at_most(530), at_most(880), 1700, between(5100, 44100)));
     add_bending("r123-e-bending", 'E', bending({}, {}, 3400, between(10100, 79300)));
     add_bending("r123-w-bending", 'W', bending(at_most(790), {}, 3400, between(20300, 70500)));
-    for (const Regulation& one :
-         {traffic_change(), driving_beam(),
-          adaptive("oncoming-50m", "oncoming vehicle at 50 m", {segment("line 1", -4.8, -2, 0.57, at_most(625))}),
-          adaptive("oncoming-100m", "oncoming vehicle at 100 m", {segment("line 2", -2.4, -1, 0.30, at_most(1750))}),
-          adaptive("oncoming-200m", "oncoming vehicle at 200 m", {segment("line 3", -1.2, -0.5, 0.15, at_most(5450))}),
-          adaptive("preceding-50m", "preceding vehicle at 50 m",
-                   {segment("line 4", -1.7, 1, 0.30, at_most(1850)), segment("line 4, beyond 1 R", 1, 1.7, 0.30, at_most(2500))}),
-          adaptive("preceding-100m", "preceding vehicle at 100 m",
-                   {segment("line 5", -0.9, 0.5, 0.15, at_most(5300)), segment("line 5, beyond 0.5 R", 0.5, 0.9, 0.15, at_most(7000))}),
-          adaptive("preceding-200m", "preceding vehicle at 200 m", {segment("line 6", -0.45, 0.45, 0.10, at_most(16000))})})
-        all.push_back(one);
+    all.push_back(traffic_change());
+    all.push_back(driving_beam());
+    for (const AdaptiveLine& line : adaptive_lines())
+        all.push_back(adaptive(line));
     return all;
 }
 

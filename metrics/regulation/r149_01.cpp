@@ -1,4 +1,5 @@
-// UN R149, 01 series: passing beams of classes C and V (table 6), driving beams (table 5). Candela, right-hand traffic.
+// UN R149, 01 series: passing beams of classes C and V (table 6), driving beams (table 5), and the lines of the adaptive driving beam, as
+// far as they are known. Candela, right-hand traffic.
 #include "metrics/regulation/rows.h"
 
 namespace fernlicht {
@@ -17,7 +18,7 @@ Regulation passing(bool c) {
     r.pairs = true;
     r.rows.push_back(zone("zone III", zone_3, at_most(625)));
     if (c) {
-        r.rows.push_back(sum_of("S50LL + S50 + S50RR", signs_4u, at_least(190)));
+        r.rows.push_back(sure(sum_of("S50LL + S50 + S50RR", signs_4u, at_least(190)), Sureness::two_prints)); // and Taiwan's item 92-1
         r.rows.push_back(sum_of("S100LL + S100 + S100RR", signs_2u, at_least(375)));
     }
     r.rows.push_back(point("BR", 2.5, 1.0, at_most(1750)));
@@ -25,7 +26,7 @@ Regulation passing(bool c) {
     r.rows.push_back(point("B50L", -3.43, 0.57, at_most(350)));
     r.rows.push_back(point("P", -7, 0, at_least(63)));
     if (c)
-        r.rows.push_back(point("75R", 1.15, -0.57, at_least(12100)));
+        r.rows.push_back(sure(point("75R", 1.15, -0.57, at_least(12100)), Sureness::two_prints)); // and Taiwan's item 92-1
     r.rows.push_back(point("50L", -3.43, -0.86, between(of(5000, 3550), 37000)));
     r.rows.push_back(point("50V", 0, -0.86, at_least(5100)));
     r.rows.push_back(point("50R", 1.72, -0.86, at_least(of(10100, 5100))));
@@ -66,16 +67,17 @@ Regulation driving(const Driving& d) {
     const auto both_sides = [&](double h, const char* left, const char* right, double least) {
         if (least <= 0.0)
             return;
-        r.rows.push_back(point(left, -h, 0, at_least(least)));
-        r.rows.push_back(point(right, h, 0, at_least(least)));
+        // Held against a second print of table 5 (a collection of clauses), which at hand ends before the right one at 12 degrees.
+        r.rows.push_back(sure(point(left, -h, 0, at_least(least)), Sureness::two_sources));
+        r.rows.push_back(sure(point(right, h, 0, at_least(least)), h < 12.0 ? Sureness::two_sources : Sureness::one_source));
     };
     r.rows.push_back(brightest("Imax", everywhere, at_least(d.imax)));
     r.rows.push_back(
         scoped(noted(brightest("Imax, each lamp", everywhere, at_most(215000)), "in no direction more, of any lamp"), Scope::each_side));
     if (d.hv > 0.0)
-        r.rows.push_back(point("HV", 0, 0, at_least(d.hv)));
+        r.rows.push_back(sure(point("HV", 0, 0, at_least(d.hv)), Sureness::two_sources));
     else {
-        r.rows.push_back(at_least_of(point("HV", 0, 0, {}), "Imax", 0.8));
+        r.rows.push_back(sure(at_least_of(point("HV", 0, 0, {}), "Imax", 0.8), Sureness::two_sources));
         r.rows.push_back(scoped(point("HV, each lamp of a pair", 0, 0, at_least(0.4 * d.imax)), Scope::each_of_two));
     }
     if (d.at_2u > 0.0)
@@ -89,10 +91,26 @@ Regulation driving(const Driving& d) {
     return r;
 }
 
+/// R149's first text says that it took R123 over without a change of its requirements; how the 01 series has these lines was not at hand.
+Regulation adaptive_by_r149(const AdaptiveLine& line) {
+    Regulation r = un_table("r149-adb-" + line.id, "UN R149, adaptive driving beam, " + line.title,
+                            "UN R149, 00 series (ECE/TRANS/WP.29/2018/158/Rev.1), which took over UN R123",
+                            "UN R123's table 7 by one published transcription; R149's introduction has it taken over without a change");
+    r.sureness = Sureness::inferred;
+    r.half_sum = r.pairs = true;
+    r.rows = line.rows;
+    r.notes = {"one state of the adaptation, and the file is the beam in that state",
+               "whether the 01 series or a supplement changed the line is not known here, nor what R149 asks below the cut-off: of part B "
+               "of R123's table see r123-adb-" +
+                   line.id};
+    r.aim_note = "not aimed by itself: it keeps the aim of the driving beam";
+    return r;
+}
+
 } // namespace
 
 std::vector<Regulation> r149_regulations() {
-    return {
+    std::vector<Regulation> all{
         passing(true),
         passing(false),
         driving({"r149-driving-a", "UN R149, driving beam class A (R)", 1000, 600, 2000, 3400, 12000, 0, 27000}),
@@ -102,6 +120,9 @@ std::vector<Regulation> r149_regulations() {
         driving({"r149-driving-cs", "UN R149, secondary driving beam class CS", 1000, 0, 0, 3400, 12000, 20000, 27000}),
         driving({"r149-driving-ds", "UN R149, secondary driving beam class DS", 1700, 0, 0, 5000, 17500, 30000, 40000}),
     };
+    for (const AdaptiveLine& line : adaptive_lines())
+        all.push_back(adaptive_by_r149(line));
+    return all;
 }
 
 } // namespace fernlicht

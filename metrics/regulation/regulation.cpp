@@ -8,6 +8,11 @@
 
 namespace fernlicht {
 
+const char* in_words(Sureness sureness) {
+    static constexpr const char* words[]{"", "one source", "two prints, one reader", "two sources", "inferred, not read"};
+    return words[static_cast<int>(sureness)];
+}
+
 const std::vector<Regulation>& regulations() {
     static const std::vector<Regulation> all = [] {
         std::vector<Regulation> list;

@@ -31,6 +31,16 @@ struct Limits {
     double max_cd = std::numeric_limits<double>::infinity();
 };
 
+/// How well known what a table says is.
+enum class Sureness {
+    as_table,    ///< of a row: as the rest of its table
+    one_source,  ///< one reading of one print
+    two_prints,  ///< two prints of it, or of a text that took it over, read by the same hand
+    two_sources, ///< two readings of two prints
+    inferred,    ///< not read where the table says it stands: taken from the text that the other one says it took over
+};
+const char* in_words(Sureness sureness); ///< "one source"; "" of as_table
+
 struct RegulationRow {
     std::string id;
     RowKind kind = RowKind::point;
@@ -41,6 +51,7 @@ struct RegulationRow {
     double ratio = 0.0;           ///< above 0
     bool ratio_is_minimum = true; ///< else it is a maximum
     std::string note = {};
+    Sureness sureness = Sureness::as_table;
 };
 
 enum class AimRule {
@@ -64,7 +75,7 @@ struct Regulation {
     std::string id;      ///< "r149-c"
     std::string title;   ///< "UN R149, passing beam class C"
     std::string edition; ///< of the text that the table stands for
-    std::string source;  ///< how sure the table is: who read it where
+    std::string source;  ///< who read it where
     Receiver receiver;
     AimRule aim = AimRule::as_is;
     ReAim re_aim = {};
@@ -74,7 +85,10 @@ struct Regulation {
     bool mirrors = true;         ///< has a form for left-hand traffic
     std::vector<RegulationRow> rows = {};
     std::vector<std::string> notes = {};
-    std::string aim_note = {}; ///< what `aim` means here; "" where it needs no word
+    std::string aim_note = {};                ///< what `aim` means here; "" where it needs no word
+    Sureness sureness = Sureness::one_source; ///< of rows that say no other
+
+    Sureness sureness_of(const RegulationRow& row) const { return row.sureness == Sureness::as_table ? sureness : row.sureness; }
 };
 
 /// All tables, in the order of `regulation_ids()`.

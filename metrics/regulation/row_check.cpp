@@ -172,7 +172,7 @@ std::vector<RowResult> check_rows(const Regulation& regulation, const std::vecto
     std::vector<RowResult> results;
     for (const RegulationRow& row : regulation.rows)
         if (checker.asks(row) && (only.empty() || std::find(only.begin(), only.end(), row.id) != only.end()))
-            results.push_back(checker.check(row));
+            results.emplace_back(checker.check(row)).sureness = regulation.sureness_of(row);
     return results;
 }
 

@@ -22,9 +22,10 @@ struct RowResult {
     Limits limits;           ///< ratios worked out
     double margin = 0.0;     ///< relative to the limit, signed: found / min - 1 or 1 - found / max, the smaller of both; >= 0 passes
     bool minimum_decides = false;
-    Direction re_aimed;       ///< how far the row was turned off its place to pass; 0, 0: not at all
-    std::vector<int> lamps;   ///< of rows for each lamp: which one decided, 0 or 1
-    std::string reason, note; ///< why it was not measured; what else is to say
+    Direction re_aimed;                     ///< how far the row was turned off its place to pass; 0, 0: not at all
+    std::vector<int> lamps;                 ///< of rows for each lamp: which one decided, 0 or 1
+    std::string reason, note;               ///< why it was not measured; what else is to say
+    Sureness sureness = Sureness::as_table; ///< of the limits; as_table: of rows about the cut-off, which no table has
 };
 
 /// `lamps`: one, or the left and the right one. Rows for two lamps are left out where there is one. A row with a minimum that reaches

@@ -48,6 +48,11 @@ inline RegulationRow noted(RegulationRow row, std::string note) {
     return row;
 }
 
+inline RegulationRow sure(RegulationRow row, Sureness sureness) {
+    row.sureness = sureness;
+    return row;
+}
+
 inline RegulationRow scoped(RegulationRow row, Scope scope) {
     row.scope = scope;
     return row;
@@ -82,6 +87,14 @@ inline const std::vector<Direction> signs_4u{{-8, 4}, {0, 4}, {8, 4}}, signs_2u{
 
 /// Every direction that a goniometer reaches: where a text says "maximum" without a place.
 inline const std::vector<Direction> everywhere = rectangle(-180, 180, -90, 90);
+
+/// A line that an adaptive driving beam keeps dark for one vehicle.
+struct AdaptiveLine {
+    std::string id, title; ///< "oncoming-50m"
+    std::vector<RegulationRow> rows;
+};
+/// UN R123, annex 3, table 7, part A.
+const std::vector<AdaptiveLine>& adaptive_lines();
 
 /// The families, each in a file of its own.
 std::vector<Regulation> r149_regulations();

@@ -1,7 +1,7 @@
 // `fernlicht lamp FILE`: what a lamp file holds, as text, JSON or picture; scaled, mirrored, summed and converted.
 #pragma once
 
-#include "metrics/beam/cut_off.h"
+#include "runner/experiments/regulation/regulation_result.h"
 #include "runner/write/plots/svg.h"
 #include "scenarios/lamps/lamp_file.h"
 
@@ -14,6 +14,18 @@ class App;
 }
 
 namespace fernlicht {
+
+/// Of --regulation fmvss108-adb: where the beam is dimmed, or whom a lamp of pixels spares.
+struct AdaptiveRequest {
+    std::vector<double> dimmed_deg;             ///< left, right, bottom, top; empty: the other itself
+    std::vector<double> other_m;                ///< ahead of the lamp, left of the car's middle: its nearer end; empty: nobody
+    std::vector<double> other_size_m{1.8, 1.5}; ///< width, height
+    std::vector<double> lamp_at_m{0.45, 0.65};  ///< left of the car's middle, above the road
+    double margin_deg = 0.7;                    ///< of dark round the other
+    std::vector<std::string> tables{"fmvss108-lb2v-vol", "fmvss108-ub2"};
+
+    bool asked() const { return !dimmed_deg.empty() || !other_m.empty(); }
+};
 
 struct LampRequest {
     std::filesystem::path file;
@@ -33,6 +45,7 @@ struct LampRequest {
     std::string aim;               ///< of --regulation; empty: the regulation's own
     std::filesystem::path aim_by;
     bool left_hand_traffic = false, no_re_aim = false;
+    AdaptiveRequest adaptive; ///< of --regulation fmvss108-adb
     bool cut_off = false;
     bool check = false, strict = false;
     std::string function;                             ///< of --check; empty: recognised
@@ -54,6 +67,15 @@ int lamp_command(const LampRequest& request);
 /// Prints the check; 0 when every row passes, else 1. Throws InputError.
 int lamp_regulation(const LampRequest& request);
 
+/// The same for --regulation fmvss108-adb, whose table follows from where the beam is dimmed.
+int lamp_adaptive(const LampRequest& request);
+inline constexpr const char* adaptive_table = "fmvss108-adb";
+
+/// How request.aim is meant; nullopt: the regulation's own. Throws InputError.
+std::optional<AimRule> requested_aim(const LampRequest& request);
+/// Prints what was found; 0 when every row passes, else 1.
+int tell_regulation(const RegulationFound& found, const LampRequest& request);
+
 /// Prints the cut-off's figures; 0. Throws InputError.
 int lamp_cut_off(const LampRequest& request);
 
@@ -69,6 +91,8 @@ void refuse_regulation_options(const LampRequest& request);
 
 /// The flags of both.
 void add_regulation_options(CLI::App& command, LampRequest& request);
+/// Those of --regulation fmvss108-adb.
+void add_adaptive_options(CLI::App& command, AdaptiveRequest& request);
 /// Those of the check.
 void add_check_options(CLI::App& command, LampRequest& request);
 

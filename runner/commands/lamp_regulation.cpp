@@ -1,6 +1,5 @@
 #include "runner/commands/lamp_command.h"
 
-#include "runner/experiments/regulation/regulation_result.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/pose.h"
@@ -11,17 +10,6 @@
 
 namespace fernlicht {
 namespace {
-
-std::optional<AimRule> aim_rule(const std::string& word) {
-    if (word.empty())
-        return std::nullopt;
-    using enum AimRule;
-    for (const AimRule rule : {automatic, as_is, cut_off, cut_off_by_line, elbow, vol, vor, maximum})
-        if (name_of(rule) == word)
-            return rule;
-    throw InputError({{}, 0, 0, "--aim"}, "found '" + printable(word) + "'",
-                     "auto, as-is, cut-off, cut-off-line, elbow, vol, vor or maximum");
-}
 
 void refuse_other_work(const LampRequest& request, const char* option) {
     const auto refuse = [&](bool given, const char* other) {
@@ -50,6 +38,22 @@ std::vector<LampFile> requested_lamps(const LampRequest& request, const Regulati
 
 } // namespace
 
+std::optional<AimRule> requested_aim(const LampRequest& request) {
+    if (request.aim.empty())
+        return std::nullopt;
+    using enum AimRule;
+    for (const AimRule rule : {automatic, as_is, cut_off, cut_off_by_line, elbow, vol, vor, maximum})
+        if (name_of(rule) == request.aim)
+            return rule;
+    throw InputError({{}, 0, 0, "--aim"}, "found '" + printable(request.aim) + "'",
+                     "auto, as-is, cut-off, cut-off-line, elbow, vol, vor or maximum");
+}
+
+int tell_regulation(const RegulationFound& found, const LampRequest& request) {
+    fmt::print("{}", request.json ? regulation_json(found) : document_text(document(found)));
+    return found.check.verdict == RowVerdict::pass ? 0 : 1;
+}
+
 int lamp_regulation(const LampRequest& request) {
     if (request.regulation == "list") {
         fmt::print("{}", request.json ? regulation_list_json() : document_text(regulation_list()));
@@ -60,6 +64,11 @@ int lamp_regulation(const LampRequest& request) {
         throw InputError({{}, 0, 0, "--picture"}, "found together with --regulation", "--cut-off, which draws what the aim goes by");
     if (request.cut_off)
         throw InputError({{}, 0, 0, "--cut-off"}, "found together with --regulation", "one of them");
+    if (request.regulation == adaptive_table)
+        return lamp_adaptive(request);
+    if (request.adaptive.asked())
+        throw InputError({{}, 0, 0, request.adaptive.other_m.empty() ? "--dimmed" : "--other"},
+                         "found with --regulation " + printable(request.regulation), fmt::format("--regulation {}", adaptive_table));
     const Regulation& r = regulation(request.regulation);
     const std::vector<LampFile> lamps = requested_lamps(request, r);
     std::vector<CandelaTable> tables;
@@ -69,7 +78,7 @@ int lamp_regulation(const LampRequest& request) {
         names.push_back(lamp.name);
     }
     CheckOptions options;
-    options.aim = aim_rule(request.aim);
+    options.aim = requested_aim(request);
     options.left_hand_traffic = request.left_hand_traffic;
     options.re_aim = !request.no_re_aim;
     std::optional<LampFile> aim_by;
@@ -77,9 +86,7 @@ int lamp_regulation(const LampRequest& request) {
         aim_by = read_lamp(request.aim_by, request.reading);
         options.aim_by = &aim_by->table;
     }
-    const RegulationFound found{r, names, check_regulation(r, tables, options)};
-    fmt::print("{}", request.json ? regulation_json(found) : document_text(document(found)));
-    return found.check.verdict == RowVerdict::pass ? 0 : 1;
+    return tell_regulation({r, names, check_regulation(r, tables, options)}, request);
 }
 
 int lamp_cut_off(const LampRequest& request) {
@@ -101,6 +108,7 @@ void refuse_regulation_options(const LampRequest& request) {
                          : !request.aim_by.empty()   ? "--aim-by"
                          : request.no_re_aim         ? "--no-re-aim"
                          : request.left_hand_traffic ? "--left-hand-traffic"
+                         : request.adaptive.asked()  ? (request.adaptive.other_m.empty() ? "--dimmed" : "--other")
                                                      : nullptr;
     if (option)
         throw InputError({{}, 0, 0, option}, "found without --regulation, --cut-off or --check", "one of them");
@@ -123,6 +131,7 @@ void add_regulation_options(CLI::App& command, LampRequest& request) {
         ->group(group);
     command.add_option("--aim-by", request.aim_by, "low-beam file whose aim this beam takes over")->group(group);
     command.add_flag("--no-re-aim", request.no_re_aim, "do not re-aim a failing lamp within the edition's allowance")->group(group);
+    add_adaptive_options(command, request.adaptive);
     command.add_option("--detector", request.detector_mm, "with --cut-off: detector diameter in mm at 25 m; 0: a point")
         ->capture_default_str()
         ->group(group);

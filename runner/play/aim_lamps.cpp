@@ -16,11 +16,6 @@ namespace {
 
 bool is_high(const MountedLamp& lamp) { return function_of(lamp.name) == LampFunction::high; }
 
-/// Aimed by its cut-off, if by anything: neither fog nor cornering lamps are.
-bool is_low_beam(const MountedLamp& lamp) {
-    return function_of(lamp.name) == LampFunction::low && lamp.name.find("corner") == std::string::npos;
-}
-
 /// Each table is looked through once.
 class Marks {
   public:
@@ -97,6 +92,10 @@ LampAim aim_as_it_is(const MountedLamp& lamp, double from_s, Marks& marks) {
 }
 
 } // namespace
+
+bool is_low_beam(const MountedLamp& lamp) {
+    return function_of(lamp.name) == LampFunction::low && lamp.name.find("corner") == std::string::npos;
+}
 
 void aim_lamps(Drive& drive) {
     Marks marks;

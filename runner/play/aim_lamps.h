@@ -12,6 +12,9 @@ namespace fernlicht {
 /// Throws InputError with lamp, file and reason where there is nothing to aim by.
 void aim_lamps(Drive& drive);
 
+/// By its name: aimed by its cut-off, if by anything; neither fog nor cornering lamps are.
+bool is_low_beam(const MountedLamp& lamp);
+
 /// Each lamp of the set with each file that it has over the drive. Needs aim_lamps() before. Looks through the tables of lamps as they are
 /// filed too, to say where their beams lie: some 50 ms a table.
 std::vector<LampAim> lamp_aims(const LampSet& lamp_set);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <limits>
+#include <map>
 
 namespace fernlicht {
 namespace {
@@ -119,6 +120,18 @@ std::string scan_text(const CutOffScan& s, const char* axis) {
     return s.reason.empty() ? text : text + " (" + s.reason + ")";
 }
 
+/// Who read it where, and how sure that makes it: "...: one source; two prints, one reader: 75R".
+std::string source_text(const Regulation& r) {
+    std::string text = r.source + ": " + in_words(r.sureness);
+    std::map<Sureness, std::vector<std::string>> others;
+    for (const RegulationRow& row : r.rows)
+        if (r.sureness_of(row) != r.sureness)
+            others[row.sureness].push_back(row.id);
+    for (const auto& [sureness, ids] : others)
+        text += fmt::format("; {}: {}", in_words(sureness), fmt::join(ids, ", "));
+    return text;
+}
+
 } // namespace
 
 std::string limits_of(const RowResult& row) {
@@ -176,7 +189,7 @@ Document document(const RegulationFound& found) {
         tell("lamp", printable(lamp, 90));
     tell("regulation", r.id + ": " + r.title + (check.left_hand_traffic ? ", left-hand traffic by mirror" : ""));
     tell("edition", "per our table of " + r.edition);
-    tell("source", r.source);
+    tell("source", source_text(r));
     tell("judged", judged_text(r, lamps) + "; " + receiver_text(r.receiver));
     for (std::size_t i = 0; i < check.aims.size(); ++i) {
         const Aim& aim = check.aims[i];
@@ -242,7 +255,8 @@ Document regulation_list() {
         if (document.sections.empty() || document.sections.back().title != r.edition)
             document.sections.push_back({r.edition, {"source: " + r.source, Listing{}}});
         std::get<Listing>(document.sections.back().blocks.back())
-            .items.emplace_back(fmt::format("{:<26} {}: {} rows in the text, aim {}", r.id, r.title, r.rows.size(), name_of(r.aim)));
+            .items.emplace_back(fmt::format("{:<26} {}: {} rows in the text, {}, aim {}", r.id, r.title, r.rows.size(),
+                                            in_words(r.sureness), name_of(r.aim)));
     }
     document.sections.push_back(
         {"A lamp's rows",

@@ -47,6 +47,8 @@ Json figures_json(const CutOffFigures& c, double sign) {
 
 Json row_json(const RowResult& row) {
     Json j{{"id", row.id}, {"verdict", name_of(row.verdict)}, {"unit", row.unit}};
+    if (row.sureness != Sureness::as_table)
+        j["known_by"] = in_words(row.sureness);
     if (row.verdict == RowVerdict::not_measured)
         j["reason"] = row.reason;
     else {
@@ -141,7 +143,10 @@ std::string regulation_list_json() {
             for (const Direction d : row.places)
                 places.push_back({d.h_deg, d.v_deg});
             static constexpr const char* kinds[]{"point", "segment", "zone", "sum", "brightest"};
-            Json one{{"id", row.id}, {"kind", kinds[static_cast<int>(row.kind)]}, {"places_deg", places}};
+            Json one{{"id", row.id},
+                     {"kind", kinds[static_cast<int>(row.kind)]},
+                     {"places_deg", places},
+                     {"known_by", in_words(r.sureness_of(row))}};
             if (row.limits.min_cd > 0.0)
                 one["min_cd"] = row.limits.min_cd;
             if (!std::isinf(row.limits.max_cd))

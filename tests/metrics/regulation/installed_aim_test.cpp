@@ -175,8 +175,11 @@ TEST(InclinationBand, IsThatOfR48ByTheHeight) {
     EXPECT_EQ(band.highest_percent, -0.5);
     for (const auto& [percent, inside] : {std::pair(-0.3, false), {-1.0, true}, {-2.0, false}, {-0.5, true}, {-1.85, true}, {0.0, false}})
         EXPECT_EQ(band.holds(percent), inside) << percent;
-    EXPECT_FALSE(r48_band(0.49) || r48_band(0.91)) << "nothing is known there";
-    EXPECT_TRUE(r48_band(0.5) && r48_band(0.9));
+    EXPECT_NEAR(r48_band(0.9)->lowest_percent, -2.1, 1e-12);
+    EXPECT_NEAR(r48_band(1.0)->lowest_percent, -2.32, 1e-12);  // -(2.17 + 0.15)
+    EXPECT_NEAR(r48_band(1.0)->highest_percent, -0.72, 1e-12); // -(2.17 - 1.45)
+    EXPECT_FALSE(r48_band(0.49) || r48_band(1.21)) << "no passing beam of a car may be there";
+    EXPECT_TRUE(r48_band(0.5) && r48_band(1.2));
 }
 
 } // namespace

@@ -123,7 +123,7 @@ TEST(RegulationCheck, ReAimKeepsWithinTheAllowanceAndSaysSo) {
 }
 
 TEST(Regulations, AreWellFormed) {
-    EXPECT_EQ(regulation_ids().size(), 60u);
+    EXPECT_EQ(regulation_ids().size(), 66u);
     for (const Regulation& r : regulations()) {
         EXPECT_FALSE(r.title.empty() || r.edition.empty() || r.source.empty() || r.rows.empty()) << r.id;
         std::vector<std::string> ids;
@@ -153,9 +153,29 @@ TEST(Regulations, HaveTheDigitsOfTheirTexts) {
         EXPECT_EQ(row(id, name).limits.min_cd, min_cd) << id;
     for (const auto& [id, name, max_cd] :
          {std::tuple("r112-a", "zone I", 17600.0), std::tuple("r98-d", "Imax R", 43800.0), std::tuple("r123-e3", "B50L", 350.0),
-          std::tuple("r123-adb-oncoming-50m", "line 1", 625.0), std::tuple("fmvss108-ub2", "4D-V", 12000.0)})
+          std::tuple("r123-adb-oncoming-50m", "line 1", 625.0), std::tuple("r149-adb-oncoming-200m", "line 3", 5450.0),
+          std::tuple("r149-adb-preceding-100m", "line 5, beyond 0.5 R", 7000.0), std::tuple("fmvss108-ub2", "4D-V", 12000.0)})
         EXPECT_EQ(row(id, name).limits.max_cd, max_cd) << id;
     EXPECT_EQ(row("r149-v", "segment 10 and below").ratio_of, "25V"); // corrected by WP.29/1166
+}
+
+TEST(Regulations, SayOfEachRowHowSureItIs) {
+    const CandelaTable even = tests::even_table(600.0);
+    const auto known_by = [&](const std::string& id, const std::string& name) {
+        return std::string(in_words(check_rows(regulation(id), {{&even, {}}}, {name}).at(0).sureness));
+    };
+    EXPECT_EQ(known_by("r149-c", "75R"), "two prints, one reader");
+    EXPECT_EQ(known_by("r149-c", "P"), "one source");
+    EXPECT_EQ(known_by("r112-b", "75R"), "two sources");
+    EXPECT_EQ(known_by("r149-driving-b", "H-3L"), "two sources");
+    EXPECT_EQ(known_by("r149-driving-b", "Imax"), "one source");
+    EXPECT_EQ(known_by("r123-c", "P"), "one source");
+    EXPECT_EQ(known_by("r149-adb-oncoming-50m", "line 1"), "inferred, not read");
+    const std::vector<RegulationRow>&a = regulation("r149-adb-preceding-50m").rows, &b = regulation("r123-adb-preceding-50m").rows;
+    ASSERT_EQ(a.size(), 2u) << "lines alone";
+    EXPECT_EQ(b.size(), 7u);
+    for (std::size_t i = 0; i < a.size(); ++i)
+        EXPECT_TRUE(a[i].id == b[i].id && a[i].limits.max_cd == b[i].limits.max_cd && a[i].places == b[i].places) << a[i].id;
 }
 
 /// Every twelfth file with every seventh table, 3 s; all files with all tables where FERNLICHT_EVERY_LAMP is set, some minutes.

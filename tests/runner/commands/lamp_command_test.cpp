@@ -221,5 +221,33 @@ TEST_F(LampCommand, RefusesToCompareWithDarkness) {
     EXPECT_THAT(refusal(request), HasSubstr("found no light in it"));
 }
 
+TEST_F(LampCommand, JudgesAnAdaptiveBeamForOneVehicleAndSaysWhatItAssumes) {
+    LampRequest request;
+    request.file = library_file("lamps/pixels-16384.yaml");
+    request.add = {library_file("lamps/led-low.ies")};
+    request.regulation = "fmvss108-adb";
+    EXPECT_THAT(refusal(request), HasSubstr("--other or --dimmed"));
+    request.adaptive.other_m = {60.0, 3.5};
+    const std::string text = printed(request); // passes
+    EXPECT_THAT(text, HasSubstr("modelled on FMVSS 108 S9.4.1.6.4.3 to 5"));
+    EXPECT_THAT(text, HasSubstr("assumed: pixels are dark for what is 1.8 m wide and 1.5 m high 60 m ahead"));
+    EXPECT_THAT(text, HasSubstr("dimmed 0.5U, 1.5L to L"));
+    request.adaptive.tables = {"fmvss108-ub2", "fmvss108-lb2v-vol"};
+    EXPECT_THAT(refusal(request), HasSubstr("--tables"));
+    request.adaptive.tables = {"fmvss108-lb2v-vol", "fmvss108-ub2"};
+    request.adaptive.other_m = {60.0, 100.0};
+    EXPECT_THAT(refusal(request), HasSubstr("no pixel lights a place"));
+    request.file = library_file("lamps/led-high.ies");
+    request.adaptive.other_m = {60.0, 3.5};
+    EXPECT_THAT(refusal(request), HasSubstr("none of whose parts dims"));
+    request.adaptive = {.dimmed_deg = {-4.0, -5.0, -1.0, 1.0}};
+    EXPECT_THAT(refusal(request), HasSubstr("--dimmed"));
+    request.adaptive = {.dimmed_deg = {-5.0, -4.0, -1.0, 1.0}};
+    request.regulation = "fmvss108-ub2";
+    EXPECT_THAT(refusal(request), HasSubstr("fmvss108-adb"));
+    request.regulation.clear();
+    EXPECT_THAT(refusal(request), HasSubstr("--dimmed"));
+}
+
 } // namespace
 } // namespace fernlicht

@@ -1,0 +1,66 @@
+#include "runner/commands/commands.h"
+#include "runner/commands/flag_values.h"
+#include "runner/experiments/installation/installation_run.h"
+#include "runner/write/document.h"
+#include "scenarios/values/errors.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+#include <sstream>
+
+namespace fernlicht {
+namespace {
+
+struct InstallationFlags {
+    std::filesystem::path drive, lamps;
+    std::string lamp_set;
+    std::vector<std::string> loads;
+    bool json = false;
+};
+
+/// "NAME=FRONT_KG,REAR_KG"
+LoadState load_of(const std::string& typed) {
+    const std::size_t sign = typed.find('=');
+    LoadState load{.name = typed.substr(0, sign)};
+    char comma = 0;
+    std::string rest;
+    std::istringstream weights(sign == std::string::npos ? "" : typed.substr(sign + 1));
+    if (!(weights >> load.front_kg >> comma >> load.rear_kg) || comma != ',' || weights >> rest || load.name.empty() ||
+        std::abs(load.front_kg) > 1e5 || std::abs(load.rear_kg) > 1e5)
+        throw InputError({{}, 0, 0, "--load"}, "found '" + printable(typed) + "'", "NAME=KG_ON_FRONT_AXLE,KG_ON_REAR_AXLE");
+    return load;
+}
+
+int tell_installation(const InstallationFlags& flags) {
+    DriveEdits edits;
+    if (!flags.lamps.empty())
+        edits.lamp_sets = flags.lamps;
+    InstallationRequest request;
+    for (const std::string& load : flags.loads)
+        request.loads.push_back(load_of(load));
+    request.drive = read_drive(flags.drive, edits);
+    request.lamp_set = flags.lamp_set;
+    const InstallationFound found = run_installation(request);
+    fmt::print("{}", flags.json ? installation_json(found) : document_text(document(found)));
+    return found.good() ? 0 : 1;
+}
+
+} // namespace
+
+void add_installation_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<InstallationFlags>();
+    CLI::App* sub = app.add_subcommand("installation", "a drive's low beams against UN R48: inclination under loads, bend light's kink");
+    sub->add_option("DRIVE", flags->drive, "drive file (YAML)")->required();
+    sub->add_option("--lamps", flags->lamps, "file of lamp sets with their mounts, vehicle and control in place of the drive's");
+    sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drive (default: its first)");
+    sub->add_option("--load", flags->loads,
+                    "a load beyond the car with its driver, in place of R48's states for a usual car; the first is that of the initial aim")
+        ->option_text("NAME=FRONT_KG,REAR_KG")
+        ->allow_extra_args(false);
+    sub->add_flag("--json", flags->json, "print JSON");
+    sub->footer("Exit code 1 where the regulation is broken or something not measured. docs/regulations.md tells more.");
+    sub->callback([flags, &chosen] { chosen = [flags] { return tell_installation(*flags); }; });
+}
+
+} // namespace fernlicht

@@ -1,0 +1,112 @@
+#include "runner/commands/lamp_command.h"
+
+#include "metrics/regulation/fmvss108_adaptive.h"
+#include "scenarios/values/errors.h"
+#include "scenarios/values/pose.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace fernlicht {
+namespace {
+
+[[noreturn]] void refuse(const char* option, const std::string& found, const std::string& expected) {
+    throw InputError({{}, 0, 0, option}, found, expected);
+}
+
+AngleBox dimmed_of(const std::vector<double>& edges) {
+    const AngleBox box{edges[0], edges[1], edges[2], edges[3]};
+    if (!(box.left_deg >= -90.0 && box.left_deg < box.right_deg && box.right_deg <= 90.0 && box.bottom_deg >= -90.0 &&
+          box.bottom_deg < box.top_deg && box.top_deg <= 90.0))
+        refuse("--dimmed", fmt::format("found {}", fmt::join(edges, " ")), "degrees of the left, right, bottom and top edge");
+    return box;
+}
+
+/// The lamp of pixels in the state in which it spares the other one, without what is added to it.
+AngleBox spare(LampFile& lamp, const AdaptiveRequest& request, std::string& how) {
+    if (!lamp.pixels)
+        refuse("--other", "found with " + printable(lamp.name, 90) + ", none of whose parts dims by itself",
+               "a pixel lamp, or --dimmed and the file of the dimmed state");
+    OtherUser other;
+    other.ahead_m = request.other_m[0];
+    other.left_m = request.other_m[1];
+    other.width_m = request.other_size_m[0];
+    other.height_m = request.other_size_m[1];
+    if (!(other.ahead_m > 0.0 && other.width_m > 0.0 && other.height_m > 0.0))
+        refuse("--other", fmt::format("found {}", fmt::join(request.other_m, " ")), "someone ahead, of a width and a height above 0");
+    const LampPlace place{.position_m = {0.0, request.lamp_at_m[0], request.lamp_at_m[1]}};
+    const std::optional<SparingState> state = sparing_state(*lamp.pixels, other, place, request.margin_deg);
+    if (!state)
+        refuse("--other", fmt::format("no pixel lights a place {} m ahead and {} m to the left", other.ahead_m, other.left_m),
+               "someone whom the lamp lights");
+    lamp.table = lamp.pixels->table(state->levels);
+    how = fmt::format(
+        "assumed: pixels are dark for what is {:g} m wide and {:g} m high {:g} m ahead of the lamp and {:g} m left of the car's "
+        "middle, with {:g} degrees to each side; the lamp is {:g} m left of the middle and {:g} m above the road",
+        other.width_m, other.height_m, other.ahead_m, other.left_m, request.margin_deg, request.lamp_at_m[0], request.lamp_at_m[1]);
+    return state->spared;
+}
+
+} // namespace
+
+int lamp_adaptive(const LampRequest& request) {
+    const AdaptiveRequest& asked = request.adaptive;
+    if (!asked.asked())
+        refuse("--regulation", fmt::format("found {} and not where the beam is dimmed", adaptive_table), "--other or --dimmed with it");
+    if (request.left_hand_traffic)
+        refuse("--left-hand-traffic", fmt::format("{}, which has one form for all traffic", adaptive_table), "no flag");
+    if (request.scale != 1.0 || request.mirror || !request.subtract.empty())
+        refuse("--regulation", fmt::format("found {} with a lamp that is changed", adaptive_table), "the lamp as it is, and --add");
+    LampRequest alone = request;
+    alone.add.clear();
+    LampFile lamp = lamp_of(alone);
+    std::string how = "the file is the beam in the state that is dimmed there";
+    AngleBox dimmed = asked.other_m.empty() ? dimmed_of(asked.dimmed_deg) : spare(lamp, asked, how);
+    if (!asked.dimmed_deg.empty())
+        dimmed = dimmed_of(asked.dimmed_deg);
+    std::vector<std::string> names{lamp.name};
+    for (const std::filesystem::path& path : request.add) {
+        const LampFile other = read_lamp(path, request.reading);
+        lamp.table = sum(lamp.table, other.table);
+        names.push_back(other.name);
+    }
+    CheckOptions options;
+    options.aim = requested_aim(request);
+    std::optional<LampFile> aim_by;
+    if (!request.aim_by.empty()) {
+        aim_by = read_lamp(request.aim_by, request.reading);
+        options.aim_by = &aim_by->table;
+        const Direction turned = aim_of(aim_by->table, options.aim.value_or(AimRule::automatic)).turned;
+        dimmed = {dimmed.left_deg + turned.h_deg, dimmed.right_deg + turned.h_deg, dimmed.bottom_deg + turned.v_deg,
+                  dimmed.top_deg + turned.v_deg};
+    } else if (options.aim && *options.aim != AimRule::as_is)
+        refuse("--aim", "found without the lower beam whose aim the beam keeps", "--aim-by LOWER with it");
+    Regulation r = fmvss108_adaptive(dimmed, asked.tables[0], asked.tables[1]);
+    r.notes.push_back(how);
+    return tell_regulation({r, {fmt::format("{}", fmt::join(names, " + "))}, check_regulation(r, {lamp.table}, options)}, request);
+}
+
+void add_adaptive_options(CLI::App& command, AdaptiveRequest& request) {
+    const char* group = "Adaptive beams (of --regulation fmvss108-adb)";
+    command.add_option("--other", request.other_m, "a pixel lamp spares what is so far ahead of it and left of the car's middle, in m")
+        ->expected(2)
+        ->option_text("AHEAD LEFT")
+        ->group(group);
+    command.add_option("--other-size", request.other_size_m, "its width and height in m")->expected(2)->capture_default_str()->group(group);
+    command.add_option("--lamp-at", request.lamp_at_m, "where the lamp is: left of the car's middle and above the road, in m")
+        ->expected(2)
+        ->capture_default_str()
+        ->group(group);
+    command.add_option("--margin", request.margin_deg, "degrees of dark to each side of it")->capture_default_str()->group(group);
+    command.add_option("--dimmed", request.dimmed_deg, "the area that counts as dimmed, in degrees (default: the other)")
+        ->expected(4)
+        ->option_text("LEFT RIGHT BOTTOM TOP")
+        ->group(group);
+    command.add_option("--tables", request.tables, "tables of the lower and of the upper beam")
+        ->expected(2)
+        ->capture_default_str()
+        ->group(group);
+}
+
+} // namespace fernlicht
