@@ -31,8 +31,8 @@ double curvature_per_m(const Route& route, double at_m) {
 }
 
 /// The most that any driver who comes towards the car gets, 1.1 m above the rear axle of the other car and 1.5 m before it. nullopt: nobody
-/// comes, or light by way of a wet road is not known.
-std::optional<double> others_lx(const Moment& moment) {
+/// comes, or light by way of a wet road is not known. A crest of the road hides lamps.
+std::optional<double> others_lx(const Moment& moment, const Route& route) {
     std::optional<double> most;
     for (const Body& body : moment.bodies) {
         const glm::dvec3 eye = to_parent(body.pose, {1.5, 0.0, eye_height_m}), in_car = to_local(moment.ego, eye);
@@ -42,7 +42,9 @@ std::optional<double> others_lx(const Moment& moment) {
         if (!why_no_mirror(moment.weather, plane).empty())
             return std::nullopt;
         const double by_road = facing_lx(lamps_in_road(moment.lamps, moment.weather, plane, eye));
-        most = std::max(most.value_or(0.0), facing_lx(seen_lamps(moment, eye)) + by_road);
+        const std::optional<double> at_m = along_route_m(route, eye, moment.distance_m + in_car.x);
+        const double straight = facing_lx(at_m ? lamps_over_road(moment, route, *at_m, eye) : seen_lamps(moment, eye));
+        most = std::max(most.value_or(0.0), straight + by_road);
     }
     return most;
 }
@@ -93,7 +95,7 @@ auto ControlFold::change(std::optional<double> Light::*figure) {
 
 ControlFold::Light ControlFold::light(const Moment& moment, double curvature) const {
     Light light;
-    light.others_lx = others_lx(moment);
+    light.others_lx = others_lx(moment, route_);
     const double bumper_m = moment.distance_m + drive_.bumper_m, there_m = bumper_m + look_m;
     std::vector<LineSample> line;
     for (double ahead_m = 0.0; ahead_m <= farthest_m && bumper_m + ahead_m <= route_.length_m(); ahead_m += line_step_m)

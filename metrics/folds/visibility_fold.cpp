@@ -34,6 +34,12 @@ ReadingKey detection_of(const VisibilityTarget& target, Across across) {
                                                    : ReadingPlace::none};
 }
 
+/// Lamps that are off cost time alone.
+Moment with_lamps_that_shine(Moment moment) {
+    std::erase_if(moment.lamps, [](const LitLamp& lamp) { return lamp.intensity_factor == 0.0; });
+    return moment;
+}
+
 } // namespace
 
 VisibilityFold::VisibilityFold(const Drive& drive, const Route& route) : drive_(drive), route_(route), road_(material_named("asphalt")) {
@@ -262,15 +268,31 @@ void VisibilityFold::add_background(const Moment& lit, const Ahead& ahead, doubl
         background.mesopic.push_back(mesopic_luminance(seen.photopic_cdm2, seen.scotopic_cdm2 / seen.photopic_cdm2).luminance_cdm2);
 }
 
-void VisibilityFold::add(const Moment& moment) {
+VisibilityFold::Ahead VisibilityFold::ahead_of(const Moment& lit) const {
     const VisibilityParameters& asked = *drive_.seeing.visibility;
-    Moment lit = moment;
-    std::erase_if(lit.lamps, [](const LitLamp& lamp) { return lamp.intensity_factor == 0.0; });
-    const double bumper_m = moment.distance_m + drive_.bumper_m;
-    Ahead ahead{LaneAhead(route_, bumper_m, asked.ahead_m + known_behind_m, asked.step_m), {}, {}};
-    ahead.eye = ahead.lane.origin(to_parent(moment.ego, driver_eye_m(drive_)));
+    Ahead ahead{LaneAhead(route_, lit.distance_m + drive_.bumper_m, asked.ahead_m + known_behind_m, asked.step_m), {}, {}};
+    ahead.eye = ahead.lane.origin(to_parent(lit.ego, driver_eye_m(drive_)));
     for (const LitLamp& lamp : lit.lamps)
         ahead.lamps.push_back(ahead.lane.origin(lamp.pose.position_m));
+    return ahead;
+}
+
+Value VisibilityFold::level_at(const Moment& moment, const VisibilityTarget& target, Across across, double ahead_m) const {
+    const Moment lit = with_lamps_that_shine(moment);
+    const double along_m = lit.distance_m + drive_.bumper_m + ahead_m;
+    if (along_m > route_.length_m())
+        return Value::not_measured("the route ends nearer than this");
+    const Ahead ahead = ahead_of(lit);
+    std::vector<Place> there{{ahead_m, along_m, squares(lit, ahead, along_m, {across, target.size_m, target.squares, {}})}};
+    add_weather(lit, ahead, there);
+    return there.front().squares.empty() ? Value::not_measured("the road has no such lane there") : level(there.front().squares, target);
+}
+
+void VisibilityFold::add(const Moment& moment) {
+    const VisibilityParameters& asked = *drive_.seeing.visibility;
+    const Moment lit = with_lamps_that_shine(moment);
+    const double bumper_m = moment.distance_m + drive_.bumper_m;
+    const Ahead ahead = ahead_of(lit);
     ticks_.push_back(moment.tick);
     along_m_.push_back(moment.distance_m);
     for (Stand& stand : stands_)

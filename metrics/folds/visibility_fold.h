@@ -22,6 +22,8 @@ class VisibilityFold {
     /// background_luminance_own_at_50m_cdm2, mesopic_luminance_own_at_50m_cdm2. Medians.
     Readings readings() const;
     std::vector<SeeingSeries> series() const;
+    /// Visibility level in a moment of a target so far ahead of the bumper, which is not folded; beyond a crest 0.
+    Value level_at(const Moment& moment, const VisibilityTarget& target, Across across, double ahead_m) const;
 
   private:
     /// A square of a target as the driver sees it.
@@ -80,6 +82,7 @@ class VisibilityFold {
     /// What air and water take and add, places from near to far.
     void add_weather(const Moment& moment, const Ahead& ahead, std::vector<Place>& places) const;
     Added added(const Moment& moment, const Ahead& ahead, double along_m, const Square& square) const;
+    Ahead ahead_of(const Moment& lit) const; ///< `lit`: without lamps that are off
     static Moment reaching(const Moment& moment, const Ahead& ahead, const glm::dvec3& point_m);
     double dark_cdm2(const Moment& moment) const;
     Value level(const std::vector<Square>& squares, const VisibilityTarget& target) const;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <stdexcept>
+#include <utility>
 
 namespace fernlicht {
 namespace {
@@ -167,6 +168,19 @@ std::vector<SeenLamp> lamps_over_road(const Moment& moment, const Route& route, 
             lamp.facing_lx = 0.0;
     }
     return seen;
+}
+
+std::optional<double> along_route_m(const Route& route, const glm::dvec3& point_m, double near_m) {
+    constexpr double beside_route_m = 20.0, close_m = 1e-3;
+    double at_m = std::clamp(near_m, 0.0, route.length_m());
+    for (int k = 0; k < 50; ++k) {
+        const Pose pose = route.pose(at_m);
+        const double on_m = std::clamp(at_m + glm::dot(point_m - pose.position_m, pose.forward()), 0.0, route.length_m());
+        if (std::abs(std::exchange(at_m, on_m) - on_m) < close_m)
+            break;
+    }
+    const glm::dvec3 beside = to_local(route.pose(at_m), point_m);
+    return std::hypot(beside.x, beside.y) < beside_route_m ? std::optional(at_m) : std::nullopt;
 }
 
 bool box_hides(const BodyBox& box, const Pose& pose, const glm::dvec3& from_m, const glm::dvec3& to_m) {

@@ -101,6 +101,9 @@ class RoadBetween {
 /// seen_lamps() of a moment on the route, those dark that a crest between them and a point so far along hides.
 std::vector<SeenLamp> lamps_over_road(const Moment& moment, const Route& route, double to_m, const glm::dvec3& point_m);
 
+/// How far along the route a point lies that is on it or beside, looked for from `near_m` on; nullopt: farther than 20 m beside it.
+std::optional<double> along_route_m(const Route& route, const glm::dvec3& point_m, double near_m);
+
 /// What stands round a body, in its frame: length along x from rear_m, width about y = 0, height from the ground.
 struct BodyBox {
     glm::dvec3 size_m{0.0};

@@ -27,6 +27,7 @@ AddCommand add_accuracy_command;     // error against run time
 AddCommand add_aliasing_command;     // how much of what a picture shows is not there, by how it is drawn
 AddCommand add_fit_command;          // aim, flux and height of lamps that explain measured lux points
 AddCommand add_importance_command;   // where in the beam a reading of a drive is decided
+AddCommand add_masks_command;        // what masks of an adaptive beam cost the driver, against what they spare others
 AddCommand add_rate_command;         // one lamp set judged by a rating: drives, limits over distance, points
 AddCommand add_installation_command; // a drive's low beams against UN R48: loads, bend light; 1 when one breaks it
 AddCommand add_improve_command;      // the smallest change of a lamp that gains what is asked of readings

@@ -9,6 +9,8 @@
 #include "runner/write/document.h"
 #include "runner/write/plots/png.h"
 #include "scenarios/lamps/lamp_model.h"
+#include "scenarios/lamps/level_track.h"
+#include "scenarios/lamps/pixel_state.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -65,6 +67,23 @@ void label_changes(LampFile& lamp, const std::vector<std::string>& changes) {
         lamp.labels.emplace_back("OTHER", fmt::format("changed, other texts are of the lamp before: {}", fmt::join(changes, "; ")));
 }
 
+/// A pixel lamp as it shines at that time of a file of levels, with its own delays: an ordinary lamp from then on.
+void set_levels(LampFile& lamp, const std::filesystem::path& file, double time_s) {
+    if (!lamp.pixels)
+        throw InputError({file, 0, 0, "--levels"}, "found levels of a lamp without pixels", "a pixel lamp (docs/pixel-lamps.md)");
+    const std::shared_ptr<const LevelTrack> track = read_levels(file, std::make_shared<const LampFile>(lamp), lamp.opened);
+    const PixelState state = PixelStates(lamp.pixels).of(track->levels(time_s));
+    const std::size_t count = lamp.pixels->count();
+    std::string dark;
+    for (const AngleBox& box : state.dark)
+        dark += fmt::format("{}H {:.4g} to {:.4g}, V {:.4g} to {:.4g}", dark.empty() ? "; dark at " : "; ", box.left_deg, box.right_deg,
+                            box.bottom_deg, box.top_deg);
+    lamp.notes.push_back(fmt::format("levels of {} at {:g} s: {} of {} parts shine, {:.4g} % of the flux{}", file.filename().string(),
+                                     time_s, state.lit, count, 100.0 * state.flux, dark));
+    lamp.table = track->at(time_s)->table;
+    lamp.pixels.reset();
+}
+
 LampFile read_other(const std::filesystem::path& path, const LampReadOptions& reading, LampFile& lamp) {
     LampFile other = read_lamp(path, reading);
     lamp.opened.insert(lamp.opened.end(), other.opened.begin(), other.opened.end());
@@ -78,7 +97,7 @@ void refuse_to_overwrite(const LampRequest& request, const std::filesystem::path
         return !in.empty() && std::filesystem::equivalent(in, out, ignored);
     };
     bool input = same(request.file);
-    input = input || same(request.against);
+    input = input || same(request.against) || same(request.levels);
     for (const auto* list : {&request.add, &request.subtract})
         for (const auto& path : *list)
             input = input || same(path);
@@ -182,9 +201,19 @@ LampFile lamp_of(const LampRequest& request) {
     if (request.file.empty() == request.model.empty())
         throw InputError({}, request.file.empty() ? "found no lamp" : "found both a file and --model", "a lamp file or --model NAME");
     LampFile lamp = request.model.empty() ? read_lamp(request.file, request.reading) : modelled(request.model);
+    if (lamp.pixels && request.reading != LampReadOptions{.rule = request.reading.rule, .recipe = request.reading.recipe})
+        throw InputError({request.file, 0, 0, {}}, "found --axis or a flag of textures for a pixel lamp", "none of them");
     if (!request.model.empty())
         lamp.table.rule = request.reading.rule;
     std::vector<std::string> changes;
+    if (request.levels.empty() != !request.levels_s)
+        throw InputError({{}, 0, 0, request.levels_s ? "--at" : "--levels"}, "found it alone", "--levels FILE and --at S, both or neither");
+    if (request.levels_s) {
+        if (!(*request.levels_s >= 0.0 && *request.levels_s <= 1e6))
+            throw InputError({{}, 0, 0, "--at"}, fmt::format("found {}", *request.levels_s), "a time from 0 to 1000000 s");
+        set_levels(lamp, request.levels, *request.levels_s);
+        changes.push_back(fmt::format("pixels as in {} at {:g} s", request.levels.filename().string(), *request.levels_s));
+    }
     if (request.scale != 1.0) {
         scale(lamp, request.scale);
         changes.push_back(fmt::format("scaled by {}", request.scale));
@@ -251,6 +280,9 @@ void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::funct
     command->add_option("--spots", request->spots, "fit this many OpenGL 1.x spot lights (1 to 8) and report the residual");
     command->add_option("--convert", request->convert,
                         "write the lamp as .ies (LM-63-2002, type A), .csv (beam matrix) or .exr (beam texture)");
+    command->add_option("--levels", request->levels, "of a pixel lamp: levels of its pixels over time (CSV), as a drive takes them");
+    command->add_option_function<double>(
+        "--at", [request](double s) { request->levels_s = s; }, "with --levels: the time in s at which the lamp is looked at");
     command->add_option("--scale", request->scale, "multiply the intensities")->capture_default_str();
     command->add_flag("--mirror", request->mirror, "swap left and right: right-hand to left-hand traffic and back");
     command->add_option("--add", request->add, "add another lamp's light");
@@ -270,7 +302,7 @@ void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::funct
     add_texture_options(*command, request->reading);
     add_check_options(*command, *request);
     add_regulation_options(*command, *request);
-    command->footer("Changes are applied in this order: scale, mirror, add, subtract.");
+    command->footer("Changes are applied in this order: levels, scale, mirror, add, subtract.");
     command->callback([request, &chosen] { chosen = [request] { return lamp_command(*request); }; });
 }
 

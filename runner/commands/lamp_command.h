@@ -31,6 +31,8 @@ struct LampRequest {
     std::filesystem::path file;
     std::string model; ///< one of our own models in place of a file
     LampReadOptions reading;
+    std::filesystem::path levels;   ///< of a pixel lamp's pixels over time; empty: all at full
+    std::optional<double> levels_s; ///< when
     double scale = 1.0;
     bool mirror = false;
     std::vector<std::filesystem::path> add, subtract;
@@ -54,7 +56,8 @@ struct LampRequest {
     double detector_mm = 30.0;                        ///< of --cut-off, at 25 m
 };
 
-/// Reads or models the lamp, then scales, mirrors, adds and subtracts, in this order. Throws InputError.
+/// Reads or models the lamp, sets its pixels as they are at a time of a file of levels, then scales, mirrors, adds and subtracts, in this
+/// order. Throws InputError.
 LampFile lamp_of(const LampRequest& request);
 
 /// To request.picture, as its extension says.

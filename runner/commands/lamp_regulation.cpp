@@ -33,6 +33,8 @@ std::vector<LampFile> requested_lamps(const LampRequest& request, const Regulati
     other.add.clear();
     other.file = request.add.front();
     other.model.clear();
+    other.levels.clear();
+    other.levels_s.reset();
     return {lamp_of(one), lamp_of(other)};
 }
 

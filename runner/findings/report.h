@@ -10,6 +10,7 @@
 #include "runner/findings/findings.h"
 #include "runner/findings/lamp_aim.h"
 #include "runner/findings/lamp_checks.h"
+#include "runner/findings/pixel_levels.h"
 #include "runner/findings/reach_error.h"
 #include "scenarios/drives/play/bus_report.h"
 #include "scenarios/drives/play/frame.h"
@@ -176,6 +177,7 @@ struct PlayedCell {
     std::vector<std::pair<double, double>> speed_mps; ///< time, speed
     std::vector<SeeingSeries> seeing;                 ///< glare and light at fixed places, every moment; empty where not asked for
     std::vector<CarRow> car;                          ///< every moment of a drive with a vehicle, else empty
+    std::vector<PixelLevels> pixel_levels;            ///< of lamps whose pixels dim, every moment
     BusReport bus;                                    ///< signals from and to a bus; empty without
     std::string no_road_lx, no_target_lx;             ///< why there are no rendered extents of that plane; "" where there are
     std::vector<PassTime> passes;                     ///< raw samples of frames drawn alone, warm-up dropped: "frame", "shadow", ...

@@ -4,6 +4,7 @@
 #include "runner/play/display_pipeline.h"
 #include "runner/play/extent_fold.h"
 #include "runner/play/frame_times.h"
+#include "runner/play/level_fold.h"
 #include "runner/play/lux_map.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/drive_log.h"
@@ -187,6 +188,7 @@ PlayedCell play(const Drive& drive, const Route& route, const LampSet& lamp_set,
     ProbeFold probes(drive, route, nudges);
     SeeingFold seeing(drive, route);
     SensitivityFold sensitivity(drive, route, lamp_set);
+    LevelFold levels(drive, lamp_set);
 
     State state = start(drive);
     while (state.tick < std::max(0, options.ticks.first) && state.tick + 1 < tick_count(drive))
@@ -223,6 +225,7 @@ PlayedCell play(const Drive& drive, const Route& route, const LampSet& lamp_set,
             seeing.add(moment, lamp_set);
         }
         sensitivity.add(moment, tells_sensitivity(k, played.ticks_planned));
+        levels.add(moment);
         pictures.store(moment);
         if (drawn)
             measuring.add(std::move(*drawn));
@@ -242,6 +245,7 @@ PlayedCell play(const Drive& drive, const Route& route, const LampSet& lamp_set,
     sensitivity.tell(seen);
     std::ranges::move(seen, std::back_inserter(played.readings));
     played.seeing = seeing.series();
+    played.pixel_levels = levels.finish();
     return played;
 }
 

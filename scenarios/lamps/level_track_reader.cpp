@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace fernlicht {
 namespace {
@@ -30,7 +31,13 @@ std::vector<float> levels_of_picture(const std::filesystem::path& picture, const
         throw InputError(asked_by, fmt::format("there is no file {}", printable(picture.string(), 400)),
                          "a picture (relative paths start at this file's folder)");
     const std::string bytes = read_file(picture, opened, max_lamp_text_bytes);
-    const Image<float> image = decode_texture(picture, bytes, max_made_samples, 1).value;
+    const TextureImage decoded = decode_texture(picture, bytes, max_made_samples, 1);
+    const std::vector<std::string>& channels = decoded.channels;
+    const bool colours = channels == std::vector<std::string>{"R", "G", "B"};
+    if (!channels.empty() && !colours && (channels.size() != 1 || (channels[0] != "level" && channels[0] != "Y")))
+        throw InputError({picture, 0, 0, {}}, fmt::format("found channels {}", printable(fmt::format("{}", fmt::join(channels, ", ")))),
+                         "`level`, `Y`, or `R`, `G` and `B`");
+    const Image<float>& image = decoded.value;
     const bool raster = !lamp.parts().raster.empty();
     const int columns = raster ? lamp.parts().raster.front().columns : static_cast<int>(lamp.count());
     const int rows = raster ? lamp.parts().raster.front().rows : 1;
@@ -82,8 +89,11 @@ std::shared_ptr<const LevelTrack> read_levels(const std::filesystem::path& path,
             separator = separator_of(line);
         const std::vector<std::string_view> cells = cells_of(line, *separator);
         InputError::Where at{path, lines.number(), 0, {}};
-        if (!pictures && !cells.empty() && cells[0] == "time_s") {
-            pictures = cells.size() == 2 && cells[1] == "picture";
+        if (!pictures && !cells.empty() && uppercase(cells[0]) == "TIME_S") {
+            pictures = cells.size() == 2 && uppercase(cells[1]) == "PICTURE";
+            if (cells.size() == 2 && !*pictures && pixels.count() != 1)
+                throw InputError(at, fmt::format("found a column '{}'", printable(std::string(cells[1]))),
+                                 fmt::format("`picture`, or a level for each of {} pixels", pixels.count()));
             continue;
         }
         if (!pictures)

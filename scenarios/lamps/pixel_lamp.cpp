@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <numbers>
 #include <stdexcept>
 
@@ -64,6 +65,17 @@ CandelaTable raster_table(const PixelRaster& raster) {
     return table;
 }
 
+/// Axes of files made by different programs differ by roundings: what is the same place but for one becomes the same.
+void settle(std::vector<double>& axis, const std::vector<double>& on) {
+    constexpr double same_deg = 1e-7;
+    std::vector<double> settled = axis;
+    for (double& deg : settled)
+        if (const auto near = std::ranges::lower_bound(on, deg - same_deg); near != on.end() && *near <= deg + same_deg)
+            deg = *near;
+    if (std::ranges::adjacent_find(settled, std::greater_equal<>()) == settled.end())
+        axis = std::move(settled);
+}
+
 /// On the axes of both, each by its own rule there.
 CandelaTable on_axes_of_both(const CandelaTable& a, const CandelaTable& b) {
     CandelaTable both = sum(a, b);
@@ -81,13 +93,15 @@ PixelLamp::PixelLamp(PixelParts parts) : parts_(std::move(parts)) {
         dark_ = raster_table(parts_.raster.front());
     else
         dark_ = parts_.segments.front().table;
-    const auto unite = [this](const CandelaTable& table) {
+    const auto unite = [this](CandelaTable& table) {
+        settle(table.h_deg, dark_.h_deg);
+        settle(table.v_deg, dark_.v_deg);
         dark_ = on_axes_of_both(dark_, table);
         if (dark_.cd.size() > most_samples)
             throw std::invalid_argument(
                 fmt::format("the tables together need {} samples or more, expected at most {}", dark_.cd.size(), most_samples));
     };
-    for (const PixelSegment& segment : parts_.segments)
+    for (PixelSegment& segment : parts_.segments)
         unite(segment.table);
     std::ranges::fill(dark_.cd, 0.0);
     if (!parts_.base.empty())

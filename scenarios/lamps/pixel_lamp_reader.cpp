@@ -184,6 +184,10 @@ PixelParts parts_of(const PixelLampKeys& keys, const YamlMap& map, LampFile& who
         const PixelSegmentKeys& segment = keys.segments[i];
         LampFile file = part_of(entries[i], segment.file, whole);
         const AngleBox lights = segment.lights ? box_of(*segment.lights) : lit_box(file.table);
+        if (const CandelaTable& t = file.table; lights.right_deg < t.h_deg.front() || lights.left_deg > t.h_deg.back() ||
+                                                lights.top_deg < t.v_deg.front() || lights.bottom_deg > t.v_deg.back())
+            entries[i].refuse("lights beside its table", fmt::format("some of H {:g} to {:g}, V {:g} to {:g} degrees", t.h_deg.front(),
+                                                                     t.h_deg.back(), t.v_deg.front(), t.v_deg.back()));
         parts.segments.push_back({file.name, std::move(file.table), lights});
         if (segment.dead)
             parts.dead.push_back(i);

@@ -116,6 +116,8 @@ void check_row(const YamlMap& keys, const RatingRow& row) {
     only_of(false, {"at_least", "at_most", "points_by"});
     if (!row.of_reading())
         keys.require("limits");
+    if (row.at_least && row.at_most && *row.at_least > *row.at_most)
+        keys.require("at_most").refuse("a limit that no reading keeps", fmt::format("at least at_least, {:g}", *row.at_least));
     if (!(row.from_m < row.to_m))
         keys.require("to_m").refuse("a distance that ends before it begins", fmt::format("more than from_m, {:g} m", row.from_m));
     for (const char* const key : {"speed_kmh", "radius_m"})

@@ -124,7 +124,10 @@ TextureImage decode_texture(const std::filesystem::path& path, const std::string
         } else {
             ExrPicture read = decode_exr(bytes, [&](const ExrHead& head) {
                 check(head.width, head.height, head.channels.size());
-                return channels_of_light(head);
+                const auto taken = channels_of_light(head);
+                const auto first = head.channels.begin() + static_cast<std::ptrdiff_t>(taken.first);
+                out.channels.assign(first, first + static_cast<std::ptrdiff_t>(taken.second));
+                return taken;
             });
             light = std::move(read.channels);
             out.pixel_type = read.head.pixel_type;

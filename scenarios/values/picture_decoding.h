@@ -16,6 +16,7 @@ struct TextureImage {
     bool was_coloured = false;                     ///< the three differed somewhere
     std::string pixel_type;                        ///< "uint8", "half" ...
     std::map<std::string, std::string> attributes; ///< string metadata
+    std::vector<std::string> channels = {};        ///< of an EXR: the names of those that were taken
 };
 
 /// Eight bits a channel as they stand in the file; grey as colour, opaque where there is no alpha (which is not multiplied in).

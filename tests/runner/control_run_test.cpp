@@ -59,9 +59,9 @@ class ControlRunTest : public testing::Test {
         return {out, Json::parse(content_of(out + "/report.json")), table_of(out + "/signals-bends-moving.csv"),
                 content_of(out + "/report.html")};
     }
+    TemporaryFolder folder_;
 
   private:
-    TemporaryFolder folder_;
     int runs_ = 0;
 };
 
@@ -78,6 +78,37 @@ TEST_F(ControlRunTest, ReportsSwivelAndWhatItIsWorth) {
     EXPECT_GT(tests::reading_of(ran.out, "control_left_bends_inside_at_50m_lx", "moving"), 0.0);
     EXPECT_EQ(tests::reading_of(ran.out, "control_swivel_max_deg", "still"), 0.0);
     EXPECT_THAT(ran.page, HasSubstr("Lamps that move"));
+    EXPECT_THAT(ran.page, testing::Not(HasSubstr("Pixels over the drive"))) << "there is no pixel lamp";
+    EXPECT_FALSE(std::filesystem::exists(ran.out + "/levels-bends-moving.csv"));
+}
+
+/// Half of the lamp goes dark after 0.2 s, which the slew takes another 0.1 s for; as a whole it is dimmed to 0.8.
+TEST_F(ControlRunTest, PixelsOverTheDriveAreToldAndDrawn) {
+    std::ofstream(folder_ / "pixels.yaml") << "fernlicht_pixel_lamp: 1\nslew_per_s: 10\nraster: {pixels: [4, 1], h_deg: [-8, 8], v_deg: "
+                                              "[-3, 3], spread_deg: [0.5, 0.25], cd: 1000}\n";
+    std::ofstream(folder_ / "levels.csv") << "0, 1, 1, 1, 1\n0.2, 0, 0, 1, 1\n";
+    std::ofstream(folder_ / "pixels-drive.yaml")
+        << fmt::format("fernlicht: 1\nname: pixels\nroad: \"{}\"\nspeed_kmh: 72\nrate_hz: 20\nduration_s: 0.4\nmeasure: {{extent: false}}\n"
+                       "traffic: {{other: {{oncoming: {{gap_m: 100}}, speed_kmh: 72, file: \"{}\"}}}}\n"
+                       "lamp_sets: {{cut: {{lamps: {{left: {{file: pixels.yaml, levels: levels.csv, level: 0.8}}}}}}}}\n",
+                       library_file("roads/straight.xodr"), library_file("lamps/halogen-low.ies"));
+    const std::string out = folder_ / "pixels";
+    printed("run " + (folder_ / "pixels-drive.yaml") + small_frames + "--out " + out);
+    const Table levels = table_of(out + "/levels-pixels-cut.csv");
+    ASSERT_EQ(levels.size(), 8U) << "one row a moment";
+    EXPECT_EQ(levels[0].at("lit"), "4");
+    EXPECT_EQ(levels[0].at("level"), "0.8");
+    EXPECT_EQ(levels[0].at("dark"), "");
+    EXPECT_NEAR(std::stod(levels[5].at("level_1")), 0.5, 1e-4) << "on its way";
+    EXPECT_NEAR(std::stod(levels[5].at("flux")), 0.75, 1e-4);
+    EXPECT_EQ(levels[7].at("lit"), "2");
+    EXPECT_EQ(levels[7].at("dark"), "-8:0/-3:3");
+    EXPECT_EQ(levels[7].at("level_4"), "1");
+    for (const char* name : {"/levels-pixels-cut-left.svg", "/levels-pixels-cut-left.png"})
+        EXPECT_TRUE(std::filesystem::exists(out + name)) << name;
+    const std::string page = content_of(out + "/report.html");
+    EXPECT_THAT(page, HasSubstr("Pixels over the drive"));
+    EXPECT_THAT(page, HasSubstr("edges of who comes"));
 }
 
 TEST_F(ControlRunTest, AStuckSwivelIsFoundAndAPluginIsAnInput) {

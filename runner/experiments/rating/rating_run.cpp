@@ -201,8 +201,10 @@ std::string not_as_asked(const RatingRow& row, const LightApproach& approach, co
     const double radius_m = std::clamp(circle->radius_m, row.radius_m[0], row.radius_m[1]);
     const bool told = circle->arc_rad >= least_arc_deg * std::numbers::pi / 180.0;
     if (off_circle_m(places_m, radius_m) > most_off_circle_m || (told && radius_m != circle->radius_m))
-        return fmt::format("the path has a radius of {:.1f} m (left positive) and is {:.2f} m off the nearest circle of {:g} to {:g} m",
-                           circle->radius_m, off_circle_m(places_m, radius_m), row.radius_m[0], row.radius_m[1]);
+        return fmt::format("the path {} and is {:.2f} m off the nearest circle of {:g} to {:g} m",
+                           std::isinf(circle->radius_m) ? std::string("is straight")
+                                                        : fmt::format("has a radius of {:.1f} m (left positive)", circle->radius_m),
+                           off_circle_m(places_m, radius_m), row.radius_m[0], row.radius_m[1]);
     return "";
 }
 
@@ -312,6 +314,14 @@ std::vector<std::string> lamp_set_names(const Drive& drive) {
     return names;
 }
 
+/// What is missing is missing in the lamps under test, whatever drive they were read with.
+std::string rated_lamp_set(const RatingRequest& request, const std::vector<std::string>& names) {
+    if (!request.lamp_set.empty() && std::ranges::find(names, request.lamp_set) == names.end())
+        throw InputError({request.lamps, 0, 0, "--lamp-set"}, "found '" + printable(request.lamp_set) + "'",
+                         fmt::format("one of {}", fmt::join(names, ", ")));
+    return request.lamp_set.empty() ? names.front() : request.lamp_set;
+}
+
 bool has_limit(const RatingRow& row, const Rating& rating) {
     return row.of_reading() ? row.at_least || row.at_most || row.points > 0.0
                             : std::ranges::any_of(limits_named(rating, row.limits)->ranges,
@@ -384,9 +394,9 @@ RatingFound run_rating(const RatingRequest& request) {
         if (std::ranges::find(done, &first) != done.end())
             continue;
         const Drive drive = read_drive(first.row.drive, edits);
-        if (found.lamp_set.empty())
-            found.lamp_set = lamp_set_of(drive, request.lamp_set).name;
         const std::vector<std::string> names = lamp_set_names(drive);
+        if (found.lamp_set.empty())
+            found.lamp_set = rated_lamp_set(request, names);
         std::vector<std::pair<std::string, std::vector<RowFound*>>> by_lamp_set;
         for (RowFound& row : found.rows) {
             if (row.row.drive != first.row.drive)

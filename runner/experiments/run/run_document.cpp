@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 #include <utility>
 
 namespace fernlicht {
@@ -99,6 +100,18 @@ void add_if_plotted(Sections& sections, const std::string& title, const std::str
         add_plots(sections.emplace_back(Section{title, {words}, 3}), name, std::move(figures));
 }
 
+void add_pixels(const ComparedDrive& drive, Sections& sections) {
+    Section section{
+        "Pixels over the drive",
+        {"Which parts of each pixel lamp were dark when: the mean level of each column of pixels, over H of that lamp and time. Lines "
+         "are the edges of other road users at that very moment, seen from the lamp, whatever control knows of them."},
+        3};
+    for (const PlayedCell* const played : drive.lamp_sets)
+        std::ranges::move(level_plots(*played), std::back_inserter(section.blocks));
+    if (section.blocks.size() > 1)
+        sections.push_back(std::move(section));
+}
+
 void add_costs(const ComparedDrive& drive, Sections& sections) {
     std::optional<plots::Figure> plot = timing_figure(drive);
     Table passes = passes_table(drive);
@@ -177,6 +190,7 @@ void add_course(const ComparedDrive& drive, Sections& sections) {
                    "What the laws and actuators of the drive’s `control` did, and what it was worth against the same lamps held still: "
                    "computed in double precision from the candela tables, without shadows. Bends are those of less than 1500 m radius.",
                    drive.name + "-control", control_figures(drive));
+    add_pixels(drive, sections);
     add_signals(drive, sections);
     add_if_plotted(sections, "Seeing and glare",
                    "Computed in double precision from the candela tables, without shadows of trees and houses; a crest of the road hides "

@@ -6,6 +6,7 @@
 #include "runner/experiments/bench/contact_sheet.h"
 #include "runner/experiments/run/display_sheet.h"
 #include "runner/experiments/run/run_judging.h"
+#include "runner/experiments/run/run_plots.h"
 #include "runner/experiments/run/savings.h"
 #include "runner/experiments/shadows/moment_sheet.h"
 #include "runner/files/log.h"
@@ -269,6 +270,15 @@ void add_contact_sheets(const Stage& stage, Device& device, const RendererSettin
     }
 }
 
+/// Which pixels of its lamps were dark when, for spreadsheets and as pictures.
+void write_levels(const PlayedCell& played, const RunOptions& options) {
+    if (played.pixel_levels.empty())
+        return;
+    write_file(options.folder / (levels_name(played) + ".csv"), levels_csv(played.pixel_levels));
+    for (const Plot& plot : options.write_plot ? level_plots(played) : std::vector<Plot>{})
+        options.write_plot(plot);
+}
+
 void run_drive(Stage& stage, Device& device, const RendererSettings& settings, const RunOptions& options, Report& report) {
     TraceSpan span("drive", "run");
     tell_which(span, stage);
@@ -294,6 +304,7 @@ void run_drive(Stage& stage, Device& device, const RendererSettings& settings, c
         if (lamp_set.motion && lamp_set.motion->control)
             write_file(options.folder / ("signals-" + file_name_of(stage.drive.name + "-" + lamp_set.name) + ".csv"),
                        signals_csv(stage.drive, *lamp_set.motion->control, options.ticks.first, options.ticks.last));
+        write_levels(report.played.back(), options);
         if (const std::string sent = output_log(stage.drive, lamp_set); !sent.empty())
             write_file(options.folder / ("can-" + file_name_of(stage.drive.name + "-" + lamp_set.name) + ".log"), sent);
         if (!log.flush())

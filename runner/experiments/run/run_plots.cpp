@@ -1,6 +1,7 @@
 #include "runner/experiments/run/run_plots.h"
 
 #include "runner/files/clean_text.h"
+#include "runner/files/output_folder.h"
 #include "runner/findings/extent_keys.h"
 
 #include <algorithm>
@@ -332,6 +333,16 @@ std::optional<plots::Figure> error_figure(const ComparedDrive& drive) {
                                 {150, 156, 163},
                                 0.35});
     return figure;
+}
+
+std::string levels_name(const PlayedCell& played) { return "levels-" + file_name_of(played.drive + "-" + played.lamp_set); }
+
+std::vector<Plot> level_plots(const PlayedCell& played) {
+    std::vector<Plot> drawn;
+    for (const PixelLevels& lamp : played.pixel_levels)
+        if (std::optional<plots::Figure> figure = levels_figure(lamp, played.lamp_set))
+            drawn.push_back({.name = levels_name(played) + "-" + file_name_of(lamp.lamp), .figure = std::move(*figure), .beside = true});
+    return drawn;
 }
 
 std::vector<plots::Figure> seeing_figures(const ComparedDrive& drive) { return figures_of(drive, false); }

@@ -18,6 +18,11 @@ std::vector<plots::Figure> seeing_figures(const ComparedDrive& drive);
 /// The same of lamp control. Empty where the drive has none.
 std::vector<plots::Figure> control_figures(const ComparedDrive& drive);
 
+/// Where those of a lamp set's pixel lamps lie in the report's folder, without extension: "levels-DRIVE-LAMPS".
+std::string levels_name(const PlayedCell& played);
+/// What the pixels of each of its lamps did: a file's name of its own, and what it shows.
+std::vector<Plot> level_plots(const PlayedCell& played);
+
 /// Signals from a bus: what was heard of each, over time with bands where it was not fresh, then reach in the own lane and light in
 /// oncoming eyes, where they were measured. All lamp sets of a drive hear the same bus.
 void add_signals(const ComparedDrive& drive, std::vector<Section>& sections);

@@ -237,7 +237,22 @@ std::shared_ptr<const LampFile> read_lamp_keys(const YamlMap& keys, LampCache& c
     LampReadOptions options;
     options.type_c_axis = axis;
     read_group(option_fields(), keys, &options);
-    return cache.lamp(file->path(), options, &*file);
+    const LampReadOptions usual{.type_c_axis = axis};
+    const std::shared_ptr<const LampFile> lamp = cache.lamp(file->path(), options, &*file);
+    // What stands in written drives is at its defaults.
+    const auto refuse = [&](const char* key) {
+        keys.require(key).refuse(fmt::format("{} of a pixel lamp", key), "none: its parts are read as their files say");
+    };
+    if (lamp->pixels && options.type_c_axis != axis)
+        refuse("type_c_axis");
+    LampReadOptions without = options;
+    without.texture_scale_lx = usual.texture_scale_lx;
+    without.texture_distance_m = usual.texture_distance_m;
+    std::ranges::copy(usual.texture_h_extent_deg, without.texture_h_extent_deg);
+    std::ranges::copy(usual.texture_v_extent_deg, without.texture_v_extent_deg);
+    if (lamp->pixels && without != options)
+        refuse("texture");
+    return lamp;
 }
 
 std::filesystem::path recipe_of(const YamlEntry& entry) {

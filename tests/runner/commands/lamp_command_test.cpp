@@ -249,5 +249,29 @@ TEST_F(LampCommand, JudgesAnAdaptiveBeamForOneVehicleAndSaysWhatItAssumes) {
     EXPECT_THAT(refusal(request), HasSubstr("--dimmed"));
 }
 
+/// A box of pixels dark from 1 s on: another lamp then, in every respect.
+TEST_F(LampCommand, LooksAtAPixelLampAtATime) {
+    std::ofstream(folder_ / "pixels.yaml") << "fernlicht_pixel_lamp: 1\nraster: {pixels: [4, 1], h_deg: [-8, 8], v_deg: [-3, 3], "
+                                              "spread_deg: [0.5, 0.25], cd: 1000}\n";
+    std::ofstream(folder_ / "levels.csv") << "0, 1, 1, 1, 1\n1, 1, 1, 0, 1\n";
+    LampRequest request;
+    request.file = folder_ / "pixels.yaml";
+    request.levels = folder_ / "levels.csv";
+    request.levels_s = 0.5;
+    EXPECT_NEAR(intensity_cd(lamp_of(request).table, 2.0, 0.0), 1000.0, 1.0);
+    request.levels_s = 1.0;
+    EXPECT_LT(intensity_cd(lamp_of(request).table, 2.0, 0.0), 1.0);
+    EXPECT_THAT(printed(request),
+                HasSubstr("levels of levels.csv at 1 s: 3 of 4 parts shine, 75 % of the flux; dark at H 0 to 4, V -3 to 3"));
+    request.mirror = true;
+    EXPECT_LT(intensity_cd(lamp_of(request).table, -2.0, 0.0), 1.0);
+    request.levels_s.reset();
+    EXPECT_THAT(refusal(request), HasSubstr("--levels FILE and --at S, both or neither"));
+    request = shipped("halogen-low");
+    request.levels = folder_ / "levels.csv";
+    request.levels_s = 0.0;
+    EXPECT_THAT(refusal(request), HasSubstr("levels of a lamp without pixels"));
+}
+
 } // namespace
 } // namespace fernlicht

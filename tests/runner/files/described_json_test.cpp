@@ -7,6 +7,7 @@
 #include "runner/experiments/fit/fit_result.h"
 #include "runner/experiments/importance/importance_result.h"
 #include "runner/experiments/improve/improve_result.h"
+#include "runner/experiments/masks/masks_result.h"
 #include "runner/experiments/rating/rating_result.h"
 #include "runner/experiments/reference/reference_result.h"
 #include "runner/experiments/run/run_report.h"
@@ -227,6 +228,7 @@ TEST(DescribedJson, IsTheSchema) {
     expect_schema("fit/fit.schema.json", json_schema(fit_members));
     expect_schema("importance/importance.schema.json", json_schema(importance_members));
     expect_schema("rating/rating.schema.json", json_schema(rating_members));
+    expect_schema("masks/masks.schema.json", json_schema(masks_members));
     expect_schema("improve/improve.schema.json", json_schema(improve_members));
     expect_schema("run/report.schema.json", report_json_schema());
     expect_schema("compare/pictures.schema.json", json_schema(pictures_members));

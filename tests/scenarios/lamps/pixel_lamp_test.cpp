@@ -116,6 +116,17 @@ TEST_F(Pixels, SegmentsAndABaseAddUpAsTheirFilesSay) {
     EXPECT_EQ(file->opened.size(), 4U);
 }
 
+/// Of two programs that write the same place with another last digit.
+TEST_F(Pixels, AxesThatDifferByARoundingAreOne) {
+    write("a.csv", "# unit: cd\nV\\H; -6; -2; 0\n-1; 0; 900; 0\n2; 0; 400; 0\n");
+    write("b.csv", "# unit: cd\nV\\H; -6.000000001; -1.999999999; 0\n-1.000000001; 300; 100; 0\n2; 0; 400; 0\n");
+    const auto file = lamp(head + "segments: [{file: a.csv}, {file: b.csv}]\n");
+    EXPECT_EQ(file->table.h_deg, (std::vector{-6.0, -2.0, 0.0}));
+    EXPECT_EQ(file->table.v_deg, (std::vector{-1.0, 2.0}));
+    EXPECT_NEAR(intensity_cd(file->table, -6.0, -1.0), 300.0, 1e-9);
+    EXPECT_NEAR(intensity_cd(file->table, -2.0, -1.0), 1000.0, 1e-9);
+}
+
 TEST_F(Pixels, AMirroredLampIsTheOtherWayRound) {
     const auto file = lamp(raster("cd: 1000, dead: [[0, 1]]"));
     const LampFile other = read_lamp(write("pixels.yaml", raster("cd: 1000, dead: [[0, 1]]")), {.mirrored = true});
@@ -137,6 +148,9 @@ TEST_F(Pixels, WhatIsWrongIsSaid) {
     EXPECT_THAT(said(head + "segments: [{file: none.csv}]\n"), HasSubstr("there is no file"));
     EXPECT_THAT(said(head + "segments: [{file: pixels.yaml}]\n"), HasSubstr("a pixel lamp, expected a lamp file with one table"))
         << "itself";
+    write("a.csv", "# unit: cd\nV\\H; -6; -2; 0\n-1; 0; 900; 0\n2; 0; 400; 0\n");
+    EXPECT_THAT(said(head + "segments: [{file: a.csv, lights: {h_deg: [1, 3], v_deg: [-1, 1]}}]\n"),
+                HasSubstr("lights beside its table, expected some of H -6 to 0, V -1 to 2 degrees"));
     EXPECT_THAT(said(raster() + "slew: 3\n"), HasSubstr("'slew_per_s', the nearest known key"));
     EXPECT_THAT(said(head + "raster: {pixels: [4096, 4096], h_deg: [-20, 20], v_deg: [-10, 10], spread_deg: [0.05, 0.05], cd: 1}\n"),
                 HasSubstr("4096 x 4096 pixels with their blur need a table of"));
@@ -198,6 +212,10 @@ TEST_F(Pixels, LevelsComeFromPictures) {
     write("wide.exr", encode_texture(Image<float>(5, 3, 0.0F), "level", {}));
     EXPECT_THAT(levels_refusal("time_s, picture\n0, wide.exr\n"), HasSubstr("found 5 x 3 pixels, expected 4 x 3, as the lamp has"));
     EXPECT_THAT(levels_refusal("time_s, picture\n0, none.exr\n"), HasSubstr("levels.csv:2: there is no file"));
+    EXPECT_EQ(levels_refusal("Time_s, Picture\n0, one.exr\n"), "");
+    EXPECT_THAT(levels_refusal("time_s, image\n0, one.exr\n"), HasSubstr("found a column 'image', expected `picture`, or a level for"));
+    write("depth.exr", encode_texture(picture, "Z", {}));
+    EXPECT_THAT(levels_refusal("time_s, picture\n0, depth.exr\n"), HasSubstr("found channels Z, expected `level`, `Y`"));
 }
 
 TEST_F(Pixels, WhatIsWrongWithLevelsIsSaid) {

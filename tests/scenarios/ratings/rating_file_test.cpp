@@ -90,6 +90,7 @@ TEST(RatingFile, SaysWhereAndWhyItCannotBeUsed) {
         {rating_text(good + ", reading: reach_5lx_road_own_m"), "reading, or photometers and limits; one of them"},
         {rating_text("is: stated"), "reading, or photometers and limits; one of them"},
         {rating_text(good + ", at_most: 3"), "at_most of a row of light on photometers, expected none"},
+        {rating_text("reading: reach_5lx_road_own_m, at_least: 60, at_most: 50, is: stated"), "at least at_least, 60"},
         {rating_text("reading: reach_5lx_road_own_m, from_m: 3, is: stated"), "from_m of a row of a reading, expected none"},
         {rating_text(good + ", from_m: 50, to_m: 20"), "more than from_m, 50 m"},
         {rating_text(good + ", from_m: 100, to_m: 200"), "limits that have no range where the row measures"},

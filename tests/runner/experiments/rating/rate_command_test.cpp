@@ -75,14 +75,14 @@ TEST(RateCommand, DoesNotMeasureWhereTheDriveIsNotAsAskedOrDoesNotComeThere) {
     const TemporaryFolder folder;
     EXPECT_THAT(printed(rating_of(folder, "0.5", ", speed_kmh: [60, 80]}\n"), 1), HasSubstr("the car drives 104.6 to 104.6 km/h"));
     const TemporaryFolder other;
-    EXPECT_THAT(printed(rating_of(other, "0.5", ", radius_m: [85, 115]}\n"), 1),
-                HasSubstr("the path has a radius of inf m (left positive) and is "));
+    EXPECT_THAT(printed(rating_of(other, "0.5", ", radius_m: [85, 115]}\n"), 1), HasSubstr("the path is straight and is "));
 }
 
 TEST(RateCommand, RefusesWhatItCannotRate) {
     const TemporaryFolder folder;
     const std::string lamps = " --lamps " + even_lamps(folder);
     EXPECT_THAT(printed("rate adb-trak" + lamps, 2), HasSubstr("nearest: 'adb-track'"));
+    EXPECT_THAT(printed("rate adb-track --lamp-set fog" + lamps, 2), HasSubstr("set.yaml: --lamp-set: found 'fog', expected one of low"));
     EXPECT_THAT(
         printed(rating_of(folder, "0.5",
                           "}\n  b: {drive: " + library_file("drives/straight.yaml") + ", photometers: [eye], limits: l, is: stated}\n"),

@@ -53,6 +53,8 @@ TEST_F(PixelKeys, WhatCannotStandBesideThemIsRefused) {
     EXPECT_THAT(refusal(lamps(levels, ", control: {modes: {lamps: [high], v: {file: other.ies}}}")),
                 HasSubstr("files of modes for 'high'"));
     EXPECT_THAT(refusal(lamps("file: pixels.yaml, between_samples: log_cd")), HasSubstr("its table is the sum of its pixels'"));
+    EXPECT_THAT(refusal(lamps("file: pixels.yaml, type_c_axis: nadir")), HasSubstr("type_c_axis of a pixel lamp"));
+    EXPECT_THAT(refusal(lamps("file: pixels.yaml, texture: {distance_m: 10}")), HasSubstr("texture of a pixel lamp"));
     DriveEdits edits;
     edits.lamps = {{"high", folder / "other.ies"}};
     EXPECT_THAT(refusal(lamps(levels), edits), HasSubstr("another file for 'high', whose pixels have levels from a file"));

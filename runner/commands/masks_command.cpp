@@ -1,0 +1,83 @@
+#include "runner/commands/commands.h"
+
+#include "runner/commands/flag_values.h"
+#include "runner/experiments/masks/masks_run.h"
+#include "runner/write/document.h"
+#include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
+#include "scenarios/yaml/library_file.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <fmt/format.h>
+#include <memory>
+
+namespace fernlicht {
+namespace {
+
+/// The flags as typed.
+struct MasksFlags {
+    std::filesystem::path drive;
+    std::string lamps, against = "high", limits = "adb-track", out;
+    std::vector<std::string> margins{"0,0.25,0.5,1,1.5,2"};
+    const OutputFormat* tables = nullptr;
+};
+
+std::vector<double> margins_of(const std::vector<std::string>& lists) {
+    constexpr double most_deg = 10.0;
+    constexpr std::size_t most_margins = 20;
+    std::vector<double> margins;
+    for (const std::string& item : items_of("--margins", lists)) {
+        double deg = -1.0;
+        const auto [end, error] = std::from_chars(item.data(), item.data() + item.size(), deg);
+        if (error != std::errc{} || end != item.data() + item.size() || !(deg >= 0.0 && deg <= most_deg))
+            refuse_flag("--margins", item, "degrees from 0 to 10");
+        margins.push_back(deg);
+    }
+    if (margins.size() > most_margins)
+        refuse_flag("--margins", fmt::format("{} margins", margins.size()), "at most 20");
+    return margins;
+}
+
+int tell_masks(const MasksFlags& flags, const std::vector<std::string>& command) {
+    MasksRequest request;
+    DriveEdits edits;
+    if (!flags.lamps.empty())
+        edits.lamp_sets = flags.lamps;
+    request.margins_deg = margins_of(flags.margins);
+    request.drive = read_drive(flags.drive, edits);
+    request.limits = read_rating(library_file("rating", flags.limits, "", {{}, 0, 0, "--limits"}));
+    request.against = flags.against;
+    request.folder = result_folder(flags.out, request.drive.name + "-masks");
+    request.command = command;
+    request.write = [&request, &flags](const MasksFound& found) {
+        write_file(request.folder / "masks.json", json_text(as_json(found, masks_members)));
+        write_file(request.folder / "masks.csv", masks_csv(found));
+        write_file(request.folder / "moments.csv", masks_moments_csv(found));
+        write_document(document(found), found, request.folder, "report", flags.tables);
+    };
+    const MasksFound found = run_masks(request);
+    fmt::print("{}\n{}\n", document_text(document(found)), (request.folder / "report.html").string());
+    return 0;
+}
+
+} // namespace
+
+void add_masks_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
+    const auto flags = std::make_shared<MasksFlags>();
+    CLI::App* sub = app.add_subcommand("masks", "what masks of an adaptive beam cost the driver, against what they spare others");
+    sub->add_option("DRIVE", flags->drive, "drive file (YAML) with lamp sets, some of which mask others")->required();
+    sub->add_option("--margins", flags->margins, "margins of the masks that are tried, in degrees, beside the lamp sets' own")
+        ->allow_extra_args(false)
+        ->capture_default_str();
+    sub->add_option("--against", flags->against, "lamp set whose light counts as full")->capture_default_str();
+    sub->add_option("--lamps", flags->lamps, "file of lamp sets with their mounts and control, in place of the drive's");
+    sub->add_option("--limits", flags->limits, "rating (YAML, or a shipped one) whose photometers and limits hold for others")
+        ->capture_default_str();
+    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    add_tables_flag(*sub, flags->tables);
+    sub->footer("docs/pixel-lamps.md tells more.");
+    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return tell_masks(*flags, command); }; });
+}
+
+} // namespace fernlicht

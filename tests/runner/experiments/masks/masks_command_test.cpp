@@ -1,0 +1,53 @@
+#include "runner/experiments/masks/masks_result.h"
+#include "tests/runner/program.h"
+#include "tests/runner/schema_check.h"
+
+#include <gmock/gmock.h>
+
+namespace fernlicht {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+std::string drive_file(const std::string& name) { return library_file("drives/" + name + ".yaml"); }
+
+TEST(MasksCommand, SetsLightLostAgainstLightOfOthersByMargin) {
+    const TemporaryFolder folder;
+    const std::string said = printed("masks " + drive_file("adaptive-crest") + " --margins 0,2 --out " + (folder / "out"));
+    EXPECT_THAT(said, HasSubstr("of high’s light on own lane and verge is lost"));
+    const json found = tests::checked(content_of(folder / "out/masks.json"), masks_members);
+    std::map<std::string, json> drives;
+    for (const json& one : found.at("drives"))
+        drives[one.at("lamp_set").get<std::string>() + (one.at("margin_deg").is_null() ? "" : " " + one.at("margin_deg").dump()) +
+               (one.at("as_it_is") ? "" : " tried")] = one;
+    ASSERT_EQ(drives.size(), 8U);
+    const auto figure = [&](const std::string& name, const char* key) { return drives.at(name).at(key).get<double>(); };
+    EXPECT_EQ(figure("high", "lost_lxs"), 0.0);
+    const std::string none = "pixels 0.0 tried", own = "pixels 0.7", wide = "pixels 2.0 tried";
+    for (const auto& [narrower, wider] : {std::pair(none, own), {own, wide}, {wide, std::string("low")}}) {
+        EXPECT_LT(figure(narrower, "lost_lxs"), figure(wider, "lost_lxs")) << narrower;
+        EXPECT_GE(figure(narrower, "others_lxs"), figure(wider, "others_lxs") - 1e-6) << narrower;
+    }
+    EXPECT_LT(figure(none, "others_lxs"), 0.1 * figure("high", "others_lxs"));
+    EXPECT_LE(figure("high", "above_lxs"), figure("high", "others_lxs"));
+    // What the moments' file says adds up to it.
+    double sum = 0.0;
+    for (const std::vector<std::string>& row : csv_rows(content_of(folder / "out/moments.csv")))
+        if (row[0] == "high")
+            sum += std::stod(row[5]);
+    EXPECT_NEAR(sum * found.at("step_s").get<double>(), figure("high", "both_lxs"), 1e-6 * sum);
+    for (const char* name : {"report.html", "masks.csv", "cost.svg", "cost-masks.png", "on-foot.svg", "others-over-time.svg"})
+        EXPECT_TRUE(std::filesystem::exists(folder / ("out/" + std::string(name)))) << name;
+}
+
+TEST(MasksCommand, RefusesWhatItCannotTell) {
+    EXPECT_THAT(printed("masks " + drive_file("straight"), 2), HasSubstr("lamp_sets: found none that masks others"));
+    EXPECT_THAT(printed("masks " + drive_file("adaptive-crest") + " --against full", 2),
+                HasSubstr("--against: found 'full', expected one of low, high, matrix, pixels"));
+    for (const char* margins : {"-1", "x", "0,11", "0,,1"})
+        EXPECT_THAT(printed("masks " + drive_file("adaptive-crest") + " --margins=" + margins, 2), HasSubstr("--margins"));
+}
+
+} // namespace
+} // namespace fernlicht
