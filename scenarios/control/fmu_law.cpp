@@ -144,9 +144,12 @@ void FmuLaw::take_parameters(const PluginParameters& parameters) {
 
 void FmuLaw::match_input(const FmuVariable& variable, const std::string& name, const SignalTable& table) {
     Port<Read> port{variable, {}};
-    fmu_.will_set(variable);
-    if (variable.type == FmuType::text)
+    const bool number = variable.type != FmuType::text && variable.type != FmuType::none;
+    if (!number && name == variable.name && !known_signal(name))
+        return; // it keeps its start value
+    if (!number)
         refuse("inputs", fmt::format("variable '{}' of type {}", printable(variable.name), variable.element), "a number");
+    fmu_.will_set(variable);
     for (std::size_t i = 0; i < variable.count.value_or(1); ++i) {
         const std::string element = element_of(variable, name, i);
         std::string_view unit = "s";
@@ -181,7 +184,8 @@ bool FmuLaw::match_output(const FmuVariable& variable, const std::string& name, 
     Port<Write> port{variable, {}};
     bool any = false;
     for (std::size_t i = 0; i < variable.count.value_or(1); ++i) {
-        const auto [plain, at] = place_in_list(element_of(variable, name, i));
+        const std::string element = element_of(variable, name, i);
+        const auto [plain, at] = place_in_list(element);
         std::vector<Write> writes;
         for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp)
             for (const std::string& of : {lamps[lamp].name, std::string("*")}) {
@@ -189,7 +193,7 @@ bool FmuLaw::match_output(const FmuVariable& variable, const std::string& name, 
                 for (const auto& [command, member] :
                      {std::pair("swivel_command_rad", &Command::swivel_rad), std::pair("pitch_command_rad", &Command::pitch_rad),
                       std::pair("level", &Command::level)})
-                    if (plain == fmt::format("lamp.{}.{}", of, command))
+                    if (element == fmt::format("lamp.{}.{}", of, command))
                         writes.emplace_back(
                             [lamp, to = member](fernlicht_control_output& out, double value) { out.lamps[lamp].*to = value; });
                 if (plain == fmt::format("lamp.{}.segments", of) && at < lamps[lamp].windows.size())

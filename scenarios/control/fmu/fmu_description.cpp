@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 
@@ -90,13 +91,17 @@ std::optional<std::size_t> read_count(const XmlFile& file, pugi::xml_node node) 
         return std::nullopt;
     double count = 1.0;
     for (const pugi::xml_node dimension : node.children("Dimension")) {
-        if (!dimension.attribute("start"))
-            file.refuse(dimension, "valueReference", "a dimension that a parameter gives", "start, a fixed number");
-        const double size = file.number(dimension, "start");
+        // By a structural parameter: it keeps its start value.
+        const pugi::xml_attribute parameter = dimension.attribute("valueReference");
+        const pugi::xml_node sized =
+            parameter ? file.root().child("ModelVariables").find_child_by_attribute("valueReference", parameter.value()) : dimension;
+        if (!sized)
+            file.refuse(dimension, "valueReference", "a dimension that no variable gives", "one with a start value");
+        const double size = file.number(sized, "start");
         count *= size;
-        if (!(size >= 1.0) || size != static_cast<double>(static_cast<std::size_t>(size)) || count > max_array)
-            file.refuse(dimension, "start", fmt::format("found {}", size),
-                        fmt::format("a whole number, at most {} values in all", max_array));
+        if (!(size >= 1.0) || size != std::floor(size) || count > max_array)
+            file.refuse(sized, "start", fmt::format("found {} as a dimension", size),
+                        fmt::format("a whole number from 1, at most {} values in all", max_array));
     }
     return static_cast<std::size_t>(count);
 }

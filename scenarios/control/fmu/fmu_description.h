@@ -40,7 +40,7 @@ struct FmuDescription {
 };
 
 /// `xml`: the content of `path`, which names it in messages alone. Throws InputError: no XML, another version, no co-simulation, one that
-/// needs its tool, names that are missing or no names, start values that are none of their type, dimensions that are not fixed.
+/// needs its tool, names that are missing or no names, start values that are none of their type, dimensions that nothing gives.
 FmuDescription read_fmu_description(const std::filesystem::path& path, const std::string& xml);
 
 } // namespace fernlicht

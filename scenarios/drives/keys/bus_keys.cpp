@@ -218,9 +218,34 @@ BusOutput read_bus_output(const std::string& target, const YamlEntry& entry) {
     return output;
 }
 
+std::size_t windows_of(const LampSet& lamp_set, std::size_t lamp) {
+    if (const MountedLamp& mounted = lamp_set.lamps[lamp]; mounted.file->pixels)
+        return mounted.levels ? 0 : mounted.file->pixels->count();
+    if (lamp_set.control && lamp_set.control->glare_free)
+        for (const SegmentedLamp& segmented : lamp_set.control->glare_free->lamps)
+            if (segmented.name == lamp_set.lamps[lamp].name)
+                return segmented.windows_deg.size();
+    return 0;
+}
+
+/// Windows that are named must be there.
+template <class Mapped> void check_windows(const std::vector<Mapped>& mapped, const SignalTable& table, const LampSet& lamp_set) {
+    for (const Mapped& signal : mapped)
+        if (known_signal(signal.name)->name == "lamp.*.segments[#]") {
+            if (signal.name.find('*') != std::string::npos)
+                throw InputError(signal.where, fmt::format("'{}', a window of all lamps", signal.name), "the name of a lamp");
+            const auto& listed =
+                *std::ranges::find_if(table.segments(), [&](const SignalTable::Listed& of) { return table.name(of.place) == signal.name; });
+            if (const std::size_t count = windows_of(lamp_set, listed.lamp); listed.number > count)
+                throw InputError(signal.where,
+                                 fmt::format("window {} of '{}', which has {}", listed.number, lamp_set.lamps[listed.lamp].name, count),
+                                 "one of its pixels, or of its windows by control.glare_free.windows_deg");
+        }
+}
+
 void check_lamp_set(const BusMapping& mapping, const LampSet& lamp_set) {
     const BusWriter writer(mapping, lamp_names(lamp_set));
-    const SignalTable table(lamp_names(lamp_set));
+    const SignalTable table(lamp_names(lamp_set), listed_names(mapping));
     for (const BusOutput& output : mapping.outputs)
         try {
             table.find(output.name);
@@ -228,6 +253,8 @@ void check_lamp_set(const BusMapping& mapping, const LampSet& lamp_set) {
             throw InputError(output.where, fmt::format("no signal '{}' in lamp set '{}'", printable(output.name), lamp_set.name),
                              error.what());
         }
+    check_windows(mapping.inputs, table, lamp_set);
+    check_windows(mapping.outputs, table, lamp_set);
     for (const BusInput& input : mapping.inputs)
         if (lamp_set.swivel && input.name.starts_with("lamp.") && input.name.find(".swivel") != std::string::npos)
             throw InputError(input.where, fmt::format("{} beside actuators.swivel of lamp set '{}'", input.name, lamp_set.name),
