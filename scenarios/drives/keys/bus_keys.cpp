@@ -174,6 +174,8 @@ BusInput read_bus_input(const std::string& name, const YamlEntry& entry) {
     if (const SignalKind& kind = kind_named(name, entry); !may_come_from_bus(kind))
         entry.refuse(fmt::format("{}, which the {} write", name, kind.writer),
                      "a signal that car, road, driver or another controller gives");
+    if (listed_name(name).second > 0 && name.find('*') != std::string::npos)
+        entry.refuse("a window of all lamps", "the name of a lamp in place of the star");
     if (entry.is_scalar()) {
         input.source = read_bus_source(entry);
         return input;
@@ -232,8 +234,6 @@ std::size_t windows_of(const LampSet& lamp_set, std::size_t lamp) {
 template <class Mapped> void check_windows(const std::vector<Mapped>& mapped, const SignalTable& table, const LampSet& lamp_set) {
     for (const Mapped& signal : mapped)
         if (known_signal(signal.name)->name == "lamp.*.segments[#]") {
-            if (signal.name.find('*') != std::string::npos)
-                throw InputError(signal.where, fmt::format("'{}', a window of all lamps", signal.name), "the name of a lamp");
             const auto& listed =
                 *std::ranges::find_if(table.segments(), [&](const SignalTable::Listed& of) { return table.name(of.place) == signal.name; });
             if (const std::size_t count = windows_of(lamp_set, listed.lamp); listed.number > count)

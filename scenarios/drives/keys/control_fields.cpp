@@ -19,7 +19,9 @@ template <bool is_fmu> void read_law_file(const YamlEntry& entry, PluginParamete
     plugin.fmu = is_fmu;
     check_file(plugin.library, entry);
 }
-template <bool is_fmu> std::string law_file_text(const PluginParameters& of) { return of.fmu == is_fmu ? quoted(of.library.string()) : ""; }
+template <bool is_fmu> std::string law_file_text(const PluginParameters& of) {
+    return of.fmu == is_fmu && !of.library.empty() ? quoted(of.library.string()) : "";
+}
 
 using VariableTexts = std::vector<std::pair<std::string, std::string>>;
 
@@ -288,10 +290,10 @@ const Fields<PluginParameters>& plugin_fields() {
             own<Plugin>(
                 "parameters", 2,
                 [](const YamlEntry& entry, Plugin& plugin) {
-                    entry.is_scalar() ? void(plugin.parameters = entry.value().text) : read_variables(entry, plugin.values);
+                    entry.is_scalar() ? void(plugin.parameters = entry.text()) : read_variables(entry, plugin.values);
                 },
                 [](const Plugin& plugin) { return plugin.parameters.empty() ? variables_text(plugin.values) : quoted(plugin.parameters); },
-                R"({"anyOf": [{"type": "string"},
+                R"({"anyOf": [{"type": ["string", "number"], "minLength": 1},
                 {"type": "object", "minProperties": 1, "maxProperties": 1000, "additionalProperties": {"type": ["string", "number", "boolean"]}}]})",
                 "text that the library is handed as it is; of an FMU start values of parameters and inputs, by name"),
             variables<&Plugin::inputs>("inputs", 8, "of an FMU whose names are others: its input and the signal that it reads"),
@@ -302,7 +304,10 @@ const Fields<PluginParameters>& plugin_fields() {
             field("budget_s", 5, &Plugin::budget_s, range(1.0e-6, 100.0), "of a call; longer ones are counted"),
             field("give_up_s", 6, &Plugin::give_up_s, range(0.01, 3600.0), "a call that takes so long ends the run"),
         }
-            .checked(check_plugin);
+            .checked(check_plugin)
+            .in_schema(R"({"oneOf": [{"required": ["library"], "not": {"anyOf": [{"required": ["inputs"]}, {"required": ["outputs"]}]},
+                    "properties": {"parameters": {"type": ["string", "number"]}}},
+                {"required": ["fmu"], "properties": {"parameters": {"type": "object"}}}]})");
     return fields;
 }
 

@@ -141,7 +141,7 @@ TEST(FmuLaw, WhatDoesNotFitIsOneSentence) {
     EXPECT_THAT(
         fmu_refusal({2, fmu_variable(2, "ego.wipers", "input", "Integer", 4, "start=\"one\"")}),
         HasSubstr(
-            "law.fmu/modelDescription.xml:11: Integer@start: found 'one' of variable 'ego.wipers', expected a value of type Integer"));
+            "law.fmu/modelDescription.xml:9: Integer@start: found 'one' of variable 'ego.wipers', expected a value of type Integer"));
     EXPECT_THAT(fmu_refusal({.version = 4}), HasSubstr("fmiModelDescription@fmiVersion: found '4.0', expected 2.0 or 3.0"));
     EXPECT_THAT(fmu_refusal({.co_simulation = "<ModelExchange modelIdentifier=\"bend\"/>"}),
                 HasSubstr("an FMU for model exchange alone, expected co-simulation"));
@@ -160,7 +160,7 @@ TEST(FmuLaw, UnusableArchivesAreOneSentence) {
     EXPECT_THAT(fmu_refusal(tests::zipped("a.fmu", {{"modelDescription.xml", xml}, {"binaries/win64/bend.dll", "MZ"}})),
                 HasSubstr("no " + inside + "; binaries for win64, expected " + inside));
     EXPECT_THAT(fmu_refusal(tests::zipped("a.fmu", {{"modelDescription.xml", xml}, {inside, "no library"}})),
-                testing::AllOf(HasSubstr("cannot be loaded: " + inside + ": "), Not(HasSubstr("/tmp/"))));
+                testing::AllOf(HasSubstr("cannot be loaded: " + inside + ": "), Not(HasSubstr("fernlicht-fmu-"))));
     std::ifstream plugin(std::filesystem::path(FERNLICHT_BINARY).parent_path() / "example_bend_light.so", std::ios::binary);
     EXPECT_THAT(
         fmu_refusal(tests::zipped("a.fmu", {{"modelDescription.xml", xml}, {inside, {std::istreambuf_iterator<char>(plugin), {}}}})),

@@ -55,7 +55,7 @@ class BusMasks : public DriveFixture {
                            shipped_library.string(), inputs, more, control);
     }
     static std::string traffic() {
-        return fmt::format("traffic: {{other: {{oncoming: {{gap_m: 300}}, speed_kmh: 80, file: {0}, source: arc}}, "
+        return fmt::format("traffic: {{other: {{oncoming: {{gap_m: 200}}, speed_kmh: 80, file: {0}, source: arc}}, "
                            "before: {{ahead: {{gap_m: 60}}, speed_kmh: 80, file: {0}, source: arc}}}}\n",
                            (shipped_library / "lamps/xenon-low.ies").string());
     }
@@ -179,7 +179,8 @@ TEST_F(BusMasks, WhatIsNotThereIsRefused) {
     const auto refused = [&](const std::string& inputs) { return refusal(yaml(inputs)); };
     EXPECT_THAT(refused("{'lamp.high-left.segments[5]': Windows.W1}"),
                 HasSubstr("window 5 of 'high-left', which has 4, expected one of its pixels"));
-    EXPECT_THAT(refused("{'lamp.*.segments[1]': Windows.W1}"), HasSubstr("a window of all lamps, expected the name of a lamp"));
+    EXPECT_THAT(refused("{'lamp.*.segments[1]': Windows.W1}"),
+                HasSubstr("a window of all lamps, expected the name of a lamp in place of the star"));
     EXPECT_THAT(refused("{'others[0].left_rad': Other1.Left}"),
                 HasSubstr("no signal 'others[0].left_rad', expected 'others[#].left_rad', the nearest"));
     EXPECT_THAT(refused("{'lamp.lift.segments[1]': Windows.W1}"), HasSubstr("no signal 'lamp.lift.segments[1]'"));
