@@ -1,6 +1,7 @@
 #include "scenarios/control/fmu_law.h"
 
 #include "scenarios/values/errors.h"
+#include "scenarios/values/xml_file.h"
 
 #include <algorithm>
 #include <charconv>

@@ -104,10 +104,9 @@ TEST(FmuLaw, BadAnswersAreLeftOutOrEndTheRunWithASentence) {
         EXPECT_EQ(odd.swivel_rad(0, 1.9), 0.0);
         EXPECT_THAT(odd.notes, Contains("control law 'bend light': 100 commands were no numbers or out of range, and left out"));
         for (const auto& [fault, word] : {std::pair("12", "discard"), std::pair("13", "error"), std::pair("14", "fatal")})
-            EXPECT_THAT(
-                fmu_refusal(law, {{"fault", fault}}),
-                HasSubstr(fmt::format("law.fmu: 'bend light' at 0.02 s: fmi{}DoStep() returned {}: no step of 20 ms, expected ok",
-                                      version, word)));
+            EXPECT_THAT(fmu_refusal(law, {{"fault", fault}}),
+                        HasSubstr(fmt::format("law.fmu: 'bend light' at 0.02 s: fmi{}DoStep() returned {}: no step of 20 ms, expected ok",
+                                              version, word)));
         EXPECT_EQ(run_fmu(law, {{"fault", "11"}}).notes.size(), run_fmu(law).notes.size()) << "a warning";
         EXPECT_THAT(fmu_refusal(law, {{"fault", "20"}}), HasSubstr("a segmentation fault in a step of 'bend light' at 0.02 s"));
         EXPECT_THAT(fmu_refusal({.version = version, .token = "other"}),
@@ -125,8 +124,7 @@ TEST(FmuLaw, WhatDoesNotFitIsOneSentence) {
                 HasSubstr("variable 'ego.wipers' of type String, expected a number"));
     EXPECT_THAT(fmu_refusal({.swivel_type = "String"}),
                 HasSubstr("variable 'lamp.left.swivel_command_rad' of type String, expected a number"));
-    EXPECT_THAT(fmu_refusal({.swivel = "angle"}),
-                HasSubstr("outputs: no output that is a command, expected lamp.left.swivel_command_rad"));
+    EXPECT_THAT(fmu_refusal({.swivel = "angle"}), HasSubstr("outputs: no output that is a command, expected lamp.left.swivel_command_rad"));
     EXPECT_THAT(fmu_refusal({.swivel = "angle"}, {}, {}, {{"angle", "lamp.lift.level"}}),
                 HasSubstr("'lamp.lift.level' for 'angle', no command of these lamps"));
     EXPECT_THAT(fmu_refusal(FmuText{}, {}, {{"yaw", "ego.speed_mps"}}), HasSubstr("inputs: no input 'yaw'"));
@@ -140,8 +138,7 @@ TEST(FmuLaw, WhatDoesNotFitIsOneSentence) {
                 HasSubstr("a dimension that no variable gives"));
     EXPECT_THAT(
         fmu_refusal({2, fmu_variable(2, "ego.wipers", "input", "Integer", 4, "start=\"one\"")}),
-        HasSubstr(
-            "law.fmu/modelDescription.xml:9: Integer@start: found 'one' of variable 'ego.wipers', expected a value of type Integer"));
+        HasSubstr("law.fmu/modelDescription.xml:9: Integer@start: found 'one' of variable 'ego.wipers', expected a value of type Integer"));
     EXPECT_THAT(fmu_refusal({.version = 4}), HasSubstr("fmiModelDescription@fmiVersion: found '4.0', expected 2.0 or 3.0"));
     EXPECT_THAT(fmu_refusal({.co_simulation = "<ModelExchange modelIdentifier=\"bend\"/>"}),
                 HasSubstr("an FMU for model exchange alone, expected co-simulation"));
