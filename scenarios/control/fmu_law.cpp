@@ -4,7 +4,6 @@
 #include "scenarios/values/xml_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -14,14 +13,10 @@ namespace {
 
 /// "others[2].x_m" and, of an array, "others.x_m[2]" are place 1 of "others.x_m".
 std::pair<std::string, std::size_t> place_in_list(const std::string& name) {
-    const std::size_t open = name.find('['), close = name.find(']', open == std::string::npos ? 0 : open);
-    std::size_t number = 0;
-    if (close == std::string::npos)
+    auto [plain, number] = listed_name(name);
+    if (number == 0)
         return {name, 0};
-    const auto [end, error] = std::from_chars(name.data() + open + 1, name.data() + close, number);
-    if (error != std::errc() || end != name.data() + close || number == 0)
-        return {name, 0};
-    return {name.substr(0, open) + name.substr(close + 1), number - 1};
+    return {plain.erase(plain.find("[#]"), 3), number - 1};
 }
 
 struct ListMember {
@@ -91,6 +86,9 @@ FmuLaw::FmuLaw(const PluginParameters& parameters, const std::vector<ControlledL
                 refuse(fmt::format("{}s", causality), fmt::format("no {} '{}'", causality, printable(variable)),
                        fmt::format("an {} of the FMU", causality));
     take_parameters(parameters);
+    for (const auto& [variable, value] : parameters.values)
+        if (mapped(parameters.inputs, variable) != variable)
+            refuse("inputs", fmt::format("'{}', which parameters give a value", printable(variable)), "one of them");
     for (const FmuVariable& variable : fmu_.description().variables) {
         const bool is_set = std::ranges::any_of(parameters.values, [&](const auto& value) { return value.first == variable.name; });
         if (variable.causality == "input" && !is_set)
@@ -197,7 +195,7 @@ bool FmuLaw::match_output(const FmuVariable& variable, const std::string& name, 
                     if (element == fmt::format("lamp.{}.{}", of, command))
                         writes.emplace_back(
                             [lamp, to = member](fernlicht_control_output& out, double value) { out.lamps[lamp].*to = value; });
-                if (plain == fmt::format("lamp.{}.segments", of) && at < lamps[lamp].windows.size())
+                if (plain != element && plain == fmt::format("lamp.{}.segments", of) && at < lamps[lamp].windows.size())
                     writes.emplace_back(
                         [lamp, at = at](fernlicht_control_output& out, double value) { out.lamps[lamp].segments[at] = value; });
             }

@@ -128,6 +128,9 @@ TEST(FmuLaw, WhatDoesNotFitIsOneSentence) {
     EXPECT_THAT(fmu_refusal({.swivel = "angle"}, {}, {}, {{"angle", "lamp.lift.level"}}),
                 HasSubstr("'lamp.lift.level' for 'angle', no command of these lamps"));
     EXPECT_THAT(fmu_refusal(FmuText{}, {}, {{"yaw", "ego.speed_mps"}}), HasSubstr("inputs: no input 'yaw'"));
+    EXPECT_THAT(fmu_refusal({2, fmu_variable(2, "v", "input", "Real", 4)}, {{"v", "1"}}, {{"v", "ego.speed_mps"}}),
+                HasSubstr("inputs: 'v', which parameters give a value, expected one of them"));
+    EXPECT_THAT(fmu_refusal({.swivel = "lamp.high.segments"}), HasSubstr("no output that is a command")) << "without a number";
     EXPECT_THAT(fmu_refusal(FmuText{}, {{"preview", "1"}}), HasSubstr("no parameter 'preview', expected 'preview_s', the nearest"));
     EXPECT_THAT(fmu_refusal(FmuText{}, {{"fault", "1.5"}}), HasSubstr("'1.5' for 'fault', expected a value of type Integer"));
     EXPECT_THAT(fmu_refusal({2, fmu_variable(2, "ego.wipers", "input", "Real", 4, "unit=\"km/h\"")}),
