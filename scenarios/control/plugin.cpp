@@ -47,6 +47,8 @@ struct ControlPlugin::Parts {
     void call(const std::string& what, const std::function<void()>& work) {
         const CallOutcome outcome = guarded_call(work, parameters.give_up_s);
         failed = failed || !outcome.failed.empty();
+        if (failed && fmu)
+            fmu->abandon();
         if (failed)
             refuse(fmt::format("{} in {}", printable(outcome.failed, 200), what), "a control law that comes back");
         slowest_s = std::max(slowest_s, outcome.seconds);
@@ -63,8 +65,10 @@ void ControlPlugin::Parts::load() {
         name = printable(fmu->name());
         std::string wrong;
         call("its start", [&] { wrong = fmu->start(); });
-        if (!wrong.empty())
+        if (!wrong.empty()) {
+            guarded_call([&] { fmu->close(); }, parameters.give_up_s);
             refuse(wrong, "an FMU that starts");
+        }
         return forget_times();
     }
     library = ::dlopen(parameters.library.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -111,12 +115,8 @@ ControlPlugin::ControlPlugin(ControlPlugin&&) noexcept = default;
 ControlPlugin::~ControlPlugin() {
     if (!parts_)
         return;
-    if (parts_->fmu) {
-        if (parts_->failed)
-            parts_->fmu->abandon();
-        else
-            guarded_call([&] { parts_->fmu->close(); }, parts_->parameters.give_up_s);
-    }
+    if (parts_->fmu && !parts_->failed)
+        guarded_call([&] { parts_->fmu->close(); }, parts_->parameters.give_up_s);
     if (!parts_->library)
         return;
     if (parts_->failed)
