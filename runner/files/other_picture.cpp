@@ -1,7 +1,7 @@
 #include "runner/files/other_picture.h"
 
-#include "runner/files/program_module.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/program_module.h"
 
 #include <algorithm>
 #include <array>

@@ -24,14 +24,20 @@ std::size_t lamp_named(const std::vector<ControlledLamp>& lamps, const std::stri
     return static_cast<std::size_t>(found - lamps.begin());
 }
 
+std::vector<std::string> together(std::vector<std::string> names, const std::vector<std::string>& more) {
+    names.insert(names.end(), more.begin(), more.end());
+    return names;
+}
+
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 } // namespace
 
 ControlLoop::ControlLoop(const ControlParameters& parameters, const std::vector<ControlledLamp>& lamps, const ControlledCar& car,
-                         const SolverOptions& options, const std::vector<std::string>& written)
-    : parameters_(parameters), options_(options), table_(names_of(lamps)), controller_(parameters, lamps, car), runs_(lamps.size()),
-      levels_(lamps.size(), 1.0), switches_(lamps.size(), 1.0), before_(table_.values()), out_of_range_(table_.size(), 0) {
+                         const SolverOptions& options, const std::vector<std::string>& written, const std::vector<std::string>& also)
+    : parameters_(parameters), options_(options), table_(names_of(lamps), together(written, also)), controller_(parameters, lamps, car),
+      runs_(lamps.size()), levels_(lamps.size(), 1.0), switches_(lamps.size(), 1.0), before_(table_.values()),
+      out_of_range_(table_.size(), 0), written_(table_.size(), false) {
     for (std::size_t i = 0; i < lamps.size(); ++i) {
         segments_.emplace_back(lamps[i].windows.size(), 1.0);
         runs_[i].pixels = lamps[i].pixels;
@@ -53,7 +59,9 @@ ControlLoop::ControlLoop(const ControlParameters& parameters, const std::vector<
         }
     for (const std::string& name : written) {
         const std::size_t place = table_.find(name);
-        if (place < signal::count)
+        written_[place] = true;
+        boxes_written_ = boxes_written_ || (table_.is_listed(place) && table_.kind(place).writer != "laws");
+        if (place < signal::count || table_.is_listed(place))
             continue;
         const auto [lamp, which] = SignalTable::lamp_signal_at(place);
         if (which == lamp_signal::swivel_command)
@@ -118,6 +126,8 @@ void ControlLoop::read(const ControlInputs& in) {
     table_[signal::others_nearest_oncoming] = oncoming_m;
     table_[signal::others_nearest_preceding] = preceding_m;
     table_[signal::others_count] = count;
+    if (!boxes_written_)
+        tell_boxes(in.surroundings.others);
     for (std::size_t i = 0; i < scripted_.size(); ++i)
         for (const auto& [from_s, value] : parameters_.inputs[i].values)
             if (from_s <= in.time_s)
@@ -125,12 +135,59 @@ void ControlLoop::read(const ControlInputs& in) {
     write_over(in, false);
 }
 
+/// Boxes of the drive's own road users, for those whom they are sent to.
+void ControlLoop::tell_boxes(const std::vector<OtherUser>& others) {
+    for (const SignalTable::Listed& listed : table_.boxes()) {
+        std::size_t number = 0;
+        std::optional<SeenBox> box;
+        for (const OtherUser& other : others)
+            if (other.lamps_on && other.ahead_m > camera_x_m && ++number == listed.number)
+                box = box_from_camera(other);
+        table_[listed.place + listed_signal::valid] = box ? 1.0 : 0.0;
+        if (!box)
+            continue; // as they were
+        for (const auto& [which, value] : {std::pair(listed_signal::left, box->left_rad), std::pair(listed_signal::right, box->right_rad),
+                                           std::pair(listed_signal::bottom, box->bottom_rad), std::pair(listed_signal::top, box->top_rad),
+                                           std::pair(listed_signal::distance, box->distance_m)})
+            table_[listed.place + which] = value;
+    }
+}
+
+/// Road users by the boxes that were written. One of whom something is lost may be anywhere.
+std::vector<OtherUser> ControlLoop::told_boxes() const {
+    std::vector<OtherUser> users;
+    for (const SignalTable::Listed& listed : table_.boxes()) {
+        const auto value = [&](std::size_t which) { return table_[listed.place + which]; };
+        bool written = false;
+        for (std::size_t which = 0; which < listed_signal::box_count; ++which)
+            written = written || written_[listed.place + which];
+        if (!written || value(listed_signal::valid) <= 0.5)
+            continue;
+        SeenBox box{value(listed_signal::left), value(listed_signal::right), value(listed_signal::bottom), value(listed_signal::top)};
+        if (!std::isfinite(value(listed_signal::valid) + box.left_rad + box.right_rad + box.bottom_rad + box.top_rad))
+            box = {};
+        else if (!std::isnan(value(listed_signal::distance)))
+            box.distance_m = value(listed_signal::distance);
+        users.push_back(user_in_box(box));
+    }
+    return users;
+}
+
+/// Levels of windows that were written take the place of the laws' own; of others the table has the laws'.
+void ControlLoop::take_segments() {
+    for (const SignalTable::Listed& listed : table_.segments()) {
+        double& level = segments_[listed.lamp].at(listed.number - 1);
+        (written_[listed.place] ? level : table_[listed.place]) = written_[listed.place] ? table_[listed.place] : level;
+    }
+}
+
 /// Signals that laws write are written over after them, all others before. A measured angle that is lost stays as it was.
 void ControlLoop::write_over(const ControlInputs& inputs, bool of_laws) {
     for (const WrittenSignal& written : inputs.written) {
         if ((table_.kind(written.place).writer == "laws") != of_laws)
             continue;
-        if (std::isnan(written.value) && std::ranges::find(measured_, written.place) != measured_.end())
+        const bool holds = std::ranges::find(measured_, written.place) != measured_.end() || (of_laws && table_.is_listed(written.place));
+        if (std::isnan(written.value) && holds)
             continue;
         table_[written.place] = written.value;
     }
@@ -282,10 +339,13 @@ void ControlLoop::step(ControlInputs inputs) {
     check();
     fail(inputs.time_s);
     diagnose(inputs.time_s);
+    if (boxes_written_)
+        inputs.surroundings.others = told_boxes();
     controller_.step(table_, segments_, inputs.surroundings, started_ ? inputs.time_s - last_s_ : 0.0);
     for (ControlPlugin& plugin : plugins_)
         plugin.step(table_, segments_, inputs.surroundings);
     write_over(inputs, true);
+    take_segments();
     make_safe();
     check();
     order(inputs.time_s);

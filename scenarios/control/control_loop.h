@@ -64,9 +64,10 @@ struct LampRun {
 class ControlLoop {
   public:
     /// `written`: names of the signals that inputs will write. A command among them has an actuator follow it, a measured angle is where
-    /// the lamp is. Throws std::invalid_argument for a lamp or a signal that is not there, InputError for a plug-in that cannot be used.
+    /// the lamp is, of a road user's box all are those that are masked. `also`: names of others that the table has, too
+    /// (SignalTable). Throws std::invalid_argument for a lamp or a signal that is not there, InputError for a plug-in that cannot be used.
     ControlLoop(const ControlParameters& parameters, const std::vector<ControlledLamp>& lamps, const ControlledCar& car,
-                const SolverOptions& options = {}, const std::vector<std::string>& written = {});
+                const SolverOptions& options = {}, const std::vector<std::string>& written = {}, const std::vector<std::string>& also = {});
 
     /// Moves everything on to `inputs.time_s`, which is not before the last one. Throws InputError when an actuator's solver gives up or a
     /// plug-in fails.
@@ -90,7 +91,10 @@ class ControlLoop {
         double asked_rad = 0.0;                         ///< what it follows
     };
     void read(const ControlInputs& inputs);
+    void tell_boxes(const std::vector<OtherUser>& others);
+    std::vector<OtherUser> told_boxes() const;
     void write_over(const ControlInputs& inputs, bool of_laws);
+    void take_segments();
     void stamp(const ControlInputs& inputs);
     void fail(double time_s);
     void check();
@@ -114,6 +118,8 @@ class ControlLoop {
     std::vector<double> before_;                     ///< values of the last tick
     std::vector<std::size_t> scripted_, failing_;    ///< places of their signals, or the lamps that they are about
     std::vector<std::size_t> out_of_range_;          ///< how often, by signal
+    std::vector<bool> written_;                      ///< by place, of signals of lists
+    bool boxes_written_ = false;
     double last_s_ = 0.0;
     bool started_ = false;
 };

@@ -111,14 +111,17 @@ struct ControlCameraParameters {
     bool operator==(const ControlCameraParameters&) const = default;
 };
 
-/// A control law in a shared library (fernlicht_control.h).
+/// A control law in a shared library (fernlicht_control.h), or in an FMU (fmu_law.h).
 struct PluginParameters {
-    std::filesystem::path library;
-    std::string parameters;         ///< handed over as it is
+    std::filesystem::path library;  ///< or the FMU
+    std::string parameters;         ///< handed over as it is; not to an FMU
     std::vector<std::string> lamps; ///< that it may move
     double period_s = 0.02;         ///< a whole number of control periods, or the next one after
     double budget_s = 0.001;        ///< of a call; longer ones are counted
     double give_up_s = 10.0;        ///< a call that takes so long ends the run
+    bool fmu = false;
+    /// Of an FMU, by its variables' names: start values, what its inputs read and its outputs command where names differ.
+    std::vector<std::pair<std::string, std::string>> values = {}, inputs = {}, outputs = {};
 
     bool operator==(const PluginParameters&) const = default;
 };

@@ -52,8 +52,9 @@ std::shared_ptr<const LampFile> ControlRun::file(std::size_t lamp, double time_s
 }
 
 ControlRunner::ControlRunner(const ControlParameters& parameters, const std::vector<ControlledLamp>& lamps, const ControlledCar& car,
-                             double row_step_s, const SolverOptions& options, const std::vector<std::string>& written)
-    : loop_(parameters, lamps, car, options, written), row_step_s_(row_step_s) {
+                             double row_step_s, const SolverOptions& options, const std::vector<std::string>& written,
+                             const std::vector<std::string>& also)
+    : loop_(parameters, lamps, car, options, written, also), row_step_s_(row_step_s) {
     run_.period_s = parameters.period_s;
     for (const ControlledLamp& lamp : lamps) {
         run_.lamps.push_back(lamp.name);

@@ -38,9 +38,10 @@ struct ControlSpan {
 /// A control loop that keeps what the moments of a drive need of it, tick by tick.
 class ControlRunner {
   public:
-    /// Throws as ControlLoop does; `written` as there. `row_step_s`: from moment to moment.
+    /// Throws as ControlLoop does; `written` and `also` as there. `row_step_s`: from moment to moment.
     ControlRunner(const ControlParameters& parameters, const std::vector<ControlledLamp>& lamps, const ControlledCar& car,
-                  double row_step_s, const SolverOptions& options = {}, const std::vector<std::string>& written = {});
+                  double row_step_s, const SolverOptions& options = {}, const std::vector<std::string>& written = {},
+                  const std::vector<std::string>& also = {});
 
     double next_s() const; ///< the time of the next tick: ticks * period
     /// `inputs.time_s` is next_s(). Throws as ControlLoop does.

@@ -119,6 +119,33 @@ std::optional<AngleBox> seen_box(const OtherUser& other, const LampPlace& lamp) 
     return box;
 }
 
+std::optional<SeenBox> box_from_camera(const OtherUser& other) {
+    const double x = other.ahead_m - camera_x_m;
+    if (!(x > 0.0))
+        return std::nullopt;
+    const double left_m = other.left_m + 0.5 * other.width_m, right_m = other.left_m - 0.5 * other.width_m;
+    const double along_m = std::hypot(x, std::min(std::abs(left_m), std::abs(right_m))); // to the nearer corner, whose angles are largest
+    const double bottom_m = other.up_m - camera_z_m;
+    return SeenBox{std::atan2(left_m, x), std::atan2(right_m, x), std::atan2(bottom_m, along_m),
+                   std::atan2(bottom_m + other.height_m, along_m), x};
+}
+
+OtherUser user_in_box(const SeenBox& box) {
+    static constexpr double far_m = 1.0e6, widest_rad = 1.569;
+    const double x = std::clamp(box.distance_m, 1.0e-3, far_m);
+    const auto up = [](double rad) { return std::tan(std::clamp(rad, -widest_rad, widest_rad)); };
+    const double left_m = x * up(std::max(box.left_rad, box.right_rad)), right_m = x * up(std::min(box.left_rad, box.right_rad));
+    const double along_m = std::hypot(x, std::min(std::abs(left_m), std::abs(right_m)));
+    OtherUser user;
+    user.ahead_m = camera_x_m + x;
+    user.left_m = 0.5 * (left_m + right_m);
+    user.width_m = left_m - right_m;
+    user.up_m = camera_z_m + along_m * std::min(up(box.bottom_rad), up(box.top_rad));
+    user.height_m = along_m * std::abs(up(box.top_rad) - up(box.bottom_rad));
+    user.told = true;
+    return user;
+}
+
 OtherUser seen_later(OtherUser other, const OwnMotion& own, double after_s) {
     const double turned = own.yaw_rate_rad_s * after_s, half = 0.5 * turned, way_m = own.speed_mps * after_s;
     // The chord of the car's arc, half the turn to the side.
@@ -136,10 +163,11 @@ const std::vector<double>& LampWindows::step(const std::vector<OtherUser>& other
     const double margin_deg = degrees(parameters_.margin_rad);
     std::vector<AngleBox> spared;
     for (const OtherUser& other : others)
-        if (other.lamps_on && std::hypot(other.ahead_m, other.left_m) <= (other.oncoming() ? reach.oncoming_m : reach.preceding_m))
+        if (other.told ||
+            (other.lamps_on && std::hypot(other.ahead_m, other.left_m) <= (other.oncoming() ? reach.oncoming_m : reach.preceding_m)))
             if (const auto box = seen_box(other, lamp)) {
                 AngleBox later = *box;
-                if (parameters_.foresee_s > 0.0) {
+                if (parameters_.foresee_s > 0.0 && !other.told) {
                     if (const auto then = seen_box(seen_later(other, own, parameters_.foresee_s), lamp))
                         later = *then;
                     else // beside the lamp by then: all of its side

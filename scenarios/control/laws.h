@@ -94,6 +94,7 @@ struct OtherUser {
     double up_m = 0.0; ///< of the road under it, against the road under the own car
     bool bicycle = false;
     bool hidden = false; ///< its lamps, from the own car's camera, by the road or by other vehicles
+    bool told = false;   ///< by another's camera: a mask for it whatever its distance, and nothing is known of how it moves
 
     bool oncoming() const { return heading_rad > 1.5707963267948966 || heading_rad < -1.5707963267948966; }
     bool operator==(const OtherUser&) const = default;
@@ -142,6 +143,19 @@ struct OwnMotion {
 
 /// Where the other will be in the car's frame then: straight on at his speed, the car on its circle.
 OtherUser seen_later(OtherUser other, const OwnMotion& own, double after_s);
+
+/// The own car's camera, behind the windscreen: ahead of the rear axle, above the road.
+inline constexpr double camera_x_m = 1.9, camera_z_m = 1.3;
+
+/// A road user as another's camera at the same place tells of him: edges in the car's frame without its pitch, left and up positive.
+struct SeenBox {
+    double left_rad = 3.14, right_rad = -3.14, bottom_rad = -1.57, top_rad = 1.57;
+    double distance_m = std::numeric_limits<double>::infinity(); ///< along the car's axis
+};
+/// Of the road user's near end; nullopt: it is not before the camera.
+std::optional<SeenBox> box_from_camera(const OtherUser& other);
+/// The inverse: who takes up this box. Infinitely far is farther than a lamp is from the camera.
+OtherUser user_in_box(const SeenBox& box);
 
 /// Dark windows, or pixels, of one lamp.
 class LampWindows {

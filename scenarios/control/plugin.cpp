@@ -1,6 +1,6 @@
 #include "scenarios/control/plugin.h"
 
-#include "scenarios/control/fernlicht_control.h"
+#include "scenarios/control/fmu_law.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include <dlfcn.h>
 #include <exception>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <string_view>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -27,6 +28,7 @@ struct ControlPlugin::Parts {
     std::vector<bool> may_move;
     void* library = nullptr;
     const fernlicht_control_plugin_info* info = nullptr;
+    std::unique_ptr<FmuLaw> fmu; ///< in place of a library with the interface
     std::string name;
     void* state = nullptr;
     bool failed = false; ///< it must not be called any more
@@ -45,16 +47,30 @@ struct ControlPlugin::Parts {
     void call(const std::string& what, const std::function<void()>& work) {
         const CallOutcome outcome = guarded_call(work, parameters.give_up_s);
         failed = failed || !outcome.failed.empty();
+        if (failed && fmu)
+            fmu->abandon();
         if (failed)
             refuse(fmt::format("{} in {}", printable(outcome.failed, 200), what), "a control law that comes back");
         slowest_s = std::max(slowest_s, outcome.seconds);
         over_budget += outcome.seconds > parameters.budget_s ? 1U : 0U;
     }
     void load();
+    void forget_times() { over_budget = 0, slowest_s = 0.0; } ///< only steps have a budget
     void keep(SignalTable& table, std::vector<std::vector<double>>& all_segments) const;
 };
 
 void ControlPlugin::Parts::load() {
+    if (parameters.fmu) {
+        fmu = std::make_unique<FmuLaw>(parameters, lamps);
+        name = printable(fmu->name());
+        std::string wrong;
+        call("its start", [&] { wrong = fmu->start(); });
+        if (!wrong.empty()) {
+            guarded_call([&] { fmu->close(); }, parameters.give_up_s);
+            refuse(wrong, "an FMU that starts");
+        }
+        return forget_times();
+    }
     library = ::dlopen(parameters.library.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!library)
         refuse(fmt::format("cannot be loaded: {}", printable(::dlerror(), 200)), "a shared library for this machine");
@@ -73,8 +89,7 @@ void ControlPlugin::Parts::load() {
     name = printable(info->name ? info->name : parameters.library.filename().string());
     if (info->create)
         call("create()", [&] { state = info->create(parameters.parameters.c_str()); });
-    over_budget = 0; // only steps have a budget
-    slowest_s = 0.0;
+    forget_times();
 }
 
 ControlPlugin::ControlPlugin(const PluginParameters& parameters, const std::vector<ControlledLamp>& lamps, double control_period_s)
@@ -98,7 +113,11 @@ ControlPlugin::ControlPlugin(const PluginParameters& parameters, const std::vect
 ControlPlugin::ControlPlugin(ControlPlugin&&) noexcept = default;
 
 ControlPlugin::~ControlPlugin() {
-    if (!parts_ || !parts_->library)
+    if (!parts_)
+        return;
+    if (parts_->fmu && !parts_->failed)
+        guarded_call([&] { parts_->fmu->close(); }, parts_->parameters.give_up_s);
+    if (!parts_->library)
         return;
     if (parts_->failed)
         return; // its code is in an unknown state: neither called nor unloaded
@@ -168,7 +187,11 @@ void ControlPlugin::step(SignalTable& table, std::vector<std::vector<double>>& a
     fernlicht_control_output out{sizeof(fernlicht_control_output), commands.size(), commands.data()};
     const std::vector<fernlicht_lamp_command> before = commands;
     int answer = 0;
-    p.call(fmt::format("step() of '{}' at {:g} s", p.name, in.time_s), [&] { answer = p.info->step(p.state, &in, &out); });
+    std::string wrong;
+    p.call(fmt::format("{} of '{}' at {:g} s", p.fmu ? "a step" : "step()", p.name, in.time_s),
+           [&] { p.fmu ? void(wrong = p.fmu->step(in, out)) : void(answer = p.info->step(p.state, &in, &out)); });
+    if (!wrong.empty())
+        p.refuse(fmt::format("'{}' at {:g} s: {}", p.name, in.time_s, wrong), "ok");
     if (answer != 0)
         p.refuse(fmt::format("step() of '{}' failed with {} at {:g} s", p.name, answer, in.time_s), "0");
     p.last_s = in.time_s;
@@ -198,6 +221,8 @@ void ControlPlugin::step(SignalTable& table, std::vector<std::vector<double>>& a
 std::vector<std::string> ControlPlugin::notes() const {
     const Parts& p = *parts_;
     std::vector<std::string> notes{fmt::format("control law '{}': {} calls", p.name, p.calls)};
+    if (p.fmu && !p.fmu->unread().empty())
+        notes.push_back(fmt::format("control law '{}': outputs that are no commands: {}", p.name, fmt::join(p.fmu->unread(), ", ")));
     if (p.over_budget > 0)
         notes.push_back(
             fmt::format("control law '{}': some calls took longer than their budget of {:g} ms", p.name, 1e3 * p.parameters.budget_s));

@@ -1,4 +1,4 @@
-// A control law from a shared library (fernlicht_control.h), called and watched.
+// A control law from a shared library (fernlicht_control.h) or an FMU (fmu_law.h), called and watched.
 // Calls code of others so that its crash, or its not coming back, is an error and no end.
 #pragma once
 
@@ -12,7 +12,7 @@ namespace fernlicht {
 class ControlPlugin {
   public:
     /// Loads the library and makes the law's state. Throws InputError naming the library for a file that is none, a missing function, a
-    /// wrong version, and a state that could not be made.
+    /// wrong version, and a state that could not be made; for an FMU as FmuLaw does.
     ControlPlugin(const PluginParameters& parameters, const std::vector<ControlledLamp>& lamps, double control_period_s);
     ControlPlugin(ControlPlugin&&) noexcept;
     ~ControlPlugin();

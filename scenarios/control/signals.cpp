@@ -2,8 +2,11 @@
 
 #include "scenarios/values/errors.h"
 
+#include <algorithm>
+#include <charconv>
 #include <fmt/format.h>
 #include <limits>
+#include <set>
 
 namespace fernlicht {
 namespace {
@@ -11,7 +14,7 @@ namespace {
 constexpr double none = std::numeric_limits<double>::infinity();
 
 // Ranges are generous: what lies beyond them no road and no car does, so that it is a fault of a sensor, a script or a plug-in.
-constexpr std::array<SignalKind, std::size_t{signal::count} + std::size_t{lamp_signal::count}> kinds{{
+constexpr std::array<SignalKind, std::size_t{signal::count} + std::size_t{lamp_signal::count} + std::size_t{listed_signal::count}> kinds{{
     {"time_s", "s", 0.0, 1.0e6, "drive", "of the drive, from its start"},
     {"ego.distance_m", "m", -1.0e7, 1.0e7, "car", "of the rear axle along the route"},
     {"ego.speed_mps", "m/s", -60.0, 150.0, "car", "along the car; below 0: backwards"},
@@ -46,13 +49,34 @@ constexpr std::array<SignalKind, std::size_t{signal::count} + std::size_t{lamp_s
     {"lamp.*.segments_lit", "1", 0.0, 4.0e6, "laws", "of a lamp in segments or pixels: the sum of their levels"},
     {"lamp.*.swivel_stuck", "1", 0.0, 1.0, "laws", "1: found to be stuck, by command and position; stays so"},
     {"lamp.*.switch", "1", 0.0, 1.0, "driver", "times the laws' level: what the driver's switch gives the lamp; lost: as it was"},
+    {"others[#].left_rad", "rad", -3.2, 3.2, "traffic",
+     "left edge of a road user, seen from the camera; left positive, against the car's axis"},
+    {"others[#].right_rad", "rad", -3.2, 3.2, "traffic", "right edge; left positive"},
+    {"others[#].bottom_rad", "rad", -1.6, 1.6, "traffic", "lower edge; up positive, against the road"},
+    {"others[#].top_rad", "rad", -1.6, 1.6, "traffic", "upper edge; up positive"},
+    {"others[#].distance_m", "m", 0.0, none, "traffic",
+     "from the camera along the car's axis; inf: the lamps see him where the camera does"},
+    {"others[#].valid", "1", 0.0, 1.0, "traffic", "1: there is one; lost: all that a glare-free beam has is dark"},
+    {"lamp.*.segments[#]", "1", 0.0, 1.0, "laws", "level of a lamp's window or pixel, in their order; lost: as it was"},
 }};
 
 } // namespace
 
 std::span<const SignalKind> known_signals() { return kinds; }
 
-const SignalKind* known_signal(const std::string& name) {
+std::pair<std::string, std::size_t> listed_name(const std::string& name) {
+    const std::size_t open = name.find('['), close = name.find(']', std::min(open, name.size()));
+    std::size_t number = 0;
+    if (close == std::string::npos || name[open + 1] < '1' || name[open + 1] > '9')
+        return {name, 0};
+    const auto [end, error] = std::from_chars(name.data() + open + 1, name.data() + close, number);
+    if (error != std::errc() || end != name.data() + close)
+        return {name, 0};
+    return {name.substr(0, open + 1) + '#' + name.substr(close), number};
+}
+
+const SignalKind* known_signal(const std::string& given) {
+    const std::string name = listed_name(given).first;
     for (const SignalKind& kind : kinds) {
         const std::size_t star = kind.name.find('*');
         if (star == std::string_view::npos ? name == kind.name
@@ -68,18 +92,48 @@ std::string of_lamp(std::string_view pattern, std::string_view lamp) {
     return fmt::format("{}{}{}", pattern.substr(0, star), lamp, pattern.substr(star + 1));
 }
 
-SignalTable::SignalTable(std::vector<std::string> lamps)
-    : lamps_(std::move(lamps)), values_(std::size_t{signal::count} + lamps_.size() * lamp_signal::count, 0.0), stamps_(values_.size()) {
+SignalTable::SignalTable(std::vector<std::string> lamps, const std::vector<std::string>& also)
+    : lamps_(std::move(lamps)), values_(std::size_t{signal::count} + lamps_.size() * lamp_signal::count, 0.0) {
     values_[signal::others_nearest_oncoming] = values_[signal::others_nearest_preceding] = none;
     for (std::size_t lamp = 0; lamp < lamps_.size(); ++lamp)
         of(lamp, lamp_signal::level) = of(lamp, lamp_signal::driver_switch) = 1.0;
+    constexpr std::size_t first_kind = std::size_t{signal::count} + std::size_t{lamp_signal::count};
+    std::set<std::size_t> boxes;
+    std::set<std::pair<std::size_t, std::size_t>> segments;
+    for (const std::string& wanted : also)
+        if (const auto [pattern, number] = listed_name(wanted); number > 0 && pattern.starts_with("others["))
+            boxes.insert(number);
+        else
+            for (std::size_t lamp = 0; number > 0 && lamp < lamps_.size(); ++lamp)
+                if (pattern == of_lamp(kinds[first_kind + listed_signal::segment].name, lamps_[lamp]))
+                    segments.emplace(lamp, number);
+    const auto add = [&](std::size_t which, std::size_t number, double value) {
+        std::string name(kinds[first_kind + which].name);
+        listed_.emplace_back(first_kind + which, name.replace(name.find('#'), 1, std::to_string(number)));
+        values_.push_back(value);
+    };
+    for (const std::size_t number : boxes) {
+        boxes_.push_back({number, values_.size()});
+        for (const double usual : {3.14, -3.14, -1.57, 1.57, none, 1.0})
+            add((values_.size() - boxes_.back().place), number, usual);
+    }
+    for (const auto& [lamp, number] : segments) {
+        segments_.push_back({number, values_.size(), lamp});
+        add(listed_signal::segment, number, 1.0);
+        listed_.back().second = of_lamp(listed_.back().second, lamps_[lamp]);
+    }
+    stamps_.resize(values_.size());
 }
 
 const SignalKind& SignalTable::kind(std::size_t place) const {
+    if (is_listed(place))
+        return kinds[listed_[place - this->place(lamps_.size(), 0)].first];
     return kinds[place < signal::count ? place : std::size_t{signal::count} + lamp_signal_at(place).second];
 }
 
 std::string SignalTable::name(std::size_t place) const {
+    if (is_listed(place))
+        return listed_[place - this->place(lamps_.size(), 0)].second;
     const std::string_view pattern = kind(place).name;
     if (place < signal::count)
         return std::string(pattern);

@@ -55,10 +55,18 @@ namespace lamp_signal {
 enum : std::size_t { swivel_command, swivel, pitch_command, pitch, level, segments_lit, swivel_stuck, driver_switch, count };
 }
 
-/// Those that are there once, by their places; then those of each lamp, by theirs.
+/// Of what a list has by number, from 1: where another road user is seen, and of a lamp's windows. "others[#].left_rad" stands for
+/// others[1].left_rad and so on.
+namespace listed_signal {
+enum : std::size_t { left, right, bottom, top, distance, valid, box_count, segment = box_count, count };
+}
+
+/// Those that are there once, by their places; then those of each lamp, by theirs; then those of lists.
 std::span<const SignalKind> known_signals();
-/// Of the signal of this name, with a lamp's name in place of the star or the star itself; nullptr: none has it.
+/// Of the signal of this name, with a lamp's name in place of the star or the star itself, and a number for #; nullptr: none has it.
 const SignalKind* known_signal(const std::string& name);
+/// "others[#].left_rad" and 3 of "others[3].left_rad"; the name itself and 0 of one without a number.
+std::pair<std::string, std::size_t> listed_name(const std::string& name);
 
 /// "lamp.left.level" of "lamp.*.level".
 std::string of_lamp(std::string_view pattern, std::string_view lamp);
@@ -66,7 +74,9 @@ std::string of_lamp(std::string_view pattern, std::string_view lamp);
 /// A value that is not a number says that the signal is lost; infinity is a distance to nothing.
 class SignalTable {
   public:
-    explicit SignalTable(std::vector<std::string> lamps = {});
+    /// `also`: names of signals of lists that it has, too; of a road user all of one. What is not written of him says nothing against him:
+    /// he takes up everything, infinitely far.
+    explicit SignalTable(std::vector<std::string> lamps = {}, const std::vector<std::string>& also = {});
 
     const std::vector<std::string>& lamps() const { return lamps_; }
     double& operator[](std::size_t place) { return values_[place]; }
@@ -78,6 +88,13 @@ class SignalTable {
     static std::pair<std::size_t, std::size_t> lamp_signal_at(std::size_t place) {
         return {(place - signal::count) / lamp_signal::count, (place - signal::count) % lamp_signal::count};
     }
+    struct Listed {
+        std::size_t number = 0, place = 0; ///< of the first of his signals
+        std::size_t lamp = 0;              ///< of a window
+    };
+    const std::vector<Listed>& boxes() const { return boxes_; }       ///< by number
+    const std::vector<Listed>& segments() const { return segments_; } ///< by lamp and number
+    bool is_listed(std::size_t place) const { return place >= this->place(lamps_.size(), 0); }
     double& of(std::size_t lamp, std::size_t of_lamp) { return values_[place(lamp, of_lamp)]; }
     double of(std::size_t lamp, std::size_t of_lamp) const { return values_[place(lamp, of_lamp)]; }
 
@@ -96,6 +113,8 @@ class SignalTable {
 
   private:
     std::vector<std::string> lamps_;
+    std::vector<Listed> boxes_, segments_;
+    std::vector<std::pair<std::size_t, std::string>> listed_; ///< listed_signal, name; by place
     struct Stamp {
         double changed_s = 0.0, age_s = 0.0;
     };

@@ -41,8 +41,11 @@ std::optional<double> to_number(std::string_view text) {
     return error == std::errc() && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-XmlFile::XmlFile(const std::filesystem::path& path, FilesRead& opened, std::string_view root, std::string_view format) : path_(path) {
-    const std::string bytes = read_file(path, opened);
+XmlFile::XmlFile(const std::filesystem::path& path, FilesRead& opened, std::string_view root, std::string_view format)
+    : XmlFile(path, read_file(path, opened), root, format) {}
+
+XmlFile::XmlFile(const std::filesystem::path& path, const std::string& bytes, std::string_view root, std::string_view format)
+    : path_(path) {
     if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
         throw InputError({path, 0, 0, {}}, "is encoded in UTF-16", "UTF-8 or Latin-1");
     text_ = to_utf8(bytes);

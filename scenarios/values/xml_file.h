@@ -20,6 +20,8 @@ class XmlFile {
     /// Reads and parses. Namespace prefixes of elements are dropped. `format` for messages: "an OpenDRIVE file". Throws InputError:
     /// unreadable, not XML, nested deeper than `max_depth`, root element not `root`.
     XmlFile(const std::filesystem::path& path, FilesRead& opened, std::string_view root, std::string_view format);
+    /// Of a content that has been read; `path` names it in messages.
+    XmlFile(const std::filesystem::path& path, const std::string& bytes, std::string_view root, std::string_view format);
 
     const std::filesystem::path& path() const { return path_; }
     pugi::xml_node root() const { return root_; }

@@ -3,6 +3,7 @@
 #include "scenarios/can/can_database.h"
 #include "scenarios/can/candump_stream.h"
 #include "scenarios/can/signal_codec.h"
+#include "scenarios/control/fmu/fmu_description.h"
 #include "scenarios/display/display_profile.h"
 #include "scenarios/drives/drive.h"
 #include "scenarios/drives/play/drive_log.h"
@@ -166,6 +167,12 @@ void read_log(const fs::path& folder) {
     read_candump(folder / "bus.log", opened);
 }
 
+void read_fmu(const fs::path& folder) {
+    FilesRead opened;
+    const fs::path file = folder / "modelDescription.xml";
+    read_fmu_description(file, read_file(file, opened));
+}
+
 template <auto read> void read_opened(const fs::path& file) {
     FilesRead opened;
     read(file, opened);
@@ -225,6 +232,7 @@ std::span<const Reader> scenarios_readers() {
          [](const fs::path& f) { read_model(f / "model.gltf"); },
          "scenarios/models",
          "scenarios/library/models/*.gl*"},
+        {"fmu", {"modelDescription.xml"}, read_fmu, "scenarios/control/fmu/fmu_description.cpp", ""},
         {"display",
          {"display.yaml"},
          [](const fs::path& f) { read_opened<read_display_profile>(f / "display.yaml"); },

@@ -1,4 +1,5 @@
 // Lamp control through the program: what the report says of it, the table of signals, a plug-in among the inputs, a swivel that sticks.
+#include "tests/fmu_archive.h"
 #include "tests/runner/program.h"
 #include "tests/runner/run_readings.h"
 
@@ -124,6 +125,23 @@ TEST_F(ControlRunTest, AStuckSwivelIsFoundAndAPluginIsAnInput) {
     for (const Json& input : ran.report["context"]["inputs"])
         library = library || input["path"].get<std::string>().find("example_bend_light.so") != std::string::npos;
     EXPECT_TRUE(library);
+}
+
+/// One source, bend_light.c, as a plug-in and as FMUs of both standards: the same table of signals, and each file among the inputs.
+TEST_F(ControlRunTest, OneLawAsPluginAndAsFmuGivesEqualSignals) {
+    const std::string last = "lamps: [left], parameters: ";
+    const auto signals = [&](const std::string& plugin, const std::string& file) {
+        const Ran ran = run(180.0, "{plugins: [{" + plugin + "}]}");
+        EXPECT_THAT(ran.report["context"]["inputs"].dump(), HasSubstr(file));
+        return content_of(ran.out + "/signals-bends-moving.csv");
+    };
+    const std::string plugin = (std::filesystem::path(FERNLICHT_BINARY).parent_path() / "example_bend_light.so").string();
+    const std::string expected = signals(fmt::format("library: \"{}\", {}\"1.2\"", plugin, last), plugin);
+    EXPECT_GT(std::stod(table_of(tests::written("signals.csv", expected)).back().at("lamp.left.swivel_rad")), 0.01);
+    for (const int version : {2, 3}) {
+        const std::string fmu = tests::fmu_archive({version}).string();
+        EXPECT_EQ(signals(fmt::format("fmu: \"{}\", {}{{preview_s: 1.2}}", fmu, last), fmu), expected) << "FMI " << version;
+    }
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #include "runner/experiments/improve/solve_quadratic.h"
 
-#include "runner/files/program_module.h"
+#include "scenarios/values/program_module.h"
 
 #include <cstdlib>
 

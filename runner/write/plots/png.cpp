@@ -1,8 +1,8 @@
 #include "runner/write/plots/png.h"
 
-#include "runner/files/program_module.h"
 #include "runner/write/plots/svg_module.h"
 #include "scenarios/values/png_file.h"
+#include "scenarios/values/program_module.h"
 
 #include <stdexcept>
 

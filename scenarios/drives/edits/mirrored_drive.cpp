@@ -173,12 +173,16 @@ bool points_to_a_side(const std::string& signal) {
     for (const std::string_view sideways : {"ego.yaw_rate_rad_s", "ego.steering_rad", "ego.indicator"})
         if (signal == sideways)
             return true;
-    return signal.starts_with("road.curvature") || signal.starts_with("road.bearing") || signal == "control.bend_rad" ||
-           (signal.starts_with("lamp.") && (signal.ends_with(".swivel_rad") || signal.ends_with(".swivel_command_rad")));
+    return signal.starts_with("others[")
+               ? signal.ends_with(".left_rad") || signal.ends_with(".right_rad")
+               : signal.starts_with("road.curvature") || signal.starts_with("road.bearing") || signal == "control.bend_rad" ||
+                     (signal.starts_with("lamp.") && (signal.ends_with(".swivel_rad") || signal.ends_with(".swivel_command_rad")));
 }
 
-/// "lamp.right.level" of "lamp.left.level".
+/// "lamp.right.level" of "lamp.left.level", "others[1].right_rad" of "others[1].left_rad".
 std::string other_signal(const std::string& signal) {
+    if (signal.starts_with("others["))
+        return other_side(signal);
     const std::size_t end = signal.rfind('.');
     if (!signal.starts_with("lamp.") || end < 5)
         return signal;
@@ -209,8 +213,12 @@ ControlParameters mirrored(ControlParameters control) {
             for (auto& [from, to] : lamp.windows_deg)
                 std::swap(from, to), change_sign(from), change_sign(to);
         }
-    for (PluginParameters& plugin : control.plugins)
+    for (PluginParameters& plugin : control.plugins) {
         names(plugin.lamps);
+        for (auto* const names_of : {&plugin.inputs, &plugin.outputs})
+            for (auto& [variable, signal] : *names_of)
+                signal = other_signal(signal);
+    }
     for (ControlFailure& failure : control.failures)
         if (failure.kind != ControlFailure::Kind::lost_signal)
             failure.what = other_side(failure.what);
@@ -224,6 +232,14 @@ ControlParameters mirrored(ControlParameters control) {
 }
 
 BusMapping mirrored(BusMapping mapping) {
+    const auto check = [](const auto& mapped) {
+        for (const auto& signal : mapped)
+            if (signal.name.find(".segments[") != std::string::npos)
+                throw InputError(signal.where, fmt::format("{} in a drive that is mirrored", signal.name),
+                                 "levels of windows for the other side, in a drive of their own");
+    };
+    check(mapping.inputs);
+    check(mapping.outputs);
     for (BusInput& input : mapping.inputs) {
         if (points_to_a_side(input.name)) {
             input.opposite = !input.opposite;

@@ -174,6 +174,8 @@ BusInput read_bus_input(const std::string& name, const YamlEntry& entry) {
     if (const SignalKind& kind = kind_named(name, entry); !may_come_from_bus(kind))
         entry.refuse(fmt::format("{}, which the {} write", name, kind.writer),
                      "a signal that car, road, driver or another controller gives");
+    if (listed_name(name).second > 0 && name.find('*') != std::string::npos)
+        entry.refuse("a window of all lamps", "the name of a lamp in place of the star");
     if (entry.is_scalar()) {
         input.source = read_bus_source(entry);
         return input;
@@ -218,9 +220,32 @@ BusOutput read_bus_output(const std::string& target, const YamlEntry& entry) {
     return output;
 }
 
+std::size_t windows_of(const LampSet& lamp_set, std::size_t lamp) {
+    if (const MountedLamp& mounted = lamp_set.lamps[lamp]; mounted.file->pixels)
+        return mounted.levels ? 0 : mounted.file->pixels->count();
+    if (lamp_set.control && lamp_set.control->glare_free)
+        for (const SegmentedLamp& segmented : lamp_set.control->glare_free->lamps)
+            if (segmented.name == lamp_set.lamps[lamp].name)
+                return segmented.windows_deg.size();
+    return 0;
+}
+
+/// Windows that are named must be there.
+template <class Mapped> void check_windows(const std::vector<Mapped>& mapped, const SignalTable& table, const LampSet& lamp_set) {
+    for (const Mapped& signal : mapped)
+        if (known_signal(signal.name)->name == "lamp.*.segments[#]") {
+            const auto& listed =
+                *std::ranges::find_if(table.segments(), [&](const SignalTable::Listed& of) { return table.name(of.place) == signal.name; });
+            if (const std::size_t count = windows_of(lamp_set, listed.lamp); listed.number > count)
+                throw InputError(signal.where,
+                                 fmt::format("window {} of '{}', which has {}", listed.number, lamp_set.lamps[listed.lamp].name, count),
+                                 "one of its pixels, or of its windows by control.glare_free.windows_deg");
+        }
+}
+
 void check_lamp_set(const BusMapping& mapping, const LampSet& lamp_set) {
     const BusWriter writer(mapping, lamp_names(lamp_set));
-    const SignalTable table(lamp_names(lamp_set));
+    const SignalTable table(lamp_names(lamp_set), listed_names(mapping));
     for (const BusOutput& output : mapping.outputs)
         try {
             table.find(output.name);
@@ -228,6 +253,8 @@ void check_lamp_set(const BusMapping& mapping, const LampSet& lamp_set) {
             throw InputError(output.where, fmt::format("no signal '{}' in lamp set '{}'", printable(output.name), lamp_set.name),
                              error.what());
         }
+    check_windows(mapping.inputs, table, lamp_set);
+    check_windows(mapping.outputs, table, lamp_set);
     for (const BusInput& input : mapping.inputs)
         if (lamp_set.swivel && input.name.starts_with("lamp.") && input.name.find(".swivel") != std::string::npos)
             throw InputError(input.where, fmt::format("{} beside actuators.swivel of lamp set '{}'", input.name, lamp_set.name),

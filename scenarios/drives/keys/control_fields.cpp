@@ -12,11 +12,51 @@ namespace fernlicht {
 namespace {
 
 constexpr double shortest_period_s = 1.0e-4;
-constexpr std::size_t max_windows = 256;
+constexpr std::size_t max_windows = 256, max_variables = 1000;
 
-void read_library(const YamlEntry& entry, PluginParameters& plugin) {
+template <bool is_fmu> void read_law_file(const YamlEntry& entry, PluginParameters& plugin) {
     plugin.library = entry.path();
+    plugin.fmu = is_fmu;
     check_file(plugin.library, entry);
+}
+template <bool is_fmu> std::string law_file_text(const PluginParameters& of) {
+    return of.fmu == is_fmu && !of.library.empty() ? quoted(of.library.string()) : "";
+}
+
+using VariableTexts = std::vector<std::pair<std::string, std::string>>;
+
+/// By an FMU's names, which may hold anything.
+void read_variables(const YamlEntry& entry, VariableTexts& texts) {
+    if (entry.is_scalar() || entry.is_list() || entry.value().members.empty() || entry.value().members.size() > max_variables)
+        entry.refuse(fmt::format("a map of 1 to {} names", max_variables));
+    for (const YamlMember& member : entry.value().members)
+        texts.emplace_back(member.key, YamlEntry(member.value, entry.file(), fmt::format("{}.{}", entry.key_path(), member.key)).text());
+}
+
+std::string variables_text(const VariableTexts& texts) {
+    std::vector<std::string> all;
+    for (const auto& [name, text] : texts)
+        all.push_back(fmt::format("{}: {}", quoted(name), quoted(text)));
+    return all.empty() ? "" : fmt::format("{{{}}}", fmt::join(all, ", "));
+}
+
+template <VariableTexts PluginParameters::*member>
+FieldOf<PluginParameters> variables(std::string_view key, int id, std::string_view meaning) {
+    return own<PluginParameters>(
+        key, id, [](const YamlEntry& entry, PluginParameters& plugin) { read_variables(entry, plugin.*member); },
+        [](const PluginParameters& plugin) { return variables_text(plugin.*member); },
+        R"({"type": "object", "minProperties": 1, "maxProperties": 1000, "additionalProperties": {"type": "string", "minLength": 1}})",
+        meaning);
+}
+
+void check_plugin(const YamlMap& keys, const PluginParameters& plugin) {
+    if (!keys.one_of({"library", "fmu"}))
+        keys.refuse_missing("library", "a shared library, or fmu");
+    if (plugin.fmu ? !plugin.parameters.empty() : !plugin.values.empty())
+        keys.require("parameters").refuse(plugin.fmu ? "a map of the FMU's parameters" : "the library's own text");
+    for (const char* const key : {"inputs", "outputs"})
+        if (const auto given = keys.find(key); given && !plugin.fmu)
+            given->refuse("names of variables beside a library", "fmu in its place");
 }
 
 void check_stuck_swivel(const YamlMap& keys, const StuckSwivelParameters& stuck) {
@@ -241,18 +281,33 @@ const Fields<ControlCameraParameters>& camera_fields() {
 
 const Fields<PluginParameters>& plugin_fields() {
     using Plugin = PluginParameters;
-    static const Fields<Plugin> fields{
-        own<Plugin>(
-            "library", 1, read_library, [](const Plugin& of) { return quoted(of.library.string()); },
-            R"({"type": "string", "minLength": 1})", "relative to the drive file")
-            .required(),
-        field("parameters", 2, &Plugin::parameters, any(), "handed over as it is").written_off_default(),
-        field("lamps", 3, &Plugin::lamps, names(1, max_control_lamps), "that it may move; all by default"),
-        field("period_s", 4, &Plugin::period_s, range(shortest_period_s, 100.0),
-              "a whole number of control periods, or the next one after"),
-        field("budget_s", 5, &Plugin::budget_s, range(1.0e-6, 100.0), "of a call; longer ones are counted"),
-        field("give_up_s", 6, &Plugin::give_up_s, range(0.01, 3600.0), "a call that takes so long ends the run"),
-    };
+    static const Fields<Plugin> fields =
+        Fields<Plugin>{
+            own<Plugin>("library", 1, read_law_file<false>, law_file_text<false>, R"({"type": "string", "minLength": 1})",
+                        "a shared library, relative to the drive file; or"),
+            own<Plugin>("fmu", 7, read_law_file<true>, law_file_text<true>, R"({"type": "string", "minLength": 1})",
+                        "an FMU for co-simulation (FMI 2.0 or 3.0)"),
+            own<Plugin>(
+                "parameters", 2,
+                [](const YamlEntry& entry, Plugin& plugin) {
+                    entry.is_scalar() ? void(plugin.parameters = entry.text()) : read_variables(entry, plugin.values);
+                },
+                [](const Plugin& plugin) { return plugin.parameters.empty() ? variables_text(plugin.values) : quoted(plugin.parameters); },
+                R"({"anyOf": [{"type": ["string", "number"], "minLength": 1},
+                {"type": "object", "minProperties": 1, "maxProperties": 1000, "additionalProperties": {"type": ["string", "number", "boolean"]}}]})",
+                "text that the library is handed as it is; of an FMU start values of parameters and inputs, by name"),
+            variables<&Plugin::inputs>("inputs", 8, "of an FMU whose names are others: its input and the signal that it reads"),
+            variables<&Plugin::outputs>("outputs", 9, "likewise: its output and the command; lamp.*.level: of all lamps that it may move"),
+            field("lamps", 3, &Plugin::lamps, names(1, max_control_lamps), "that it may move; all by default"),
+            field("period_s", 4, &Plugin::period_s, range(shortest_period_s, 100.0),
+                  "a whole number of control periods, or the next one after"),
+            field("budget_s", 5, &Plugin::budget_s, range(1.0e-6, 100.0), "of a call; longer ones are counted"),
+            field("give_up_s", 6, &Plugin::give_up_s, range(0.01, 3600.0), "a call that takes so long ends the run"),
+        }
+            .checked(check_plugin)
+            .in_schema(R"({"oneOf": [{"required": ["library"], "not": {"anyOf": [{"required": ["inputs"]}, {"required": ["outputs"]}]},
+                    "properties": {"parameters": {"type": ["string", "number"]}}},
+                {"required": ["fmu"], "properties": {"parameters": {"type": "object"}}}]})");
     return fields;
 }
 
@@ -288,7 +343,8 @@ const Fields<ControlParameters>& law_fields() {
             field("camera", 17, &Control::camera, camera_fields(), "by what laws know of other road users; exactly and at once by default")
                 .short_for("grade"),
             field("glare_free", 9, &Control::glare_free, glare_free_fields(), "dark windows where other road users are"),
-            list("plugins", 10, &Control::plugins, 0, max_plugins, plugin_fields(), "laws in shared libraries").written_off_default(),
+            list("plugins", 10, &Control::plugins, 0, max_plugins, plugin_fields(), "laws in shared libraries and FMUs")
+                .written_off_default(),
             field("safe_pitch", 3, &Control::safe_pitch_rad, in_radians("safe_pitch", 10.0),
                   "of lamps whose levelling has lost its signal"),
             field("stuck_swivel", 4, &Control::stuck_swivel,

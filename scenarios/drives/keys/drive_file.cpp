@@ -35,7 +35,7 @@ void read_time(const YamlMap& keys, Drive& drive) {
                         fmt::format("at most {:.0f}", max_ticks));
 }
 
-/// Libraries of plug-ins decide results as any input does: each is among what was opened, once.
+/// Libraries of plug-ins and FMUs decide results as any input does: each is among what was opened, once.
 void note_plugin_libraries(Drive& drive) {
     for (const LampSet& lamp_set : drive.lamp_sets) {
         if (!lamp_set.control)

@@ -249,8 +249,19 @@ std::vector<std::string> BusMover::notes() const {
     return notes;
 }
 
+std::vector<std::string> listed_names(const BusMapping& mapping) {
+    std::vector<std::string> names;
+    for (const BusInput& input : mapping.inputs)
+        if (listed_name(input.name).second > 0)
+            names.push_back(input.name);
+    for (const BusOutput& output : mapping.outputs)
+        if (listed_name(output.name).second > 0)
+            names.push_back(output.name);
+    return names;
+}
+
 BusWriter::BusWriter(const BusMapping& mapping, const std::vector<std::string>& lamps) {
-    const SignalTable table(lamps);
+    const SignalTable table(lamps, listed_names(mapping));
     for (std::size_t i = 0; i < mapping.inputs.size(); ++i) {
         const BusInput& input = mapping.inputs[i];
         std::vector<std::string> names;

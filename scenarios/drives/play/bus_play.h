@@ -75,6 +75,9 @@ class BusMover {
 /// The drive ends before the moment at which the bumper is beyond the route; looks at moments from `tick` on until then, and moves it on.
 void end_with_route(Drive& drive, const Route& route, int& tick, double until_s);
 
+/// Signals of lists (signals.h) that the mapping names: what signal tables of its drive have beside the usual ones.
+std::vector<std::string> listed_names(const BusMapping& mapping);
+
 /// Inputs by their places in the signal table of a lamp set's lamps.
 class BusWriter {
   public:

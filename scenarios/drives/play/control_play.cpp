@@ -111,8 +111,9 @@ std::vector<std::string> BeamMasks::notes() const {
 
 ControlPlay::ControlPlay(const Drive& drive, const LampSet& lamp_set, const ControlWorld& world, const std::vector<CanDatabase>& databases)
     : drive_(drive), lamp_set_(lamp_set), world_(world), resting_(world.load_on_springs(lamp_set.control->load)),
-      writer_(bus_writer(drive, lamp_set)), runner_(*lamp_set.control, controlled_lamps(lamp_set), controlled_car(drive), drive.step_s,
-                                                    actuator_options(drive), writer_ ? writer_->names() : std::vector<std::string>{}),
+      writer_(bus_writer(drive, lamp_set)),
+      runner_(*lamp_set.control, controlled_lamps(lamp_set), controlled_car(drive), drive.step_s, actuator_options(drive),
+              writer_ ? writer_->names() : std::vector<std::string>{}, drive.can ? listed_names(*drive.can) : std::vector<std::string>{}),
       masks_(drive, lamp_set), motion_(lamp_set.motion ? *lamp_set.motion : Motion{}) {
     if (drive.can && !drive.can->outputs.empty() && !databases.empty())
         outputs_.emplace(*drive.can, databases, runner_.signals());

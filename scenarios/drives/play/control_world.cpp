@@ -12,7 +12,6 @@ namespace {
 
 constexpr double road_ahead_m = 200.0, road_step_m = 5.0; ///< what plug-ins are shown (fernlicht_control.h)
 constexpr double beside_route_m = 20.0;                   ///< farther from its route a track is somewhere else
-constexpr double camera_x_m = 1.9, camera_z_m = 1.3;      ///< behind the windscreen
 constexpr double seen_lamp_m = 0.65;                      ///< above the road
 constexpr double shortest_bearing_m = 5.0;                ///< nearer, the direction to a place on the lane says nothing of the bend
 

@@ -1,4 +1,4 @@
-#include "runner/files/program_module.h"
+#include "scenarios/values/program_module.h"
 
 #include "scenarios/values/errors.h"
 
