@@ -82,8 +82,9 @@ std::optional<QuantileInterval> PixelErrorFold::p95_between(const std::vector<fl
         variance += (1.0 - drawn / static_cast<double>(tiles_of_row)) * drawn * deviation * deviation;
     }
     const double two_deviations = 2.0 * std::sqrt(variance) / pixels;
-    return QuantileInterval{quantile_of(ascending, std::max(0.0, 1.0 - share - two_deviations)),
-                            quantile_of(ascending, std::min(1.0, 1.0 - share + two_deviations))};
+    if (two_deviations > share)
+        return std::nullopt; // the sample's largest error bounds nothing
+    return QuantileInterval{quantile_of(ascending, 1.0 - share - two_deviations), quantile_of(ascending, 1.0 - share + two_deviations)};
 }
 
 std::optional<PixelErrors> PixelErrorFold::finish(std::size_t tiles_of_row) const {

@@ -46,7 +46,7 @@ struct PixelErrors {
     // Where the reference is at least relative_from; shares of the reference.
     std::size_t pixels = 0;
     ErrorQuantiles error;                        ///< of |tested - reference| / reference
-    std::optional<QuantileInterval> p95_between; ///< with 95 % confidence, where some tiles stand for all; nullopt: all, or too few to say
+    std::optional<QuantileInterval> p95_between; ///< with about 95 % confidence, where some tiles stand for all; nullopt: all, or too few
     ErrorQuantiles floor;                        ///< of sure * standard error / reference: errors below are the reference's own
     double mean = 0.0;                           ///< signed, over the pixels: above 0 the picture is too bright
     WorstPixel worst;                            ///< the largest error

@@ -26,4 +26,16 @@ int rounds_for(double now, double wanted, int rounds, int all) {
     return std::min(all, std::max(rounds + 1, static_cast<int>(std::ceil(std::min(needed, static_cast<double>(all))))));
 }
 
+int rounds_wanted(const PixelErrors& errors, double precision, int rounds, int all) {
+    if (rounds == all || errors.pixels == 0)
+        return rounds;
+    if (!errors.p95_between)
+        return std::min(all, 2 * rounds);
+    const double half_width = 0.5 * (errors.p95_between->high - errors.p95_between->low),
+                 enough = std::max(precision * errors.error.p95, errors.floor.p95);
+    if (half_width <= enough)
+        return rounds;
+    return enough > 0.0 ? rounds_for(half_width, enough, rounds, all) : all;
+}
+
 } // namespace fernlicht

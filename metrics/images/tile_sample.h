@@ -1,6 +1,8 @@
 // Pictures compared by some of their tiles, drawn at random: which come next, and how many a precision takes.
 #pragma once
 
+#include "metrics/images/pixel_errors.h"
+
 #include <cstdint>
 #include <vector>
 
@@ -18,5 +20,9 @@ std::vector<SampledTile> sampling_order(int pictures, int across, int down, std:
 /// How many of `all` rounds bring an interval of half width `now`, found with `rounds` of them, to `wanted`: it falls as
 /// sqrt(1 / rounds - 1 / all). A tenth more than that, as `now` is an estimate; more than `rounds`, at most `all`.
 int rounds_for(double now, double wanted, int rounds, int all);
+
+/// How many of `all` rounds make the error that 95 % of the pixels do not exceed known: the half width of its interval at most `precision`
+/// of it, or the reference's noise. `rounds` where that many did.
+int rounds_wanted(const PixelErrors& errors, double precision, int rounds, int all);
 
 } // namespace fernlicht

@@ -83,9 +83,8 @@ void PhotometricLighting::prepare_here(const Shot& shot) {
 void PhotometricLighting::keep_programs_of(const std::vector<Moment>& moments) {
     std::set<int> shapes;
     for (const Moment& moment : moments)
-        for (const LitLamp& lamp : moment.lamps)
-            if (const Beam* const beam = beams_.known_of(*lamp.file))
-                shapes.insert(beam->shape);
+        for (const LitLamp& lamp : shining(moment, !pruned_))
+            shapes.insert(beams_.of(lamp.file).shape);
     std::erase_if(variants_, [&](const auto& variant) {
         return std::ranges::any_of(variant.first.beams, [&](int shape) { return !shapes.contains(shape); });
     });

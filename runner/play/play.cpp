@@ -6,6 +6,7 @@
 #include "runner/play/frame_times.h"
 #include "runner/play/level_fold.h"
 #include "runner/play/lux_map.h"
+#include "runner/play/preparation.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/drive_log.h"
 #include "scenarios/drives/play/motion.h"
@@ -31,20 +32,16 @@ class Pictures {
                                                                                                                     : "frame";
     }
 
-    /// Without times, a picture that nobody stores is drawn only where the eye adapts to it.
     void draw(const Moment& moment, const Draw& draw) {
         const bool captured = is_captured(drive_.capture, moment.tick, drive_.step_s);
-        if (!captured && !options_.no_times.empty() && !display_.adapts())
-            return;
-        for (std::size_t i = 0; i < (captured ? drive_.views.size() : std::min<std::size_t>(1, drive_.views.size())); ++i) {
-            const View& view = drive_.views[i];
-            const FrameOutputs outputs = captured ? stored_results(view, drive_.capture) : FrameOutputs{.colour = true};
-            Frame frame = draw(moment, view, display_.with_light(outputs, view, captured, i == 0))();
-            i == 0 ? times_.add(kind(moment), frame) : times_.add(frame);
-            if (i == 0)
+        for (const auto& [view, outputs] : pictures_at(drive_, display_, moment.tick, options_.no_times.empty())) {
+            const bool drivers = view == &drive_.views.front();
+            Frame frame = draw(moment, *view, outputs)();
+            drivers ? times_.add(kind(moment), frame) : times_.add(frame);
+            if (drivers)
                 display_.see(frame);
             if (captured)
-                drawn_.emplace_back(&view, std::move(frame));
+                drawn_.emplace_back(view, std::move(frame));
         }
     }
 

@@ -117,6 +117,20 @@ bool has_many_variants(const Moment& moment) {
 
 } // namespace
 
+std::vector<std::pair<const View*, FrameOutputs>> pictures_at(const Drive& drive, const DisplayStep& display, int tick, bool timed) {
+    std::vector<std::pair<const View*, FrameOutputs>> pictures;
+    const bool captured = is_captured(drive.capture, tick, drive.step_s);
+    if (!captured && !timed && !display.adapts())
+        return pictures;
+    for (const View& view : drive.views) {
+        const FrameOutputs outputs = captured ? stored_results(view, drive.capture) : FrameOutputs{.colour = true};
+        pictures.emplace_back(&view, display.with_light(outputs, view, captured, pictures.empty()));
+        if (!captured)
+            break;
+    }
+    return pictures;
+}
+
 std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks) {
     // Light and weather, lamps of others, and the own lamps with whether they shine.
     std::set<std::tuple<int, bool, std::vector<std::pair<const LampFile*, bool>>>> seen;
@@ -140,23 +154,22 @@ std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, con
     return moments;
 }
 
-void prepare(Renderer& renderer, const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks, bool foreseen) {
+void prepare(Renderer& renderer, const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks, Foreseen foreseen) {
     const TraceSpan span("prepare", "play");
     const int before = renderer.compiled_programs();
     const auto start = std::chrono::steady_clock::now();
     const std::vector<Moment> moments = distinct_moments(drive, route, lamp_set, ticks);
     renderer.keep_programs_of(moments);
     std::vector<std::pair<View, FrameOutputs>> pictures = pictures_of(drive);
-    if (foreseen && std::ranges::any_of(moments, has_many_variants)) {
-        const auto maps = pictures.begin() + static_cast<std::ptrdiff_t>(drive.views.empty() ? 0 : drive.views.size() + 1);
-        const std::vector<std::pair<View, FrameOutputs>> views(pictures.begin(), maps);
-        pictures.erase(pictures.begin(), maps);
+    if (foreseen != Foreseen::nothing && std::ranges::any_of(moments, has_many_variants)) {
+        pictures.erase(pictures.begin(), pictures.begin() + static_cast<std::ptrdiff_t>(drive.views.empty() ? 0 : drive.views.size() + 1));
+        const DisplayStep display(drive);
         each_moment(drive, route, lamp_set, ticks, [&](Moment moment) {
             for (LitLamp& lamp : moment.lamps)
                 if (lamp.file->state_of)
                     lamp.file = lamp.file->state_of; // whatever its levels
-            for (const auto& [view, outputs] : views)
-                renderer.prepare({moment}, view, outputs, true);
+            for (const auto& [view, outputs] : pictures_at(drive, display, moment.tick, foreseen == Foreseen::timed_pictures))
+                renderer.prepare({moment}, *view, outputs, true);
         });
     }
     for (const auto& [view, outputs] : pictures)

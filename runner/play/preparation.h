@@ -3,6 +3,7 @@
 #pragma once
 
 #include "renderer/renderer.h"
+#include "runner/play/display_step.h"
 #include "runner/play/play.h"
 #include "runner/play/stage.h"
 
@@ -19,9 +20,17 @@ std::vector<std::pair<View, FrameOutputs>> pictures_of(const Drive& drive);
 /// Moments of the ticks to be played, one for each set of lamps that shine together under each sky: what variants follow from.
 std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks);
 
-/// Compiles for all of these. Nothing compiles afterwards while the lamp set is played: `foreseen`, as the drive says; else wherever the
-/// car and others may come to stand, for several times the variants where others have lamps, or there is weather or a sun.
-void prepare(Renderer& renderer, const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks, bool foreseen = true);
+/// The drive's views that play() draws at a tick: all where it is captured, else the driver's, and without times that alone which the eye
+/// adapts to.
+std::vector<std::pair<const View*, FrameOutputs>> pictures_at(const Drive& drive, const DisplayStep& display, int tick, bool timed);
+
+/// What is known of the pictures that are to be drawn.
+enum class Foreseen { nothing, timed_pictures, stored_pictures };
+
+/// Compiles for all of these. Nothing compiles afterwards while the lamp set is played as foreseen. With `nothing` it may stand wherever it
+/// likes, for several times the variants where others have lamps, or there is weather or a sun.
+void prepare(Renderer& renderer, const Drive& drive, const Route& route, const LampSet& lamp_set, TickRange ticks,
+             Foreseen foreseen = Foreseen::timed_pictures);
 
 /// Draws the driver's view of moments evenly spread over the drive, small, with each of its lamp sets, and closes the drive's tone mapper
 /// by what is seen there: one exposure for all its pictures. Adds a note with the numbers. Nothing for a mapper that is closed. Throws

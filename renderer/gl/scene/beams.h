@@ -59,13 +59,8 @@ class Beams {
     BeamTexture grid_of(const Beam& beam) const;
     /// Of the beam as it is drawn with against its table, relative to the peak.
     double error_of_peak(const LampFile& file) const {
-        const Beam* const known = known_of(file);
-        return known != nullptr ? known->grid.worst_error_of_peak : made(file.table).worst_error_of_peak;
-    }
-    /// nullptr: of() was not asked for it.
-    const Beam* known_of(const LampFile& file) const {
         const auto known = known_.find(file.state_of ? file.state_of.get() : &file);
-        return known != known_.end() ? &known->second.beam : nullptr;
+        return known != known_.end() ? known->second.beam.grid.worst_error_of_peak : made(file.table).worst_error_of_peak;
     }
     std::size_t texture_bytes() const { return texture_bytes_; }
 

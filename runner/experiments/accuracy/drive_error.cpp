@@ -17,7 +17,7 @@ namespace {
 
 constexpr int max_moments = 3, max_width_px = 192, max_height_px = 144, max_samples = 64;
 /// Small tiles tell more for as many pixels, as what one pixel is off by its neighbours are too.
-constexpr int tile_px = 4, first_rounds = 8;
+constexpr int tile_px = 4, first_rounds = 8, most_of_it = 3; // at most a third of all tiles
 
 /// In the same shape, with at most so many pixels each way.
 View small_enough(const View& view) {
@@ -120,20 +120,11 @@ class ComparedTiles {
     std::vector<ReferenceImage> images_;
 };
 
-/// How many rounds of tiles make all errors as sure as they are to be: `rounds` where these do.
-int rounds_wanted(const DriveError& error, int rounds, int all) {
+int rounds_for_all(const DriveError& error, int rounds, int all) {
     int wanted = rounds;
-    for (const std::optional<PixelErrors>* const errors : {&error.road, &error.target, &error.luminance}) {
-        if (!*errors || (*errors)->pixels == 0)
-            continue;
-        const PixelErrors& e = **errors;
-        if (!e.p95_between)
-            return std::min(all, 2 * rounds);
-        const double half_width = 0.5 * (e.p95_between->high - e.p95_between->low),
-                     enough = std::max(error_precision * e.error.p95, e.floor.p95);
-        if (half_width > enough)
-            wanted = std::max(wanted, enough > 0.0 ? rounds_for(half_width, enough, rounds, all) : all);
-    }
+    for (const std::optional<PixelErrors>* const errors : {&error.road, &error.target, &error.luminance})
+        if (*errors)
+            wanted = std::max(wanted, rounds_wanted(**errors, error_precision, rounds, all));
     return wanted;
 }
 
@@ -175,14 +166,15 @@ DriveError measure_drive_error(const Stage& stage, const LampSet& lamp_set, cons
     for (const int tick : ticks_over(played.ticks_done, std::min(max_moments, played.ticks_done)))
         error.ticks.push_back(first_tick + tick);
     const Reference reference(stage.scene);
-    const std::vector<Moment> moments = moments_at(error.ticks, stage, lamp_set);
+    const std::vector<Moment> moments = without_faces(moments_at(error.ticks, stage, lamp_set));
     const Technique& technique = renderer.technique();
     error.no_target = technique.target ? "" : fmt::format("technique {} does not compute the illuminance of targets", technique.name);
     error.no_luminance = technique.luminance ? "" : fmt::format("technique {} does not compute a luminance", technique.name);
     renderer.keep_programs_of(moments);
     ComparedTiles tiles(stage, moments, view, reference, renderer);
-    for (int rounds = 0, wanted = std::min(first_rounds, tiles.rounds()); wanted > rounds;
-         wanted = rounds_wanted(error, rounds, tiles.rounds())) {
+    const int most = std::max(std::min(first_rounds, tiles.rounds()), tiles.rounds() / most_of_it);
+    for (int rounds = 0, wanted = std::min(first_rounds, most); wanted > rounds;
+         wanted = std::min(most, rounds_for_all(error, rounds, tiles.rounds()))) {
         rounds = wanted;
         tiles.compare(rounds, error);
     }

@@ -177,6 +177,13 @@ ConfigurationResult ConfigurationErrors::finish() const {
     return result;
 }
 
+std::vector<Moment> without_faces(std::vector<Moment> moments) {
+    for (Moment& moment : moments)
+        for (LitLamp& lamp : moment.other_lamps)
+            lamp.face_m = {0.0, 0.0};
+    return moments;
+}
+
 bool is_road(const Scene& scene, std::uint32_t id) {
     if (id == 0)
         return false;

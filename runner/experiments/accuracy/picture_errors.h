@@ -25,6 +25,10 @@ struct ReferenceShot {
 /// neighbour shows the same mesh, -1 where it is no road (carriageway with its marks; not verge and terrain). The frame has depth and ids.
 Image<float> road_areas_m2(const Scene& scene, const Moment& moment, const View& view, const Frame& frame);
 
+/// With lamps of others that light but are not seen themselves, as the reference has them: a face of thousands of cd/m2 before a dark sky
+/// would be most of a mean error.
+std::vector<Moment> without_faces(std::vector<Moment> moments);
+
 /// True for meshes of carriageway.
 bool is_road(const Scene& scene, std::uint32_t id);
 

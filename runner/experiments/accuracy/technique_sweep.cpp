@@ -271,7 +271,7 @@ DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRe
                                const StopAsked& stop) {
     const Drive drive = measured_drive(stage.drive);
     const LampSet& lamp_set = lamp_set_of(stage.drive, request.lamp_set);
-    const std::vector<Moment> moments = moments_at(ticks_over(tick_count(stage.drive), request.moments), stage, lamp_set);
+    const std::vector<Moment> moments = without_faces(moments_at(ticks_over(tick_count(stage.drive), request.moments), stage, lamp_set));
     DriveAccuracy result{stage.drive.name, stage.drive.title, lamp_set.name, {}, {}, {}, {}, {}, {}};
     for (const Moment& moment : moments)
         result.moments.emplace_back(moment.tick, moment.time_s);

@@ -60,7 +60,9 @@ std::string compared_words(const PlayedCell& played) {
             : ""; // where lamps of the reference are no points
     const std::string tiles =
         error.tiles < error.tiles_of
-            ? fmt::format(", {} of {} tiles at random (in brackets: what holds the 95 % with 95 % confidence)", error.tiles, error.tiles_of)
+            ? fmt::format(
+                  ", {} of {} tiles at random, whose errors these are (in brackets: 95 % confidence interval of the 95th percentile)",
+                  error.tiles, error.tiles_of)
             : "";
     return fmt::format("{} against {} at {} × {} pixels{}{}, which took {} s; {}", played.technique, counted(error.ticks.size(), "moment"),
                        error.width_px, error.height_px, tiles, discs, figure(error.seconds, 1),

@@ -89,7 +89,8 @@ PlayedCell play_lamp_set(const Stage& stage, const LampSet& lamp_set, Renderer& 
                          std::ostream* log = nullptr) {
     TraceSpan span("lamp set", "run");
     tell_which(span, stage, lamp_set.name);
-    prepare(renderer, stage.drive, stage.route, lamp_set, options.ticks);
+    prepare(renderer, stage.drive, stage.route, lamp_set, options.ticks,
+            options.no_times.empty() ? Foreseen::timed_pictures : Foreseen::stored_pictures);
     const int compiled = renderer.compiled_programs();
     const Renderer::ShadowMapsUsed maps_before = renderer.shadow_maps_used();
     const Renderer::LightPassesUsed lit_before = renderer.light_passes_used();

@@ -18,7 +18,8 @@ constexpr double frames_a_moment = 2.3 * (rounds + 2);
 /// Draws the moments as the bench does. `work` takes their counts.
 TimedTechnique timed(Renderer& renderer, const std::vector<Moment>& moments, const View& view, Work& work) {
     static constexpr FrameOutputs outputs{.colour = true};
-    renderer.prepare(moments, view, outputs);
+    renderer.keep_programs_of(moments);
+    renderer.prepare(moments, view, outputs, true);
     std::vector<Work> counts;
     for (const Moment& moment : moments)
         counts.push_back(renderer.count(moment, view, outputs));

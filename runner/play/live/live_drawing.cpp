@@ -37,7 +37,7 @@ LiveDrawing::LiveDrawing(const Stage& stage, const LampSet& lamp_set, Device& de
                          "none, or a replay of the recording by `fernlicht run --can-log`");
     Drive scripted = stage.drive;
     scripted.bus_motion.reset(); // nobody knows yet how the bus moves the car
-    prepare(renderer_, scripted, stage.route, at_rest(lamp_set), {}, false);
+    prepare(renderer_, scripted, stage.route, at_rest(lamp_set), {}, Foreseen::nothing);
 }
 
 void LiveDrawing::draw(const LivePicture& picture) {

@@ -106,6 +106,11 @@ TEST(Preparation, OnlyWhatTheDriveShowsIsCompiledWhereOthersHaveLamps) {
     renderer.keep_programs_of(moments);
     prepare(renderer, stage.drive, stage.route, dipped, ticks);
     EXPECT_EQ(renderer.compiled_programs(), compiled);
+    LampSet another = dipped; // a file of its own on the same grid
+    for (MountedLamp& lamp : another.lamps)
+        lamp.file = std::make_shared<const LampFile>(*lamp.file);
+    prepare(renderer, stage.drive, stage.route, another, ticks);
+    EXPECT_EQ(renderer.compiled_programs(), compiled);
     renderer.keep_programs_of({});
     prepare(renderer, stage.drive, stage.route, dipped, {0, 0});
     EXPECT_GT(renderer.compiled_programs(), compiled);

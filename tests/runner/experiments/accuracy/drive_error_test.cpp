@@ -71,6 +71,14 @@ TEST(DriveError, StandsInEveryReport) {
               "technique full does not compute the illuminance of targets");
 }
 
+// Faces of others' lamps are hundreds of cd/m2 before a dark sky, and the reference does not show them.
+TEST(DriveError, OfLuminanceDoesNotCountFacesOfLamps) {
+    const TemporaryFolder folder;
+    const json report = report_of(folder, library_file("drives/oncoming.yaml"), "--resolution 160x120 --frames 2:2", "oncoming");
+    for (const json& drive : report.at("drives"))
+        EXPECT_LT(std::abs(drive.at("accuracy").at("luminance").at("mean").get<double>()), 1.0) << drive.at("lamp_set");
+}
+
 TEST(DriveError, SaysWhyThereIsNone) {
     const TemporaryFolder folder;
     const json plain = played(folder, "plain", "--technique plain");
