@@ -106,7 +106,7 @@ TEST(InstallationCommand, LeftHandTrafficIsTheMirrorImage) {
     std::ofstream(folder / "mirrored.xodr") << road;
     const json right_hand = found_in(bend_drive(folder, turning), 0);
     const json left_hand = found_in(bend_drive(folder, turning, "aim: auto, mirrored: true", folder / "mirrored.xodr", 1), 0);
-    for (const std::size_t i : {0, 1}) {
+    for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
         const json &lamp = right_hand.at("lamps").at(i), &mirror = left_hand.at("lamps").at(1 - i);
         const json &kink = lamp.at("kink").at("left_bends"), &other = mirror.at("kink").at("right_bends");
         EXPECT_EQ(mirror.at("by"), "kink");
