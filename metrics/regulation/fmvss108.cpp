@@ -112,19 +112,17 @@ Regulation made(std::string column, const char* what, AimRule aim) {
     std::string title = fmt::format("FMVSS 108, {} {}", what, column);
     for (char& c : column)
         c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    return {
-        .id = "fmvss108-" + column,
-        .title = std::move(title),
-        .edition = "49 CFR 571.108, annual edition of 1 October 2025",
-        .source = "one published transcription of the tables' pictures, made twice (US and Canadian prints)",
-        .receiver = fmvss_receiver,
-        .aim = aim,
-        .row_re_aim_deg = 0.25, // S14.2.5.5
-        .mirrors = false,
-        .notes = {fmt::format("FMVSS measures at {} V and the UN at {} V: a filament lamp's file of the latter comes here with `--scale "
-                              "{:.3f}`",
-                              fmvss_voltage_v, un_voltage_v, filament_flux_factor(fmvss_voltage_v, un_voltage_v))},
-        .sureness = Sureness::two_prints};
+    return {.id = "fmvss108-" + column,
+            .title = std::move(title),
+            .edition = "49 CFR 571.108, annual edition of 1 October 2025",
+            .source = "one published transcription of the tables' pictures, made twice (US and Canadian prints)",
+            .receiver = fmvss_receiver,
+            .aim = aim,
+            .row_re_aim_deg = 0.25, // S14.2.5.5
+            .mirrors = false,
+            .notes = {fmt::format("FMVSS measures at {} V: scale a filament lamp's file measured at {} V by {:.3f}", fmvss_voltage_v,
+                                  un_voltage_v, filament_flux_factor(fmvss_voltage_v, un_voltage_v))},
+            .sureness = Sureness::two_prints};
 }
 
 } // namespace

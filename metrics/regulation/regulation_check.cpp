@@ -153,8 +153,7 @@ RegulationCheck checked(const Regulation& regulation, const std::vector<CandelaT
     RegulationCheck check;
     AimRule rule = options.aim && *options.aim != AimRule::automatic ? *options.aim : regulation.aim; // automatic: its own way
     if (aim_by) {
-        if (rule == AimRule::as_is || rule == AimRule::maximum)
-            rule = AimRule::automatic;
+        rule = rule_of_aim_by(rule);
         check.aims.assign(lamps.size(), aim_of(*aim_by, rule));
         for (Aim& aim : check.aims)
             aim.how = "by the passing beam: " + aim.how;
@@ -173,7 +172,10 @@ RegulationCheck checked(const Regulation& regulation, const std::vector<CandelaT
             add_cut_off_rows(check.rows, aim);
     std::vector<RowResult> all_as_filed = check.rows;
     check.rows.insert(check.rows.end(), rows.begin(), rows.end());
-    check.verdict = check.verdict_as_filed = verdict_of(check.rows);
+    check.verdict = verdict_of(check.rows);
+    if (!options.as_filed)
+        return check;
+    check.verdict_as_filed = check.verdict;
     if (check.was_re_aimed || std::ranges::any_of(check.aims, [](const Aim& aim) { return aim.turned != Direction{}; })) {
         const std::vector<Aim> not_turned(lamps.size());
         const std::vector<RowResult> filed = Examination(regulation, lamps, not_turned).rows_at({});
@@ -207,6 +209,8 @@ void mirror(RegulationCheck& check) {
 }
 
 } // namespace
+
+AimRule rule_of_aim_by(AimRule asked) { return asked == AimRule::as_is || asked == AimRule::maximum ? AimRule::automatic : asked; }
 
 std::string mirrored_name(std::string name) {
     for (char& c : name)

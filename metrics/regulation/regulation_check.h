@@ -30,16 +30,19 @@ struct Aim {
 /// uncertainty need not shrink.
 Aim aim_of(const CandelaTable& lamp, AimRule rule);
 
+/// By which rule a passing beam is aimed whose aim another beam keeps: `asked`, or automatic where that is as_is or maximum.
+AimRule rule_of_aim_by(AimRule asked);
+
 /// Where the UN's procedures put the level part (1 %), line A, and where FMVSS 108 puts the greatest gradient.
 inline constexpr double line_b_deg = -0.57, line_a_deg = 0.5, vol_deg = -0.4, vor_deg = 0.0;
 inline constexpr double vol_scan_h_deg = -2.5, vor_scan_h_deg = 2.0;
 
 struct CheckOptions {
-    std::optional<AimRule> aim; ///< nullopt: the regulation's own
-    const CandelaTable* aim_by =
-        nullptr; ///< a passing beam whose aim this beam keeps; by `aim`, or automatically where that is as_is or maximum
+    std::optional<AimRule> aim;           ///< nullopt: the regulation's own
+    const CandelaTable* aim_by = nullptr; ///< a passing beam whose aim this beam keeps, by rule_of_aim_by(aim)
     bool left_hand_traffic = false;
-    bool re_aim = true; ///< makes use of the allowance
+    bool re_aim = true;   ///< makes use of the allowance
+    bool as_filed = true; ///< holds the lamp against the rows without its aim, too; false where the rows themselves follow from the aim
 };
 
 struct RegulationCheck {
@@ -49,8 +52,8 @@ struct RegulationCheck {
     bool was_re_aimed = false;
     std::vector<RowResult> rows; ///< as in the regulation; about the cut-off first, where the lamp was aimed by it
     RowVerdict verdict = RowVerdict::not_measured;
-    std::vector<RowResult> as_filed;                        ///< rows whose verdict the aim changed, as they are without it
-    RowVerdict verdict_as_filed = RowVerdict::not_measured; ///< of all rows without the aim; `verdict` where nothing was turned
+    std::vector<RowResult> as_filed;            ///< rows whose verdict the aim changed, as they are without it
+    std::optional<RowVerdict> verdict_as_filed; ///< of all rows without the aim; `verdict` where nothing was turned; nullopt: not asked
 };
 
 /// One lamp, or the left and the right one where the regulation pairs. Under left-hand traffic the lamps are mirrored, and names and places

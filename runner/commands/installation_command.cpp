@@ -28,7 +28,8 @@ LoadState load_of(const std::string& typed) {
     std::istringstream weights(sign == std::string::npos ? "" : typed.substr(sign + 1));
     if (!(weights >> load.front_kg >> comma >> load.rear_kg) || comma != ',' || weights >> rest || load.name.empty() ||
         std::abs(load.front_kg) > 1e5 || std::abs(load.rear_kg) > 1e5)
-        throw InputError({{}, 0, 0, "--load"}, "found '" + printable(typed) + "'", "NAME=KG_ON_FRONT_AXLE,KG_ON_REAR_AXLE");
+        throw InputError({{}, 0, 0, "--load"}, "found '" + printable(typed) + "'",
+                         "NAME=KG_ON_FRONT_AXLE,KG_ON_REAR_AXLE, each from -100000 to 100000");
     return load;
 }
 
@@ -54,12 +55,11 @@ void add_installation_command(CLI::App& app, const std::vector<std::string>&, st
     sub->add_option("DRIVE", flags->drive, "drive file (YAML)")->required();
     sub->add_option("--lamps", flags->lamps, "file of lamp sets with their mounts, vehicle and control in place of the drive's");
     sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drive (default: its first)");
-    sub->add_option("--load", flags->loads,
-                    "a load beyond the car with its driver, in place of R48's states for a usual car; the first is that of the initial aim")
+    sub->add_option("--load", flags->loads, "a load beyond the car with its driver, in place of R48's states for a usual car")
         ->option_text("NAME=FRONT_KG,REAR_KG")
         ->allow_extra_args(false);
     sub->add_flag("--json", flags->json, "print JSON");
-    sub->footer("Exit code 1 where the regulation is broken or something not measured. docs/regulations.md tells more.");
+    sub->footer("Exit code 1 where something is not met or not measured. docs/regulations.md says more.");
     sub->callback([flags, &chosen] { chosen = [flags] { return tell_installation(*flags); }; });
 }
 

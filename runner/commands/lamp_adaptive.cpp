@@ -73,11 +73,12 @@ int lamp_adaptive(const LampRequest& request) {
     }
     CheckOptions options;
     options.aim = requested_aim(request);
+    options.as_filed = false; // rows are cut to the aimed lamp's dimmed area
     std::optional<LampFile> aim_by;
     if (!request.aim_by.empty()) {
         aim_by = read_lamp(request.aim_by, request.reading);
         options.aim_by = &aim_by->table;
-        const Direction turned = aim_of(aim_by->table, options.aim.value_or(AimRule::automatic)).turned;
+        const Direction turned = aim_of(aim_by->table, rule_of_aim_by(options.aim.value_or(AimRule::as_is))).turned;
         dimmed = {dimmed.left_deg + turned.h_deg, dimmed.right_deg + turned.h_deg, dimmed.bottom_deg + turned.v_deg,
                   dimmed.top_deg + turned.v_deg};
     } else if (options.aim && *options.aim != AimRule::as_is)
@@ -99,7 +100,8 @@ void add_adaptive_options(CLI::App& command, AdaptiveRequest& request) {
         ->capture_default_str()
         ->group(group);
     command.add_option("--margin", request.margin_deg, "degrees of dark to each side of it")->capture_default_str()->group(group);
-    command.add_option("--dimmed", request.dimmed_deg, "the area that counts as dimmed, in degrees (default: the other)")
+    command
+        .add_option("--dimmed", request.dimmed_deg, "the area that counts as dimmed, in degrees of the file as filed (default: the other)")
         ->expected(4)
         ->option_text("LEFT RIGHT BOTTOM TOP")
         ->group(group);

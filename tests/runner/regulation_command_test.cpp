@@ -140,7 +140,9 @@ TEST(RegulationCommand, ADrivingBeamKeepsThePassingBeamsAim) {
 TEST(RegulationCommand, ListNamesEveryTableAndItsRows) {
     const std::string text = printed("lamp --regulation list");
     const json list = json::parse(run_program("lamp --regulation list --json").output);
-    ASSERT_EQ(list.size(), regulation_ids().size());
+    ASSERT_EQ(list.size(), regulation_ids().size() + 1) << "and fmvss108-adb, whose rows follow from what is dimmed";
+    EXPECT_EQ(list.back()["id"], "fmvss108-adb");
+    EXPECT_THAT(text, ContainsRegex("\n  fmvss108-adb +Adaptive driving beam .*: rows by where the beam is dimmed"));
     for (const std::string& id : regulation_ids())
         EXPECT_THAT(text, HasSubstr("  " + id + " "));
     EXPECT_GT(list[0]["rows"].size(), 20u);

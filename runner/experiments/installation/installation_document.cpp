@@ -1,5 +1,6 @@
 #include "runner/experiments/installation/installation_run.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -21,7 +22,8 @@ std::vector<std::string> notes_of(const InstallationFound& found) {
     if (found.capacity)
         notes.push_back(capacity_text(*found.capacity));
     if (!found.own_vehicle)
-        notes.push_back("assumed: the drive has no `vehicle`, our middle-class car stands in");
+        notes.push_back("assumed: the drive has no `vehicle`; our middle-class car stands in");
+    notes.push_back("the aim is that of the car with its driver alone, R48's state of the initial inclination; loads come on top");
     if (!found.levelled)
         notes.push_back("the lamps have no levelling: R48 asks for an automatic one where the band is not kept without");
     notes.push_back("the height is the lamp's, where R48 has its lens's lower edge");
@@ -32,6 +34,32 @@ std::vector<std::string> notes_of(const InstallationFound& found) {
         "for adaptive systems R48 (6.22.7.4.5) leaves out bends to the right in right-hand traffic, and to the left in left-hand "
         "traffic, of passing beams");
     return notes;
+}
+
+/// As people read it: "not met".
+std::string in_words(InstallationVerdict verdict) {
+    std::string words = name_of(verdict);
+    std::ranges::replace(words, '_', ' ');
+    return words;
+}
+
+/// Why a rule on the kink does not apply; "" where it does.
+std::string why_not_applicable(const InstallationFound& found, const InstalledLamp& lamp, const KinkFound& kink) {
+    if (found.kink(lamp, kink) != InstallationVerdict::not_applicable)
+        return {};
+    return lamp.moves() ? "no such bend while the lamp is lit" : "the lamp does not turn sideways";
+}
+
+std::string kink_text(const InstallationFound& found, const InstalledLamp& lamp, const KinkFound& kink) {
+    const std::string why = why_not_applicable(found, lamp, kink);
+    return in_words(found.kink(lamp, kink)) + (why.empty() ? "" : ": " + why);
+}
+
+std::string kink_text(const InstallationFound& found) {
+    if (found.kink() != InstallationVerdict::not_applicable)
+        return in_words(found.kink());
+    const bool moves = std::ranges::any_of(found.lamps, &InstalledLamp::moves);
+    return in_words(found.kink()) + (moves ? ": no bend while low beams are lit" : ": no low beam turns sideways");
 }
 
 Cell distance_cell(const std::optional<double>& distance_m) {
@@ -50,7 +78,7 @@ Table loads_table(const InstallationFound& found, const InstalledLamp& lamp) {
                               {fmt::format("{:+.2f}", deg_per_rad * body.pitch_rad), deg_per_rad * body.pitch_rad},
                               fmt::format("{:+.2f}{}", deg_per_rad * body.levelling_rad, body.at_stop ? " (its stop)" : ""),
                               lamp.percent.empty() ? Cell("") : Cell(fmt::format("{:+.2f}", lamp.percent[i]), lamp.percent[i]),
-                              name_of(found.inclination(lamp, i))});
+                              in_words(found.inclination(lamp, i))});
     }
     return table;
 }
@@ -65,7 +93,7 @@ Table kinks_table(const InstallationFound& found) {
     for (const InstalledLamp& lamp : found.lamps)
         for (const auto& [bends, kink] : {std::pair("left", &lamp.left_bends), {"right", &lamp.right_bends}}) {
             std::vector<Cell> row{lamp.lamp, bends, {fmt::format("{:.2f}", lamp.moved_deg), lamp.moved_deg}};
-            if (found.kink(lamp, *kink) == InstallationVerdict::not_asked)
+            if (found.kink(lamp, *kink) == InstallationVerdict::not_applicable)
                 row.insert(row.end(), 7, Cell(""));
             else
                 row.insert(row.end(), {distance_cell(kink->distance_m),
@@ -73,7 +101,7 @@ Table kinks_table(const InstallationFound& found) {
                                        distance_cell(kink->median_m), Cell(fmt::format("{:.0f}", lamp.kink_limit_m()), lamp.kink_limit_m()),
                                        Cell(fmt::format("{:.1f}", kink->beyond_s), kink->beyond_s),
                                        Cell(fmt::format("{:.1f}", kink->bends_s), kink->bends_s), distance_cell(kink->from_lamp_m)});
-            row.emplace_back(name_of(found.kink(lamp, *kink)));
+            row.emplace_back(kink_text(found, lamp, *kink));
             table.rows.push_back(std::move(row));
         }
     return table;
@@ -87,8 +115,12 @@ std::string band_text(const InstalledLamp& lamp) {
     return lamp.why_not.empty() ? text : text + "; " + lamp.why_not;
 }
 
-/// What breaks most, or comes nearest to it: "left, all seats and the boot: -0.56 %".
+/// What leaves the band most, or comes nearest to its edge: ", left, all seats and the boot: -0.56 %"; or why nothing says so.
 std::string worst_text(const InstallationFound& found) {
+    if (found.inclination() == InstallationVerdict::not_measured)
+        for (const InstalledLamp& lamp : found.lamps)
+            if (found.inclination(lamp, 0) == InstallationVerdict::not_measured)
+                return fmt::format(": {}: {}", lamp.lamp, lamp.why_not);
     double least = 1e9;
     std::string text;
     for (const InstalledLamp& lamp : found.lamps)
@@ -105,6 +137,8 @@ std::string worst_text(const InstallationFound& found) {
 
 Json kink_json(const InstallationFound& found, const InstalledLamp& lamp, const KinkFound& kink) {
     Json j{{"verdict", name_of(found.kink(lamp, kink))}, {"beyond_s", kink.beyond_s}, {"of_s", kink.bends_s}};
+    if (const std::string why = why_not_applicable(found, lamp, kink); !why.empty())
+        j["why_not"] = why;
     if (kink.distance_m) {
         j["crosses_at_m"] = *kink.distance_m;
         j["at_s"] = kink.at_s;
@@ -128,7 +162,7 @@ Document document(const InstallationFound& found) {
         document.sections.push_back({"Inclination of " + lamp.lamp, {band_text(lamp), loads_table(found, lamp)}});
     document.sections.push_back({"Bend light's kink", {kinks_table(found)}});
     Table verdict{"verdict", "", {{.head = "", .words = true}, {.head = "", .words = true}}, {}};
-    verdict.rows = {{"inclination", name_of(found.inclination()) + worst_text(found)}, {"kink", name_of(found.kink())}};
+    verdict.rows = {{"inclination", in_words(found.inclination()) + worst_text(found)}, {"kink", kink_text(found)}};
     document.sections.push_back({"Verdict; no approval", {verdict}});
     return document;
 }

@@ -18,10 +18,10 @@ namespace {
 
 InstallationVerdict worse_of(InstallationVerdict a, InstallationVerdict b) {
     using enum InstallationVerdict;
-    for (const InstallationVerdict verdict : {broken, not_measured, within})
+    for (const InstallationVerdict verdict : {not_met, not_measured, within})
         if (a == verdict || b == verdict)
             return verdict;
-    return not_asked;
+    return not_applicable;
 }
 
 /// Low beams as they are aimed at the drive's beginning, each with its mark.
@@ -126,11 +126,11 @@ void add_kinks(std::vector<InstalledLamp>& found, const std::vector<LowBeam>& be
 InstallationVerdict InstallationFound::inclination(const InstalledLamp& lamp, std::size_t load) const {
     if (lamp.percent.empty() || !lamp.band)
         return InstallationVerdict::not_measured;
-    return lamp.band->holds(lamp.percent[load]) ? InstallationVerdict::within : InstallationVerdict::broken;
+    return lamp.band->holds(lamp.percent[load]) ? InstallationVerdict::within : InstallationVerdict::not_met;
 }
 
 InstallationVerdict InstallationFound::inclination() const {
-    InstallationVerdict all = InstallationVerdict::not_asked;
+    InstallationVerdict all = InstallationVerdict::not_applicable;
     for (const InstalledLamp& lamp : lamps)
         for (std::size_t load = 0; load < loads.size(); ++load)
             all = worse_of(all, inclination(lamp, load));
@@ -138,15 +138,15 @@ InstallationVerdict InstallationFound::inclination() const {
 }
 
 InstallationVerdict InstallationFound::kink(const InstalledLamp& lamp, const KinkFound& found) const {
-    if (!lamp.moves())
-        return InstallationVerdict::not_asked;
+    if (!lamp.moves() || found.bends_s == 0.0)
+        return InstallationVerdict::not_applicable;
     if (!lamp.has_kink)
         return InstallationVerdict::not_measured;
-    return found.distance_m.value_or(0.0) <= lamp.kink_limit_m() ? InstallationVerdict::within : InstallationVerdict::broken;
+    return found.distance_m.value_or(0.0) <= lamp.kink_limit_m() ? InstallationVerdict::within : InstallationVerdict::not_met;
 }
 
 InstallationVerdict InstallationFound::kink() const {
-    InstallationVerdict all = InstallationVerdict::not_asked;
+    InstallationVerdict all = InstallationVerdict::not_applicable;
     for (const InstalledLamp& lamp : lamps)
         all = worse_of(all, worse_of(kink(lamp, lamp.left_bends), kink(lamp, lamp.right_bends)));
     return all;
@@ -154,7 +154,7 @@ InstallationVerdict InstallationFound::kink() const {
 
 bool InstallationFound::good() const {
     using enum InstallationVerdict;
-    return inclination() == within && (kink() == within || kink() == not_asked);
+    return inclination() == within && (kink() == within || kink() == not_applicable);
 }
 
 InstallationFound run_installation(const InstallationRequest& request) {
@@ -191,9 +191,9 @@ InstallationFound run_installation(const InstallationRequest& request) {
         one.why_not = mark.why_not;
         one.has_kink = mark.h_deg.has_value();
         if (!one.band)
-            one.why_not = fmt::format("{:.2f} m over the road, where none of a car may be", one.height_m);
+            one.why_not = fmt::format("it is mounted {:.2f} m over the road, and R48 allows a car's low beams 0.5 to 1.2 m", one.height_m);
         if (!mark.v_deg)
-            mark.v_deg = 0.0; // which way it looks is told all the same
+            mark.v_deg = 0.0; // which way it looks is reported all the same
         else
             add_inclinations(one, {&lamp, mark}, found.bodies);
         beams.push_back({&lamp, std::move(mark)});
@@ -205,7 +205,7 @@ InstallationFound run_installation(const InstallationRequest& request) {
 }
 
 const char* name_of(InstallationVerdict verdict) {
-    static constexpr const char* names[]{"within", "broken", "not_measured", "not_asked"};
+    static constexpr const char* names[]{"within", "not_met", "not_measured", "not_applicable"};
     return names[static_cast<int>(verdict)];
 }
 

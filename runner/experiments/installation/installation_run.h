@@ -11,7 +11,7 @@ namespace fernlicht {
 struct InstallationRequest {
     Drive drive;
     std::string lamp_set;         ///< "": the first
-    std::vector<LoadState> loads; ///< the first is that of the initial aim; none: those of R48 for a usual car of this mass
+    std::vector<LoadState> loads; ///< none: those of R48 for a usual car of this mass
 };
 
 /// Where a lamp's kink crossed the car's path ahead, in bends to one side, as seen from the car's middle.
@@ -19,8 +19,8 @@ struct KinkFound {
     std::optional<double> distance_m;     ///< from the car's front, the farthest; nullopt: nowhere
     double at_s = 0.0;                    ///< when that was
     std::optional<double> median_m;       ///< over the moments in which it crosses
-    double beyond_s = 0.0, bends_s = 0.0; ///< how long it crossed beyond its limit, and of how long in such bends
-    std::optional<double> from_lamp_m;    ///< the farthest from where the lamp is: told, not judged
+    double beyond_s = 0.0, bends_s = 0.0; ///< how long it crossed beyond its limit, and of how long in such bends with the lamp lit
+    std::optional<double> from_lamp_m;    ///< the farthest from where the lamp is: reported, not judged
 };
 
 struct InstalledLamp {
@@ -38,7 +38,7 @@ struct InstalledLamp {
     bool moves() const { return moved_deg >= 0.01; }
 };
 
-enum class InstallationVerdict { within, broken, not_measured, not_asked };
+enum class InstallationVerdict { within, not_met, not_measured, not_applicable };
 
 struct InstallationFound {
     std::string drive, lamp_set;
@@ -51,15 +51,17 @@ struct InstallationFound {
 
     InstallationVerdict inclination(const InstalledLamp& lamp, std::size_t load) const;
     InstallationVerdict inclination() const; ///< of all lamps and loads
+    /// not_applicable: the lamp does not move sideways, or no such bend came.
     InstallationVerdict kink(const InstalledLamp& lamp, const KinkFound& found) const;
-    InstallationVerdict kink() const; ///< not_asked: no low beam moves sideways
-    bool good() const;                ///< nothing broken, all measured that is asked for
+    InstallationVerdict kink() const; ///< of all lamps, to both sides
+    bool good() const;                ///< all within or not applicable
 };
 
-/// Plays the drive by the twin. Throws InputError for a lamp set without a low beam.
+/// Plays the drive by the twin. Lamps are aimed as the drive has them in the car with its driver alone, the state of R48's initial
+/// inclination, whatever the loads. Throws InputError for a lamp set without a low beam.
 InstallationFound run_installation(const InstallationRequest& request);
 
-const char* name_of(InstallationVerdict verdict); ///< "within", "broken", "not_measured", "not_asked"
+const char* name_of(InstallationVerdict verdict); ///< "within", "not_met", "not_measured", "not_applicable"
 Document document(const InstallationFound& found);
 std::string installation_json(const InstallationFound& found);
 

@@ -1,3 +1,4 @@
+#include "metrics/regulation/fmvss108_adaptive.h"
 #include "runner/experiments/regulation/regulation_result.h"
 #include "runner/findings/plots/isocandela.h"
 #include "scenarios/values/errors.h"
@@ -210,8 +211,8 @@ Document document(const RegulationFound& found) {
         names.push_back(fmt::format("{} {:+.1f} %", row->id, 100.0 * row->margin));
     if (!names.empty())
         verdict.rows.push_back({"narrowest", fmt::format("{}", fmt::join(names, ", "))});
-    if (check.verdict_as_filed != check.verdict)
-        verdict.rows.push_back({"as filed", name_of(check.verdict_as_filed) + std::string(": the aim changes the verdict")});
+    if (check.verdict_as_filed.value_or(check.verdict) != check.verdict)
+        verdict.rows.push_back({"as filed", name_of(*check.verdict_as_filed) + std::string(": the aim changes the verdict")});
     verdict.rows.push_back({"verdict", verdict_text(check) + "; no approval"});
     document.sections.push_back({"Verdict", {verdict}});
     return document;
@@ -249,13 +250,21 @@ Document document(const CutOffFound& found) {
     return {"Cut-off of " + lamp.name, {{"", {facts}}}};
 }
 
+std::vector<Regulation> listed_regulations() {
+    std::vector<Regulation> all = regulations();
+    all.push_back(fmvss108_adaptive_without_rows());
+    return all;
+}
+
 Document regulation_list() {
     Document document{"Tables of regulations", {}};
-    for (const Regulation& r : regulations()) {
+    for (const Regulation& r : listed_regulations()) {
         if (document.sections.empty() || document.sections.back().title != r.edition)
             document.sections.push_back({r.edition, {"source: " + r.source, Listing{}}});
         std::get<Listing>(document.sections.back().blocks.back())
-            .items.emplace_back(fmt::format("{:<26} {}: {} rows in the text, {}, aim {}", r.id, r.title, r.rows.size(),
+            .items.emplace_back(fmt::format("{:<26} {}: {}, {}, aim {}", r.id, r.title,
+                                            r.rows.empty() ? "rows by where the beam is dimmed (`--other` or `--dimmed`)"
+                                                           : fmt::format("{} rows in the text", r.rows.size()),
                                             in_words(r.sureness), name_of(r.aim)));
     }
     document.sections.push_back(

@@ -105,9 +105,10 @@ std::string regulation_json(const RegulationFound& found) {
            {"aim", aims},
            {"notes", notes_of(found)},
            {"rows", rows},
-           {"narrowest", nearest},
-           {"as_filed", {{"verdict", name_of(check.verdict_as_filed)}, {"rows_changed", as_filed}}},
-           {"verdict", name_of(check.verdict)}};
+           {"narrowest", nearest}};
+    if (check.verdict_as_filed)
+        j["as_filed"] = {{"verdict", name_of(*check.verdict_as_filed)}, {"rows_changed", as_filed}};
+    j["verdict"] = name_of(check.verdict);
     if (check.was_re_aimed)
         j["re_aimed_deg"] = {check.re_aimed.h_deg, check.re_aimed.v_deg};
     return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -136,7 +137,7 @@ std::string cut_off_json(const CutOffFound& found) {
 
 std::string regulation_list_json() {
     Json list = Json::array();
-    for (const Regulation& r : regulations()) {
+    for (const Regulation& r : listed_regulations()) {
         Json rows = Json::array();
         for (const RegulationRow& row : r.rows) {
             Json places = Json::array();

@@ -27,6 +27,8 @@ struct CutOffFound {
 
 Document document(const RegulationFound& found);
 Document document(const CutOffFound& found);
+/// What the list has: all tables, and fmvss108-adb without its rows.
+std::vector<Regulation> listed_regulations();
 /// All ids with edition, source and what is in them.
 Document regulation_list();
 

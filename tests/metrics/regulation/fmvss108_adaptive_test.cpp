@@ -5,6 +5,7 @@
 #include "scenarios/values/errors.h"
 #include "tests/lamps.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -33,9 +34,11 @@ TEST(AdaptiveInTheLaboratory, ItsAreasMeetTheRowsOfTheirTables) {
     // Within a degree of the area, or on the border of that, lie 2U-V, 1U-3L, H-V, H-3L, H-6L and 1.5D-V.
     EXPECT_THAT(ids_of(r, "undimmed "), ElementsAre("1U-3R", "H-3R", "H-6R", "H-9L", "H-9R", "H-12L", "H-12R", "1.5D-9L", "1.5D-9R",
                                                     "2.5D-V", "2.5D-12L", "2.5D-12R", "4D-V"));
-    const RegulationRow& transition = row_named(r, "transition zone and dimmed area");
+    const RegulationRow& transition = row_named(r, "transition zone");
     EXPECT_EQ(transition.limits.max_cd, 75000.0);
-    EXPECT_THAT(transition.places, ElementsAre(Direction{-6, -2}, Direction{0, -2}, Direction{0, 3}, Direction{-6, 3}));
+    EXPECT_THAT(transition.places,
+                ElementsAre(Direction{-6, -2}, Direction{0, -2}, Direction{0, 3}, Direction{-6, 3}, Direction{-6, -2}, Direction{-5, -1},
+                            Direction{-5, 2}, Direction{-1, 2}, Direction{-1, -1}, Direction{-5, -1}));
     EXPECT_EQ(r.sureness, Sureness::two_prints);
 }
 
@@ -44,7 +47,21 @@ TEST(AdaptiveInTheLaboratory, TheZoneHighUpIsCutToAnAreaThatReachesThere) {
     EXPECT_THAT(row_named(r, "dimmed 10U-90U, 90L-90R").places,
                 ElementsAre(Direction{-2, 10}, Direction{2, 10}, Direction{2, 15}, Direction{-2, 15}));
     EXPECT_THAT(ids_of(r, "undimmed "), testing::Contains("H-V"));
-    EXPECT_EQ(row_named(r, "transition zone and dimmed area").limits.max_cd, 70000.0);
+    EXPECT_EQ(row_named(r, "transition zone").limits.max_cd, 70000.0);
+}
+
+TEST(AdaptiveInTheLaboratory, TheGreatestIntensityOfTheTransitionZoneHoldsInItAlone) {
+    const Regulation r = fmvss108_adaptive({-5.0, -1.0, -1.0, 2.0}, "fmvss108-lb2v-vol", "fmvss108-ub2");
+    const auto verdict = [&](double spot_h_deg) {
+        const CandelaTable beam = tests::table_of(tests::steps(-12, 12, 0.5), tests::steps(-6, 6, 0.5), [&](double h, double v) {
+            return std::hypot(h - spot_h_deg, v - 0.5) < 0.6 ? 90000.0 : 1000.0;
+        });
+        return check_rows(r, {{&beam, {}}}, {"transition zone"}).front().verdict;
+    };
+    EXPECT_EQ(verdict(-3.0), RowVerdict::pass) << "in the dimmed area, which has limits of its own";
+    EXPECT_EQ(verdict(-5.5), RowVerdict::fail);
+    EXPECT_EQ(verdict(-0.5), RowVerdict::fail);
+    EXPECT_EQ(verdict(1.5), RowVerdict::pass) << "undimmed";
 }
 
 TEST(AdaptiveInTheLaboratory, RefusesTablesInTheWrongPlace) {

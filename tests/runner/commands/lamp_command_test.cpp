@@ -249,6 +249,20 @@ TEST_F(LampCommand, JudgesAnAdaptiveBeamForOneVehicleAndSaysWhatItAssumes) {
     EXPECT_THAT(refusal(request), HasSubstr("--dimmed"));
 }
 
+TEST_F(LampCommand, TurnsALampAndWhereItIsDimmedByTheSameAim) {
+    LampFile low = read_lamp(library_file("lamps/led-low.ies"));
+    for (double& v_deg : low.table.v_deg)
+        v_deg += 1.0;
+    write_lamp(low, folder_ / "low.csv");
+    const std::string check = "lamp '" + library_file("lamps/led-high.ies") + "' --regulation fmvss108-adb --dimmed -5 -1 -1 2 --aim-by '" +
+                              (folder_ / "low.csv") + "' --aim ";
+    const std::string text = run_program(check + "auto").output;
+    EXPECT_THAT(text, HasSubstr("V -2.00 to 1.00, by fmvss108-lb2v-vol")) << "a degree down, as the low beam";
+    for (const char* rule : {"as-is", "maximum"})
+        EXPECT_EQ(run_program(check + rule).output, text) << rule;
+    EXPECT_THAT(run_program(check + "auto --json").output, testing::Not(HasSubstr("as_filed"))) << "its rows hold for the aimed lamp";
+}
+
 /// A box of pixels dark from 1 s on: another lamp then, in every respect.
 TEST_F(LampCommand, LooksAtAPixelLampAtATime) {
     std::ofstream(folder_ / "pixels.yaml") << "fernlicht_pixel_lamp: 1\nraster: {pixels: [4, 1], h_deg: [-8, 8], v_deg: [-3, 3], "
