@@ -127,7 +127,10 @@ FmuVariable fmu_variable_of(Fmu& fmu, const std::string& name) {
 void start_with_fault(Fmu& fmu, double fault) {
     const FmuVariable variable = fmu_variable_of(fmu, "fault");
     fmu.will_set(variable);
-    ASSERT_EQ(fmu.instantiate() + fmu.set(variable, std::span(&fault, 1)) + fmu.initialize() + fmu.begin(), "");
+    ASSERT_EQ(fmu.instantiate(), "");
+    ASSERT_EQ(fmu.set(variable, std::span(&fault, 1)), "");
+    ASSERT_EQ(fmu.initialize(), "");
+    ASSERT_EQ(fmu.begin(), "");
 }
 
 TEST(Fmu, OnlyWhatACallLoggedIsItsReason) {
