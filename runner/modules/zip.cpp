@@ -1,6 +1,7 @@
 // fernlicht-zip.so: what is in an archive.
 #include "scenarios/control/fmu/zip_module.h"
 
+#include <array>
 #include <memory>
 #include <stdexcept>
 #include <zip.h>
@@ -19,20 +20,22 @@ std::invalid_argument open_error(int code) {
     return std::invalid_argument(reason);
 }
 
-std::string unpacked(zip_t* archive, zip_uint64_t index, const zip_stat_t& entry) {
+void unpack(zip_t* archive, zip_uint64_t index, const zip_stat_t& entry, const ZipReader& reader) {
     const auto refuse = [&](const std::string& reason) { throw std::invalid_argument(std::string(entry.name) + ": " + reason); };
     const ZipEntry file(zip_fopen_index(archive, index, 0), &zip_fclose);
     if (!file)
         refuse(zip_error_strerror(zip_get_error(archive)));
-    std::string content(entry.size + 1, '\0'); // one more: the checksum is compared at the end, and there should be one
+    std::array<char, 1U << 16U> piece{};
     zip_uint64_t got = 0;
-    for (zip_int64_t more = 1; more > 0 && got < content.size(); got += static_cast<zip_uint64_t>(more))
-        if ((more = zip_fread(file.get(), content.data() + got, content.size() - got)) < 0)
+    for (zip_int64_t more = 1; more > 0 && got <= entry.size;) { // to its end, where the checksum is compared
+        if ((more = zip_fread(file.get(), piece.data(), piece.size())) < 0)
             refuse(zip_error_strerror(zip_file_get_error(file.get())));
+        got += static_cast<zip_uint64_t>(more);
+        if (more > 0 && got <= entry.size)
+            reader.take({piece.data(), static_cast<std::size_t>(more)});
+    }
     if (got != entry.size)
         refuse("another length than the archive says");
-    content.pop_back();
-    return content;
 }
 
 } // namespace
@@ -50,7 +53,7 @@ extern "C" __attribute__((visibility("default"))) void fernlicht_read_zip(const 
             (entry.valid & ZIP_STAT_SIZE) == 0)
             throw std::invalid_argument("an entry without name or length");
         if (reader.wants(entry.name, entry.size))
-            reader.take(entry.name, unpacked(archive.get(), index, entry));
+            unpack(archive.get(), index, entry, reader);
     }
 }
 

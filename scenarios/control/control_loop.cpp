@@ -177,7 +177,11 @@ std::vector<OtherUser> ControlLoop::told_boxes() const {
 void ControlLoop::take_segments() {
     for (const SignalTable::Listed& listed : table_.segments()) {
         double& level = segments_[listed.lamp].at(listed.number - 1);
-        (written_[listed.place] ? level : table_[listed.place]) = written_[listed.place] ? table_[listed.place] : level;
+        double& told = table_[listed.place];
+        if (!written_[listed.place])
+            told = level;
+        else
+            level = told = std::isfinite(told) ? told : before_[listed.place]; // lost: as it was
     }
 }
 

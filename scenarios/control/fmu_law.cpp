@@ -49,17 +49,18 @@ const std::vector<ListMember>& list_members() {
     return members;
 }
 
-/// Whether metres, seconds and candelas are those of our unit.
+/// Whether metres, seconds and candelas are those of our unit. Radians, and those of a lux's steradian, may be left out, never too many.
 bool fits(const FmuUnit& unit, std::string_view ours) {
     struct Base {
         std::string_view unit;
-        int metres, seconds, candelas;
+        int metres, seconds, candelas, radians;
     };
-    static constexpr Base known[] = {{"s", 0, 1, 0},      {"m", 1, 0, 0},    {"m/s", 1, -1, 0}, {"m/s2", 1, -2, 0},
-                                     {"rad/s", 0, -1, 0}, {"1/m", -1, 0, 0}, {"lx", -2, 0, 1},  {"1", 0, 0, 0}};
-    const auto* const base = std::ranges::find(known, ours == "rad" ? "1" : ours, &Base::unit);
-    return !unit.known || base == std::end(known) ||
-           (!unit.others && unit.metres == base->metres && unit.seconds == base->seconds && unit.candelas == base->candelas);
+    static constexpr Base known[] = {{"s", 0, 1, 0, 0},     {"m", 1, 0, 0, 0},      {"m/s", 1, -1, 0, 0},
+                                     {"m/s2", 1, -2, 0, 0}, {"rad/s", 0, -1, 0, 1}, {"1/m", -1, 0, 0, 1},
+                                     {"lx", -2, 0, 1, 2},   {"rad", 0, 0, 0, 1},    {"1", 0, 0, 0, 0}};
+    const auto* const base = std::ranges::find(known, ours, &Base::unit);
+    return base != std::end(known) && !unit.others && unit.metres == base->metres && unit.seconds == base->seconds &&
+           unit.candelas == base->candelas && unit.radians >= 0 && unit.radians <= base->radians;
 }
 
 std::string mapped(const std::vector<std::pair<std::string, std::string>>& names, const std::string& variable) {
@@ -96,7 +97,7 @@ FmuLaw::FmuLaw(const PluginParameters& parameters, const std::vector<ControlledL
         if (variable.causality != "output")
             continue;
         const std::string name = mapped(parameters.outputs, variable.name);
-        if (match_output(variable, name, lamps))
+        if (match_output(variable, name, lamps, parameters.lamps))
             continue;
         if (name != variable.name)
             refuse("outputs", fmt::format("'{}' for '{}', no command of these lamps", printable(name), printable(variable.name)),
@@ -133,8 +134,7 @@ void FmuLaw::take_parameters(const PluginParameters& parameters) {
             continue;
         }
         const std::optional<double> number = value == "true" ? 1.0 : value == "false" ? 0.0 : to_number(value);
-        const bool whole = found->type != FmuType::float64 && found->type != FmuType::float32;
-        if (!number || (whole && *number != std::floor(*number)))
+        if (!number || !Fmu::holds(*found, *number))
             refuse("parameters", fmt::format("'{}' for '{}'", printable(value), printable(name)),
                    fmt::format("a value of type {}", found->element));
         numbers_.emplace_back(*found, *number);
@@ -172,14 +172,23 @@ void FmuLaw::match_input(const FmuVariable& variable, const std::string& name, c
             unit = table.kind(place).unit;
             port.values.emplace_back([place](const fernlicht_control_input& in) { return in.signal_values[place]; });
         }
-        if (!fits(variable.unit, unit))
-            refuse("inputs", fmt::format("'{}' in '{}'", printable(variable.name), printable(variable.unit.name)),
-                   fmt::format("a unit of what '{}' has in {}", printable(element), unit));
+        check_unit("inputs", variable, element, unit);
     }
     inputs_.push_back(std::move(port));
 }
 
-bool FmuLaw::match_output(const FmuVariable& variable, const std::string& name, const std::vector<ControlledLamp>& lamps) {
+void FmuLaw::check_unit(const char* key, const FmuVariable& variable, const std::string& signal, std::string_view ours) const {
+    const FmuUnit& unit = variable.unit;
+    if (!unit.name.empty() && !unit.known && unit.name != ours)
+        refuse(key, fmt::format("'{}' in '{}', a unit that the FMU does not define", printable(variable.name), printable(unit.name)),
+               fmt::format("its BaseUnit, because '{}' is in {}", printable(signal), ours));
+    if (unit.known && !fits(unit, ours))
+        refuse(key, fmt::format("'{}' in '{}'", printable(variable.name), printable(unit.name)),
+               fmt::format("a unit of what '{}' has in {}", printable(signal), ours));
+}
+
+bool FmuLaw::match_output(const FmuVariable& variable, const std::string& name, const std::vector<ControlledLamp>& lamps,
+                          const std::vector<std::string>& may_move) {
     Port<Write> port{variable, {}};
     bool any = false;
     for (std::size_t i = 0; i < variable.count.value_or(1); ++i) {
@@ -189,6 +198,8 @@ bool FmuLaw::match_output(const FmuVariable& variable, const std::string& name, 
         for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp)
             for (const std::string& of : {lamps[lamp].name, std::string("*")}) {
                 using Command = fernlicht_lamp_command;
+                if (std::ranges::find(may_move, lamps[lamp].name) == may_move.end())
+                    continue;
                 for (const auto& [command, member] :
                      {std::pair("swivel_command_rad", &Command::swivel_rad), std::pair("pitch_command_rad", &Command::pitch_rad),
                       std::pair("level", &Command::level)})
@@ -201,9 +212,7 @@ bool FmuLaw::match_output(const FmuVariable& variable, const std::string& name, 
             }
         if (writes.empty())
             break;
-        if (const std::string_view unit = plain.ends_with("_rad") ? "rad" : "1"; !fits(variable.unit, unit))
-            refuse("outputs", fmt::format("'{}' in '{}'", printable(variable.name), printable(variable.unit.name)),
-                   fmt::format("a unit of what '{}' has in {}", printable(plain), unit));
+        check_unit("outputs", variable, plain, plain.ends_with("_rad") ? "rad" : "1");
         any = true;
         port.values.emplace_back([writes](fernlicht_control_output& out, double value) {
             for (const Write& write : writes)

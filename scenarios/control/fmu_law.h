@@ -15,7 +15,7 @@ class FmuLaw {
     FmuLaw(const PluginParameters& parameters, const std::vector<ControlledLamp>& lamps);
 
     const std::string& name() const { return fmu_.description().name; }
-    const std::vector<std::string>& unread() const { return unread_; } ///< outputs that are no commands
+    const std::vector<std::string>& unread() const { return unread_; } ///< outputs that are no commands of lamps that it may move
 
     // These call it, each with "" or what went wrong.
     std::string start();
@@ -33,7 +33,9 @@ class FmuLaw {
         std::vector<Each> values; ///< one each; what is not matched is nullptr
     };
     void match_input(const FmuVariable& variable, const std::string& name, const SignalTable& table);
-    bool match_output(const FmuVariable& variable, const std::string& name, const std::vector<ControlledLamp>& lamps);
+    bool match_output(const FmuVariable& variable, const std::string& name, const std::vector<ControlledLamp>& lamps,
+                      const std::vector<std::string>& may_move);
+    void check_unit(const char* key, const FmuVariable& variable, const std::string& signal, std::string_view ours) const;
     void take_parameters(const PluginParameters& parameters);
     [[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& expected) const;
 

@@ -55,6 +55,10 @@ struct ControlPlugin::Parts {
         over_budget += outcome.seconds > parameters.budget_s ? 1U : 0U;
     }
     void load();
+    void close_fmu() {
+        if (!guarded_call([&] { fmu->close(); }, parameters.give_up_s).failed.empty())
+            fmu->abandon();
+    }
     void forget_times() { over_budget = 0, slowest_s = 0.0; } ///< only steps have a budget
     void keep(SignalTable& table, std::vector<std::vector<double>>& all_segments) const;
 };
@@ -66,7 +70,7 @@ void ControlPlugin::Parts::load() {
         std::string wrong;
         call("its start", [&] { wrong = fmu->start(); });
         if (!wrong.empty()) {
-            guarded_call([&] { fmu->close(); }, parameters.give_up_s);
+            close_fmu();
             refuse(wrong, "an FMU that starts");
         }
         return forget_times();
@@ -116,7 +120,7 @@ ControlPlugin::~ControlPlugin() {
     if (!parts_)
         return;
     if (parts_->fmu && !parts_->failed)
-        guarded_call([&] { parts_->fmu->close(); }, parts_->parameters.give_up_s);
+        parts_->close_fmu();
     if (!parts_->library)
         return;
     if (parts_->failed)

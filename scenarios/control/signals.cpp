@@ -55,7 +55,7 @@ constexpr std::array<SignalKind, std::size_t{signal::count} + std::size_t{lamp_s
     {"others[#].bottom_rad", "rad", -1.6, 1.6, "traffic", "lower edge; up positive, against the road"},
     {"others[#].top_rad", "rad", -1.6, 1.6, "traffic", "upper edge; up positive"},
     {"others[#].distance_m", "m", 0.0, none, "traffic",
-     "from the camera along the car's axis; inf: the lamps see him where the camera does"},
+     "from the camera along the car's axis; inf or lost: the lamps see it where the camera does"},
     {"others[#].valid", "1", 0.0, 1.0, "traffic", "1: there is one; lost: all that a glare-free beam has is dark"},
     {"lamp.*.segments[#]", "1", 0.0, 1.0, "laws", "level of a lamp's window or pixel, in their order; lost: as it was"},
 }};

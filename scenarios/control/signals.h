@@ -74,8 +74,8 @@ std::string of_lamp(std::string_view pattern, std::string_view lamp);
 /// A value that is not a number says that the signal is lost; infinity is a distance to nothing.
 class SignalTable {
   public:
-    /// `also`: names of signals of lists that it has, too; of a road user all of one. What is not written of him says nothing against him:
-    /// he takes up everything, infinitely far.
+    /// `also`: names of signals of lists that it has, too; of a road user all of one. What is not written of it says nothing against it:
+    /// it takes up everything, infinitely far.
     explicit SignalTable(std::vector<std::string> lamps = {}, const std::vector<std::string>& also = {});
 
     const std::vector<std::string>& lamps() const { return lamps_; }
@@ -89,7 +89,7 @@ class SignalTable {
         return {(place - signal::count) / lamp_signal::count, (place - signal::count) % lamp_signal::count};
     }
     struct Listed {
-        std::size_t number = 0, place = 0; ///< of the first of his signals
+        std::size_t number = 0, place = 0; ///< of the first of its signals
         std::size_t lamp = 0;              ///< of a window
     };
     const std::vector<Listed>& boxes() const { return boxes_; }       ///< by number

@@ -17,12 +17,28 @@
 #include <fmt/ranges.h>
 #include <fstream>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
+#include <utility>
 
 namespace fernlicht {
+
+/// All that the FMU's code keeps pointers to. Threads of its own may log, too.
+struct FmuLog {
+    std::mutex mutex;
+    std::string last; ///< warning or error
+    fmi::v2::Callbacks callbacks{};
+
+    /// Since it was last asked for.
+    std::string taken() {
+        const std::lock_guard lock(mutex);
+        return std::exchange(last, {});
+    }
+};
+
 namespace {
 
-constexpr std::uint64_t max_unpacked_bytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t max_unpacked_bytes = std::uint64_t{1} << 30, max_description_bytes = std::uint64_t{16} << 20;
 constexpr std::string_view description_name = "modelDescription.xml";
 #if defined(__aarch64__)
 constexpr std::string_view platform_2 = "aarch64-linux", platform_3 = "aarch64-linux";
@@ -35,22 +51,25 @@ bool climbs_out(const std::string& name) {
     return name.empty() || path.is_absolute() || std::ranges::find(path, "..") != path.end();
 }
 
-void keep_log(void* logged, int status, const char* message) {
-    if (logged && message && status != fmi::ok)
-        *static_cast<std::string*>(logged) = message;
+void keep_log(void* environment, int status, const char* message) {
+    if (!environment || !message || status == fmi::ok)
+        return;
+    FmuLog& log = *static_cast<FmuLog*>(environment);
+    const std::lock_guard lock(log.mutex);
+    log.last = message;
 }
 
-void log_2(fmi::Environment logged, fmi::v2::Text, int status, fmi::v2::Text, fmi::v2::Text message, ...) {
+void log_2(fmi::Environment environment, fmi::v2::Text, int status, fmi::v2::Text, fmi::v2::Text message, ...) {
     std::array<char, 512> text{};
     va_list values;
     va_start(values, message);
     if (message)
         std::vsnprintf(text.data(), text.size(), message, values);
     va_end(values);
-    keep_log(logged, status, text.data());
+    keep_log(environment, status, text.data());
 }
 
-void log_3(fmi::Environment logged, int status, fmi::v3::Text, fmi::v3::Text message) { keep_log(logged, status, message); }
+void log_3(fmi::Environment environment, int status, fmi::v3::Text, fmi::v3::Text message) { keep_log(environment, status, message); }
 
 /// As an address of FMI 2.0.
 std::string uri_of(const std::filesystem::path& folder) {
@@ -124,7 +143,7 @@ Fmu::Folder::~Folder() {
     std::filesystem::remove_all(path, ignored);
 }
 
-Fmu::Fmu(const std::filesystem::path& file) : file_(file) {
+Fmu::Fmu(const std::filesystem::path& file) : file_(file), log_(std::make_unique<FmuLog>()) {
     std::string xml;
     std::vector<std::string> platforms;
     unpack(xml, platforms);
@@ -135,8 +154,12 @@ Fmu::Fmu(const std::filesystem::path& file) : file_(file) {
 }
 
 Fmu::~Fmu() {
-    if (library_ && !abandoned_ && worst_ != fmi::fatal)
+    if (library_ && (abandoned_ || worst_ == fmi::fatal)) {
+        static auto& left = *new std::vector<std::unique_ptr<FmuLog>>; // as long as the libraries, to the very end
+        left.push_back(std::move(log_));
+    } else if (library_) {
         ::dlclose(library_);
+    }
 }
 
 void Fmu::refuse(const std::string& found, const std::string& expected) const { throw InputError({file_, 0, 0, {}}, found, expected); }
@@ -144,6 +167,27 @@ void Fmu::refuse(const std::string& found, const std::string& expected) const { 
 void Fmu::unpack(std::string& xml, std::vector<std::string>& platforms) {
     static const auto read_zip = reinterpret_cast<ReadZip*>(module_function("fernlicht-zip", "fernlicht_read_zip"));
     std::uint64_t unpacked = 0;
+    std::string entry;
+    bool described = false;
+    std::ofstream out;
+    const auto refuse_second = [&] {
+        refuse(fmt::format("an entry '{}' that cannot lie beside the others", printable(entry)),
+               "names of their own, that a folder can hold");
+    };
+    const auto check_written = [&] {
+        if (!out)
+            throw DeviceError(fmt::format("{}: '{}' cannot be unpacked into {}", file_.string(), printable(entry), folder_.path.string()));
+    };
+    const auto open = [&] {
+        const std::filesystem::path path = folder_.path / entry;
+        std::error_code failed;
+        std::filesystem::create_directories(path.parent_path(), failed);
+        if ((!failed && std::filesystem::exists(path, failed)) || failed == std::errc::not_a_directory ||
+            failed == std::errc::file_exists || failed == std::errc::filename_too_long)
+            refuse_second();
+        out = std::ofstream(path, std::ios::binary);
+        check_written();
+    };
     ZipReader reader;
     reader.wants = [&](const std::string& name, std::uint64_t bytes) {
         if (climbs_out(name))
@@ -158,18 +202,22 @@ void Fmu::unpack(std::string& xml, std::vector<std::string>& platforms) {
         unpacked += std::min(bytes, max_unpacked_bytes + 1);
         if (unpacked > max_unpacked_bytes)
             refuse(fmt::format("more than {} MiB when unpacked", max_unpacked_bytes >> 20U), "less");
+        entry = name;
+        if (name != description_name)
+            open();
+        else if (bytes > max_description_bytes)
+            refuse(fmt::format("a {} of more than {} MiB", description_name, max_description_bytes >> 20U), "less");
+        else if (std::exchange(described, true))
+            refuse_second();
         return true;
     };
-    reader.take = [&](const std::string& name, const std::string& content) {
-        if (name == description_name) {
-            xml = content;
+    reader.take = [&](std::string_view piece) {
+        if (entry == description_name) {
+            xml += piece;
             return;
         }
-        const std::filesystem::path path = folder_.path / name;
-        std::error_code failed;
-        std::filesystem::create_directories(path.parent_path(), failed);
-        if (!std::ofstream(path, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size())).flush())
-            throw DeviceError(fmt::format("{}: '{}' cannot be unpacked into {}", file_.string(), printable(name), folder_.path.string()));
+        out.write(piece.data(), static_cast<std::streamsize>(piece.size())).flush();
+        check_written();
     };
     try {
         read_zip(file_.string(), reader);
@@ -221,11 +269,12 @@ void Fmu::want(const FmuVariable& variable, const std::string& way) {
 std::string Fmu::said(const std::string& function, int status) {
     static constexpr std::array<std::string_view, 6> words{"ok", "warning", "discard", "error", "fatal", "pending"};
     worst_ = std::max(worst_, status);
+    const std::string logged = log_->taken();
     if (status == fmi::ok || status == fmi::warning)
         return {};
     return fmt::format("fmi{}{}() returned {}{}{}", description_.version, function,
                        status > 0 && status < 6 ? words[static_cast<std::size_t>(status)] : fmt::format("{}", status),
-                       logged_.empty() ? "" : ": ", printable(logged_, 200));
+                       logged.empty() ? "" : ": ", printable(logged, 200));
 }
 
 std::string Fmu::instantiate() {
@@ -233,18 +282,18 @@ std::string Fmu::instantiate() {
     const char* const token = description_.token.c_str();
     const std::filesystem::path resources = folder_.path / "resources";
     if (description_.version == 2) {
-        const auto callbacks = std::make_shared<fmi::v2::Callbacks>(fmi::v2::Callbacks{log_2, std::calloc, std::free, nullptr, &logged_});
-        callbacks_ = callbacks;
+        log_->callbacks = {log_2, std::calloc, std::free, nullptr, log_.get()};
         instance_ = function<fmi::v2::Instantiate>("Instantiate")(name, fmi::v2::co_simulation, token, uri_of(resources).c_str(),
-                                                                  callbacks.get(), 0, 1);
+                                                                  &log_->callbacks, 0, 1);
     } else {
         instance_ = function<fmi::v3::Instantiate>("InstantiateCoSimulation")(name, token, (resources.string() + '/').c_str(), false, true,
-                                                                              false, false, nullptr, 0, &logged_, log_3, nullptr);
+                                                                              false, false, nullptr, 0, log_.get(), log_3, nullptr);
     }
+    const std::string logged = log_->taken();
     if (instance_)
         return {};
     return fmt::format("no instance for {} '{}'{}{}", description_.version == 2 ? "guid" : "instantiationToken",
-                       printable(description_.token), logged_.empty() ? "" : ": ", printable(logged_, 200));
+                       printable(description_.token), logged.empty() ? "" : ": ", printable(logged, 200));
 }
 
 std::string Fmu::initialize() {
@@ -281,6 +330,18 @@ void Fmu::close() {
         function<fmi::Plain>("Terminate")(instance_);
     function<void(fmi::Instance)>("FreeInstance")(instance_);
     instance_ = nullptr;
+}
+
+bool Fmu::holds(const FmuVariable& variable, double value) {
+    if (variable.element == "Boolean")
+        return value == 0.0 || value == 1.0;
+    return by_fmu_type(variable.type, [&]<class T>(T) -> int {
+               constexpr auto max = static_cast<double>(std::numeric_limits<T>::max());
+               if constexpr (std::is_floating_point_v<T>)
+                   return std::abs(value) <= max;
+               else // in doubles the greatest of 64 bits is rounded up
+                   return value == std::floor(value) && value >= static_cast<double>(std::numeric_limits<T>::lowest()) && value < max + 1.0;
+           }) == 1;
 }
 
 std::string Fmu::set(const FmuVariable& variable, std::span<const double> values) {

@@ -9,11 +9,14 @@
 
 namespace fernlicht {
 
+struct FmuLog;
+
 class Fmu {
   public:
     /// Unpacks what this machine needs of `file` into a folder of its own, which goes with it, and loads the library. Throws InputError
-    /// naming the file: no zip, one whose entries climb out of it or unpack to more than 1 GiB, no or a wrong description
-    /// (read_fmu_description), no binary for this machine, one that cannot be loaded; DeviceError where there is no room.
+    /// naming the file: no zip, one whose entries climb out of it, share a name or unpack to more than 1 GiB (the description: 16 MiB), no
+    /// or a wrong description (read_fmu_description), no binary for this machine, one that cannot be loaded; DeviceError where there is no
+    /// room.
     explicit Fmu(const std::filesystem::path& file);
     Fmu(const Fmu&) = delete;
     Fmu& operator=(const Fmu&) = delete;
@@ -33,6 +36,8 @@ class Fmu {
     std::string step(double at_s, double step_s); ///< to at_s + step_s
     void close();                                 ///< the instance; nothing else is called afterwards
 
+    /// Whether the variable's type can hold this number as it is.
+    static bool holds(const FmuVariable& variable, double value);
     /// As many numbers as the variable has. Whole numbers are rounded and cut to their type's range; one that is none is 0, or false.
     std::string set(const FmuVariable& variable, std::span<const double> values);
     std::string set_text(const FmuVariable& variable, const std::string& text);
@@ -64,8 +69,7 @@ class Fmu {
     void* library_ = nullptr;
     void* instance_ = nullptr;
     std::map<std::string, void*> functions_;
-    std::string logged_;              ///< the last warning or error
-    std::shared_ptr<void> callbacks_; ///< of 2.0
+    std::unique_ptr<FmuLog> log_;
     int worst_ = 0;
     bool abandoned_ = false, begun_ = false;
 };

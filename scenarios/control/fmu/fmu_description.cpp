@@ -46,6 +46,7 @@ std::map<std::string, FmuUnit> read_units(const XmlFile& file) {
             unit.metres = file.integer(base, "m", 0);
             unit.seconds = file.integer(base, "s", 0);
             unit.candelas = file.integer(base, "cd", 0);
+            unit.radians = file.integer(base, "rad", 0);
             for (const char* const other : {"kg", "A", "K", "mol"})
                 unit.others = unit.others || file.integer(base, other, 0) != 0;
             if (unit.factor == 0.0)
@@ -64,6 +65,12 @@ std::map<std::string, std::string> read_type_units(const XmlFile& file, int vers
     return units;
 }
 
+/// As xs:double has them, beside numbers.
+bool is_fmu_number(std::string_view word, FmuType type) {
+    return to_number(word) ||
+           ((type == FmuType::float64 || type == FmuType::float32) && (word == "INF" || word == "-INF" || word == "+INF" || word == "NaN"));
+}
+
 /// Start values are of their type, as many as an array has.
 void check_start(const XmlFile& file, pugi::xml_node node, const FmuVariable& variable) {
     const std::string start = node.attribute("start").as_string();
@@ -77,7 +84,8 @@ void check_start(const XmlFile& file, pugi::xml_node node, const FmuVariable& va
         end = std::min(start.find_first_of(" \t\r\n", at), start.size());
         const std::string word = start.substr(at, end - at);
         ++found;
-        if (variable.element == "Boolean" ? word != "true" && word != "false" && word != "0" && word != "1" : !to_number(word))
+        if (variable.element == "Boolean" ? word != "true" && word != "false" && word != "0" && word != "1"
+                                          : !is_fmu_number(word, variable.type))
             file.refuse(node, "start", fmt::format("found '{}' of variable '{}'", printable(word), printable(variable.name)),
                         fmt::format("a value of type {}", variable.element));
     }
@@ -163,12 +171,12 @@ FmuDescription read_fmu_description(const std::filesystem::path& path, const std
         variable.causality = file.text(node, "causality", "local");
         variable.element = element.name;
         variable.type = element.type;
-        if (variable.causality == "input" || variable.causality == "output") // others may have any size
+        if (variable.causality == "input" || variable.causality == "output") { // others may have any size
             variable.count = read_count(file, node);
-        else if (node.child("Dimension"))
-            variable.count = 0;
-        if (variable.count != 0U)
             check_start(file, typed, variable);
+        } else if (node.child("Dimension")) {
+            variable.count = 0;
+        }
         std::string unit = typed.attribute("unit").as_string();
         if (const auto declared = type_units.find(typed.attribute("declaredType").as_string());
             unit.empty() && declared != type_units.end())

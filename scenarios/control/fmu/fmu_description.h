@@ -11,11 +11,11 @@ namespace fernlicht {
 /// In which C type a value goes in and out.
 enum class FmuType : std::uint8_t { float64, float32, int8, uint8, int16, uint16, int32, uint32, int64, uint64, flag, text, none };
 
-/// Base-unit value = factor * value + offset, as UnitDefinitions say; exponents of m and s, and whether there are others but rad and cd.
+/// Base-unit value = factor * value + offset, as UnitDefinitions say; exponents of m, s, cd and rad, and whether there are others.
 struct FmuUnit {
     std::string name;
     double factor = 1.0, offset = 0.0;
-    int metres = 0, seconds = 0, candelas = 0;
+    int metres = 0, seconds = 0, candelas = 0, radians = 0;
     bool others = false, known = false; ///< `known`: UnitDefinitions have its base units
 
     bool is_base() const { return factor == 1.0 && offset == 0.0; } ///< then values go through as they are, to the bit
@@ -40,7 +40,8 @@ struct FmuDescription {
 };
 
 /// `xml`: the content of `path`, which names it in messages alone. Throws InputError: no XML, another version, no co-simulation, one that
-/// needs its tool, names that are missing or no names, start values that are none of their type, dimensions that nothing gives.
+/// needs its tool, names that are missing or no names, start values of inputs and outputs that are none of their type, dimensions that
+/// nothing gives.
 FmuDescription read_fmu_description(const std::filesystem::path& path, const std::string& xml);
 
 } // namespace fernlicht

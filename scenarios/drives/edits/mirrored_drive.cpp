@@ -213,12 +213,8 @@ ControlParameters mirrored(ControlParameters control) {
             for (auto& [from, to] : lamp.windows_deg)
                 std::swap(from, to), change_sign(from), change_sign(to);
         }
-    for (PluginParameters& plugin : control.plugins) {
+    for (PluginParameters& plugin : control.plugins)
         names(plugin.lamps);
-        for (auto* const names_of : {&plugin.inputs, &plugin.outputs})
-            for (auto& [variable, signal] : *names_of)
-                signal = other_signal(signal);
-    }
     for (ControlFailure& failure : control.failures)
         if (failure.kind != ControlFailure::Kind::lost_signal)
             failure.what = other_side(failure.what);

@@ -26,7 +26,8 @@ inline void change_sign(std::optional<double>& value) {
 /// "high-left" of "high-right"; within longer words they stay ("bright").
 std::string other_side(const std::string& name);
 
-/// Left and right exchanged: lamps' names, stops of the swivel, windows, signals that point to a side. Plug-ins are left as they are.
+/// Left and right exchanged: lamps' names, stops of the swivel, windows, signals that point to a side. Plug-ins and FMUs keep
+/// their sides, by whatever name: they are a car's laws, told of the mirrored world.
 ControlParameters mirrored(ControlParameters control);
 /// What a bus says of left and right is taken for the other side; lamps' names likewise.
 BusMapping mirrored(BusMapping mapping);

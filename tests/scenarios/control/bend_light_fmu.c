@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { yaw_rate, speed, swivel, fault, echo_from, echo_to = 64, preview = 127, values = 192 };
+enum { yaw_rate, speed, swivel, fault, echo_from, echo_to = 64, preview = 127, handed = 128, values = 192 };
 enum { fault_nan = 1, fault_status_from = 10, fault_crash = 20, fault_text = 21 };
 
 typedef void (*logs2)(void*, const char*, int, const char*, const char*, ...);
@@ -112,6 +112,8 @@ API void* fmi3InstantiateCoSimulation(const char* name, const char* token, const
     if (of) {
         of->log3 = log;
         of->environment = environment;
+        memcpy(of->value + handed, &environment, sizeof environment);
+        memcpy(of->value + handed + 1, &log, sizeof log);
     } else {
         log(environment, 3, "all", "not this FMU");
     }

@@ -1,10 +1,14 @@
 // FMUs as control laws: the example's law in FMI 2.0 and 3.0, and what is wrong with archives, descriptions, binaries and answers.
 #include "scenarios/control/control_run.h"
+#include "scenarios/control/fmu/fmi.h"
+#include "scenarios/control/fmu/fmu.h"
 #include "tests/fmu_archive.h"
 #include "tests/scenarios/drives/drive_fixture.h"
 
 #include <cmath>
+#include <cstring>
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 namespace fernlicht {
 namespace {
@@ -115,6 +119,82 @@ TEST(FmuLaw, BadAnswersAreLeftOutOrEndTheRunWithASentence) {
     EXPECT_THAT(folders_left(), testing::IsEmpty());
 }
 
+FmuVariable fmu_variable_of(Fmu& fmu, const std::string& name) {
+    return *std::ranges::find(fmu.description().variables, name, &FmuVariable::name);
+}
+
+/// Past its initialization, with this fault.
+void start_with_fault(Fmu& fmu, double fault) {
+    const FmuVariable variable = fmu_variable_of(fmu, "fault");
+    fmu.will_set(variable);
+    ASSERT_EQ(fmu.instantiate(), "");
+    ASSERT_EQ(fmu.set(variable, std::span(&fault, 1)), "");
+    ASSERT_EQ(fmu.initialize(), "");
+    ASSERT_EQ(fmu.begin(), "");
+}
+
+TEST(Fmu, OnlyWhatACallLoggedIsItsReason) {
+    Fmu fmu(fmu_archive({2}));
+    start_with_fault(fmu, 11.0);
+    EXPECT_EQ(fmu.step(0.0, 0.02), "") << "a warning, and its text";
+    EXPECT_EQ(fmu.step(-1.0, 0.02), "fmi2DoStep() returned error") << "it says nothing";
+    fmu.close();
+}
+
+/// After "fatal" the library stays, and may log by what it was handed, which lay in the object that is gone.
+TEST(Fmu, WhatAFatalFmuWasHandedOutlivesIt) {
+    alignas(Fmu) std::array<std::byte, sizeof(Fmu)> place{};
+    Fmu* const fmu = new (place.data())
+        Fmu(fmu_archive({3, fmu_variable(3, "environment", "output", "Real", 128) + fmu_variable(3, "log", "output", "Real", 129)}));
+    start_with_fault(*fmu, 14.0);
+    EXPECT_THAT(fmu->step(0.0, 0.02), HasSubstr("fatal"));
+    const auto handed = [&](const std::string& name, auto& pointer) {
+        double bits = 0.0;
+        fmu->will_get(fmu_variable_of(*fmu, name));
+        fmu->get(fmu_variable_of(*fmu, name), std::span(&bits, 1));
+        std::memcpy(&pointer, &bits, sizeof pointer);
+    };
+    fmi::Environment environment = nullptr;
+    fmi::v3::Log* log = nullptr;
+    handed("environment", environment);
+    handed("log", log);
+    fmu->~Fmu();
+    place.fill(std::byte{0xaa});
+    log(environment, fmi::warning, "all", "still here");
+}
+
+TEST(FmuLaw, UnitsAreDefinedOrOurs) {
+    const auto refused = [](const std::string& unit, const std::string& command, const std::string& root_more = "") {
+        const std::string turned = fmu_variable(2, "turned", "output", "Real", 64, "unit=\"" + unit + "\"");
+        return fmu_refusal({.variables = turned, .root_more = root_more}, {}, {}, {{"turned", "lamp.left." + command}});
+    };
+    EXPECT_THAT(refused("deg", "pitch_command_rad"),
+                HasSubstr("outputs: 'turned' in 'deg', a unit that the FMU does not define, expected its BaseUnit, because "
+                          "'lamp.left.pitch_command_rad' is in rad"));
+    EXPECT_EQ(refused("rad", "pitch_command_rad"), "");
+    EXPECT_THAT(refused("deg", "level", FmuText{}.root_more), HasSubstr("a unit of what 'lamp.left.level' has in 1"));
+}
+
+TEST(FmuLaw, NumbersAreThoseOfTheirType) {
+    const FmuText whole{3, fmu_variable(3, "n", "parameter", "UInt16", 30)};
+    for (const char* const number : {"70000", "-1", "1.5"})
+        EXPECT_THAT(fmu_refusal(whole, {{"n", number}}), HasSubstr(fmt::format("'{}' for 'n', expected a value of type UInt16", number)));
+    EXPECT_EQ(fmu_refusal(whole, {{"n", "65535"}}), "");
+    EXPECT_EQ(fmu_refusal({2, fmu_variable(2, "ambient", "input", "Real", 4, "start=\"-INF\"") +
+                                  fmu_variable(2, "inner", "local", "Integer", 5, "start=\"one\"")},
+                          {{"ambient", "3.5"}}),
+              "");
+}
+
+TEST(FmuLaw, CommandsAreOfLampsThatItMayMove) {
+    ControlParameters control{.plugins = {{fmu_archive({}), "", {"high"}}}};
+    control.plugins[0].fmu = true;
+    EXPECT_THAT(tests::refusal_of([&] {
+                    run_control(control, fmu_lamps, {}, [](double t) { return ControlInputs{.time_s = t}; }, {1, 1});
+                }),
+                HasSubstr("no output that is a command"));
+}
+
 TEST(FmuLaw, WhatDoesNotFitIsOneSentence) {
     EXPECT_THAT(fmu_refusal({2, fmu_variable(2, "ego.sped_mps", "input", "Real", 4)}),
                 HasSubstr("law.fmu: inputs: no signal 'ego.sped_mps' for input 'ego.sped_mps', expected 'ego.speed_mps', the nearest "
@@ -182,7 +262,40 @@ TEST(FmuLaw, UnusableArchivesAreOneSentence) {
     std::string huge = bytes;
     huge.replace(huge.rfind("PK\x01\x02") + 24, 4, std::string("\0\0\0\x7f", 4));
     EXPECT_THAT(fmu_refusal(tests::written("huge.fmu", huge)), HasSubstr("more than 1024 MiB when unpacked"));
+    huge.replace(huge.rfind("PK\x01\x02") + 24, 4, std::string("\0\0\x10\1", 4));
+    EXPECT_THAT(fmu_refusal(tests::written("huge.fmu", huge)), HasSubstr("a modelDescription.xml of more than 16 MiB"));
     EXPECT_THAT(folders_left(), testing::IsEmpty());
+}
+
+std::string fmu_bytes(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Its size stands 24 bytes behind the directory's record of an entry, the name 46.
+TEST(FmuLaw, ASizeThatAnArchiveClaimsTakesNoMemory) {
+    std::string claims = fmu_bytes(fmu_archive({}));
+    claims.replace(claims.rfind("binaries/linux64/bend.so") - 46 + 24, 4, std::string("\0\0\0\x3f", 4));
+    const std::filesystem::path file = tests::written("claims.fmu", claims);
+    rusage before{}, after{};
+    ::getrusage(RUSAGE_SELF, &before);
+    EXPECT_THAT(fmu_refusal(file), HasSubstr("expected a zip archive, as FMUs are"));
+    ::getrusage(RUSAGE_SELF, &after);
+    EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 300L << 10) << "KiB, of 1008 MiB";
+}
+
+TEST(FmuLaw, EntriesThatCannotLieBesideEachOtherAreTheArchivesFault) {
+    for (const std::string second : {"resources/bb", "resources/bb/c"}) {
+        std::string twice =
+            fmu_bytes(tests::zipped("a.fmu", {{"modelDescription.xml", tests::fmu_description({})}, {"resources/aa", "x"}, {second, "y"}}));
+        for (std::size_t at = 0; (at = twice.find("resources/bb")) != std::string::npos;)
+            twice.replace(at, 12, "resources/aa");
+        EXPECT_THAT(fmu_refusal(tests::written("twice.fmu", twice)), HasSubstr("' that cannot lie beside the others"));
+    }
+    std::string twice = fmu_bytes(tests::zipped("a.fmu", {{"modelDescription.xml", "<a/>"}, {"modelDescription.xmm", "<a/>"}}));
+    for (std::size_t at = 0; (at = twice.find("modelDescription.xmm")) != std::string::npos;)
+        twice.replace(at, 20, "modelDescription.xml");
+    EXPECT_THAT(fmu_refusal(tests::written("twice.fmu", twice)), HasSubstr("'modelDescription.xml' that cannot lie beside the others"));
 }
 
 class FmuDrive : public DriveFixture {};

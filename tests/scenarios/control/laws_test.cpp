@@ -196,6 +196,18 @@ ControlInputs circle(double time_s, double speed_mps, double radius_m) {
     return in;
 }
 
+TEST(ControlLoopWindows, OneThatIsLostAndFailsStaysAsItWas) {
+    const std::string window = "lamp.left.segments[1]";
+    const ControlParameters control{.failures = {{.at_s = 0.1, .what = window}}};
+    ControlLoop loop(control, {{"left", {3.4, 0.6, 0.65}, 0.0, {{-4.0, 0.0, -90.0, 90.0}, {0.0, 4.0, -90.0, 90.0}}}}, {}, {}, {window});
+    for (int tick = 0; tick < 10; ++tick) {
+        ControlInputs in{.time_s = 0.02 * tick};
+        in.written = {{loop.signals().find(window), tick < 5 ? 0.25 : nan}};
+        loop.step(in);
+    }
+    EXPECT_EQ(loop.lamp_at(0, 0.18).segments.back().second, (std::vector<double>{0.25, 1.0}));
+}
+
 const std::vector<ControlledLamp> two_lamps{{"left", {3.4, 0.6, 0.65}, 0.0}, {"right", {3.4, -0.6, 0.65}, 0.0}};
 const ControlledCar car{2.7, 0.003};
 

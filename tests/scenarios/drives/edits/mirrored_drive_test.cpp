@@ -16,6 +16,14 @@ TEST(MirroredDrive, NamesChangeSidesByWholeWords) {
     EXPECT_EQ(other_side("leftover right"), "leftover left");
 }
 
+TEST(MirroredDrive, AnFmuKeepsItsSidesMappedOrNot) {
+    ControlParameters control{.plugins = {{"law.fmu", "", {"left"}}}};
+    control.plugins[0].outputs = {{"angle", "lamp.left.level"}};
+    const PluginParameters turned = mirrored(control).plugins[0];
+    EXPECT_EQ(turned.outputs, control.plugins[0].outputs);
+    EXPECT_EQ(turned.lamps, std::vector<std::string>{"right"});
+}
+
 /// Every key of a drive, some of them to one side.
 Drive example_drive() {
     Drive drive = read_drive(FERNLICHT_SOURCE_DIR "/scenarios/drive.example.yaml");
