@@ -1,5 +1,6 @@
 #include "metrics/folds/mask_scene.h"
 
+#include "metrics/folds/place_fold.h"
 #include "scenarios/light/light.h"
 
 #include <algorithm>
@@ -14,13 +15,6 @@ namespace {
 constexpr double lane_step_m = 1.0;    ///< between places at which a crest is looked for
 constexpr double nearest_eye_m = 15.0; ///< nearer, a lamp is hardly a point, and no source has limits
 constexpr double farthest_walker_m = 200.0;
-
-glm::dvec3 middle_of_lamps_m(const Moment& moment) {
-    glm::dvec3 sum(0.0);
-    for (const LitLamp& lamp : moment.lamps)
-        sum += lamp.pose.position_m;
-    return sum / static_cast<double>(std::max<std::size_t>(1, moment.lamps.size()));
-}
 
 /// Whether some road user but one, by Drive::traffic, stands between both points.
 bool body_hides(const Drive& drive, const Moment& moment, const glm::dvec3& from_m, const glm::dvec3& to_m,
@@ -47,10 +41,21 @@ std::optional<double> limit_of(const Rating& limits, const Photometer& photomete
 
 } // namespace
 
-MaskScene::MaskScene(const Drive& drive, const Route& route, const Rating& limits, const MaskPlaces& places, const Moment& moment) {
+glm::dvec3 middle_of_lamps_m(const Moment& moment) {
+    glm::dvec3 sum(0.0);
+    for (const LitLamp& lamp : moment.lamps)
+        sum += lamp.pose.position_m;
+    return sum / static_cast<double>(std::max<std::size_t>(1, moment.lamps.size()));
+}
+
+MaskScene::MaskScene(const Drive& drive, const Route& route, const Rating& limits, const MaskPlaces& places, const VisibilityTarget& walker,
+                     const Moment& moment)
+    : walker_(walker) {
     const glm::dvec3 lamps_m = middle_of_lamps_m(moment);
     add_targets(drive, route, places, moment, lamps_m);
     add_eyes(drive, route, limits, moment, lamps_m);
+    if (!walkers_.empty())
+        add_veils(drive, route, moment);
 }
 
 void MaskScene::add_targets(const Drive& drive, const Route& route, const MaskPlaces& places, const Moment& moment,
@@ -81,8 +86,8 @@ void MaskScene::add_targets(const Drive& drive, const Route& route, const MaskPl
             }
         };
         add_strip(own->right_m, own->left_m, false);
-        places.left_hand ? add_strip(own->left_m, own->left_m + places.verge_m, true)
-                         : add_strip(own->right_m - places.verge_m, own->right_m, true);
+        if (const std::optional<double> edge_m = offset_across_m(section, places.left_hand ? Across::left_edge : Across::right_edge))
+            places.left_hand ? add_strip(*edge_m, *edge_m + places.verge_m, true) : add_strip(*edge_m - places.verge_m, *edge_m, true);
     }
 }
 
@@ -110,12 +115,37 @@ void MaskScene::add_eyes(const Drive& drive, const Route& route, const Rating& l
         if (const auto at_m = oncoming ? along_route_m(route, front, moment.distance_m + straight_m) : std::nullopt) {
             const double ahead_m = *at_m - moment.distance_m - drive.bumper_m;
             if (ahead_m > 0.0 && ahead_m <= farthest_walker_m)
-                walkers_.emplace_back(user, ahead_m);
+                walkers_.push_back({user, ahead_m});
         }
     }
 }
 
-MaskLight MaskScene::light(const Moment& moment, const VisibilityFold& visibility, const VisibilityTarget& walker) const {
+/// What other lamps veil for a driver who looks at the middle of the walker; those that a crest hides from his eye do not.
+void MaskScene::add_veils(const Drive& drive, const Route& route, Moment moment) {
+    const glm::dvec3 eye_m = to_parent(moment.ego, driver_eye_m(drive));
+    double farthest_m = 0.0;
+    for (const LitLamp& lamp : moment.other_lamps)
+        farthest_m = std::max(farthest_m, glm::distance(eye_m, lamp.pose.position_m));
+    const RoadBetween road(route, moment.distance_m, std::min(moment.distance_m + farthest_m, route.length_m()));
+    std::erase_if(moment.other_lamps, [&](const LitLamp& lamp) { return road.hides(lamp.pose.position_m, eye_m); });
+    std::vector<BodyBox> boxes;
+    for (const RoadUser& user : drive.traffic)
+        boxes.push_back({user.size_m, user.rear_m});
+    const auto veil = [&](Across across, double ahead_m) {
+        const std::optional<Pose> foot = place_on_road(route, across, moment.distance_m + drive.bumper_m + ahead_m);
+        if (!foot)
+            return Value::not_measured("the road has no such lane there");
+        const glm::dvec3 middle = foot->position_m + 0.5 * walker_.squares * walker_.size_m * foot->up();
+        const std::vector<GlareSource> sources = traffic_glare(moment, eye_m, glm::normalize(middle - eye_m), boxes);
+        return veiling_luminance_cdm2(VeilingEquation::cie_general, sources, {.age_years = drive.seeing.visibility->age_years});
+    };
+    for (Walker& walker : walkers_) {
+        walker.left_veil_cdm2 = veil(Across::left_edge, walker.ahead_m);
+        walker.right_veil_cdm2 = veil(Across::right_edge, walker.ahead_m);
+    }
+}
+
+MaskLight MaskScene::light(const Moment& moment, const VisibilityFold& visibility) const {
     MaskLight light;
     std::vector<double> lx(targets_.size());
     oneapi::tbb::parallel_for(std::size_t{0}, targets_.size(),
@@ -134,9 +164,10 @@ MaskLight MaskScene::light(const Moment& moment, const VisibilityFold& visibilit
                 eye.lx += glare_source(lamp, place.point_m, place.gaze).eye_lx;
         light.eyes.push_back(eye);
     }
-    for (const auto& [user, ahead_m] : walkers_)
-        light.walkers.push_back({user, ahead_m, visibility.level_at(moment, walker, Across::left_edge, ahead_m),
-                                 visibility.level_at(moment, walker, Across::right_edge, ahead_m)});
+    for (const Walker& at : walkers_)
+        light.walkers.push_back({at.user, at.ahead_m,
+                                 visibility.level_at(moment, walker_, Across::left_edge, at.ahead_m, at.left_veil_cdm2),
+                                 visibility.level_at(moment, walker_, Across::right_edge, at.ahead_m, at.right_veil_cdm2)});
     return light;
 }
 

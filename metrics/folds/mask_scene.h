@@ -1,6 +1,6 @@
-// Where masks in a beam take light, in one moment of a drive: from the driver on his own lane and the verge beside it, from people on foot
-// beside who comes towards him, and, as is meant, from eyes and mirrors of others. By the twin, in double. Crests of the road hide lamps,
-// and the boxes of road users do from targets and eyes: what lies in somebody's shadow is no loss. Nothing else hides any.
+// Where masks in a beam take light, in one moment of a drive: from the driver on his own lane and on the verge, from pedestrians beside
+// oncoming cars, and, as is meant, from eyes and mirrors of other road users. By the twin, in double. Crests of the road hide lamps, and
+// the boxes of road users do from targets and eyes: what lies in somebody's shadow is no loss. Nothing else hides any.
 #pragma once
 
 #include "metrics/folds/visibility_fold.h"
@@ -9,8 +9,9 @@
 
 namespace fernlicht {
 
-/// Targets that face the lamps, in the middle of cells of equal size over the own lane and over a verge as wide as `verge_m` along the
-/// lane's edge at the kerb's side. Ours: where somebody ahead may step onto the lane; nearer ground lies below all masks.
+/// Targets that face the lamps, in the middle of cells of equal size over the own lane and over a verge as wide as `verge_m` beside the
+/// driving lanes on the kerb's side; a hard shoulder belongs to it. Ours: from where somebody may step onto the road; nearer ground lies
+/// below all masks.
 struct MaskPlaces {
     double from_m = 20.0, to_m = 200.0; ///< from the front bumper, along the route
     double row_m = 4.0, across_m = 0.5; ///< size of a cell at most
@@ -22,14 +23,14 @@ struct MaskPlaces {
 /// What one lamp set does there.
 struct MaskLight {
     double lane_lx = 0.0, verge_lx = 0.0, both_lx = 0.0; ///< means over the targets
-    /// Light on a photometer of a road user: of the eye of who comes towards the car, of the mirrors of who is ahead.
+    /// Light on a photometer of a road user: of the eye of an oncoming one, of the mirrors of a preceding one.
     struct Eye {
         std::size_t user = 0; ///< of Drive::traffic
         double distance_m = 0.0, lx = 0.0;
         std::optional<double> limit_lx = {}; ///< nullopt: no limit at that distance
     };
     std::vector<Eye> eyes;
-    /// Somebody on foot level with the front of who comes: at the edges of the road as the driver sees them.
+    /// A pedestrian level with the front of an oncoming road user: at the edges of the road as the driver sees them.
     struct Walker {
         std::size_t user = 0;
         double ahead_m = 0.0; ///< from the front bumper
@@ -40,12 +41,13 @@ struct MaskLight {
 
 class MaskScene {
   public:
-    /// Geometry of the moment, which all lamp sets share. Of `limits` photometers on road users count, those that face forward with who
-    /// comes towards the car, those that face backward with who is ahead, each with the limits of the first row that names it. Drive, which
-    /// asks for visibility, route and `limits` must outlive it.
-    MaskScene(const Drive& drive, const Route& route, const Rating& limits, const MaskPlaces& places, const Moment& moment);
-    /// The same moment with some lamp set. `visibility`: of the drive; `walker`: who is on foot.
-    MaskLight light(const Moment& moment, const VisibilityFold& visibility, const VisibilityTarget& walker) const;
+    /// Geometry of the moment, and the glare of other lamps, which all lamp sets share. Of `limits` photometers on road users count, those
+    /// that face forward on oncoming ones, those that face backward on preceding ones, each with the limits of the first row that names it.
+    /// `walker`: the pedestrian. Drive, which asks for visibility, route, `limits` and `walker` must outlive it.
+    MaskScene(const Drive& drive, const Route& route, const Rating& limits, const MaskPlaces& places, const VisibilityTarget& walker,
+              const Moment& moment);
+    /// The same moment with some lamp set. `visibility`: of the drive.
+    MaskLight light(const Moment& moment, const VisibilityFold& visibility) const;
 
     double lane_m2() const { return lane_m2_; } ///< of which there are targets
     double verge_m2() const { return verge_m2_; }
@@ -65,11 +67,21 @@ class MaskScene {
     };
     void add_targets(const Drive& drive, const Route& route, const MaskPlaces& places, const Moment& moment, const glm::dvec3& lamps_m);
     void add_eyes(const Drive& drive, const Route& route, const Rating& limits, const Moment& moment, const glm::dvec3& lamps_m);
+    void add_veils(const Drive& drive, const Route& route, Moment moment);
 
     std::vector<Target> targets_; ///< those that nothing hides
     double lane_m2_ = 0.0, verge_m2_ = 0.0;
     std::vector<Place> eyes_;
-    std::vector<std::pair<std::size_t, double>> walkers_; ///< user and distance ahead
+    struct Walker {
+        std::size_t user;
+        double ahead_m;
+        Value left_veil_cdm2 = {}, right_veil_cdm2 = {};
+    };
+    std::vector<Walker> walkers_;
+    const VisibilityTarget& walker_;
 };
+
+/// The middle of the moment's lamps, from which a MaskScene looks for what hides targets and eyes.
+glm::dvec3 middle_of_lamps_m(const Moment& moment);
 
 } // namespace fernlicht

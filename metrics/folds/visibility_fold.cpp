@@ -277,14 +277,21 @@ VisibilityFold::Ahead VisibilityFold::ahead_of(const Moment& lit) const {
     return ahead;
 }
 
-Value VisibilityFold::level_at(const Moment& moment, const VisibilityTarget& target, Across across, double ahead_m) const {
+Value VisibilityFold::level_at(const Moment& moment, const VisibilityTarget& target, Across across, double ahead_m,
+                               const Value& veil_cdm2) const {
     const Moment lit = with_lamps_that_shine(moment);
     const double along_m = lit.distance_m + drive_.bumper_m + ahead_m;
     if (along_m > route_.length_m())
         return Value::not_measured("the route ends nearer than this");
+    if (!veil_cdm2.number())
+        return veil_cdm2;
     const Ahead ahead = ahead_of(lit);
     std::vector<Place> there{{ahead_m, along_m, squares(lit, ahead, along_m, {across, target.size_m, target.squares, {}})}};
     add_weather(lit, ahead, there);
+    for (Square& square : there.front().squares)
+        if (square.adaptation_cdm2 >
+            0.0) // before a road without light its level stays unknown: an eye adapted to the veil alone would see more
+            square.adaptation_cdm2 += *veil_cdm2.number();
     return there.front().squares.empty() ? Value::not_measured("the road has no such lane there") : level(there.front().squares, target);
 }
 

@@ -22,8 +22,9 @@ class VisibilityFold {
     /// background_luminance_own_at_50m_cdm2, mesopic_luminance_own_at_50m_cdm2. Medians.
     Readings readings() const;
     std::vector<SeeingSeries> series() const;
-    /// Visibility level in a moment of a target so far ahead of the bumper, which is not folded; beyond a crest 0.
-    Value level_at(const Moment& moment, const VisibilityTarget& target, Across across, double ahead_m) const;
+    /// Visibility level in a moment of a target so far ahead of the bumper, which is not folded; beyond a crest 0. The eye is adapted to
+    /// what lies behind the target and to `veil_cdm2` of glare over it, which adds to target and background alike (Adrian 1989).
+    Value level_at(const Moment& moment, const VisibilityTarget& target, Across across, double ahead_m, const Value& veil_cdm2) const;
 
   private:
     /// A square of a target as the driver sees it.

@@ -74,10 +74,16 @@ void set_levels(LampFile& lamp, const std::filesystem::path& file, double time_s
     const std::shared_ptr<const LevelTrack> track = read_levels(file, std::make_shared<const LampFile>(lamp), lamp.opened);
     const PixelState state = PixelStates(lamp.pixels).of(track->levels(time_s));
     const std::size_t count = lamp.pixels->count();
-    std::string dark;
+    const std::size_t boxes = state.dark.size() + state.more_dark;
+    std::string dark = boxes > 1 ? fmt::format("; dark in {} boxes", boxes) : "";
     for (const AngleBox& box : state.dark)
-        dark += fmt::format("{}H {:.4g} to {:.4g}, V {:.4g} to {:.4g}", dark.empty() ? "; dark at " : "; ", box.left_deg, box.right_deg,
-                            box.bottom_deg, box.top_deg);
+        dark += fmt::format("{}H {:.4g} to {:.4g}, V {:.4g} to {:.4g}",
+                            &box != &state.dark.front() ? "; "
+                            : boxes > 1                 ? ": "
+                                                        : "; dark at ",
+                            box.left_deg, box.right_deg, box.bottom_deg, box.top_deg);
+    if (state.more_dark > 0)
+        dark += fmt::format("; and {} more", state.more_dark);
     lamp.notes.push_back(fmt::format("levels of {} at {:g} s: {} of {} parts shine, {:.4g} % of the flux{}", file.filename().string(),
                                      time_s, state.lit, count, 100.0 * state.flux, dark));
     lamp.table = track->at(time_s)->table;

@@ -62,6 +62,8 @@ std::string levels_csv(const std::vector<PixelLevels>& lamps) {
             std::string dark;
             for (const AngleBox& box : row.pixels.dark)
                 dark += (dark.empty() ? "" : " ") + box_text(box);
+            if (row.pixels.more_dark > 0)
+                dark += fmt::format(" and {} more", row.pixels.more_dark);
             out += fmt::format("{:.9g},{},{:.6g},{},{},{:.6g},{}", row.time_s, csv_text(lamp.lamp), row.level, row.pixels.lit, lamp.count,
                                row.pixels.flux, dark);
             for (std::size_t i = 0; i < told; ++i)
@@ -112,7 +114,7 @@ std::optional<plots::Figure> levels_figure(const PixelLevels& lamp, const std::s
             edge.width_px = 1.4;
         }
         if (!std::exchange(named[oncoming ? 1 : 0], true))
-            edges[0].name = oncoming ? "edges of who comes" : "edges of who is ahead";
+            edges[0].name = oncoming ? "edges of oncoming road users" : "edges of preceding road users";
         for (plots::Series& edge : edges)
             figure.series.push_back(std::move(edge));
     }

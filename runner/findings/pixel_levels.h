@@ -34,7 +34,7 @@ struct PixelLevels {
 };
 
 /// A line for each moment and lamp: `time_s`, `lamp`, `level` of the lamp as a whole, `lit`, `of` how many parts, `flux` (share of the full
-/// one), `dark` ("H from:to/V from:to" in degrees, boxes between blanks), then the level of each part. RFC 4180.
+/// one), `dark` ("H from:to/V from:to" in degrees, boxes between blanks, at last "and N more"), then the level of each part. RFC 4180.
 std::string levels_csv(const std::vector<PixelLevels>& lamps);
 
 /// The mean level of each column over H and time, which runs downwards, with the edges of other road users as lines. nullopt: no moment, or

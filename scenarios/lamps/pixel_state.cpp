@@ -69,7 +69,7 @@ PixelState PixelStates::of(std::span<const float> levels) const {
     }
     state.flux = full_lm_ > 0.0 ? lm / full_lm_ : 0.0;
     state.columns = column_means(levels);
-    state.dark = dark_boxes(levels);
+    add_dark_boxes(levels, state);
     return state;
 }
 
@@ -98,13 +98,18 @@ std::vector<float> PixelStates::column_means(std::span<const float> levels) cons
     return means;
 }
 
-std::vector<AngleBox> PixelStates::dark_boxes(std::span<const float> levels) const {
-    std::vector<AngleBox> boxes;
+void PixelStates::add_dark_boxes(std::span<const float> levels, PixelState& state) const {
+    const auto add = [&](const AngleBox& box) {
+        if (state.dark.size() < most_dark_boxes)
+            state.dark.push_back(box);
+        else
+            ++state.more_dark;
+    };
     if (lamp_->parts().raster.empty()) {
         for (std::size_t i = 0; i < levels.size(); ++i)
             if (levels[i] == 0.0F)
-                boxes.push_back(lamp_->lights(i));
-        return boxes;
+                add(lamp_->lights(i));
+        return;
     }
     const auto width = static_cast<std::size_t>(lamp_->parts().raster.front().columns), rows = levels.size() / width;
     std::vector<bool> left(levels.size());
@@ -128,9 +133,8 @@ std::vector<AngleBox> PixelStates::dark_boxes(std::span<const float> levels) con
                 for (std::size_t i = column; i < end; ++i)
                     left[bottom * width + i] = false;
             const AngleBox first = lamp_->lights(row * width + column), last = lamp_->lights((bottom - 1) * width + end - 1);
-            boxes.push_back({first.left_deg, last.right_deg, last.bottom_deg, first.top_deg});
+            add({first.left_deg, last.right_deg, last.bottom_deg, first.top_deg});
         }
-    return boxes;
 }
 
 } // namespace fernlicht

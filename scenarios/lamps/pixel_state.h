@@ -12,13 +12,15 @@ struct PixelState {
     std::size_t lit = 0;        ///< parts that shine: level above 0, and not dead
     double flux = 0.0;          ///< share of the flux at full level, base included
     std::vector<float> columns; ///< mean level of the parts in each of columns_deg(); NaN where there is none
-    std::vector<AngleBox> dark; ///< where parts have level 0: of a raster rectangles of pixels, none over another
+    std::vector<AngleBox> dark; ///< where parts have level 0: of a raster rectangles of pixels, none over another; at most most_dark_boxes
+    std::size_t more_dark = 0;  ///< boxes beyond these
 };
 
 class PixelStates {
   public:
     /// A raster's columns, several in one where there are more than `most_columns`; of segments H is cut where one of them ends.
     static constexpr int most_columns = 512;
+    static constexpr std::size_t most_dark_boxes = 100; ///< a chequered raster has a box for every other pixel
     explicit PixelStates(std::shared_ptr<const PixelLamp> lamp);
 
     const std::vector<std::pair<double, double>>& columns_deg() const { return columns_deg_; } ///< H, from and to, ascending
@@ -28,7 +30,7 @@ class PixelStates {
 
   private:
     std::vector<float> column_means(std::span<const float> levels) const;
-    std::vector<AngleBox> dark_boxes(std::span<const float> levels) const;
+    void add_dark_boxes(std::span<const float> levels, PixelState& state) const;
 
     std::shared_ptr<const PixelLamp> lamp_;
     std::vector<std::pair<double, double>> columns_deg_;

@@ -1,4 +1,5 @@
 // Lamp control through the program: what the report says of it, the table of signals, a plug-in among the inputs, a swivel that sticks.
+#include "runner/findings/pixel_levels.h"
 #include "tests/fmu_archive.h"
 #include "tests/runner/program.h"
 #include "tests/runner/run_readings.h"
@@ -109,7 +110,14 @@ TEST_F(ControlRunTest, PixelsOverTheDriveAreToldAndDrawn) {
         EXPECT_TRUE(std::filesystem::exists(out + name)) << name;
     const std::string page = content_of(out + "/report.html");
     EXPECT_THAT(page, HasSubstr("Pixels over the drive"));
-    EXPECT_THAT(page, HasSubstr("edges of who comes"));
+    EXPECT_THAT(page, HasSubstr("edges of oncoming road users"));
+}
+
+TEST(PixelLevels, TheCsvSaysHowManyBoxesItLeavesOut) {
+    PixelLevels lamp{"left", 400, {{-1.0, 1.0}}, {{}}};
+    lamp.rows[0].pixels.dark = {{-1.0, 0.0, -2.0, 2.0}};
+    lamp.rows[0].pixels.more_dark = 100;
+    EXPECT_THAT(levels_csv({lamp}), HasSubstr(",-1:0/-2:2 and 100 more\r\n"));
 }
 
 TEST_F(ControlRunTest, AStuckSwivelIsFoundAndAPluginIsAnInput) {

@@ -100,14 +100,15 @@ plots::Figure cost_figure(const MasksFound& found, bool close) {
     return figure;
 }
 
-/// nullopt: nobody is on foot beside anybody.
+/// nullopt: no pedestrian is detected anywhere.
 std::optional<plots::Figure> walker_figure(const MasksFound& found) {
     plots::Figure figure;
-    figure.title = "Somebody on foot beside who comes";
-    figure.subtitle = fmt::format("{}, visibility level {:g}: from how far away detected, median of those who come. Full: left edge of the "
-                                  "road; broken: right edge. Level lines: lamp sets without masks. "
-                                  "What is detected nowhere is left out.",
-                                  found.walker, found.walker_level);
+    figure.title = "Pedestrian beside an oncoming car";
+    figure.subtitle =
+        fmt::format("{}, visibility level {:g}: from how far away detected, median over oncoming cars. Full: left edge of the "
+                    "road; broken: right edge. Level lines: lamp sets without masks. "
+                    "What is detected nowhere is left out.",
+                    found.walker, found.walker_level);
     std::vector<double> x, y;
     for (const MaskedDrive& one : found.drives)
         if (one.margin_deg)
@@ -166,6 +167,10 @@ Cell metres_cell(const Value& value) {
     return value.measured() ? Cell(with_bound(value, figure(*value.figure(), 1)), *value.figure()) : Cell("–").hinted(value.reason());
 }
 
+std::string no_light(const MasksFound& found) {
+    return fmt::format("{} gives no light on own lane and verge", short_text(found.against, 40));
+}
+
 Table masks_table(const MasksFound& found) {
     Table table{"masks",
                 "",
@@ -180,8 +185,8 @@ Table masks_table(const MasksFound& found) {
         row.push_back(one.margin_deg ? Cell(fmt::format("{:g}{}", *one.margin_deg, one.as_it_is ? ", as it is" : ""), *one.margin_deg)
                                      : Cell("–"));
         row.insert(row.end(), {lux_seconds(one.lane_lxs), lux_seconds(one.verge_lxs), lux_seconds(one.lost_lxs),
-                               Cell(figure(one.lost_percent, 1), one.lost_percent), lux_seconds(one.others_lxs), lux_seconds(one.above_lxs),
-                               lux_seconds(one.most_lx)});
+                               one.lost_percent ? Cell(figure(*one.lost_percent, 1), *one.lost_percent) : Cell("–").hinted(no_light(found)),
+                               lux_seconds(one.others_lxs), lux_seconds(one.above_lxs), lux_seconds(one.most_lx)});
         row.push_back(one.most_of_limit ? Cell(figure(100.0 * *one.most_of_limit, 0), 100.0 * *one.most_of_limit) : Cell("–"));
         if (one.worst_user.empty())
             row.insert(row.end(), 3, "–");
@@ -199,11 +204,13 @@ std::vector<std::string> told(const MasksFound& found) {
     for (const MaskedDrive* const one : as_they_are(found))
         if (one != &full)
             sentences.push_back(fmt::format(
-                "{}{}: {} % of {}’s light on own lane and verge is lost, {} lx s. Others get {} lx s, {} of them above limits; with {} {} "
-                "and {}",
-                short_text(one->lamp_set, 40), one->margin_deg ? fmt::format(", margin {:g}°", *one->margin_deg) : "",
-                figure(one->lost_percent, 1), short_text(full.lamp_set, 40), four_digits(one->lost_lxs), four_digits(one->others_lxs),
-                four_digits(one->above_lxs), short_text(full.lamp_set, 40), four_digits(full.others_lxs), four_digits(full.above_lxs)));
+                "{}{}: {}. Others get {} lx s, {} of them above limits; with {} {} and {}", short_text(one->lamp_set, 40),
+                one->margin_deg ? fmt::format(", margin {:g}°", *one->margin_deg) : "",
+                one->lost_percent ? fmt::format("{} % of {}’s light on own lane and verge is lost, {} lx s", figure(*one->lost_percent, 1),
+                                                short_text(full.lamp_set, 40), four_digits(one->lost_lxs))
+                                  : no_light(found),
+                four_digits(one->others_lxs), four_digits(one->above_lxs), short_text(full.lamp_set, 40), four_digits(full.others_lxs),
+                four_digits(full.above_lxs)));
     return sentences;
 }
 
@@ -212,19 +219,20 @@ std::vector<std::string> basis(const MasksFound& found) {
     return {
         fmt::format(
             "Own lane and verge: targets that face the lamps, {:g} m above the road, {:g} to {:g} m before the bumper, in the middle "
-            "of cells of at most {:g} by {:g} m; on the own lane, and beside its {} edge {:g} m wide. Their mean, each with its "
-            "cell's area, times the time over {} moments of {:g} s. Where, is ours",
-            places.above_m, places.from_m, places.to_m, places.row_m, places.across_m, places.left_hand ? "left" : "right", places.verge_m,
+            "of cells of at most {:g} by {:g} m; the verge is {:g} m wide, beside the driving lanes on the {}. Their mean, each with its "
+            "cell's area, times the time over {} moments of {:g} s. The choice of places is ours",
+            places.above_m, places.from_m, places.to_m, places.row_m, places.across_m, places.verge_m, places.left_hand ? "left" : "right",
             found.moments, found.step_s),
-        fmt::format("Others: photometers and limits of rating `{}`: eyes of who comes, mirrors of who is ahead, from 15 m before the lamps "
-                    "on; of each road user but people on foot the brightest, as if he sat in a car. Limits hold where the rating has some",
-                    short_text(found.limits, 40)),
-        fmt::format("On foot: `{}` at the edges of the road as the driver sees them, level with the front of who comes; detected with "
-                    "visibility level {:g} (Adrian), without the glare of who comes, which all lamp sets have alike",
+        fmt::format(
+            "Others: photometers and limits of rating `{}`: eyes of oncoming, mirrors of preceding road users, from 15 m before "
+            "the lamps on; of each road user but pedestrians the brightest, as if he sat in a car. Limits hold where the rating has "
+            "some",
+            short_text(found.limits, 40)),
+        fmt::format("On foot: `{}` at the edges of the road as the driver sees them, level with the front of an oncoming road user; "
+                    "detected with visibility level {:g} (Adrian). The driver looks at him; other lamps veil him (CIE general equation)",
                     short_text(found.walker, 40), found.walker_level),
         "By the twin, in double precision. Crests of the road hide lamps; bodies of others hide them from targets and eyes, since what "
-        "lies "
-        "in somebody’s shadow is no loss. Nothing else hides any"};
+        "lies in somebody’s shadow is no loss. Nothing else hides any"};
 }
 
 } // namespace

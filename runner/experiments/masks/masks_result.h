@@ -14,16 +14,16 @@ struct MaskedDrive {
     std::optional<double> margin_deg = {}; ///< nullopt: it masks nobody
     bool as_it_is = true;                  ///< the lamp set's own margin
     double lane_lxs = 0.0, verge_lxs = 0.0, both_lxs = 0.0;
-    double lost_lxs = 0.0; ///< of both, against the lamp set that counts as full light
-    double lost_percent = 0.0;
-    double others_lxs = 0.0; ///< each other's brightest photometer, all of them added up
-    double above_lxs = 0.0;  ///< of it what is above limits
+    double lost_lxs = 0.0;                   ///< of both, against the lamp set that counts as full light
+    std::optional<double> lost_percent = {}; ///< nullopt: that lamp set gives no light there
+    double others_lxs = 0.0;                 ///< each other's brightest photometer, all of them added up
+    double above_lxs = 0.0;                  ///< of it what is above limits
     double most_lx = 0.0;
     std::optional<double> most_of_limit = {}; ///< largest share of a limit; nullopt: none held
     /// Where that was, or without limits the largest light.
     std::string worst_user = {};
     double worst_s = 0.0, worst_m = 0.0;
-    Value left_m = {}, right_m = {}; ///< from how far away the walkers at each edge are detected: median of those who come
+    Value left_m = {}, right_m = {}; ///< from how far away the pedestrians at each edge are detected: median over oncoming road users
     struct Moment {
         double time_s = 0.0, lane_lx = 0.0, verge_lx = 0.0, both_lx = 0.0, others_lx = 0.0, above_lx = 0.0;
     };

@@ -12,10 +12,13 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/geometric.hpp>
 #include <map>
 
 namespace fernlicht {
 namespace {
+
+constexpr double told_apart_m = 0.05; ///< between the lamps of two lamp sets; nearer, hardly anything else is hidden
 
 bool masks_others(const LampSet& lamp_set) { return lamp_set.control && lamp_set.control->glare_free; }
 
@@ -110,7 +113,7 @@ void sum_up(MaskedDrive& of, const WalkerApproaches& walkers, double step_s, dou
         of.others_lxs += step_s * moment.others_lx;
         of.above_lxs += step_s * moment.above_lx;
     }
-    CensoredSamples left("nobody comes towards the car"), right = left;
+    CensoredSamples left("there is no oncoming road user"), right = left;
     for (const auto& [user, sides] : walkers) {
         left.add(reached_from_m(sides.first, level, false));
         right.add(reached_from_m(sides.second, level, false));
@@ -158,24 +161,36 @@ MasksFound run_masks(const MasksRequest& request) {
     found.notes = stage.drive.notes;
     const VisibilityFold visibility(stage.drive, stage.route);
     std::vector<WalkerApproaches> walkers(found.drives.size());
+    std::vector<double> apart_m(found.drives.size());
     State state = start(stage.drive);
     for (int k = 0; k < found.moments; ++k, state = advance(state, stage.drive)) {
         if (weather_of(stage.drive, state.time_s).wetness > 0.0)
             throw InputError({stage.drive.file, 0, 0, "weather"}, "a wet road, by way of which light comes, too", "a dry one");
         std::optional<MaskScene> scene; // by the first lamp set's car
+        glm::dvec3 lamps_m(0.0);
         for (std::size_t i = 0; i < found.drives.size(); ++i) {
             const Moment moment = moment_at(state, stage.drive, stage.route, stage.drive.lamp_sets[i]);
-            if (!scene)
-                scene.emplace(stage.drive, stage.route, request.limits, found.places, moment);
-            add_light(found.drives[i], walkers[i], scene->light(moment, visibility, walker), stage, state.time_s);
+            if (!scene) {
+                scene.emplace(stage.drive, stage.route, request.limits, found.places, walker, moment);
+                lamps_m = middle_of_lamps_m(moment);
+            }
+            apart_m[i] = std::max(apart_m[i], glm::distance(lamps_m, middle_of_lamps_m(moment)));
+            add_light(found.drives[i], walkers[i], scene->light(moment, visibility), stage, state.time_s);
         }
     }
+    for (std::size_t i = 0; i < found.drives.size(); ++i)
+        if (found.drives[i].as_it_is && apart_m[i] >= told_apart_m)
+            found.notes.push_back(
+                fmt::format("lamp set {}: the middle of its lamps lies up to {:.2f} m from that of {}, from which crests and "
+                            "bodies are looked for that hide targets and eyes",
+                            found.drives[i].lamp_set, apart_m[i], found.drives.front().lamp_set));
     for (std::size_t i = 0; i < found.drives.size(); ++i)
         sum_up(found.drives[i], walkers[i], found.step_s, walker.level);
     const double full_lxs = found.drives[full].both_lxs;
     for (MaskedDrive& one : found.drives) {
         one.lost_lxs = full_lxs - one.both_lxs;
-        one.lost_percent = full_lxs > 0.0 ? 100.0 * one.lost_lxs / full_lxs : 0.0;
+        if (full_lxs > 0.0)
+            one.lost_percent = 100.0 * one.lost_lxs / full_lxs;
     }
     OutputFolder folder(request.folder);
     request.write(found);

@@ -279,6 +279,17 @@ TEST_F(LampCommand, LooksAtAPixelLampAtATime) {
                 HasSubstr("levels of levels.csv at 1 s: 3 of 4 parts shine, 75 % of the flux; dark at H 0 to 4, V -3 to 3"));
     request.mirror = true;
     EXPECT_LT(intensity_cd(lamp_of(request).table, -2.0, 0.0), 1.0);
+    std::ofstream(folder_ / "many.yaml") << "fernlicht_pixel_lamp: 1\nraster: {pixels: [202, 1], h_deg: [-8, 8], v_deg: [-3, 3], "
+                                            "spread_deg: [0.5, 0.25], cd: 1000}\n";
+    std::ofstream levels(folder_ / "every-other.csv");
+    levels << "0";
+    for (int i = 0; i < 101; ++i)
+        levels << ", 0, 1";
+    levels.close();
+    request.file = folder_ / "many.yaml";
+    request.levels = folder_ / "every-other.csv";
+    EXPECT_THAT(printed(request), HasSubstr("; dark in 101 boxes: H -8 to -7.921, V -3 to 3; "));
+    EXPECT_THAT(lamp_of(request).notes, testing::Contains(testing::EndsWith("; and 1 more")));
     request.levels_s.reset();
     EXPECT_THAT(refusal(request), HasSubstr("--levels FILE and --at S, both or neither"));
     request = shipped("halogen-low");

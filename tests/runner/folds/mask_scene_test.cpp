@@ -45,8 +45,8 @@ struct Masked : testing::Test {
         return moment_at(start(straight.drive), straight.drive, straight.route, straight.drive.lamp_sets.front());
     }
     MaskLight light(const MaskPlaces& places, const Moment& moment) const {
-        return MaskScene(straight.drive, straight.route, limits, places, moment)
-            .light(moment, VisibilityFold(straight.drive, straight.route), default_targets().front());
+        return MaskScene(straight.drive, straight.route, limits, places, default_targets().front(), moment)
+            .light(moment, VisibilityFold(straight.drive, straight.route));
     }
     /// Who stands 100 m before the lamp on the other lane, or so far to the left, and looks towards it, or away.
     void stand(bool oncoming, double left_m = 3.5) {
@@ -102,7 +102,7 @@ TEST_F(Masked, AnOncomingEyeGetsTheLightAcrossItsGazeAndHasALimit) {
     EXPECT_EQ(dark.walkers[0].right, found.walkers[0].right);
 }
 
-TEST_F(Masked, WhoIsAheadHasMirrorsAndNobodyOnFootBesideHim) {
+TEST_F(Masked, ThePrecedingCarHasMirrorsAndNoPedestrianBesideIt) {
     stand(false);
     const MaskLight found = light({}, moment(columns_dark(0, 0)));
     ASSERT_EQ(found.eyes.size(), 1U);
@@ -111,7 +111,45 @@ TEST_F(Masked, WhoIsAheadHasMirrorsAndNobodyOnFootBesideHim) {
     EXPECT_TRUE(found.walkers.empty());
 }
 
-/// From the rear of who is ahead on, 99.1 m before the lamp, he shades 0.9 m to each side, and ever more behind him.
+/// From the left lane of the motorway the verge lies beyond the right one: light from H 0 to 5 degrees meets that lane, but no verge yet.
+TEST_F(Masked, TheVergeLiesBeyondTheOtherLanes) {
+    straight.network = read_opendrive(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/roads/motorway.xodr");
+    straight.route = Route(straight.network, {"1", -3, 300.0});
+    const MaskLight found = light({.to_m = 50.0}, moment(columns_dark(25, 15)));
+    EXPECT_GT(found.lane_lx, 1.0);
+    EXPECT_EQ(found.verge_lx, 0.0);
+}
+
+/// A lamp of 1000 cd on the front of the oncoming car, seen beside the target that the driver looks at, by the general equation.
+TEST_F(Masked, OtherLampsVeilThePedestrian) {
+    stand(true);
+    Moment lit = moment(columns_dark(0, 0));
+    const MaskLight clear = light({}, lit);
+    LitLamp lamp;
+    lamp.file = tests::file_of(tests::even_table(1000.0));
+    lamp.pose = lit.bodies.at(0).pose;
+    lamp.pose.position_m = to_parent(lamp.pose, {3.6, 0.0, 0.65});
+    lamp.body = 0;
+    lit.other_lamps = {lamp};
+    const MaskLight veiled = light({}, lit);
+    ASSERT_EQ(veiled.walkers.size(), 1U);
+    const double ahead_m = veiled.walkers[0].ahead_m, along = straight.drive.bumper_m + ahead_m - 1.3;
+    const glm::dvec3 to_target{along, -1.75 - 0.35, 0.1 - 1.2}, to_lamp{along, 3.5 - 0.35, 0.65 - 1.2};
+    const double theta = angle_between_deg(to_target, to_lamp);
+    const double lx = 1000.0 / glm::dot(to_lamp, to_lamp) * std::cos(radians(theta));
+    const double veil = lx * (10.0 / std::pow(theta, 3.0) + (5.0 / (theta * theta) + 0.05 / theta) * (1.0 + std::pow(0.4, 4.0)) + 0.00125);
+    const double level = VisibilityFold(straight.drive, straight.route)
+                             .level_at(lit, default_targets().front(), Across::right_edge, ahead_m, veil)
+                             .number()
+                             .value();
+    EXPECT_NEAR(veiled.walkers[0].right.number().value(), level, 1e-6 * level);
+    EXPECT_LT(level, 0.9 * clear.walkers[0].right.number().value());
+    // Light from H -1 to 0 degrees leaves the target's background dark: glare makes its level no better known.
+    lit.lamps.front().file = columns_dark(20, 20);
+    EXPECT_FALSE(light({}, lit).walkers[0].right.number());
+}
+
+/// From the rear of the car ahead on, 99.1 m before the lamp, he shades 0.9 m to each side, and ever more behind him.
 TEST_F(Masked, WhatLiesInSomebodysShadowIsNoLoss) {
     const MaskPlaces behind{.from_m = 110.0, .row_m = 0.5, .across_m = 0.02, .above_m = 0.65};
     const std::shared_ptr<const LampFile> full = columns_dark(0, 0);
@@ -136,10 +174,23 @@ TEST(OverACrest, NobodyGetsLightWhoIsHidden) {
     fold.add(moment, lamp_set);
     EXPECT_EQ(value(fold.readings(), "control_others_max_lx"), 0.0);
     Rating limits = one_limit();
-    const MaskScene scene(stage.drive, stage.route, limits, {}, moment);
-    const MaskLight light = scene.light(moment, VisibilityFold(stage.drive, stage.route), default_targets().front());
-    ASSERT_FALSE(light.eyes.empty());
-    EXPECT_EQ(light.eyes[0].lx, 0.0);
+    const VisibilityFold visibility(stage.drive, stage.route);
+    const auto light = [&](const Moment& now) {
+        return MaskScene(stage.drive, stage.route, limits, {}, default_targets().front(), now).light(now, visibility);
+    };
+    const MaskLight found = light(moment);
+    ASSERT_FALSE(found.eyes.empty());
+    EXPECT_EQ(found.eyes[0].lx, 0.0);
+    // Nor does it veil who stands beside another one, on this side of the crest and without lamps.
+    Moment near = moment;
+    near.bodies.at(1).pose = stage.route.pose(moment.distance_m + 60.0, 3.5);
+    near.bodies[1].pose.axes = near.bodies[1].pose.axes * axes_from_angles(pi, 0.0, 0.0);
+    std::erase_if(near.other_lamps, [](const LitLamp& lamp) { return lamp.body == 1; });
+    ASSERT_FALSE(near.other_lamps.empty());
+    Moment dark = near;
+    dark.other_lamps.clear();
+    ASSERT_EQ(light(near).walkers.size(), 1U);
+    EXPECT_EQ(light(near).walkers[0].right, light(dark).walkers[0].right);
 }
 
 } // namespace

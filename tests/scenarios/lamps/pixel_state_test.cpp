@@ -36,6 +36,17 @@ TEST(PixelStates, CountsBoxesAndColumnsOfARaster) {
     EXPECT_LT(PixelStates(four_by_three(2.0)).of(levels).flux, state.flux);
 }
 
+TEST(PixelStates, OfAChequeredRasterItKeepsAHundredBoxesAndCountsTheRest) {
+    PixelParts parts;
+    parts.raster.push_back({20, 20, {-10.0, 10.0, -10.0, 10.0}, 0.5, 0.5, std::vector<double>(400, 1000.0)});
+    std::vector<float> levels(400);
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        levels[i] = (i + i / 20) % 2 == 0 ? 0.0F : 1.0F;
+    const PixelState state = PixelStates(std::make_shared<const PixelLamp>(std::move(parts))).of(levels);
+    EXPECT_EQ(state.dark.size(), 100U);
+    EXPECT_EQ(state.more_dark, 100U);
+}
+
 TEST(PixelStates, ItsFluxIsThatOfTheTable) {
     const auto lamp = four_by_three();
     const PixelStates states(lamp);

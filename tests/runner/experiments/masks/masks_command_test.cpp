@@ -2,6 +2,7 @@
 #include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -39,6 +40,33 @@ TEST(MasksCommand, SetsLightLostAgainstLightOfOthersByMargin) {
     EXPECT_NEAR(sum * found.at("step_s").get<double>(), figure("high", "both_lxs"), 1e-6 * sum);
     for (const char* name : {"report.html", "masks.csv", "cost.svg", "cost-masks.png", "on-foot.svg", "others-over-time.svg"})
         EXPECT_TRUE(std::filesystem::exists(folder / ("out/" + std::string(name)))) << name;
+}
+
+/// Without other road users, against a lamp set that gives no light, and with lamps elsewhere on the car.
+TEST(MasksCommand, SaysWhatItDidNotMeasure) {
+    const TemporaryFolder folder;
+    const std::string low = library_file("lamps/led-low.ies");
+    std::ofstream(folder / "alone.yaml") << fmt::format(
+        "fernlicht: 1\nname: alone\nroad: \"{}\"\nspeed_kmh: 72\nrate_hz: 5\nduration_s: 1\nlamp_sets:\n"
+        "  dark: {{lamps: {{left: {{file: \"{}\", level: 0, position_m: [3.4, 0.6, 0.65]}}}}}}\n"
+        "  low: {{lamps: {{left: {{file: \"{}\", position_m: [3.4, 0.6, 1.0]}}}}}}\n"
+        "  cut: {{lamps: {{high-left: {{file: \"{}\", position_m: [3.4, 0.6, 0.65]}}}}, "
+        "control: {{high_beam: automatic, glare_free: {{windows_deg: {{high-left: pixels}}}}}}}}\n",
+        library_file("roads/straight.xodr"), low, low, library_file("lamps/matrix-84.yaml"));
+    const std::string said = printed("masks " + (folder / "alone.yaml") + " --against dark --margins 1 --out " + (folder / "out"));
+    EXPECT_THAT(said, HasSubstr("low: dark gives no light on own lane and verge. Others get 0 lx s"));
+    const json found = tests::checked(content_of(folder / "out/masks.json"), masks_members);
+    for (const json& one : found.at("drives")) {
+        EXPECT_TRUE(one.at("lost_percent").is_null());
+        EXPECT_TRUE(one.at("most_of_limit").is_null());
+        EXPECT_TRUE(one.at("on_foot_right_m").is_null());
+        EXPECT_EQ(one.at("others_lxs"), 0.0);
+    }
+    EXPECT_GT(found.at("drives").at(1).at("both_lxs"), 0.0);
+    ASSERT_EQ(found.at("notes").size(), 1U) << found.at("notes");
+    EXPECT_THAT(found.at("notes").at(0).get<std::string>(),
+                HasSubstr("lamp set low: the middle of its lamps lies up to 0.35 m from that of dark"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/on-foot.svg"));
 }
 
 TEST(MasksCommand, RefusesWhatItCannotTell) {
