@@ -263,7 +263,7 @@ Document regulation_list() {
             document.sections.push_back({r.edition, {"source: " + r.source, Listing{}}});
         std::get<Listing>(document.sections.back().blocks.back())
             .items.emplace_back(fmt::format("{:<26} {}: {}, {}, aim {}", r.id, r.title,
-                                            r.rows.empty() ? "rows by where the beam is dimmed (`--other` or `--dimmed`)"
+                                            r.rows.empty() ? "rows by where the beam is dimmed (--other or --dimmed)"
                                                            : fmt::format("{} rows in the text", r.rows.size()),
                                             in_words(r.sureness), name_of(r.aim)));
     }
