@@ -251,8 +251,9 @@ int expect_fold(const PlayedDrive& played, const Readings& readings) {
                 continue;
             expect_gradient(reading, played.moments, name, 4);
             const double all = by_all_light(reading.gradient(played.moments)), tolerance = 1e-9 * *value.number();
-            if (one.key.quantity != Quantity::detection && one.key.quantity != Quantity::visibility_level)
+            if (one.key.quantity != Quantity::detection && one.key.quantity != Quantity::visibility_level) {
                 EXPECT_NEAR(all, one.key.quantity == Quantity::foreground ? *value.number() : 0.0, tolerance) << name;
+            }
         } catch (const InputError& error) {
             EXPECT_THAT(error.what(), HasSubstr("a reading that is light or where light ends")) << name;
         }
