@@ -188,6 +188,19 @@ class Veiling final : public MomentFigure {
     GlareEye whose_;
 };
 
+class Margin final : public MomentFigure {
+  public:
+    Margin(LightPlace place, double limit_lx) : place_(std::move(place)), limit_lx_(limit_lx) {}
+    Value value(const Moment& moment) const override { return 100.0 * (1.0 - light_lx(moment, place_) / limit_lx_); }
+    void add_gradient(BeamGradient& gradient, const Moment& moment, double weight) const override {
+        fernlicht::add_gradient(gradient, moment, place_, -100.0 / limit_lx_ * weight);
+    }
+
+  private:
+    LightPlace place_;
+    double limit_lx_;
+};
+
 /// The columns that the lane lies between, and the lane alone.
 ExtentGrid grid_of_lane(const ExtentGrid& grid, const LaneStrip& strip) {
     double left_m = grid.offset_m.front(), right_m = grid.offset_m.back();
@@ -338,6 +351,8 @@ LightPlace surface_place(const ExtentGrid& grid, std::size_t point, Surface surf
 MomentFigurePointer veiling_figure(const LightPlace& eye, const GlareParameters& parameters) {
     return std::make_shared<Veiling>(eye, parameters);
 }
+
+MomentFigurePointer margin_figure(const LightPlace& place, double limit_lx) { return std::make_shared<Margin>(place, limit_lx); }
 
 MomentFigurePointer area_figure(const ReadingKey& key, const ExtentParameters& asked, const Drive& drive, const Route& route,
                                 const Moment& moment) {

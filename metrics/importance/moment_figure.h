@@ -46,4 +46,7 @@ MomentFigurePointer sight_figure(const ReadingKey& key, const VisibilityTarget& 
 /// Veiling luminance in an eye that looks along the place's normal (glare.h): each lamp's light there times what its angle makes of it.
 MomentFigurePointer veiling_figure(const LightPlace& eye, const GlareParameters& parameters);
 
+/// The share of a limit (> 0) that light at a place leaves, per cent; negative above it.
+MomentFigurePointer margin_figure(const LightPlace& place, double limit_lx);
+
 } // namespace fernlicht

@@ -47,7 +47,7 @@ class ReadingOfLight {
     struct Decider {
         std::size_t moment = 0; ///< among those given
         double share = 0.0;     ///< d reading / d figure of the moment
-        Value figure;           ///< of the moment: as the reading; of light against a limit the illuminance
+        Value figure;           ///< of the moment: as the reading; of a distance to a sensor the illuminance
     };
 
     /// With the moments' lamps as they are now: the same moments, perhaps with other tables.

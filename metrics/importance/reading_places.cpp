@@ -286,18 +286,11 @@ void ReadingOfLight::add_sight(const ReadingKey& key, const Drive& drive, const 
 }
 
 ReadingOfLight::ReadingOfLight(const std::vector<LimitedLight>& lights) : quantity_(Quantity::sensor_illuminance) {
-    std::vector<double> limits_lx;
     for (const LimitedLight& light : lights) {
-        add_place(light.moment, 0.0, light.place);
-        limits_lx.push_back(light.limit_lx);
+        parts_.emplace_back(InMoment{light.moment});
+        parts_.back().of = margin_figure(light.place, light.limit_lx);
     }
-    over_moments_ = [limits_lx](const std::vector<Value>& figures) {
-        std::vector<Value> shares;
-        for (std::size_t i = 0; i < figures.size(); ++i)
-            shares.emplace_back(*figures[i].number() / limits_lx[i]);
-        const std::size_t most = largest_shares(shares).front().index;
-        return OverMoments{100.0 * (1.0 - *shares[most].number()), {{most, -100.0 / limits_lx[most]}}};
-    };
+    take_quantile(0.0);
 }
 
 void ReadingOfLight::add_sensor(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments) {

@@ -209,8 +209,7 @@ PlayedReading played_row(const ImportanceRequest::Row& asked, const std::string&
     } else {
         result.reading =
             fmt::format("margin of {}, row {}{}", asked.rating.name, asked.name, asked.photometer.empty() ? "" : ", " + asked.photometer);
-        result.unit = "%";
-        result.figure_unit = "lx";
+        result.unit = result.figure_unit = "%";
         played.reading = std::make_unique<ReadingOfLight>(row.lights);
     }
     return played;
