@@ -12,9 +12,23 @@ namespace {
 
 constexpr double along_m = 0.5, across_m = 0.25;
 
-/// Places of the own lane ahead of the bumper and their light.
-LaneLight lane_light(const Drive& drive, const Route& route, const Moment& moment, const glm::dvec3& eye_m) {
-    LaneLight light;
+/// On targets across the own lane, that far ahead of the bumper.
+Value uniformity_at(const Drive& drive, const Route& route, const Moment& moment, double ahead_m) {
+    const double at_m = moment.distance_m + drive.bumper_m + ahead_m;
+    if (at_m > route.length_m())
+        return Value::not_measured("beyond the route's end");
+    std::vector<double> lx;
+    for (const glm::dvec3& target : targets_across(route, at_m))
+        lx.push_back(target_illuminance_lx(moment, target));
+    return uniformity(lx);
+}
+
+} // namespace
+
+LanePlaces lane_places(const Drive& drive, const HomogeneityParameters& asked, const Route& route, const Moment& moment,
+                       const glm::dvec3& eye_m) {
+    LanePlaces places;
+    LaneLight& light = places.light;
     const double bumper_m = moment.distance_m + drive.bumper_m;
     const CrossSection section = route.cross_section(bumper_m);
     double left_m = 1.75, right_m = -1.75, lamps_m = 0.0;
@@ -27,36 +41,30 @@ LaneLight lane_light(const Drive& drive, const Route& route, const Moment& momen
         lamps_m += to_local(moment.ego, lamp.pose.position_m).x / static_cast<double>(moment.lamps.size());
     for (int k = 0; right_m + k * across_m <= left_m + 1e-9; ++k)
         light.offset_m.push_back(right_m + k * across_m);
-    const double room_m = std::min(drive.seeing.homogeneity->ahead_m, route.length_m() - bumper_m);
+    const double room_m = std::min(asked.ahead_m, route.length_m() - bumper_m);
     std::vector<Pose> row(light.offset_m.size());
     for (int k = 2; k * along_m <= room_m; ++k) {
         route.poses(bumper_m + k * along_m, light.offset_m, row);
         light.ahead_m.push_back(k * along_m + drive.bumper_m - lamps_m);
         for (const Pose& pose : row) {
-            light.lx.push_back(surface_illuminance_lx(moment, pose.position_m, pose.up()));
+            places.surface.push_back(pose);
             light.seen_at.push_back(pose.position_m - eye_m);
         }
     }
-    return light;
+    return places;
 }
 
-/// On targets across the own lane, that far ahead of the bumper.
-Value uniformity_at(const Drive& drive, const Route& route, const Moment& moment, double ahead_m) {
+std::vector<glm::dvec3> targets_across(const Route& route, double along_m) {
     constexpr double target_m = 0.25;
-    const double at_m = moment.distance_m + drive.bumper_m + ahead_m;
-    if (at_m > route.length_m())
-        return Value::not_measured("beyond the route's end");
-    std::vector<double> lx;
-    for (const RouteLane& lane : route.cross_section(at_m).lanes)
+    std::vector<glm::dvec3> targets;
+    for (const RouteLane& lane : route.cross_section(along_m).lanes)
         if (lane.name == "own")
             for (int k = 0; lane.right_m + k * across_m <= lane.left_m + 1e-9; ++k) {
-                const Pose pose = route.pose(at_m, lane.right_m + k * across_m);
-                lx.push_back(target_illuminance_lx(moment, pose.position_m + target_m * pose.up()));
+                const Pose pose = route.pose(along_m, lane.right_m + k * across_m);
+                targets.push_back(pose.position_m + target_m * pose.up());
             }
-    return uniformity(lx);
+    return targets;
 }
-
-} // namespace
 
 void HomogeneityFold::add(const Moment& moment) {
     const HomogeneityParameters& asked = *drive_.seeing.homogeneity;
@@ -64,7 +72,10 @@ void HomogeneityFold::add(const Moment& moment) {
     std::erase_if(lit.lamps, [](const LitLamp& lamp) { return lamp.intensity_factor == 0.0; });
     if (lit.lamps.empty())
         return;
-    const LaneLight light = lane_light(drive_, route_, lit, to_parent(moment.ego, driver_eye_m(drive_)));
+    LanePlaces places = lane_places(drive_, asked, route_, lit, to_parent(moment.ego, driver_eye_m(drive_)));
+    LaneLight& light = places.light;
+    for (const Pose& pose : places.surface)
+        light.lx.push_back(surface_illuminance_lx(lit, pose.position_m, pose.up()));
     Row& row = rows_.emplace_back(Row{moment.tick,
                                       moment.distance_m,
                                       largest_gradients(light, asked.min_lx),

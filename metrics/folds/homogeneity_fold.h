@@ -8,6 +8,17 @@
 
 namespace fernlicht {
 
+/// Places of the own lane ahead of the bumper where its evenness is measured, in rows, and all but the light there.
+struct LanePlaces {
+    LaneLight light; ///< without `lx`
+    std::vector<Pose> surface;
+};
+/// Distances from the middle of the moment's lamps.
+LanePlaces lane_places(const Drive& drive, const HomogeneityParameters& asked, const Route& route, const Moment& moment,
+                       const glm::dvec3& eye_m);
+/// Targets across the own lane, 0.25 m up; none where there is no such lane. Up to the route's end.
+std::vector<glm::dvec3> targets_across(const Route& route, double along_m);
+
 class HomogeneityFold {
   public:
     /// The drive must ask for homogeneity. Drive and route must outlive the fold.

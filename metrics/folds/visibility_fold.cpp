@@ -16,23 +16,8 @@
 namespace fernlicht {
 namespace {
 
-/// The road behind a target is known so much farther than targets stand: from an eye of 1.2 m, a target's middle of 0.1 m hides what lies
-/// an eleventh farther.
-constexpr double known_behind_m = 100.0;
 constexpr double background_above_m = 0.1;
-constexpr double far_m = 1000.0;      ///< where the line of sight ends that meets no road: in fog all light of the lamps comes from nearer
 constexpr double added_spacing = 1.2; ///< from one place at which what the weather adds is integrated to the next
-
-ReadingKey detection_of(const VisibilityTarget& target, Across across) {
-    return {.quantity = Quantity::detection,
-            .subject = target.name,
-            .lane = across == Across::own_centre        ? "own"
-                    : across == Across::oncoming_centre ? "oncoming"
-                                                        : "",
-            .place = across == Across::right_edge  ? ReadingPlace::right
-                     : across == Across::left_edge ? ReadingPlace::left
-                                                   : ReadingPlace::none};
-}
 
 /// Lamps that are off cost time alone.
 Moment with_lamps_that_shine(Moment moment) {
@@ -42,7 +27,7 @@ Moment with_lamps_that_shine(Moment moment) {
 
 } // namespace
 
-VisibilityFold::VisibilityFold(const Drive& drive, const Route& route) : drive_(drive), route_(route), road_(material_named("asphalt")) {
+VisibilityFold::VisibilityFold(const Drive& drive, const Route& route) : drive_(drive), route_(route) {
     const VisibilityParameters& asked = *drive.seeing.visibility;
     backgrounds_.resize(asked.distances_m.size());
     for (const VisibilityTarget& target : asked.targets)
@@ -52,84 +37,28 @@ VisibilityFold::VisibilityFold(const Drive& drive, const Route& route) : drive_(
             });
             if (stand == stands_.end())
                 stand = stands_.insert(stands_.end(), {across, target.size_m, target.squares, {}});
-            stand->sights.push_back({&target, detection_of(target, across), {}, {}});
+            stand->sights.push_back({&target, detection_key(target, across), {}, {}});
             stand->sights.back().at.resize(asked.distances_m.size());
         }
 }
 
-/// What is not road behind a target shines as the sky does: diffusely, where there is daylight. In fog it is the same: what the air takes
-/// of the sky's light it gives back.
-double VisibilityFold::dark_cdm2(const Moment& moment) const {
-    return std::max(drive_.seeing.visibility->dark_cdm2, moment.daylight.horizontal_illuminance_lx / pi);
-}
-
-std::vector<VisibilityFold::Square> VisibilityFold::squares(const Moment& moment, const Ahead& ahead, double along_m,
-                                                            const Stand& stand) const {
-    const glm::dvec3& eye_m = ahead.eye.at_m;
-    std::vector<Square> all;
-    const std::optional<Pose> foot = place_on_road(route_, stand.across, along_m);
-    if (!foot)
-        return all;
-    const std::string no_mirror = why_no_mirror(moment.weather, road_plane(moment.ego, *foot));
-    double adaptation_cdm2 = 0.0; // of the road behind the lowest square
-    for (int i = 0; i < stand.squares; ++i) {
-        const glm::dvec3 middle = foot->position_m + (i + 0.5) * stand.size_m * foot->up();
-        Square square;
-        square.middle_m = middle;
-        square.face = -foot->forward();
-        square.size_arcmin = arc_minutes_of(stand.size_m, glm::distance(eye_m, middle));
-        square.hidden = ahead.lane.hides(ahead.eye, middle);
-        square.no_mirror = no_mirror;
-        if (const std::optional<Pose> road = ahead.lane.behind(ahead.eye, middle)) {
-            square.on_road = true;
-            square.behind_m = road->position_m;
-            square.background_cdm2 = surface_luminance(moment, road->position_m, road->up(), road_, eye_m).photopic_cdm2;
-            if (adaptation_cdm2 == 0.0)
-                adaptation_cdm2 = square.background_cdm2;
-            square.adaptation_cdm2 = square.background_cdm2;
-        } else if (i > 0) {
-            square.behind_m = eye_m + far_m * glm::normalize(middle - eye_m);
-            square.background_cdm2 = dark_cdm2(moment);
-            square.adaptation_cdm2 = std::max(adaptation_cdm2, square.background_cdm2);
-        } else
-            square.unknown = "the line of sight does not meet the road behind the target";
-        if (square.unknown.empty())
-            square.unknown = square.no_mirror;
-        if (!square.hidden && square.unknown.empty()) {
-            const auto hidden = [&](const LaneAhead::Origin& lamp) { return ahead.lane.hides(lamp, middle); };
-            if (std::ranges::none_of(ahead.lamps, hidden)) // as nearly everywhere, without a copy
-                square.illuminance_lx = surface_illuminance_lx(moment, middle, square.face);
-            else
-                square.illuminance_lx = surface_illuminance_lx(reaching(moment, ahead, middle), middle, square.face);
-        }
-        all.push_back(square);
-        if (!all.front().unknown.empty())
-            return all; // without a road behind its foot nothing tells what the eye is adapted to
-    }
+std::vector<TargetSquare> VisibilityFold::squares(const Moment& moment, const SeenLane& ahead, double along_m, const Stand& stand) const {
+    std::vector<TargetSquare> all = target_squares(moment, ahead, route_, along_m, stand.across, stand.size_m, stand.squares);
+    light_squares(moment, ahead.eye.at_m, *drive_.seeing.visibility, all);
     return all;
 }
 
-/// The moment without lamps that the lane hides from a point.
-Moment VisibilityFold::reaching(const Moment& moment, const Ahead& ahead, const glm::dvec3& point_m) {
-    Moment lit = moment;
-    lit.lamps.clear();
-    for (std::size_t i = 0; i < moment.lamps.size(); ++i)
-        if (!ahead.lane.hides(ahead.lamps[i], point_m))
-            lit.lamps.push_back(moment.lamps[i]);
-    return lit;
-}
-
-VisibilityFold::Added VisibilityFold::added(const Moment& moment, const Ahead& ahead, double along_m, const Square& square) const {
+VisibilityFold::Added VisibilityFold::added(const Moment& moment, const SeenLane& ahead, double along_m, const TargetSquare& square) const {
     const auto air = [&](const glm::dvec3& to_m) { return lamps_airlight(moment, to_m, ahead.eye.at_m).photopic_cdm2; };
     Added added{air(square.middle_m), air(square.behind_m), 0.0};
     if (moment.weather.wetness > 0.0 && !square.hidden) {
-        const Moment lit = reaching(moment, ahead, square.middle_m);
+        const Moment lit = lamps_reaching(moment, square);
         added[2] = illuminance_by_road_lx(light_by_road(lit, route_, along_m, square.middle_m).patches, square.middle_m, square.face);
     }
     return added;
 }
 
-void VisibilityFold::add_weather(const Moment& moment, const Ahead& ahead, std::vector<Place>& places) const {
+void VisibilityFold::add_weather(const Moment& moment, const SeenLane& ahead, std::vector<Place>& places) const {
     if (!(moment.weather.extinction_per_m > 0.0) && !(moment.weather.wetness > 0.0))
         return;
     const auto squares_of = [](const Place& place) { return place.squares.size(); };
@@ -137,7 +66,7 @@ void VisibilityFold::add_weather(const Moment& moment, const Ahead& ahead, std::
     std::vector<double> adaptation_cdm2(places.size()); // of the road behind the lowest square
     for (std::size_t i = 0; i < most; ++i) {
         const auto fill = [&](std::size_t place, const Added& added) {
-            Square& square = places[place].squares.at(i);
+            TargetSquare& square = places[place].squares.at(i);
             const double way_m = glm::distance(ahead.eye.at_m, square.middle_m), far = glm::distance(ahead.eye.at_m, square.behind_m);
             square.left = air_transmittance(moment.weather, way_m);
             square.veil_cdm2 = added[0] + sky_airlight_cdm2(moment.daylight, moment.weather, way_m);
@@ -180,27 +109,7 @@ void VisibilityFold::add_weather(const Moment& moment, const Ahead& ahead, std::
     }
 }
 
-/// Of the clearest square that has one; 0 where the lane hides all.
-Value VisibilityFold::level(const std::vector<Square>& squares, const VisibilityTarget& target) const {
-    const VisibilityParameters& asked = *drive_.seeing.visibility;
-    std::optional<double> clearest;
-    std::string reason;
-    for (const Square& square : squares) {
-        const Value value =
-            square.hidden ? Value(0.0)
-            : square.unknown.empty()
-                ? visibility_level(square.left * target.reflectance * square.illuminance_lx / pi + square.veil_cdm2, square.background_cdm2,
-                                   square.adaptation_cdm2, square.size_arcmin, {asked.age_years, asked.time_s, asked.k})
-                : Value::not_measured(square.unknown);
-        if (const auto number = value.number())
-            clearest = std::max(clearest.value_or(0.0), *number);
-        else if (reason.empty())
-            reason = value.reason();
-    }
-    return clearest ? Value(*clearest) : Value::not_measured(reason);
-}
-
-void VisibilityFold::add_stand(const Moment& lit, const Ahead& ahead, double bumper_m, Stand& stand) const {
+void VisibilityFold::add_stand(const Moment& lit, const SeenLane& ahead, double bumper_m, Stand& stand) const {
     const VisibilityParameters& asked = *drive_.seeing.visibility;
     const double room_m = std::min(asked.ahead_m, route_.length_m() - bumper_m);
     std::vector<Place> places;
@@ -212,33 +121,28 @@ void VisibilityFold::add_stand(const Moment& lit, const Ahead& ahead, double bum
     std::vector<std::vector<LineSample>> lines(stand.sights.size());
     for (const Place& place : places)
         for (std::size_t i = 0; i < lines.size(); ++i)
-            lines[i].push_back(
-                {place.ahead_m, place.squares.empty() ? std::nullopt : level(place.squares, *stand.sights[i].target).number()});
+            lines[i].push_back({place.ahead_m, place.squares.empty()
+                                                   ? std::nullopt
+                                                   : target_level(place.squares, stand.sights[i].target->reflectance, asked).number()});
     const auto bent =
         std::ranges::find_if(places, [](const Place& place) { return !place.squares.empty() && !place.squares.front().no_mirror.empty(); });
     for (std::size_t i = 0; i < lines.size(); ++i) {
-        // Where the route's end comes into sight, backgrounds of the last places are missing: the detection is cut off by it.
         const double wanted = stand.sights[i].target->level;
         const LitLine detected = lit_line(lines[i], wanted);
-        const bool to_the_end = room_m < asked.ahead_m;
-        const auto known = std::find_if(lines[i].rbegin(), lines[i].rend(), [](const LineSample& sample) { return sample.lx.has_value(); });
-        const bool beyond = known != lines[i].rend() && *known->lx >= wanted;
         const auto found = [&](double metres) {
             return bent != places.end() ? Value::not_measured(bent->squares.front().no_mirror)
-                   : !beyond            ? Value(metres)
-                   : to_the_end         ? Value::not_measured("cut off by the end of the road or lane")
-                                        : Value::at_least(metres);
+                                        : known_detection(metres, lines[i], wanted, room_m < asked.ahead_m);
         };
         stand.sights[i].detections.push_back({found(detected.last_m), found(detected.unlit_before_last_m)});
     }
     for (std::size_t d = 0; d < asked.distances_m.size(); ++d) {
         const double along_m = bumper_m + asked.distances_m[d];
         const bool ends = along_m > route_.length_m();
-        std::vector<Place> there{{asked.distances_m[d], along_m, ends ? std::vector<Square>{} : squares(lit, ahead, along_m, stand)}};
+        std::vector<Place> there{{asked.distances_m[d], along_m, ends ? std::vector<TargetSquare>{} : squares(lit, ahead, along_m, stand)}};
         add_weather(lit, ahead, there);
-        const std::vector<Square>& seen = there.front().squares;
+        const std::vector<TargetSquare>& seen = there.front().squares;
         for (Sight& sight : stand.sights) {
-            const Value now = !seen.empty() ? level(seen, *sight.target)
+            const Value now = !seen.empty() ? target_level(seen, sight.target->reflectance, asked)
                                             : Value::not_measured(ends ? "the route ends nearer than this in some moment"
                                                                        : "the road has no such lane there");
             sight.at[d].series.push_back(now);
@@ -251,7 +155,7 @@ void VisibilityFold::add_stand(const Moment& lit, const Ahead& ahead, double bum
 }
 
 /// The road that the driver sees behind a place a hand above the own lane's centre.
-void VisibilityFold::add_background(const Moment& lit, const Ahead& ahead, double along_m, Background& background) const {
+void VisibilityFold::add_background(const Moment& lit, const SeenLane& ahead, double along_m, Background& background) const {
     if (along_m > route_.length_m()) {
         background.missing = "the route ends nearer than this in some moment";
         return;
@@ -262,19 +166,10 @@ void VisibilityFold::add_background(const Moment& lit, const Ahead& ahead, doubl
         background.missing = "the line of sight does not meet the road in some moment";
         return;
     }
-    const SurfaceLuminance seen = seen_luminance(lit, road->position_m, road->up(), road_, ahead.eye.at_m);
+    const SurfaceLuminance seen = seen_luminance(lit, road->position_m, road->up(), road_behind_targets(), ahead.eye.at_m);
     background.photopic.push_back(seen.photopic_cdm2);
     if (seen.photopic_cdm2 > 0.0 && lit.daylight.horizontal_illuminance_lx == 0.0)
         background.mesopic.push_back(mesopic_luminance(seen.photopic_cdm2, seen.scotopic_cdm2 / seen.photopic_cdm2).luminance_cdm2);
-}
-
-VisibilityFold::Ahead VisibilityFold::ahead_of(const Moment& lit) const {
-    const VisibilityParameters& asked = *drive_.seeing.visibility;
-    Ahead ahead{LaneAhead(route_, lit.distance_m + drive_.bumper_m, asked.ahead_m + known_behind_m, asked.step_m), {}, {}};
-    ahead.eye = ahead.lane.origin(to_parent(lit.ego, driver_eye_m(drive_)));
-    for (const LitLamp& lamp : lit.lamps)
-        ahead.lamps.push_back(ahead.lane.origin(lamp.pose.position_m));
-    return ahead;
 }
 
 Value VisibilityFold::level_at(const Moment& moment, const VisibilityTarget& target, Across across, double ahead_m,
@@ -285,21 +180,23 @@ Value VisibilityFold::level_at(const Moment& moment, const VisibilityTarget& tar
         return Value::not_measured("the route ends nearer than this");
     if (!veil_cdm2.number())
         return veil_cdm2;
-    const Ahead ahead = ahead_of(lit);
+    const VisibilityParameters& asked = *drive_.seeing.visibility;
+    const SeenLane ahead(drive_, route_, asked, lit);
     std::vector<Place> there{{ahead_m, along_m, squares(lit, ahead, along_m, {across, target.size_m, target.squares, {}})}};
     add_weather(lit, ahead, there);
-    for (Square& square : there.front().squares)
+    for (TargetSquare& square : there.front().squares)
         if (square.adaptation_cdm2 >
             0.0) // before a road without light its level stays unknown: an eye adapted to the veil alone would see more
             square.adaptation_cdm2 += *veil_cdm2.number();
-    return there.front().squares.empty() ? Value::not_measured("the road has no such lane there") : level(there.front().squares, target);
+    return there.front().squares.empty() ? Value::not_measured("the road has no such lane there")
+                                         : target_level(there.front().squares, target.reflectance, asked);
 }
 
 void VisibilityFold::add(const Moment& moment) {
     const VisibilityParameters& asked = *drive_.seeing.visibility;
     const Moment lit = with_lamps_that_shine(moment);
     const double bumper_m = moment.distance_m + drive_.bumper_m;
-    const Ahead ahead = ahead_of(lit);
+    const SeenLane ahead(drive_, route_, asked, lit);
     ticks_.push_back(moment.tick);
     along_m_.push_back(moment.distance_m);
     for (Stand& stand : stands_)

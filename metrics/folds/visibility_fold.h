@@ -3,9 +3,8 @@
 #pragma once
 
 #include "metrics/folds/seeing_series.h"
+#include "metrics/folds/target_squares.h"
 #include "metrics/readings/readings.h"
-#include "metrics/road/lit_line.h"
-#include "metrics/seeing/visibility.h"
 
 #include <array>
 
@@ -27,16 +26,6 @@ class VisibilityFold {
     Value level_at(const Moment& moment, const VisibilityTarget& target, Across across, double ahead_m, const Value& veil_cdm2) const;
 
   private:
-    /// A square of a target as the driver sees it.
-    struct Square {
-        glm::dvec3 middle_m{0.0}, behind_m{0.0}; ///< its own, and of what is seen behind it; without a road there, far off
-        glm::dvec3 face{0.0};                    ///< unit normal, towards the car
-        double illuminance_lx = 0.0, background_cdm2 = 0.0, adaptation_cdm2 = 0.0, size_arcmin = 0.0;
-        double left = 1.0, veil_cdm2 = 0.0; ///< share of its light that the air leaves, and what the air puts before it
-        bool hidden = false, on_road = false;
-        std::string no_mirror; ///< why light by way of a wet road is not known
-        std::string unknown;   ///< why it has no level; "" where it has
-    };
     struct Detection {
         Value from_m, undetected_m; ///< not measured where the route's end cuts them off
     };
@@ -65,34 +54,22 @@ class VisibilityFold {
     };
 
     struct Place {
-        double ahead_m = 0.0, along_m = 0.0; ///< from the bumper, on the route
-        std::vector<Square> squares = {};    ///< none without such a lane
+        double ahead_m = 0.0, along_m = 0.0;    ///< from the bumper, on the route
+        std::vector<TargetSquare> squares = {}; ///< none without such a lane
     };
     /// What the weather adds to one square: light in the air before it and before what is behind it, light by way of a wet road.
     using Added = std::array<double, 3>;
 
-    /// The lane as one moment's driver and lamps see it.
-    struct Ahead {
-        LaneAhead lane;
-        LaneAhead::Origin eye;
-        std::vector<LaneAhead::Origin> lamps; ///< of the moment
-    };
-
     /// As it stands that far along the route, in clear air and by the lamps' own light.
-    std::vector<Square> squares(const Moment& moment, const Ahead& ahead, double along_m, const Stand& stand) const;
+    std::vector<TargetSquare> squares(const Moment& moment, const SeenLane& ahead, double along_m, const Stand& stand) const;
     /// What air and water take and add, places from near to far.
-    void add_weather(const Moment& moment, const Ahead& ahead, std::vector<Place>& places) const;
-    Added added(const Moment& moment, const Ahead& ahead, double along_m, const Square& square) const;
-    Ahead ahead_of(const Moment& lit) const; ///< `lit`: without lamps that are off
-    static Moment reaching(const Moment& moment, const Ahead& ahead, const glm::dvec3& point_m);
-    double dark_cdm2(const Moment& moment) const;
-    Value level(const std::vector<Square>& squares, const VisibilityTarget& target) const;
-    void add_stand(const Moment& lit, const Ahead& ahead, double bumper_m, Stand& stand) const;
-    void add_background(const Moment& lit, const Ahead& ahead, double ahead_m, Background& background) const;
+    void add_weather(const Moment& moment, const SeenLane& ahead, std::vector<Place>& places) const;
+    Added added(const Moment& moment, const SeenLane& ahead, double along_m, const TargetSquare& square) const;
+    void add_stand(const Moment& lit, const SeenLane& ahead, double bumper_m, Stand& stand) const;
+    void add_background(const Moment& lit, const SeenLane& ahead, double ahead_m, Background& background) const;
 
     const Drive& drive_;
     const Route& route_;
-    Material road_;
     std::vector<int> ticks_;
     std::vector<double> along_m_;
     std::vector<Stand> stands_;

@@ -45,6 +45,8 @@ std::vector<LineSample> ReadingOfLight::line(const InMoment& part, const Moment&
 
 /// As runner/findings/summary.cpp takes the extents of a moment.
 Value ReadingOfLight::figure(const InMoment& part, const Moment& moment) const {
+    if (part.of)
+        return part.of->value(moment);
     if (quantity_ != Quantity::reach && quantity_ != Quantity::width)
         return part.samples.front().lx(moment);
     const LitLine lit = lit_line(line(part, moment), threshold_lx_);
@@ -74,6 +76,10 @@ Approach ReadingOfLight::approach(const std::vector<Value>& figures) const {
 }
 
 void ReadingOfLight::add_gradient_of(BeamGradient& gradient, const InMoment& part, const Moment& moment, double weight) const {
+    if (part.of) {
+        part.of->add_gradient(gradient, moment, weight);
+        return;
+    }
     if (quantity_ != Quantity::reach && quantity_ != Quantity::width) {
         part.samples.front().add_gradient(gradient, moment, weight);
         return;

@@ -6,6 +6,7 @@
 // Aim, control and whatever else may follow from a table stay as they are.
 #pragma once
 
+#include "metrics/importance/moment_figure.h"
 #include "metrics/readings/readings.h"
 #include "metrics/road/lit_line.h"
 #include "scenarios/drives/drive.h"
@@ -17,9 +18,17 @@
 namespace fernlicht {
 
 /// What readings there are importances of, for people.
-inline constexpr const char* importance_readings = "reach_*_m and width_*_m of a lane on road or target, sensor_*_reach_*_m, sensor_*_lx, "
-                                                   "glare_NAME_facing_*_lx and glare_NAME_eye_*_lx of "
-                                                   "an oncoming driver, kerb_*_lx, mirror_*_lx";
+inline constexpr const char* importance_readings =
+    "reach_*_m, width_*_m and area_*_m2 of a lane on road or target, sensor_*_reach_*_m, sensor_*_lx, glare_NAME_facing_*_lx, "
+    "glare_NAME_eye_*_lx and glare_NAME_veiling_*_cdm2 of an oncoming driver, kerb_*_lx, mirror_*_lx, detection_*_m, visibility_level_*, "
+    "gradient_*, foreground_* and uniformity_*";
+
+/// Light at a place in a moment, and the most that it may be.
+struct LimitedLight {
+    std::size_t moment = 0;
+    LightPlace place;
+    double limit_lx = 1.0; ///< > 0
+};
 
 class ReadingOfLight {
   public:
@@ -28,6 +37,9 @@ class ReadingOfLight {
     ReadingOfLight(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments,
                    std::string asked_by = "--reading");
 
+    /// The smallest share of a limit that is left, per cent; negative above one. At least one light.
+    explicit ReadingOfLight(const std::vector<LimitedLight>& lights);
+
     ReadingOfLight(const ReadingOfLight&) = delete;
     ReadingOfLight& operator=(const ReadingOfLight&) = delete;
 
@@ -35,7 +47,7 @@ class ReadingOfLight {
     struct Decider {
         std::size_t moment = 0; ///< among those given
         double share = 0.0;     ///< d reading / d figure of the moment
-        Value figure;           ///< of the moment: reach, width or illuminance
+        Value figure;           ///< of the moment: as the reading; of a distance to a sensor the illuminance
     };
 
     /// With the moments' lamps as they are now: the same moments, perhaps with other tables.
@@ -73,6 +85,7 @@ class ReadingOfLight {
         std::vector<Sample> samples = {}; ///< of a line, or one place
         bool may_go_on = false;           ///< a line that ends lit says "at least", where it reaches so far:
         double whole_m = 0.0;             ///< a reach that is cut off nearer is no figure
+        MomentFigurePointer of = {};      ///< in place of samples: all that is neither light at a place nor a line's
     };
     struct OverMoments {
         Value value;
@@ -83,11 +96,18 @@ class ReadingOfLight {
     [[noreturn]] void refuse(const ReadingKey& key, const std::string& expected) const;
     double share_of_statistic(const ReadingKey& key) const;
     void add_lines(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
+    /// One for each moment that has a figure.
+    void add_figures(const std::vector<Moment>& moments, const std::function<MomentFigurePointer(const Moment&)>& figure_of);
+    void add_area(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
+    void add_evenness(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
+    void add_sight(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
     void add_place(std::size_t moment, double to_go_m, LightPlace place);
     void add_sensor(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
     void add_eye(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
     void add_kerb(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
     void add_mirror(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
+    void take_quantile(double share, const std::string& why_none = "not there in any moment");
+    void take_median(bool everywhere, const std::string& why_not);
     Approach approach(const std::vector<Value>& figures) const;
     std::vector<LineSample> line(const InMoment& part, const Moment& moment) const;
     Value figure(const InMoment& part, const Moment& moment) const;

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <oneapi/tbb/parallel_for.h>
 
 namespace fernlicht {
 namespace {
@@ -37,9 +38,15 @@ ValueShares largest_shares(const std::vector<Value>& values) {
     return found == values.end() ? ValueShares{} : ValueShares{{static_cast<std::size_t>(found - values.begin()), 1.0}};
 }
 
+std::vector<std::string> reasons_of(const std::vector<Value>& figures) {
+    std::vector<std::string> reasons;
+    for (const Value& figure : figures)
+        reasons.push_back(figure.reason());
+    return reasons;
+}
+
 /// A quantile of the moments in a range, or the largest figure of it, both ends among them.
-Value value_in_range(const Approach& approach, double near_m, double far_m, const std::optional<double>& share) {
-    const FollowedFigure followed{approach, std::vector<std::string>(approach.size())};
+Value value_in_range(const FollowedFigure& followed, double near_m, double far_m, const std::optional<double>& share) {
     const std::string none = "no moment of the drive was measured";
     return share ? followed.quantile_between(near_m, far_m, *share, none) : followed.extreme_between(near_m, far_m, true, none);
 }
@@ -96,15 +103,30 @@ ReadingOfLight::ReadingOfLight(const ReadingKey& key, const Drive& drive, const 
                                std::string asked_by)
     : quantity_(key.quantity), asked_by_(std::move(asked_by)) {
     using enum Quantity;
-    const bool of_eye = (key.quantity == glare_facing || key.quantity == glare_eye) && !key.subject.empty();
+    const bool of_eye =
+        (key.quantity == glare_facing || key.quantity == glare_eye || key.quantity == glare_veiling) && !key.subject.empty();
+    const bool of_evenness = key.quantity == gradient_per_m || key.quantity == gradient_per_deg || key.quantity == foreground ||
+                             key.quantity == foreground_ratio || key.quantity == uniformity;
+    const bool of_sight = key.quantity == detection || key.quantity == visibility_level;
+    const bool of_extent = key.quantity == reach || key.quantity == width || key.quantity == area;
     const bool of_light = key.quantity == sensor_reach || key.quantity == sensor_illuminance || key.quantity == kerb_illuminance ||
                           key.quantity == mirror_illuminance || of_eye;
-    if (key.aspect != Aspect::value || !(of_light || key.quantity == reach || key.quantity == width))
+    if (key.aspect != Aspect::value || !(of_light || of_extent || of_evenness || of_sight))
         refuse(key, fmt::format("a reading that is light or where light ends: {}", importance_readings));
     if (of_light && std::ranges::any_of(moments, [](const Moment& moment) { return moment.weather.wetness > 0.0; }))
         refuse(key, "a dry road: what a wet one mirrors to a place comes from more than one direction of the beam");
-    if (key.quantity == reach || key.quantity == width)
+    if (of_sight && std::ranges::any_of(moments, [](const Moment& moment) {
+            return moment.weather.wetness > 0.0 || moment.weather.extinction_per_m > 0.0;
+        }))
+        refuse(key, "clear air and a dry road: what fog scatters before a target and water mirrors onto it comes from all over the beam");
+    if (key.quantity == area)
+        add_area(key, drive, route, moments);
+    else if (of_extent)
         add_lines(key, drive, route, moments);
+    else if (of_evenness)
+        add_evenness(key, drive, route, moments);
+    else if (of_sight)
+        add_sight(key, drive, route, moments);
     else if (of_eye)
         add_eye(key, drive, route, moments);
     else if (key.quantity == kerb_illuminance)
@@ -133,11 +155,7 @@ void ReadingOfLight::add_lines(const ReadingKey& key, const Drive& drive, const 
         if (grid.ahead_m.size() < 2 || grid.offset_m.size() < 2)
             continue;
         const std::size_t columns = grid.offset_m.size();
-        const auto place = [&](std::size_t row, std::size_t column) {
-            const Pose& pose = grid.surface[row * columns + column];
-            return surface == Surface::road ? LightPlace{pose.position_m, Facing::surface, pose.up()}
-                                            : LightPlace{pose.position_m + grid.target_height_m * pose.up(), Facing::lamps, pose.up()};
-        };
+        const auto place = [&](std::size_t row, std::size_t column) { return surface_place(grid, row * columns + column, surface); };
         const auto sample = [&](double at_m, std::size_t row, double along, double offset_m) {
             const std::size_t left = column_left_of(grid.offset_m, offset_m);
             Sample one{at_m};
@@ -191,13 +209,88 @@ void ReadingOfLight::add_lines(const ReadingKey& key, const Drive& drive, const 
         }
         parts_.push_back(std::move(part));
     }
-    quantile_ = share_of_statistic(key);
-    over_moments_ = [share = *quantile_](const std::vector<Value>& figures) {
-        CensoredSamples samples;
+    take_quantile(share_of_statistic(key));
+}
+
+/// Of those moments that have a figure.
+void ReadingOfLight::take_quantile(double share, const std::string& why_none) {
+    quantile_ = share;
+    over_moments_ = [share, why_none](const std::vector<Value>& figures) {
+        CensoredSamples samples(why_none);
         for (const Value& figure : figures)
             samples.add(figure);
         return OverMoments{samples.quantile(share), quantile_shares(figures, share)};
     };
+}
+
+/// As a median that some moment lacks.
+void ReadingOfLight::take_median(bool everywhere, const std::string& why_not) {
+    quantile_ = 0.5;
+    over_moments_ = [everywhere, why_not](const std::vector<Value>& figures) {
+        std::vector<double> numbers;
+        for (const Value& figure : figures)
+            if (figure.number())
+                numbers.push_back(*figure.number());
+        return OverMoments{everywhere && numbers.size() == figures.size() ? median_value(numbers, "no moment was played")
+                                                                          : Value::not_measured(why_not),
+                           quantile_shares(figures, 0.5)};
+    };
+}
+
+void ReadingOfLight::add_figures(const std::vector<Moment>& moments, const std::function<MomentFigurePointer(const Moment&)>& figure_of) {
+    std::vector<MomentFigurePointer> figures(moments.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, moments.size(), [&](std::size_t k) { figures[k] = figure_of(moments[k]); });
+    for (std::size_t k = 0; k < moments.size(); ++k)
+        if (figures[k]) {
+            parts_.emplace_back(InMoment{k});
+            parts_.back().of = std::move(figures[k]);
+        }
+}
+
+void ReadingOfLight::add_area(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments) {
+    if (!drive.extent)
+        refuse(key, "a drive that measures its extent");
+    if (key.lane == "all")
+        refuse(key, "the area of one lane");
+    add_figures(moments, [&](const Moment& moment) { return area_figure(key, *drive.extent, drive, route, moment); });
+    take_quantile(share_of_statistic(key));
+}
+
+void ReadingOfLight::add_evenness(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments) {
+    const HomogeneityParameters asked = drive.seeing.homogeneity.value_or(HomogeneityParameters{});
+    add_figures(moments, [&](const Moment& moment) { return evenness_figure(key, asked, drive, route, moment); });
+    take_quantile(share_of_statistic(key), "no lamp was lit in any moment");
+}
+
+void ReadingOfLight::add_sight(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments) {
+    const VisibilityParameters asked = drive.seeing.visibility.value_or(VisibilityParameters{});
+    const VisibilityTarget* sought = nullptr;
+    Across place = Across::own_centre;
+    std::vector<std::string> names;
+    for (const VisibilityTarget& target : asked.targets)
+        for (const Across across : target.places) {
+            const ReadingKey one = detection_key(target, across);
+            if (one.subject == key.subject && one.lane == key.lane && one.place == key.place) {
+                sought = &target;
+                place = across;
+            }
+            names.push_back(fmt::format("{}, {}", target.name, place_name(across)));
+        }
+    if (!sought)
+        refuse(key, fmt::format("a target at one of its places: {}", fmt::join(names, "; ")));
+    add_figures(moments, [&](const Moment& moment) { return sight_figure(key, *sought, place, asked, drive, route, moment); });
+    if (key.quantity == Quantity::detection)
+        take_quantile(share_of_statistic(key));
+    else
+        take_median(parts_.size() == moments.size(), "no such lane, beyond the route's end, or no level in some moment");
+}
+
+ReadingOfLight::ReadingOfLight(const std::vector<LimitedLight>& lights) : quantity_(Quantity::sensor_illuminance) {
+    for (const LimitedLight& light : lights) {
+        parts_.emplace_back(InMoment{light.moment});
+        parts_.back().of = margin_figure(light.place, light.limit_lx);
+    }
+    take_quantile(0.0);
 }
 
 void ReadingOfLight::add_sensor(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments) {
@@ -254,10 +347,13 @@ void ReadingOfLight::add_eye(const ReadingKey& key, const Drive& drive, const Ro
     if (!eye)
         refuse(key, fmt::format("a place that is there: there is no oncoming lane at {} m", observer->at_m));
     for (std::size_t k = 0; k < moments.size(); ++k)
-        if (const double to_go_m = observer->at_m - moments[k].distance_m - drive.bumper_m; to_go_m >= 0.0)
+        if (const double to_go_m = observer->at_m - moments[k].distance_m - drive.bumper_m; to_go_m >= 0.0) {
             add_place(k, to_go_m,
                       {eye->place_m, key.quantity == Quantity::glare_facing ? Facing::lamps : Facing::eye, eye->gaze,
                        hidden_by_road(moments[k], route, observer->at_m, eye->place_m)});
+            if (key.quantity == Quantity::glare_veiling)
+                parts_.back().of = veiling_figure(parts_.back().samples.front().places.front(), *drive.seeing.glare);
+        }
     if (key.to_m) {
         const std::optional<double> share = key.statistic == Statistic::maximum ? std::nullopt : std::optional(share_of_statistic(key));
         // Light at the ends of the range is taken from between moments: of an extreme the next beyond them counts, too.
@@ -272,8 +368,9 @@ void ReadingOfLight::add_eye(const ReadingKey& key, const Drive& drive, const Ro
                     counted_to_m_ = counted_to_m_ > *key.to_m ? std::min(counted_to_m_, part.to_go_m) : part.to_go_m;
             }
         over_moments_ = [this, near_m = *key.distance_m, far_m = *key.to_m, share](const std::vector<Value>& figures) {
-            const Approach samples = approach(figures);
-            return OverMoments{value_in_range(samples, near_m, far_m, share), shares_in_range(samples, figures, near_m, far_m, share)};
+            const FollowedFigure followed{approach(figures), reasons_of(figures)};
+            return OverMoments{value_in_range(followed, near_m, far_m, share),
+                               shares_in_range(followed.approach, figures, near_m, far_m, share)};
         };
     } else if (key.distance_m) {
         over_moments_ = [this, at_m = *key.distance_m](const std::vector<Value>& figures) {
@@ -283,7 +380,10 @@ void ReadingOfLight::add_eye(const ReadingKey& key, const Drive& drive, const Ro
     } else if (key.statistic == Statistic::maximum) {
         quantile_ = 1.0;
         over_moments_ = [this](const std::vector<Value>& figures) {
-            return OverMoments{Value::of(largest(approach(figures)), "no moment of the drive was measured"), largest_shares(figures)};
+            const FollowedFigure followed{approach(figures), reasons_of(figures)};
+            return OverMoments{followed.missing().empty() ? Value::of(largest(followed.approach), "no moment of the drive was measured")
+                                                          : Value::not_measured("in some moment: " + followed.missing()),
+                               largest_shares(figures)};
         };
     } else {
         refuse(key, "the largest of the approach (_max), or a range of it");
@@ -303,15 +403,7 @@ void ReadingOfLight::add_kerb(const ReadingKey& key, const Drive& drive, const R
         add_place(k, 0.0,
                   {point_m, on_road ? Facing::surface : Facing::lamps, edge->up(), hidden_by_road(moments[k], route, at_m, point_m)});
     }
-    quantile_ = 0.5;
-    over_moments_ = [everywhere](const std::vector<Value>& figures) {
-        std::vector<double> numbers;
-        for (const Value& figure : figures)
-            numbers.push_back(*figure.number());
-        return OverMoments{everywhere ? median_value(numbers, "no moment was played")
-                                      : Value::not_measured("no such lane, or beyond the route's end, in some moment"),
-                           quantile_shares(figures, 0.5)};
-    };
+    take_median(everywhere, "no such lane, or beyond the route's end, in some moment");
 }
 
 void ReadingOfLight::add_mirror(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments) {
@@ -327,13 +419,7 @@ void ReadingOfLight::add_mirror(const ReadingKey& key, const Drive& drive, const
         const glm::dvec3 point_m = to_parent(ego_pose(route, ahead_m, drive.wheelbase_m), mirror->position_m);
         add_place(k, 0.0, {point_m, Facing::lamps, {}, hidden_by_road(moments[k], route, ahead_m, point_m)});
     }
-    quantile_ = share_of_statistic(key);
-    over_moments_ = [share = *quantile_](const std::vector<Value>& figures) {
-        CensoredSamples samples("the car ahead is beyond the route's end in every moment");
-        for (const Value& figure : figures)
-            samples.add(figure);
-        return OverMoments{samples.quantile(share), quantile_shares(figures, share)};
-    };
+    take_quantile(share_of_statistic(key), "the car ahead is beyond the route's end in every moment");
 }
 
 } // namespace fernlicht

@@ -37,8 +37,9 @@ inline double between_samples(double a, double b, double share) {
 }
 
 /// Share of the way from `a` to `b` at which `limit` is met; one of the two lies below it, the other does not. limit > 0.
-inline double crossing_share(double a, double b, double limit) {
-    return a > 0.0 && b > 0.0 ? std::log(a / limit) / std::log(a / b) : (a - limit) / (a - b);
+template <class Number> Number crossing_share(const Number& a, const Number& b, double limit) {
+    using std::log;
+    return a > 0.0 && b > 0.0 ? log(a / limit) / log(a / b) : (a - limit) / (a - b);
 }
 
 /// How a figure answers to one of the values that it follows from.

@@ -142,68 +142,107 @@ std::vector<double> LitRoad::across(double ahead_m) const {
 
 namespace {
 
-struct Corner {
-    double ahead_m = 0.0, offset_m = 0.0, lx = 0.0;
+/// A number with what it answers to the light at a triangle's three corners.
+struct Graded {
+    double value = 0.0;
+    std::array<double, 3> by{};
+    Graded(double of = 0.0) : value(of) {}
+    Graded(double of, const Graded& a, double by_a, const Graded& b, double by_b) : value(of) {
+        for (std::size_t i = 0; i < by.size(); ++i)
+            by[i] = by_a * a.by[i] + by_b * b.by[i];
+    }
+    friend Graded operator+(const Graded& a, const Graded& b) { return {a.value + b.value, a, 1.0, b, 1.0}; }
+    friend Graded operator-(const Graded& a, const Graded& b) { return {a.value - b.value, a, 1.0, b, -1.0}; }
+    friend Graded operator*(const Graded& a, const Graded& b) { return {a.value * b.value, a, b.value, b, a.value}; }
+    friend Graded operator/(const Graded& a, const Graded& b) {
+        return {a.value / b.value, a, 1.0 / b.value, b, -a.value / (b.value * b.value)};
+    }
+    friend Graded log(const Graded& a) { return {std::log(a.value), a, 1.0 / a.value, a, 0.0}; }
+    friend bool operator>=(const Graded& a, double limit) { return a.value >= limit; }
+    friend bool operator>(const Graded& a, double limit) { return a.value > limit; }
 };
+
+template <class Number> struct Corner { Number ahead_m = 0.0, offset_m = 0.0, lx = 0.0; };
 
 /// A convex part of a triangle: three corners, and one more for each of at most three cuts.
-struct Polygon {
-    std::array<Corner, 8> corners;
+template <class Number> struct Polygon {
+    std::array<Corner<Number>, 8> corners;
     std::size_t count = 0;
-    void add(const Corner& corner) { corners[count++] = corner; }
+    void add(const Corner<Number>& corner) { corners[count++] = corner; }
 };
 
-double signed_area(const Polygon& polygon) {
-    double twice = 0.0;
+template <class Number> Number signed_area(const Polygon<Number>& polygon) {
+    Number twice = 0.0;
     for (std::size_t i = 0; i < polygon.count; ++i) {
-        const Corner& a = polygon.corners[i];
-        const Corner& b = polygon.corners[(i + 1) % polygon.count];
-        twice += a.ahead_m * b.offset_m - b.ahead_m * a.offset_m;
+        const Corner<Number>& a = polygon.corners[i];
+        const Corner<Number>& b = polygon.corners[(i + 1) % polygon.count];
+        twice = twice + (a.ahead_m * b.offset_m - b.ahead_m * a.offset_m);
     }
     return 0.5 * twice;
 }
 
 /// Sutherland and Hodgman: keeps the corners that `inside` keeps and cuts the sides that leave it at `share(a, b)` of their length.
-template <class Inside, class Share> Polygon clipped(const Polygon& polygon, Inside inside, Share share) {
-    Polygon result;
+template <class Number, class Inside, class Share> Polygon<Number> clipped(const Polygon<Number>& polygon, Inside inside, Share share) {
+    Polygon<Number> result;
     for (std::size_t i = 0; i < polygon.count; ++i) {
-        const Corner& a = polygon.corners[i];
-        const Corner& b = polygon.corners[(i + 1) % polygon.count];
+        const Corner<Number>& a = polygon.corners[i];
+        const Corner<Number>& b = polygon.corners[(i + 1) % polygon.count];
         if (inside(a))
             result.add(a);
         if (inside(a) != inside(b)) {
-            const double f = share(a, b);
+            const Number f = share(a, b);
             result.add({a.ahead_m + (b.ahead_m - a.ahead_m) * f, a.offset_m + (b.offset_m - a.offset_m) * f, a.lx + (b.lx - a.lx) * f});
         }
     }
     return result;
 }
 
-Polygon lit_part(const Polygon& polygon, double threshold_lx) {
+template <class Number> Polygon<Number> lit_part(const Polygon<Number>& polygon, double threshold_lx) {
     return clipped(
-        polygon, [threshold_lx](const Corner& c) { return c.lx >= threshold_lx; },
-        [threshold_lx](const Corner& a, const Corner& b) { return crossing_share(a.lx, b.lx, threshold_lx); });
+        polygon, [threshold_lx](const Corner<Number>& c) { return c.lx >= threshold_lx; },
+        [threshold_lx](const Corner<Number>& a, const Corner<Number>& b) { return crossing_share(a.lx, b.lx, threshold_lx); });
 }
 
 /// What lies on the side of a straight lane edge where `sign * (offset - edge)` is not negative.
-Polygon beside(const Polygon& polygon, double from_ahead_m, double from_offset_m, double slope, double sign) {
-    const auto side = [=](const Corner& c) { return sign * (c.offset_m - (from_offset_m + slope * (c.ahead_m - from_ahead_m))); };
+template <class Number>
+Polygon<Number> beside(const Polygon<Number>& polygon, double from_ahead_m, double from_offset_m, double slope, double sign) {
+    const auto side = [=](const Corner<Number>& c) { return sign * (c.offset_m - (from_offset_m + slope * (c.ahead_m - from_ahead_m))); };
     return clipped(
-        polygon, [side](const Corner& c) { return side(c) >= 0.0; },
-        [side](const Corner& a, const Corner& b) { return side(a) / (side(a) - side(b)); });
+        polygon, [side](const Corner<Number>& c) { return side(c) >= 0.0; },
+        [side](const Corner<Number>& a, const Corner<Number>& b) { return side(a) / (side(a) - side(b)); });
+}
+
+/// What lies between the edges of a lane, which run straight from row to row.
+template <class Number>
+Polygon<Number> in_lane(const Polygon<Number>& part, double ahead_m, double length_m, const LaneSpan& near, const LaneSpan& far) {
+    const Polygon<Number> right_of_left_edge = beside(part, ahead_m, near.left_m, (far.left_m - near.left_m) / length_m, -1.0);
+    return beside(right_of_left_edge, ahead_m, near.right_m, (far.right_m - near.right_m) / length_m, 1.0);
 }
 
 /// A cell's two triangles, between its near and far row and its right and left column.
-std::array<Polygon, 2> triangles_of(const ExtentGrid& grid, const std::vector<double>& lx, std::size_t row, std::size_t column) {
+std::array<Polygon<double>, 2> triangles_of(const ExtentGrid& grid, const std::vector<double>& lx, std::size_t row, std::size_t column) {
     const auto corner = [&](std::size_t r, std::size_t c) {
-        return Corner{grid.ahead_m[r], grid.offset_m[c], lx[r * grid.offset_m.size() + c]};
+        return Corner<double>{grid.ahead_m[r], grid.offset_m[c], lx[r * grid.offset_m.size() + c]};
     };
-    const Corner near_right = corner(row, column), far_left = corner(row + 1, column + 1);
-    return {Polygon{{near_right, corner(row + 1, column), far_left}, 3}, Polygon{{near_right, far_left, corner(row, column + 1)}, 3}};
+    const Corner<double> near_right = corner(row, column), far_left = corner(row + 1, column + 1);
+    return {Polygon<double>{{near_right, corner(row + 1, column), far_left}, 3},
+            Polygon<double>{{near_right, far_left, corner(row, column + 1)}, 3}};
+}
+
+/// With each corner's light as what is answered to.
+Polygon<Graded> graded(const Polygon<double>& triangle) {
+    Polygon<Graded> result;
+    for (std::size_t i = 0; i < triangle.count; ++i) {
+        const Corner<double>& corner = triangle.corners[i];
+        result.add({corner.ahead_m, corner.offset_m, corner.lx});
+        result.corners[i].lx.by[i] = 1.0;
+    }
+    return result;
 }
 
 /// Area of the part that `cut` leaves of the lit part of each of the cell's triangles.
-template <class Cut> double lit_part_m2(const std::array<Polygon, 2>& triangles, const CellArea& areas_m2, double threshold_lx, Cut cut) {
+template <class Cut>
+double lit_part_m2(const std::array<Polygon<double>, 2>& triangles, const CellArea& areas_m2, double threshold_lx, Cut cut) {
     double lit_m2 = 0.0;
     for (std::size_t i = 0; i < triangles.size(); ++i)
         lit_m2 += areas_m2[i] * (signed_area(cut(lit_part(triangles[i], threshold_lx))) / signed_area(triangles[i]));
@@ -342,24 +381,25 @@ double LitArea::in_cut_cell_m2(std::size_t row, std::size_t column, const LaneSp
     const double ahead_m = road_->grid_.ahead_m[row], length_m = road_->grid_.ahead_m[row + 1] - ahead_m;
     const double cut_m2 =
         lit_part_m2(triangles_of(road_->grid_, road_->lx_, row, column), road_->cell_m2_[row * cells() + column], threshold_lx_,
-                    [&](const Polygon& part) {
-                        const Polygon right_of_left_edge = beside(part, ahead_m, near.left_m, (far.left_m - near.left_m) / length_m, -1.0);
-                        return beside(right_of_left_edge, ahead_m, near.right_m, (far.right_m - near.right_m) / length_m, 1.0);
-                    });
+                    [&](const Polygon<double>& part) { return in_lane(part, ahead_m, length_m, near, far); });
     if (all_lit && known_m2)
         *known_m2 = cut_m2;
     return cut_m2;
 }
 
-/// Between two rows: cells wholly inside the lane count as they are, those that an edge cuts are clipped.
-double LitArea::in_strip_m2(std::size_t row, const LaneSpan& near, const LaneSpan& far, std::array<double, 8>& known_m2) const {
+std::pair<std::size_t, std::size_t> LitArea::columns_of(const LaneSpan& near, const LaneSpan& far) const {
     const std::vector<double>& offsets = road_->grid_.offset_m;
     const auto column_at = [&offsets](double offset_m) {
         const auto above = std::ranges::upper_bound(offsets, offset_m);
         return std::min(static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - offsets.begin() - 1, 0)), offsets.size() - 2);
     };
-    const std::size_t first = column_at(std::min(near.right_m, far.right_m));
-    const std::size_t last = column_at(std::max(near.left_m, far.left_m));
+    return {column_at(std::min(near.right_m, far.right_m)), column_at(std::max(near.left_m, far.left_m))};
+}
+
+/// Between two rows: cells wholly inside the lane count as they are, those that an edge cuts are clipped.
+double LitArea::in_strip_m2(std::size_t row, const LaneSpan& near, const LaneSpan& far, std::array<double, 8>& known_m2) const {
+    const std::vector<double>& offsets = road_->grid_.offset_m;
+    const auto [first, last] = columns_of(near, far);
     const double inner_right_m = std::max(near.right_m, far.right_m);
     const double inner_left_m = std::min(near.left_m, far.left_m);
     double lit_m2 = 0.0;
@@ -384,6 +424,30 @@ double LitArea::lane_m2(const LaneSpans& lane, CutCells& known) const {
         if (lane[row] && lane[row + 1] && !strip_is_dark(row))
             lit_m2 += in_strip_m2(row, *lane[row], *lane[row + 1], known[row]);
     return lit_m2;
+}
+
+std::vector<double> LitArea::lane_shares(const LaneSpans& lane) const {
+    const std::size_t stride = road_->grid_.offset_m.size();
+    std::vector<double> shares(road_->lx_.size());
+    for (std::size_t row = 0; row + 1 < road_->grid_.ahead_m.size(); ++row) {
+        if (!lane[row] || !lane[row + 1] || strip_is_dark(row))
+            continue;
+        const double ahead_m = road_->grid_.ahead_m[row], length_m = road_->grid_.ahead_m[row + 1] - ahead_m;
+        const auto [first, last] = columns_of(*lane[row], *lane[row + 1]);
+        for (std::size_t column = first; column <= last; ++column) {
+            const std::size_t here = row * stride + column;
+            const std::array<std::array<std::size_t, 3>, 2> corners{
+                {{here, here + stride, here + stride + 1}, {here, here + stride + 1, here + 1}}}; // as triangles_of()
+            const std::array<Polygon<double>, 2> triangles = triangles_of(road_->grid_, road_->lx_, row, column);
+            for (std::size_t i = 0; i < triangles.size(); ++i) {
+                const Graded lit =
+                    signed_area(in_lane(lit_part(graded(triangles[i]), threshold_lx_), ahead_m, length_m, *lane[row], *lane[row + 1]));
+                for (std::size_t k = 0; k < lit.by.size(); ++k)
+                    shares[corners[i][k]] += road_->cell_m2_[row * cells() + column][i] / signed_area(triangles[i]) * lit.by[k];
+            }
+        }
+    }
+    return shares;
 }
 
 } // namespace fernlicht

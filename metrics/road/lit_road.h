@@ -83,12 +83,15 @@ class LitArea {
     static CutCells no_cut_cells(std::size_t rows);
     /// Between the edges of a lane, which run straight from row to row.
     double lane_m2(const LaneSpans& lane, CutCells& known) const;
+    /// d lane_m2() / d lx, by point of the grid.
+    std::vector<double> lane_shares(const LaneSpans& lane) const;
 
   private:
     std::size_t cells() const { return road_->grid_.offset_m.size() - 1; } ///< of a row
     bool strip_is_dark(std::size_t row) const {
         return road_->brightest_lx_[row] < threshold_lx_ && road_->brightest_lx_[row + 1] < threshold_lx_;
     }
+    std::pair<std::size_t, std::size_t> columns_of(const LaneSpan& near, const LaneSpan& far) const; ///< first and last cell of a lane
     double in_cut_cell_m2(std::size_t row, std::size_t column, const LaneSpan& near, const LaneSpan& far, double* known_m2) const;
     double in_strip_m2(std::size_t row, const LaneSpan& near, const LaneSpan& far, std::array<double, 8>& known_m2) const;
 

@@ -24,9 +24,14 @@ void take(Gradient& largest, const LaneLight& light, std::size_t a, std::size_t 
     if (light.lx[a] < min_lx || light.lx[b] < min_lx)
         return;
     const double change = std::abs(std::log10(light.lx[b] / light.lx[a])), angle = angle_between_deg(light.seen_at[a], light.seen_at[b]);
-    largest.per_m = std::max(largest.per_m, change / metres);
-    if (angle > 0.0)
-        largest.per_degree = std::max(largest.per_degree, change / angle);
+    if (const double per_m = change / metres; per_m > largest.per_m) {
+        largest.per_m = per_m;
+        largest.per_m_between = {a, b};
+    }
+    if (angle > 0.0 && change / angle > largest.per_degree) {
+        largest.per_degree = change / angle;
+        largest.per_degree_between = {a, b};
+    }
 }
 
 /// Sums of a least-squares plane z = a + b x + c y about the point itself; its value there is a.
@@ -147,17 +152,57 @@ Value mean_lx(const LaneLight& light, double from_m, double to_m) {
     return integral / (to_m - from_m);
 }
 
+/// d mean_lx() / d lx.
+std::vector<double> mean_shares(const LaneLight& light, double from_m, double to_m) {
+    const std::size_t columns = light.offset_m.size();
+    std::vector<double> of_row(light.ahead_m.size());
+    for (std::size_t r = 1; r < of_row.size(); ++r) {
+        const double a_m = light.ahead_m[r - 1], b_m = light.ahead_m[r];
+        const double low_m = std::max(a_m, from_m), high_m = std::min(b_m, to_m);
+        if (!(high_m > low_m))
+            continue;
+        const double way = (0.5 * (low_m + high_m) - a_m) / (b_m - a_m), length = (high_m - low_m) / (to_m - from_m);
+        of_row[r - 1] += (1.0 - way) * length;
+        of_row[r] += way * length;
+    }
+    std::vector<double> shares(light.lx.size());
+    for (std::size_t i = 0; i < shares.size(); ++i)
+        shares[i] = of_row[i / columns] / static_cast<double>(columns);
+    return shares;
+}
+
+constexpr double near_from_m = 5.0, near_to_m = 15.0, far_from_m = 40.0, far_to_m = 60.0;
+
 } // namespace
 
-Value foreground_lx(const LaneLight& light) { return mean_lx(light, 5.0, 15.0); }
+Value foreground_lx(const LaneLight& light) { return mean_lx(light, near_from_m, near_to_m); }
 
 Value foreground_ratio(const LaneLight& light) {
-    const Value near_lx = foreground_lx(light), far_lx = mean_lx(light, 40.0, 60.0);
+    const Value near_lx = foreground_lx(light), far_lx = mean_lx(light, far_from_m, far_to_m);
     if (!near_lx.measured() || !far_lx.measured())
         return near_lx.measured() ? far_lx : near_lx;
     if (!(*far_lx.number() > 0.0))
         return Value::not_measured("dark from 40 to 60 m ahead");
     return *near_lx.number() / *far_lx.number();
+}
+
+std::vector<double> foreground_shares(const LaneLight& light) { return mean_shares(light, near_from_m, near_to_m); }
+
+std::vector<double> foreground_ratio_shares(const LaneLight& light) {
+    const double near_lx = *foreground_lx(light).number(), far_lx = *mean_lx(light, far_from_m, far_to_m).number();
+    std::vector<double> shares = foreground_shares(light);
+    const std::vector<double> far_shares = mean_shares(light, far_from_m, far_to_m);
+    for (std::size_t i = 0; i < shares.size(); ++i)
+        shares[i] = shares[i] / far_lx - near_lx / (far_lx * far_lx) * far_shares[i];
+    return shares;
+}
+
+std::vector<double> uniformity_shares(const std::vector<double>& lx) {
+    const double count = static_cast<double>(lx.size()), mean = std::accumulate(lx.begin(), lx.end(), 0.0) / count;
+    const auto least = std::ranges::min_element(lx);
+    std::vector<double> shares(lx.size(), -*least / (mean * mean * count));
+    shares[static_cast<std::size_t>(least - lx.begin())] += 1.0 / mean;
+    return shares;
 }
 
 Value uniformity(const std::vector<double>& lx) {

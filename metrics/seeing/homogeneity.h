@@ -4,6 +4,7 @@
 
 #include "metrics/readings/value.h"
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -18,8 +19,9 @@ struct LaneLight {
 };
 
 struct Gradient {
-    double per_m = 0.0;      ///< |d lg E| a metre
-    double per_degree = 0.0; ///< |d lg E| a degree seen from the driver
+    double per_m = 0.0;                                               ///< |d lg E| a metre
+    double per_degree = 0.0;                                          ///< |d lg E| a degree seen from the driver
+    std::array<std::size_t, 2> per_m_between{}, per_degree_between{}; ///< which points
 };
 /// Largest between neighbours that both have at least `min_lx`; each of the two figures by itself. All 0 where nothing has.
 struct Gradients {
@@ -49,5 +51,10 @@ Value uniformity(const std::vector<double>& lx);
 /// Mean illuminance from 5 to 15 m over that from 40 to 60 m, by `ahead_m`. Not measured where the grid does not reach or the distance is
 /// dark.
 Value foreground_ratio(const LaneLight& light);
+
+/// d foreground_lx(), d foreground_ratio() and d uniformity() / d lx, by point. Where these are measured.
+std::vector<double> foreground_shares(const LaneLight& light);
+std::vector<double> foreground_ratio_shares(const LaneLight& light);
+std::vector<double> uniformity_shares(const std::vector<double>& lx);
 
 } // namespace fernlicht

@@ -191,6 +191,20 @@ SurfaceLuminance surface_luminance(const Moment& moment, const glm::dvec3& point
     return result;
 }
 
+std::vector<double> luminance_per_cd(const Moment& moment, const glm::dvec3& point_m, const glm::dvec3& normal, const Material& material,
+                                     const glm::dvec3& eye_m) {
+    const double albedo = reflectance_of(material.albedo);
+    std::vector<double> per_cd;
+    for (const LitLamp& lamp : moment.lamps) {
+        const glm::dvec3 to_lamp = lamp.pose.position_m - point_m;
+        const bool lit = lamp.intensity_factor > 0.0 && to_lamp != glm::dvec3(0.0);
+        const double e_perp =
+            lit ? photometry::facing_illuminance(1.0, to_lamp) * air_transmittance(moment.weather, glm::length(to_lamp)) : 0.0;
+        per_cd.push_back(returned_cdm2(moment, albedo, e_perp, to_lamp, normal, material, eye_m - point_m));
+    }
+    return per_cd;
+}
+
 SurfaceLuminance lamps_airlight(const Moment& moment, const glm::dvec3& point_m, const glm::dvec3& eye_m) {
     SurfaceLuminance air;
     if (moment.weather.extinction_per_m > 0.0)

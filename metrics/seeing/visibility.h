@@ -72,6 +72,11 @@ struct SurfaceLuminance {
 SurfaceLuminance surface_luminance(const Moment& moment, const glm::dvec3& point_m, const glm::dvec3& normal, const Material& material,
                                    const glm::dvec3& eye_m, const std::vector<SeenLamp>& by_road = {});
 
+/// d surface_luminance() / d intensity towards the point, by lamp of the moment, 1/m2: luminance is linear in it. Photopic, without light
+/// by way of the road.
+std::vector<double> luminance_per_cd(const Moment& moment, const glm::dvec3& point_m, const glm::dvec3& normal, const Material& material,
+                                     const glm::dvec3& eye_m);
+
 /// Points of a ray at which lamps' light in the air is asked for: as many as pictures have.
 inline constexpr int airlight_samples = 32;
 /// What the air adds between eye and point: the light of the moment's lamps, scattered once, as pictures have it (fog_light.h).

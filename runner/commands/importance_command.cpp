@@ -4,9 +4,11 @@
 #include "runner/experiments/importance/importance_run.h"
 #include "runner/write/document.h"
 #include "scenarios/values/files.h"
+#include "scenarios/yaml/library_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 
 namespace fernlicht {
@@ -15,7 +17,7 @@ namespace {
 /// The flags as typed.
 struct ImportanceFlags {
     std::filesystem::path drive, recipe;
-    std::string reading, lamp_set, road, frames, out;
+    std::string reading, rating, row, photometer, lamp_set, road, frames, out;
     std::vector<std::string> lamps;
     int check = 20;
     std::uint64_t seed = 1;
@@ -23,19 +25,27 @@ struct ImportanceFlags {
 };
 
 int tell_importance(const ImportanceFlags& flags, const std::vector<std::string>& command) {
-    DriveEdits edits;
-    edits.lamps = lamps_of(flags.lamps);
-    edits.lamp_recipe = flags.recipe;
-    if (!flags.road.empty())
-        edits.road = flags.road;
+    if (flags.reading.empty() && flags.rating.empty())
+        refuse_flag("--reading", "none", "a reading, or a row of a rating (--rating, --row)");
+    if (!flags.rating.empty() && !flags.recipe.empty())
+        refuse_flag("--recipe", "it with --rating", "lamp files that need none");
     ImportanceRequest request;
-    request.drive = read_drive(flags.drive, edits);
+    if (flags.rating.empty()) {
+        DriveEdits edits;
+        edits.lamps = lamps_of(flags.lamps);
+        edits.lamp_recipe = flags.recipe;
+        if (!flags.road.empty())
+            edits.road = flags.road;
+        request.drive = read_drive(flags.drive, edits);
+    } else
+        request.row = {read_rating(library_file("rating", flags.rating, "", {{}, 0, 0, "--rating"})), flags.row, flags.photometer,
+                       flags.drive};
     request.lamp_set = flags.lamp_set;
     request.reading = flags.reading;
     request.ticks = tick_range(flags.frames);
     request.check = flags.check;
     request.seed = flags.seed;
-    request.folder = result_folder(flags.out, request.drive.name + "-importance");
+    request.folder = result_folder(flags.out, (request.row ? request.row->rating.name : request.drive.name) + "-importance");
     request.command = command;
     request.write = [&request, &flags](const ImportanceResult& result) {
         write_file(request.folder / "importance.json", json_text(as_json(result, importance_members)));
@@ -54,15 +64,24 @@ int tell_importance(const ImportanceFlags& flags, const std::vector<std::string>
 void add_importance_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<ImportanceFlags>();
     CLI::App* sub = app.add_subcommand("importance", "where in the beam a reading of a drive is decided");
-    sub->add_option("DRIVE", flags->drive, "drive file (YAML)")->required();
-    sub->add_option("--reading", flags->reading, fmt::format("one of {}", importance_readings))->required();
+    sub->add_option("DRIVE", flags->drive, "drive file (YAML); with --rating the lamps: a file of lamp sets or a drive that has them")
+        ->required();
+    CLI::Option* const reading = sub->add_option("--reading", flags->reading, fmt::format("one of {}", importance_readings));
+    CLI::Option* const rating =
+        sub->add_option("--rating", flags->rating,
+                        fmt::format("in place of a reading the margin of a row of this rating: a file (YAML), or {}",
+                                    fmt::join(library_names("rating"), ", ")))
+            ->excludes(reading);
+    sub->add_option("--row", flags->row, "the row; its drive is played")->needs(rating);
+    sub->add_option("--photometer", flags->photometer, "of the row's this one alone")->needs(rating);
     sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drive (default: its first)");
     sub->add_option("--lamp", flags->lamps,
                     "[SIDE=]FILE: use this lamp file for all lamps, or for those whose name contains SIDE (left, right)")
-        ->allow_extra_args(false);
+        ->allow_extra_args(false)
+        ->excludes(rating);
     add_recipe_flag(*sub, flags->recipe);
-    sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's");
-    sub->add_option("--frames", flags->frames, "FIRST:LAST of the drive's moments (default: all); N:N for one");
+    sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's")->excludes(rating);
+    sub->add_option("--frames", flags->frames, "FIRST:LAST of the drive's moments (default: all); N:N for one")->excludes(rating);
     sub->add_option("--check", flags->check, "smooth random changes of the lamps with which the drive is read again; 0: none")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();

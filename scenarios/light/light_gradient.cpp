@@ -28,6 +28,16 @@ std::vector<double>& samples_of(BeamGradient& gradient, const LitLamp& lamp) {
     return gradient.emplace_back(LampGradient{lamp.name, lamp.file, std::vector<double>(lamp.file->table.cd.size())}).per_cd;
 }
 
+void add_lamp(BeamGradient& gradient, const LitLamp& lamp, const glm::dvec3& point_m, double per_cd) {
+    const std::optional<TwoAngles> angles = angles_from(lamp, point_m);
+    const auto weights = angles ? sample_weights(lamp.file->table, angles->h_deg, angles->v_deg) : std::nullopt;
+    if (!weights)
+        return;
+    std::vector<double>& samples = samples_of(gradient, lamp);
+    for (const SampleWeight& one : *weights)
+        samples[one.sample] += per_cd * lamp.intensity_factor * one.weight;
+}
+
 } // namespace
 
 double light_lx(const Moment& moment, const LightPlace& place) {
@@ -39,17 +49,15 @@ double light_lx(const Moment& moment, const LightPlace& place) {
 }
 
 void add_gradient(BeamGradient& gradient, const Moment& moment, const LightPlace& place, double per_lx) {
-    for (std::size_t i = 0; i < moment.lamps.size(); ++i) {
-        const LitLamp& lamp = moment.lamps[i];
-        const double factor = lx_per_cd(moment, i, place);
-        const std::optional<TwoAngles> angles = factor > 0.0 ? angles_from(lamp, place.point_m) : std::nullopt;
-        const auto weights = angles ? sample_weights(lamp.file->table, angles->h_deg, angles->v_deg) : std::nullopt;
-        if (!weights)
-            continue;
-        std::vector<double>& samples = samples_of(gradient, lamp);
-        for (const SampleWeight& one : *weights)
-            samples[one.sample] += per_lx * factor * lamp.intensity_factor * one.weight;
-    }
+    for (std::size_t i = 0; i < moment.lamps.size(); ++i)
+        if (const double factor = lx_per_cd(moment, i, place); factor > 0.0)
+            add_lamp(gradient, moment.lamps[i], place.point_m, per_lx * factor);
+}
+
+void add_gradient(BeamGradient& gradient, const Moment& moment, const glm::dvec3& point_m, std::span<const double> per_cd) {
+    for (std::size_t i = 0; i < moment.lamps.size(); ++i)
+        if (per_cd[i] != 0.0)
+            add_lamp(gradient, moment.lamps[i], point_m, per_cd[i]);
 }
 
 } // namespace fernlicht

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,5 +40,7 @@ struct LightPlace {
 double light_lx(const Moment& moment, const LightPlace& place);
 /// Adds d E / d cd times `per_lx`.
 void add_gradient(BeamGradient& gradient, const Moment& moment, const LightPlace& place, double per_lx);
+/// Adds what a figure answers that answers to each lamp's intensity towards a point by so much: `per_cd` by lamp of the moment.
+void add_gradient(BeamGradient& gradient, const Moment& moment, const glm::dvec3& point_m, std::span<const double> per_cd);
 
 } // namespace fernlicht

@@ -13,7 +13,7 @@ namespace {
 std::string value_text(const ImportanceResult& result) {
     if (!result.value.measured())
         return "not measured: " + result.why_not;
-    return fmt::format("{} {}", with_bound(result.value, four_digits(*result.value.figure())), unit_of(result.reading));
+    return fmt::format("{} {}", with_bound(result.value, four_digits(*result.value.figure())), result.unit);
 }
 
 Cell signed_cell(double value) {
@@ -41,7 +41,7 @@ plots::Figure spot_figure(const ImportanceResult& result, const ImportanceMap& b
     for (const float value : values.pixels())
         most = std::max(most, std::abs(static_cast<double>(value)));
     const double end = most > 0.0 ? most : 1.0;
-    figure.colour_bar = plots::ColourBar{{"change for 1000 cd", unit_of(result.reading), -end, end}, true};
+    figure.colour_bar = plots::ColourBar{{"change for 1000 cd", result.unit, -end, end}, true};
     figure.rasters.push_back(
         {plots::difference_map(values, figure.colour_bar->axis), window.left_deg, window.right_deg, window.top_deg, window.bottom_deg});
     const plots::Grid lux = plots::lux_over(beam.file->table, window);
@@ -56,7 +56,7 @@ plots::Figure spot_figure(const ImportanceResult& result, const ImportanceMap& b
 }
 
 Table spot_table(const ImportanceResult& result) {
-    const std::string unit = unit_of(result.reading);
+    const std::string& unit = result.unit;
     Table table{
         "spots",
         fmt::format("Where light matters most: {:g} cd more in a round spot there, {:g}° wide at half its height, in all lamps of the "
@@ -80,8 +80,7 @@ Table spot_table(const ImportanceResult& result) {
 Table lamp_table(const ImportanceResult& result) {
     Table table{"lamps",
                 "What 1 % more light of a lamp changes, in every direction; and the sample of its table that matters most",
-                columns_of(fmt::format("lamp<|file<|1 % more [{0}]|samples that matter|H [°]|V [°]|1000 cd more in it [{0}]",
-                                       unit_of(result.reading))),
+                columns_of(fmt::format("lamp<|file<|1 % more [{0}]|samples that matter|H [°]|V [°]|1000 cd more in it [{0}]", result.unit)),
                 {}};
     for (const ImportanceLamp& lamp : result.lamps)
         table.rows.push_back({lamp.lamp,
@@ -97,8 +96,7 @@ Table lamp_table(const ImportanceResult& result) {
 Table decider_table(const ImportanceResult& result) {
     Table table{"moments",
                 "The moments that decide the reading; share: what a change of the moment's figure changes of the reading",
-                columns_of(fmt::format("tick|time [s]|along the route [m]|figure [{}]|share",
-                                       is_extent(result.reading) ? unit_of(result.reading) : "lx")),
+                columns_of(fmt::format("tick|time [s]|along the route [m]|figure [{}]|share", result.figure_unit)),
                 {}};
     for (const ImportanceMoment& moment : result.deciders)
         table.rows.push_back({{fmt::format("{}", moment.tick), static_cast<double>(moment.tick)},
@@ -115,8 +113,7 @@ Table check_table(const ImportanceResult& result) {
         fmt::format("The tables of all lamps changed at random and smoothly, by at most so much, and the drive read again: {} changes "
                     "of each size, root mean square",
                     result.checks.front().count),
-        columns_of(
-            fmt::format("size [%]|change found [{0}]|foretold less found [{0}]|as a share of it [%]|worst [{0}]", unit_of(result.reading))),
+        columns_of(fmt::format("size [%]|change found [{0}]|foretold less found [{0}]|as a share of it [%]|worst [{0}]", result.unit)),
         {}};
     for (const ImportanceCheck& check : result.checks)
         table.rows.push_back({{plots::number(100.0 * check.size), 100.0 * check.size},
@@ -158,8 +155,8 @@ Document document(const ImportanceResult& result) {
     Document document{"Where in the beam it matters", {}};
     Section& top = document.sections.emplace_back(Section{result.title + ", " + result.lamp_set, {}});
     top.verdict = !result.value.number() ? "not_measured" : result.checks.empty() ? "none" : agrees(result) ? "pass" : "fail";
-    top.blocks.emplace_back(fmt::format("`{}` over {}: {}.", name_of(result.reading),
-                                        counted(static_cast<std::size_t>(result.moments), "moment"), value_text(result)));
+    top.blocks.emplace_back(
+        fmt::format("`{}` over {}: {}.", result.reading, counted(static_cast<std::size_t>(result.moments), "moment"), value_text(result)));
     if (!result.decided()) {
         top.blocks.emplace_back(result.value.number() ? "No light decides it: it stays as it is with every small change of the lamps."
                                                       : "What is not a number has no gradient.");
@@ -171,8 +168,7 @@ Document document(const ImportanceResult& result) {
     for (std::size_t i = 0; i < result.maps.size(); ++i) {
         const ImportanceMap& map = result.maps[i];
         const std::string suffix = result.maps.size() > 1 ? fmt::format("-{}", i + 1) : "";
-        more.blocks.emplace_back(
-            Plot{"importance" + suffix, spot_figure(result, map, map.of_reading, "What decides " + name_of(result.reading))});
+        more.blocks.emplace_back(Plot{"importance" + suffix, spot_figure(result, map, map.of_reading, "What decides " + result.reading)});
         if (!result.mean_gradient.empty() && result.moments > 1)
             more.blocks.emplace_back(
                 Plot{"importance-mean" + suffix, spot_figure(result, map, map.of_mean, "The same of the mean over all moments")});

@@ -34,7 +34,7 @@ JsonMembers check_members(ImportanceCheck& check) {
 }
 
 /// For programs that read a lamp's table beside it.
-std::string unit_per_cd(const ImportanceResult& result) { return fmt::format("{}/cd", unit_of(result.reading)); }
+std::string unit_per_cd(const ImportanceResult& result) { return fmt::format("{}/cd", result.unit); }
 
 } // namespace
 
@@ -46,7 +46,7 @@ JsonMembers importance_members(ImportanceResult& result) {
             {"title", result.title},
             {"lamp_set", result.lamp_set},
             {"reading", result.reading},
-            {"unit", std::string(unit_of(result.reading))},
+            {"unit", result.unit},
             {"value", result.value},
             {"why_not_measured", or_null(result.why_not)},
             {"first_tick", result.first_tick},
@@ -103,9 +103,9 @@ std::string importance_exr(const ImportanceResult& result) {
         images.emplace_back(name, &image);
     const SpotMap& map = result.maps.front().of_reading;
     const std::map<std::string, ExrAttribute> attributes{
-        {"fernlicht:reading", name_of(result.reading)},
-        {"fernlicht:unit", fmt::format("{} for 1000 cd more in a round spot, {:g} degrees wide at half its height", unit_of(result.reading),
-                                       result.spot_deg)},
+        {"fernlicht:reading", result.reading},
+        {"fernlicht:unit",
+         fmt::format("{} for 1000 cd more in a round spot, {:g} degrees wide at half its height", result.unit, result.spot_deg)},
         {"fernlicht:h_deg", fmt::format("{} {}", map.h_deg.front(), map.h_deg.back())}, // of the middles of the first and the last column
         {"fernlicht:v_deg", fmt::format("{} {}", map.v_deg.back(), map.v_deg.front())}};
     return encode_exr(images, attributes, 1);

@@ -53,9 +53,9 @@ struct ImportanceCheck {
 
 struct ImportanceResult : Findings {
     std::string drive, title, lamp_set;
-    ReadingKey reading;
-    Value value;         ///< by the twin
-    std::string why_not; ///< why it is not measured; "" where it is
+    std::string reading, unit, figure_unit; ///< its name; units of it, and of a moment's figure
+    Value value;                            ///< by the twin
+    std::string why_not;                    ///< why it is not measured; "" where it is
     int first_tick = 0, moments = 0;
     double spot_deg = 0.5, spot_cd = 1000.0;
     std::vector<ImportanceMoment> deciders;

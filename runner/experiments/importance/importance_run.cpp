@@ -1,5 +1,6 @@
 #include "runner/experiments/importance/importance_run.h"
 
+#include "runner/experiments/rating/rating_run.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
 #include "runner/play/stage.h"
@@ -122,10 +123,9 @@ class SpotSearch {
         ChangedTables tables;
         for (const LampGradient& one : result_.gradient)
             tables.push_back(one.file == map.file ? with_spot(one.file->table, spot, result_.spot_cd) : one.file->table);
-        result_.spots.push_back(
-            {map.lamps, map.file->name, spot.h_deg, spot.v_deg, intensity_cd(map.file->table, spot.h_deg, spot.v_deg),
-             foretold_change(result_.gradient, tables),
-             difference(reading_.value(with_tables(moments_, result_.gradient, tables)), result_.value, unit_of(result_.reading))});
+        result_.spots.push_back({map.lamps, map.file->name, spot.h_deg, spot.v_deg, intensity_cd(map.file->table, spot.h_deg, spot.v_deg),
+                                 foretold_change(result_.gradient, tables),
+                                 difference(reading_.value(with_tables(moments_, result_.gradient, tables)), result_.value, result_.unit)});
     }
 
     const ReadingOfLight& reading_;
@@ -165,27 +165,73 @@ std::optional<double> linear_to(const ImportanceResult& result) {
     return size;
 }
 
-ImportanceResult run_importance(const ImportanceRequest& request) {
-    ImportanceResult result;
-    result.reading = reading_named(request.reading);
-    const Stage stage(request.drive);
+namespace {
+
+/// What is played, and the reading of it.
+struct PlayedReading {
+    std::unique_ptr<Stage> stage;
+    std::vector<Moment> moments;
+    std::unique_ptr<ReadingOfLight> reading;
+};
+
+void name_reading(ImportanceResult& result, const ReadingKey& key) {
+    result.reading = name_of(key);
+    result.unit = unit_of(key);
+    result.figure_unit = key.quantity == Quantity::sensor_reach ? "lx" : result.unit;
+}
+
+PlayedReading played_drive(const ImportanceRequest& request, ImportanceResult& result) {
+    const ReadingKey key = reading_named(request.reading);
+    name_reading(result, key);
+    PlayedReading played{std::make_unique<Stage>(request.drive), {}, {}};
+    const Stage& stage = *played.stage;
     const LampSet& lamp_set = lamp_set_of(stage.drive, request.lamp_set);
+    result.lamp_set = lamp_set.name;
     result.first_tick = std::max(0, request.ticks.first);
-    result.moments = ticks_to_play(stage.drive, request.ticks);
-    if (result.moments < 1)
+    const int count = ticks_to_play(stage.drive, request.ticks);
+    if (count < 1)
         throw InputError({{}, 0, 0, "--frames"}, "found no moment of the drive",
                          fmt::format("some of 0 to {}", tick_count(stage.drive) - 1));
-    std::vector<int> ticks(static_cast<std::size_t>(result.moments));
+    std::vector<int> ticks(static_cast<std::size_t>(count));
     std::iota(ticks.begin(), ticks.end(), result.first_tick);
-    const std::vector<Moment> moments = moments_at(ticks, stage, lamp_set);
-    const ReadingOfLight reading(result.reading, stage.drive, stage.route, moments);
+    played.moments = moments_at(ticks, stage, lamp_set);
+    played.reading = std::make_unique<ReadingOfLight>(key, stage.drive, stage.route, played.moments);
+    return played;
+}
+
+PlayedReading played_row(const ImportanceRequest::Row& asked, const std::string& lamp_set, ImportanceResult& result) {
+    RatedRow row = rated_row(asked.rating, asked.name, asked.photometer, asked.lamps, lamp_set);
+    result.lamp_set = row.lamp_set;
+    PlayedReading played{std::move(row.stage), std::move(row.moments), {}};
+    if (row.key) {
+        name_reading(result, *row.key);
+        played.reading = std::make_unique<ReadingOfLight>(*row.key, played.stage->drive, played.stage->route, played.moments, "--row");
+    } else {
+        result.reading =
+            fmt::format("margin of {}, row {}{}", asked.rating.name, asked.name, asked.photometer.empty() ? "" : ", " + asked.photometer);
+        result.unit = result.figure_unit = "%";
+        played.reading = std::make_unique<ReadingOfLight>(row.lights);
+    }
+    return played;
+}
+
+} // namespace
+
+ImportanceResult run_importance(const ImportanceRequest& request) {
+    ImportanceResult result;
+    const PlayedReading played = request.row ? played_row(*request.row, request.lamp_set, result) : played_drive(request, result);
+    const Stage& stage = *played.stage;
+    const std::vector<Moment>& moments = played.moments;
+    const ReadingOfLight& reading = *played.reading;
+    result.moments = static_cast<int>(moments.size());
     OutputFolder folder(request.folder);
     result.context = make_context({}, request.command, request.seed);
+    if (request.row)
+        add_inputs(result.context.inputs, request.row->rating.opened);
     for (const FilesRead* files : {&stage.drive.opened, &stage.network.opened})
         add_inputs(result.context.inputs, *files);
     result.drive = stage.drive.name;
     result.title = stage.drive.title;
-    result.lamp_set = lamp_set.name;
     ReadingOfLight::Found found = reading.gradient(moments);
     result.value = found.value;
     result.why_not = found.value.reason();

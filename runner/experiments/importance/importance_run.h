@@ -3,14 +3,24 @@
 
 #include "runner/experiments/importance/importance_result.h"
 #include "runner/play/play.h"
+#include "scenarios/ratings/rating.h"
+
+#include <optional>
 
 namespace fernlicht {
 
 struct ImportanceRequest : ExperimentRequest<ImportanceResult> {
     Drive drive;
-    std::string lamp_set; ///< "": the drive's first
-    std::string reading;  ///< as typed
+    std::string lamp_set; ///< "": the first
+    std::string reading;  ///< as typed; "": the row's
     TickRange ticks;
+    /// In place of a drive and its reading: a row of a rating, all of its photometers or one, by the lamps of this file.
+    struct Row {
+        Rating rating;
+        std::string name, photometer;
+        std::filesystem::path lamps;
+    };
+    std::optional<Row> row;
     int check = 20; ///< random changes that are tried; 0: none
     std::uint64_t seed = 1;
 };

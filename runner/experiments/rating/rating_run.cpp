@@ -34,12 +34,14 @@ constexpr double most_off_circle_m = 0.5, least_arc_deg = 10.0;
 
 /// A drive with one lamp set, played. Its moments are made one at a time: a state of a lamp's pixels is a whole table.
 struct PlayedRating {
-    Stage stage;
+    std::unique_ptr<Stage> owned;
+    const Stage& stage;
     const LampSet& lamp_set;
     std::vector<State> states;
     std::map<double, Readings> readings; ///< by how far all lamps are aimed higher, rad
 
-    explicit PlayedRating(Drive drive) : stage(std::move(drive)), lamp_set(stage.drive.lamp_sets.front()) {
+    explicit PlayedRating(Drive drive)
+        : owned(std::make_unique<Stage>(std::move(drive))), stage(*owned), lamp_set(stage.drive.lamp_sets.front()) {
         for (State state = start(stage.drive); state.tick < tick_count(stage.drive); state = advance(state, stage.drive)) {
             if (weather_of(stage.drive, state.time_s).wetness > 0.0)
                 throw InputError({stage.drive.file, 0, 0, "weather"}, "a wet road, by way of which light comes, too",
@@ -145,6 +147,7 @@ struct Approaches {
         double speed_mps;
     };
     std::vector<LightApproach> as_aimed, higher; ///< by photometer: as lamps are, and all of them aimed a little higher
+    std::vector<std::vector<LightPlace>> lit;    ///< by photometer and sample
     std::vector<Place> places;
 };
 
@@ -155,7 +158,8 @@ Approaches approaches_of(const Rating& rating, const RatingRow& row, const std::
     for (const Photometer& photometer : photometers)
         photometry.emplace_back(rating, row, photometer, played);
     const glm::dvec3 from_m = reference_m(played.stage, played.lamp_set, rating.rules.from);
-    Approaches found{std::vector<LightApproach>(photometers.size()), std::vector<LightApproach>(photometers.size()), {}};
+    const std::size_t count = photometers.size();
+    Approaches found{std::vector<LightApproach>(count), std::vector<LightApproach>(count), std::vector<std::vector<LightPlace>>(count), {}};
     for (const State& state : played.states) {
         const Moment moment = played.at(state), up = nudged(moment, aimed_higher());
         found.places.push_back({glm::dvec2(moment.ego.position_m), moment.speed_mps});
@@ -169,6 +173,7 @@ Approaches approaches_of(const Rating& rating, const RatingRow& row, const std::
                 continue;
             const double distance_m = std::hypot(way.x, way.y);
             found.as_aimed[i].push_back({moment.tick, moment.time_s, distance_m, light_lx(moment, placed->place), pitch_deg});
+            found.lit[i].push_back(placed->place);
             found.higher[i].push_back({moment.tick, moment.time_s, distance_m, light_lx(up, placed->place), pitch_deg});
         }
     }
@@ -244,6 +249,20 @@ void judge_light_row(RowFound& found, const Rating& rating, const PlayedRating& 
         found.verdict = worst_of(found.verdict, photometer.verdict);
         if (found.why.empty() && photometer.verdict == RatingVerdict::not_measured)
             found.why = std::ranges::find(photometer.ranges, RatingVerdict::not_measured, &RangeJudgement::verdict)->why;
+    }
+}
+
+/// Each light of an approach that counts in a judged range, with its limit there.
+void add_limited(std::vector<LimitedLight>& lights, const std::vector<RangeJudgement>& ranges, const LightApproach& approach,
+                 const std::vector<LightPlace>& places) {
+    for (std::size_t k = 0; k < approach.size(); ++k) {
+        const double distance_m = approach[k].distance_m;
+        std::optional<double> limit_lx; // where two ranges meet, that of the farther one
+        for (const RangeJudgement& range : ranges)
+            if (range.range.at_most_lx && distance_m >= range.range.from_m && distance_m <= range.range.to_m)
+                limit_lx = range.range.limit_lx(distance_m);
+        if (limit_lx && !approach[k].left_out)
+            lights.push_back({static_cast<std::size_t>(approach[k].tick), places[k], *limit_lx});
     }
 }
 
@@ -428,6 +447,61 @@ RatingFound run_rating(const RatingRequest& request) {
     request.write(found);
     folder.finish();
     return found;
+}
+
+RatedRow rated_row(const Rating& rating, const std::string& name, const std::string& photometer, const std::filesystem::path& lamps,
+                   const std::string& lamp_set) {
+    const auto refuse = [](const char* flag, const std::string& found, const std::string& expected) {
+        throw InputError({{}, 0, 0, flag}, "found " + found, expected);
+    };
+    std::vector<std::string> names;
+    for (const RatingRow& one : rating.rows)
+        names.push_back(one.name);
+    const auto row = std::ranges::find(rating.rows, name, &RatingRow::name);
+    if (row == rating.rows.end())
+        refuse("--row", "'" + printable(name) + "'", fmt::format("a row of the rating: {}", fmt::join(names, ", ")));
+    if (!photometer.empty() && std::ranges::find(row->photometers, photometer) == row->photometers.end())
+        refuse("--photometer", "'" + printable(photometer) + "'",
+               row->of_reading() ? "a row of light" : fmt::format("one of the row's: {}", fmt::join(row->photometers, ", ")));
+    DriveEdits edits;
+    edits.lamp_sets = lamps;
+    Drive drive = read_drive(row->drive, edits);
+    RatedRow rated;
+    rated.lamp_set = lamp_set_of(drive, lamp_set.empty() ? row->lamp_set : lamp_set).name;
+    std::erase_if(drive.lamp_sets, [&](const LampSet& one) { return one.name != rated.lamp_set; });
+    auto played = std::make_unique<PlayedRating>(std::move(drive));
+    for (const State& state : played->states)
+        rated.moments.push_back(played->at(state));
+    if (row->of_reading()) {
+        rated.key = key_of(row->reading);
+        if (!rated.key)
+            refuse("--row", "'" + printable(row->reading) + "'", "a reading's name; `fernlicht readings` lists them");
+    } else {
+        if (rating.rules.excess.allowed)
+            refuse("--rating", "one that lets light above a limit pass for a moment", "one where each moment's light counts");
+        std::vector<Photometer> photometers;
+        for (const std::string& one : row->photometers)
+            if (photometer.empty() || one == photometer)
+                photometers.push_back(*photometer_named(rating, one));
+        Approaches approaches = approaches_of(rating, *row, photometers, *played);
+        for (std::size_t i = 0; i < photometers.size(); ++i) {
+            LightApproach& approach = approaches.as_aimed[i];
+            if (rating.rules.pitch_off_mean_deg)
+                leave_out_pitching(approach, row->from_m, row->to_m, *rating.rules.pitch_off_mean_deg);
+            const std::vector<RangeJudgement> ranges =
+                judge_light(approach, *limits_named(rating, row->limits), row->from_m, row->to_m, rating.rules);
+            std::string why = not_as_asked(*row, approach, approaches.places);
+            for (const RangeJudgement& range : ranges)
+                why = why.empty() ? range.why : why;
+            if (!why.empty())
+                refuse("--row", fmt::format("'{}', not measured: {}", name, why), "a row that the drive measures");
+            add_limited(rated.lights, ranges, approach, approaches.lit[i]);
+        }
+        if (rated.lights.empty())
+            refuse("--row", fmt::format("'{}', whose light is told alone", name), "a row with limits");
+    }
+    rated.stage = std::move(played->owned);
+    return rated;
 }
 
 } // namespace fernlicht

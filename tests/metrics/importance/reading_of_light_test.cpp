@@ -1,7 +1,9 @@
 // The gradient of a drive's readings against central differences, sample by sample, and against the readings as folds and extents have
 // them.
 #include "metrics/folds/glare_fold.h"
+#include "metrics/folds/homogeneity_fold.h"
 #include "metrics/folds/place_fold.h"
+#include "metrics/folds/visibility_fold.h"
 #include "metrics/importance/changed_beam.h"
 #include "metrics/road/extent.h"
 #include "scenarios/drives/play/advance.h"
@@ -170,6 +172,17 @@ TEST(ReadingOfLight, TellsWhatItTakesOfAnEyeInARange) {
     EXPECT_NEAR(static_cast<double>(count("", false)), 0.5 * static_cast<double>(within), 1.1);
 }
 
+/// What all light moves, by 1 of itself: a reading that goes with the light gives itself, a ratio of two lights 0.
+double by_all_light(const ReadingOfLight::Found& found) {
+    ChangedTables doubled;
+    for (const LampGradient& one : found.gradient) {
+        doubled.push_back(one.file->table);
+        for (double& cd : doubled.back().cd)
+            cd *= 2.0;
+    }
+    return foretold_change(found.gradient, doubled);
+}
+
 TEST(ReadingOfLight, FollowsEverySensorEyeMirrorAndKerbAsTheirFoldsDo) {
     PlayedDrive played("iihs-right-150.yaml", "halogen", 3);
     played.drive.seeing.glare->mirrors = MirrorParameters{};
@@ -186,7 +199,7 @@ TEST(ReadingOfLight, FollowsEverySensorEyeMirrorAndKerbAsTheirFoldsDo) {
         mirrors.add(moment, played.drive.lamp_sets.front());
         places.add(moment);
     }
-    int told = 0, refused = 0;
+    int told = 0, refused = 0, veils = 0;
     for (const Readings& readings : {sensors.readings(), oncoming.readings(), mirrors.readings(), places.readings()})
         for (const Reading& one : readings) {
             const std::string name = one.name();
@@ -200,13 +213,92 @@ TEST(ReadingOfLight, FollowsEverySensorEyeMirrorAndKerbAsTheirFoldsDo) {
                 if (*one.value.number() > 0.0)
                     expect_gradient(reading, played.moments, name, 3);
                 ++told;
+                if (one.key.quantity == Quantity::glare_veiling) {
+                    ++veils;
+                    EXPECT_NEAR(by_all_light(reading.gradient(played.moments)), *one.value.number(), 1e-9 * *one.value.number()) << name;
+                }
             } catch (const InputError& error) {
                 EXPECT_THAT(error.what(), HasSubstr("a reading that is light or where light ends")) << name;
                 ++refused;
             }
         }
     EXPECT_GT(told, 40);
+    EXPECT_GT(veils, 5);
     EXPECT_GT(refused, 20);
+}
+
+TEST(ReadingOfLight, IsTheAreaOfALaneToTheBitWithItsGradient) {
+    const PlayedDrive played("s-bend.yaml", "xenon", 110);
+    for (const char* name : {"area_3lx_road_own_m2", "area_5lx_target_own_m2", "area_3lx_road_left_1_m2", "area_3lx_road_own_min_m2"}) {
+        const ReadingOfLight reading(named_reading(name), played.drive, played.route, played.moments);
+        EXPECT_EQ(reading.value(played.moments), extent_by_grid(played, named_reading(name), &LaneExtent::area_m2)) << name;
+        expect_gradient(reading, played.moments, name);
+    }
+}
+
+/// Of a fold's readings those that are told, each to the bit and with its gradient.
+int expect_fold(const PlayedDrive& played, const Readings& readings) {
+    int told = 0;
+    for (const Reading& one : readings) {
+        const std::string name = one.name();
+        try {
+            const ReadingOfLight reading(one.key, played.drive, played.route, played.moments);
+            const Value value = reading.value(played.moments);
+            EXPECT_EQ(value.kind(), one.value.kind()) << name << ": " << value.reason();
+            EXPECT_EQ(value.figure(), one.value.figure()) << name;
+            ++told;
+            if (!value.number() || *value.number() == 0.0)
+                continue;
+            expect_gradient(reading, played.moments, name, 4);
+            const double all = by_all_light(reading.gradient(played.moments)), tolerance = 1e-9 * *value.number();
+            if (one.key.quantity != Quantity::detection && one.key.quantity != Quantity::visibility_level) {
+                EXPECT_NEAR(all, one.key.quantity == Quantity::foreground ? *value.number() : 0.0, tolerance) << name;
+            }
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("a reading that is light or where light ends")) << name;
+        }
+    }
+    return told;
+}
+
+TEST(ReadingOfLight, IsEvennessAsItsFoldHasItWithItsGradient) {
+    for (const char* drive : {"straight.yaml", "s-bend.yaml"}) {
+        PlayedDrive played(drive, "halogen", 55);
+        played.drive.seeing.homogeneity = HomogeneityParameters{};
+        HomogeneityFold fold(played.drive, played.route);
+        for (const Moment& moment : played.moments)
+            fold.add(moment);
+        EXPECT_EQ(expect_fold(played, fold.readings()), 8 + 2 + 2) << drive; // all but patches
+    }
+}
+
+TEST(ReadingOfLight, IsDetectionAndVisibilityAsTheirFoldHasThemWithTheirGradient) {
+    for (const char* drive : {"s-bend.yaml", "adaptive-crest.yaml"}) {
+        PlayedDrive played(drive, drive == std::string("s-bend.yaml") ? "xenon" : "low", 110);
+        played.drive.seeing.visibility = VisibilityParameters{};
+        VisibilityFold fold(played.drive, played.route);
+        for (const Moment& moment : played.moments)
+            fold.add(moment);
+        const auto sights = static_cast<int>(std::ranges::count_if(fold.readings(), [](const Reading& one) {
+            return one.key.quantity == Quantity::detection || one.key.quantity == Quantity::visibility_level;
+        }));
+        ASSERT_GT(sights, 20);
+        EXPECT_EQ(expect_fold(played, fold.readings()), sights) << drive;
+    }
+}
+
+TEST(ReadingOfLight, IsTheShareOfALimitThatIsLeft) {
+    const PlayedDrive played("straight.yaml", "halogen", 1, 20, 23);
+    std::vector<LimitedLight> lights;
+    for (std::size_t k = 0; k < played.moments.size(); ++k)
+        lights.push_back({k, {to_parent(played.moments[k].ego, {30.0 + static_cast<double>(k), 0.5, 0.6})}, k == 1 ? 5.0 : 50.0});
+    const ReadingOfLight reading(lights);
+    const ReadingOfLight::Found found = reading.gradient(played.moments);
+    ASSERT_EQ(found.deciders.size(), 1U);
+    EXPECT_EQ(found.deciders.front().moment, 1U); // its limit is the lowest
+    EXPECT_NEAR(*found.value.number(), 100.0 * (1.0 - light_lx(played.moments[1], lights[1].place) / 5.0), 1e-9);
+    EXPECT_NEAR(by_all_light(found), *found.value.number() - 100.0, 1e-9);
+    expect_gradient(reading, played.moments, "margin");
 }
 
 TEST(ReadingOfLight, RefusesWhatItCannotTell) {
@@ -214,8 +306,10 @@ TEST(ReadingOfLight, RefusesWhatItCannotTell) {
     const auto refusal = [&](const std::string& name) {
         return tests::refusal_of([&] { ReadingOfLight(named_reading(name), played.drive, played.route, played.moments); });
     };
-    EXPECT_THAT(refusal("area_3lx_road_own_m2"), HasSubstr("reach_*_m and width_*_m"));
-    EXPECT_THAT(refusal("reach_5lx_target_own_grid_error_m"), HasSubstr("reach_*_m and width_*_m"));
+    EXPECT_THAT(refusal("patch_dark_own_m"), HasSubstr("reach_*_m, width_*_m"));
+    EXPECT_THAT(refusal("reach_5lx_target_own_grid_error_m"), HasSubstr("reach_*_m, width_*_m"));
+    EXPECT_THAT(refusal("area_3lx_road_all_m2"), HasSubstr("one lane"));
+    EXPECT_THAT(refusal("detection_elk_own_m"), HasSubstr("a target at one of its places"));
     EXPECT_THAT(refusal("reach_5lx_target_all_m"), HasSubstr("one lane"));
     EXPECT_THAT(refusal("sensor_edge_max_lx"), HasSubstr("a drive with sensors"));
     EXPECT_THAT(refusal("glare_driver_facing_max_lx"), HasSubstr("oncoming drivers"));

@@ -44,11 +44,30 @@ TEST(ImportanceCommand, SaysWhereAReachIsDecidedAndThatTheGradientHolds) {
 
 TEST(ImportanceCommand, RefusesOtherReadingsAndFailsWhereThereIsNoNumber) {
     const TemporaryFolder folder;
-    EXPECT_THAT(printed(importance_of_straight + "area_3lx_road_own_m2 --out " + (folder / "a"), 2), HasSubstr("reach_*_m and width_*_m"));
+    EXPECT_THAT(printed(importance_of_straight + "patch_dark_own_m --out " + (folder / "a"), 2), HasSubstr("reach_*_m, width_*_m"));
     EXPECT_THAT(printed(importance_of_straight + "brightness --out " + (folder / "b"), 2), HasSubstr("fernlicht readings"));
     EXPECT_FALSE(std::filesystem::exists(folder / "a"));
     EXPECT_THAT(printed(importance_of_straight + "width_0.01lx_target_all_at_20m_m --frames 0:0 --out " + (folder / "c"), 1),
                 HasSubstr("has no gradient"));
+}
+
+TEST(ImportanceCommand, TellsTheMarginOfARatingsRow) {
+    const TemporaryFolder folder;
+    const std::string margin = "importance " + library_file("lamp_sets/halogen.yaml") + " --rating adb-track --row ";
+    printed(margin + "7 --photometer mirror-right --check 5 --out " + (folder / "out"));
+    const json found = tests::checked(content_of(folder / "out/importance.json"), importance_members);
+    EXPECT_EQ(found.at("unit"), "%");
+    EXPECT_NEAR(found.at("value"), 100.0 * (1.0 - 3.2 / 4.0), 100.0 * 0.05 / 4.0 + 1e-9); // docs/ratings.md, where light is rounded to 0.1
+    ASSERT_EQ(found.at("deciders").size(), 1U);
+    EXPECT_EQ(found.at("deciders")[0].at("figure"), found.at("value"));
+    double all = 0.0;
+    for (const json& lamp : found.at("lamps"))
+        all += 100.0 * lamp.at("per_percent").get<double>();
+    EXPECT_NEAR(all, found.at("value").get<double>() - 100.0, 1e-9); // light itself
+    EXPECT_TRUE(found.at("agrees"));
+    EXPECT_THAT(printed(margin + "9 --out " + (folder / "a"), 2), HasSubstr("a row of the rating: 1, 2"));
+    EXPECT_THAT(printed(margin + "1 --photometer mirror-left --out " + (folder / "b"), 2), HasSubstr("one of the row's: driver"));
+    EXPECT_THAT(printed("importance " + library_file("drives/straight.yaml") + " --out " + (folder / "c"), 2), HasSubstr("--rating"));
 }
 
 } // namespace
