@@ -40,19 +40,23 @@ OncomingFold::OncomingFold(const Drive& drive, const Route& route, const Nudge& 
     }
 }
 
+Value oncoming_adaptation_cdm2(const Drive& drive, const Route& route, const LampSet& lamp_set, const Driver& driver, double at_m,
+                               const Moment& moment, const Nudge& nudge) {
+    if (drive.seeing.glare->adaptation_cdm2)
+        return *drive.seeing.glare->adaptation_cdm2;
+    Moment there; // street lamps about the observer, who may be far from the own car
+    there.distance_m = at_m;
+    there.ego = driver.car;
+    there.daylight = moment.daylight;
+    there.weather = moment.weather;
+    add_street_lamps(drive, route, street_lamps_within_m, there);
+    return lane_luminance_cdm2(driver, low_beams(drive, lamp_set, driver.car, nudge), there);
+}
+
 Value OncomingFold::adaptation_cdm2(const Moment& moment, const LampSet& lamp_set, double at_m, Eye& eye) const {
-    if (drive_.seeing.glare->adaptation_cdm2)
-        return *drive_.seeing.glare->adaptation_cdm2;
-    if (!eye.adapted || eye.adapted->daylight != moment.daylight || eye.adapted->weather != moment.weather) {
-        Moment there; // street lamps about the observer, who may be far from the own car
-        there.distance_m = at_m;
-        there.ego = eye.driver.car;
-        there.daylight = moment.daylight;
-        there.weather = moment.weather;
-        add_street_lamps(drive_, route_, street_lamps_within_m, there);
+    if (!eye.adapted || eye.adapted->daylight != moment.daylight || eye.adapted->weather != moment.weather)
         eye.adapted = {moment.daylight, moment.weather,
-                       lane_luminance_cdm2(eye.driver, low_beams(drive_, lamp_set, eye.driver.car, nudge_), there)};
-    }
+                       oncoming_adaptation_cdm2(drive_, route_, lamp_set, eye.driver, at_m, moment, nudge_)};
     return eye.adapted->cdm2;
 }
 

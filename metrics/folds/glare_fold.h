@@ -15,6 +15,10 @@ struct OncomingEye {
 };
 std::optional<OncomingEye> oncoming_eye(const Route& route, const GlareObserver& observer);
 
+/// What he is adapted to: as the drive says, else his own lane in the light of the moment and of a car like this one with that lamp set.
+Value oncoming_adaptation_cdm2(const Drive& drive, const Route& route, const LampSet& lamp_set, const Driver& driver, double at_m,
+                               const Moment& moment, const Nudge& nudge = {});
+
 class OncomingFold {
   public:
     /// The drive must ask for glare. Drive and route must outlive the fold.

@@ -1,5 +1,6 @@
 #include "metrics/importance/moment_figure.h"
 
+#include "metrics/folds/glare_followed.h"
 #include "metrics/folds/place_fold.h"
 #include "metrics/road/lit_road.h"
 #include "metrics/seeing/homogeneity.h"
@@ -154,10 +155,10 @@ class LaneArea final : public MomentFigure {
     ExtentGrid grid_; ///< of the lane alone
 };
 
-class Veiling final : public MomentFigure {
+class Glare final : public MomentFigure {
   public:
-    Veiling(LightPlace eye, const GlareParameters& parameters)
-        : eye_(std::move(eye)), equation_(parameters.equation), whose_{parameters.age_years, parameters.pigmentation} {}
+    Glare(Quantity quantity, LightPlace eye, const GlareParameters& parameters, Value adaptation_cdm2)
+        : quantity_(quantity), eye_(std::move(eye)), parameters_(parameters), adaptation_cdm2_(std::move(adaptation_cdm2)) {}
 
     Value value(const Moment& moment) const override {
         std::vector<GlareSource> sources;
@@ -167,25 +168,40 @@ class Veiling final : public MomentFigure {
             if (eye_.hidden[i])
                 sources.back().eye_lx = 0.0;
         }
-        return veiling_luminance_cdm2(equation_, sources, whose_);
+        return of(sources);
     }
 
     void add_gradient(BeamGradient& gradient, const Moment& moment, double weight) const override {
+        const double now = *value(moment).number();
         std::vector<double> per_cd;
         for (std::size_t i = 0; i < moment.lamps.size(); ++i) {
             const glm::dvec3& lamp_m = moment.lamps[i].pose.position_m;
-            const double distance_m = glm::distance(lamp_m, eye_.point_m);
-            GlareSource source = glare_source({"", lamp_m, air_transmittance(moment.weather, distance_m) / (distance_m * distance_m)},
-                                              eye_.point_m, eye_.normal);
-            per_cd.push_back(eye_.hidden[i] ? 0.0 : weight * veiling_luminance_cdm2(equation_, {source}, whose_).number().value_or(0.0));
+            const double distance_m = glm::distance(lamp_m, eye_.point_m),
+                         lx_per_cd = air_transmittance(moment.weather, distance_m) / (distance_m * distance_m);
+            const std::optional<double> alone = of({glare_source({"", lamp_m, lx_per_cd}, eye_.point_m, eye_.normal)}).number();
+            // W = 5 - 2 lg G, and G is the sum of each lamp's
+            const double by_lamp = !alone                                 ? 0.0
+                                   : quantity_ != Quantity::glare_de_boer ? *alone
+                                                                          : -2.0 / std::log(10.0) * std::pow(10.0, 0.5 * (now - *alone));
+            per_cd.push_back(eye_.hidden[i] ? 0.0 : weight * by_lamp);
         }
         fernlicht::add_gradient(gradient, moment, eye_.point_m, per_cd);
     }
 
   private:
+    Value of(const std::vector<GlareSource>& sources) const {
+        const GlareFigures figures = glare_figures(sources, 0.0, adaptation_cdm2_, parameters_);
+        if (quantity_ == Quantity::glare_veiling || !figures.veiling_cdm2.measured())
+            return figures.veiling_cdm2;
+        if (!adaptation_cdm2_.measured() || (quantity_ == Quantity::glare_de_boer && *figures.eye_lx.number() == 0.0))
+            return {};
+        return quantity_ == Quantity::glare_de_boer ? figures.de_boer : figures.increment_percent;
+    }
+
+    Quantity quantity_;
     LightPlace eye_;
-    VeilingEquation equation_;
-    GlareEye whose_;
+    const GlareParameters parameters_;
+    Value adaptation_cdm2_;
 };
 
 class Margin final : public MomentFigure {
@@ -348,8 +364,9 @@ LightPlace surface_place(const ExtentGrid& grid, std::size_t point, Surface surf
                                     : LightPlace{pose.position_m + grid.target_height_m * pose.up(), Facing::lamps, pose.up()};
 }
 
-MomentFigurePointer veiling_figure(const LightPlace& eye, const GlareParameters& parameters) {
-    return std::make_shared<Veiling>(eye, parameters);
+MomentFigurePointer glare_figure(Quantity quantity, const LightPlace& eye, const GlareParameters& parameters,
+                                 const Value& adaptation_cdm2) {
+    return std::make_shared<Glare>(quantity, eye, parameters, adaptation_cdm2);
 }
 
 MomentFigurePointer margin_figure(const LightPlace& place, double limit_lx) { return std::make_shared<Margin>(place, limit_lx); }

@@ -43,8 +43,10 @@ MomentFigurePointer area_figure(const ReadingKey& key, const ExtentParameters& a
 MomentFigurePointer sight_figure(const ReadingKey& key, const VisibilityTarget& target, Across across, const VisibilityParameters& asked,
                                  const Drive& drive, const Route& route, const Moment& moment);
 
-/// Veiling luminance in an eye that looks along the place's normal (glare.h): each lamp's light there times what its angle makes of it.
-MomentFigurePointer veiling_figure(const LightPlace& eye, const GlareParameters& parameters);
+/// Of an eye that looks along the place's normal (glare.h), adapted to what it is adapted to now, whatever the lamps: veiling luminance and
+/// threshold increment, each lamp's light there times what its angle makes of it, or de Boer's rating of that sum. Not measured without a
+/// reason where the moment does not count for it.
+MomentFigurePointer glare_figure(Quantity quantity, const LightPlace& eye, const GlareParameters& parameters, const Value& adaptation_cdm2);
 
 /// The share of a limit (> 0) that light at a place leaves, per cent; negative above it.
 MomentFigurePointer margin_figure(const LightPlace& place, double limit_lx);

@@ -20,7 +20,8 @@ namespace fernlicht {
 /// What readings there are importances of, for people.
 inline constexpr const char* importance_readings =
     "reach_*_m, width_*_m and area_*_m2 of a lane on road or target, sensor_*_reach_*_m, sensor_*_lx, glare_NAME_facing_*_lx, "
-    "glare_NAME_eye_*_lx and glare_NAME_veiling_*_cdm2 of an oncoming driver, kerb_*_lx, mirror_*_lx, detection_*_m, visibility_level_*, "
+    "glare_NAME_eye_*_lx, glare_NAME_veiling_*_cdm2, glare_NAME_threshold_increment_*_percent and glare_NAME_de_boer_* of an oncoming "
+    "driver, kerb_*_lx, mirror_*_lx, detection_*_m, visibility_level_*, "
     "gradient_*, foreground_* and uniformity_*";
 
 /// Light at a place in a moment, and the most that it may be.
@@ -33,9 +34,10 @@ struct LimitedLight {
 class ReadingOfLight {
   public:
     /// Of the twin, over these moments, which are the drive's in their order. Route outlives it. Throws InputError naming the flag that
-    /// asks for a reading that is none of importance_readings, or of what the drive does not ask for.
+    /// asks for a reading that is none of importance_readings, or of what the drive does not ask for. `lamp_set`: what a dazzled driver's
+    /// own car has, too; nullptr: the drive's first.
     ReadingOfLight(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments,
-                   std::string asked_by = "--reading");
+                   std::string asked_by = "--reading", const LampSet* lamp_set = nullptr);
 
     /// The smallest share of a limit that is left, per cent; negative above one. At least one light.
     explicit ReadingOfLight(const std::vector<LimitedLight>& lights);
@@ -103,7 +105,8 @@ class ReadingOfLight {
     void add_sight(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
     void add_place(std::size_t moment, double to_go_m, LightPlace place);
     void add_sensor(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
-    void add_eye(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
+    void add_eye(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments,
+                 const LampSet& lamp_set);
     void add_kerb(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
     void add_mirror(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments);
     void take_quantile(double share, const std::string& why_none = "not there in any moment");

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
 #include <oneapi/tbb/parallel_for.h>
 
 namespace fernlicht {
@@ -46,23 +47,30 @@ std::vector<std::string> reasons_of(const std::vector<Value>& figures) {
 }
 
 /// A quantile of the moments in a range, or the largest figure of it, both ends among them.
-Value value_in_range(const FollowedFigure& followed, double near_m, double far_m, const std::optional<double>& share) {
+bool is_figure_of_eye(Quantity quantity) {
+    return quantity == Quantity::glare_veiling || quantity == Quantity::glare_increment || quantity == Quantity::glare_de_boer;
+}
+
+Value value_in_range(const FollowedFigure& followed, double near_m, double far_m, const std::optional<double>& share, bool of_largest) {
     const std::string none = "no moment of the drive was measured";
-    return share ? followed.quantile_between(near_m, far_m, *share, none) : followed.extreme_between(near_m, far_m, true, none);
+    return share ? followed.quantile_between(near_m, far_m, *share, none) : followed.extreme_between(near_m, far_m, of_largest, none);
 }
 
 ValueShares shares_in_range(const Approach& approach, const std::vector<Value>& figures, double near_m, double far_m,
-                            const std::optional<double>& share) {
+                            const std::optional<double>& share, bool of_largest) {
     const auto within = [&](std::size_t i) { return approach[i].distance_m >= near_m && approach[i].distance_m <= far_m; };
     if (share)
         return quantile_shares(figures, *share, within);
-    ValueShares best = quantile_shares(figures, 1.0, within);
-    double most = best.empty() ? -1.0 : *figures[best.front().index].number();
-    for (const double end_m : {far_m, near_m})
-        if (const std::optional<double> lx = value_at(approach, end_m).number(); lx && *lx > most) {
-            most = *lx;
+    ValueShares best = quantile_shares(figures, of_largest ? 1.0 : 0.0, within);
+    constexpr double none = std::numeric_limits<double>::infinity();
+    double worst = !best.empty() ? *figures[best.front().index].number() : of_largest ? -none : none;
+    for (const double end_m : {far_m, near_m}) {
+        const double here = value_at(approach, end_m).number().value_or(worst);
+        if (of_largest ? here > worst : here < worst) {
+            worst = here;
             best = value_at_shares(approach, end_m);
         }
+    }
     return best;
 }
 
@@ -100,11 +108,11 @@ double ReadingOfLight::share_of_statistic(const ReadingKey& key) const {
 }
 
 ReadingOfLight::ReadingOfLight(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments,
-                               std::string asked_by)
+                               std::string asked_by, const LampSet* lamp_set)
     : quantity_(key.quantity), asked_by_(std::move(asked_by)) {
     using enum Quantity;
     const bool of_eye =
-        (key.quantity == glare_facing || key.quantity == glare_eye || key.quantity == glare_veiling) && !key.subject.empty();
+        (key.quantity == glare_facing || key.quantity == glare_eye || is_figure_of_eye(key.quantity)) && !key.subject.empty();
     const bool of_evenness = key.quantity == gradient_per_m || key.quantity == gradient_per_deg || key.quantity == foreground ||
                              key.quantity == foreground_ratio || key.quantity == uniformity;
     const bool of_sight = key.quantity == detection || key.quantity == visibility_level;
@@ -128,7 +136,7 @@ ReadingOfLight::ReadingOfLight(const ReadingKey& key, const Drive& drive, const 
     else if (of_sight)
         add_sight(key, drive, route, moments);
     else if (of_eye)
-        add_eye(key, drive, route, moments);
+        add_eye(key, drive, route, moments, lamp_set ? *lamp_set : drive.lamp_sets.front());
     else if (key.quantity == kerb_illuminance)
         add_kerb(key, drive, route, moments);
     else if (key.quantity == mirror_illuminance)
@@ -332,7 +340,8 @@ void ReadingOfLight::add_sensor(const ReadingKey& key, const Drive& drive, const
     }
 }
 
-void ReadingOfLight::add_eye(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments) {
+void ReadingOfLight::add_eye(const ReadingKey& key, const Drive& drive, const Route& route, const std::vector<Moment>& moments,
+                             const LampSet& lamp_set) {
     std::vector<std::string> names;
     const GlareObserver* observer = nullptr;
     if (drive.seeing.glare)
@@ -346,18 +355,28 @@ void ReadingOfLight::add_eye(const ReadingKey& key, const Drive& drive, const Ro
     const std::optional<OncomingEye> eye = oncoming_eye(route, *observer);
     if (!eye)
         refuse(key, fmt::format("a place that is there: there is no oncoming lane at {} m", observer->at_m));
+    std::optional<Value> adapted; // to the moment's sky and weather
     for (std::size_t k = 0; k < moments.size(); ++k)
         if (const double to_go_m = observer->at_m - moments[k].distance_m - drive.bumper_m; to_go_m >= 0.0) {
             add_place(k, to_go_m,
                       {eye->place_m, key.quantity == Quantity::glare_facing ? Facing::lamps : Facing::eye, eye->gaze,
                        hidden_by_road(moments[k], route, observer->at_m, eye->place_m)});
-            if (key.quantity == Quantity::glare_veiling)
-                parts_.back().of = veiling_figure(parts_.back().samples.front().places.front(), *drive.seeing.glare);
+            if (is_figure_of_eye(key.quantity)) {
+                if (key.quantity != Quantity::glare_veiling &&
+                    !(adapted && moments[k].daylight == moments[k - 1].daylight && moments[k].weather == moments[k - 1].weather))
+                    adapted = oncoming_adaptation_cdm2(drive, route, lamp_set,
+                                                       oncoming_driver(drive, route, observer->at_m, observer->eye_height_m),
+                                                       observer->at_m, moments[k]);
+                parts_.back().of = glare_figure(key.quantity, parts_.back().samples.front().places.front(), *drive.seeing.glare,
+                                                adapted.value_or(Value()));
+            }
         }
+    const bool of_largest = key.quantity != Quantity::glare_de_boer;
+    const Statistic worst = of_largest ? Statistic::maximum : Statistic::minimum;
     if (key.to_m) {
-        const std::optional<double> share = key.statistic == Statistic::maximum ? std::nullopt : std::optional(share_of_statistic(key));
+        const std::optional<double> share = key.statistic == worst ? std::nullopt : std::optional(share_of_statistic(key));
         // Light at the ends of the range is taken from between moments: of an extreme the next beyond them counts, too.
-        quantile_ = share.value_or(1.0);
+        quantile_ = share.value_or(of_largest ? 1.0 : 0.0);
         counted_from_m_ = *key.distance_m;
         counted_to_m_ = *key.to_m;
         if (!share)
@@ -367,26 +386,27 @@ void ReadingOfLight::add_eye(const ReadingKey& key, const Drive& drive, const Ro
                 if (part.to_go_m > *key.to_m)
                     counted_to_m_ = counted_to_m_ > *key.to_m ? std::min(counted_to_m_, part.to_go_m) : part.to_go_m;
             }
-        over_moments_ = [this, near_m = *key.distance_m, far_m = *key.to_m, share](const std::vector<Value>& figures) {
+        over_moments_ = [this, near_m = *key.distance_m, far_m = *key.to_m, share, of_largest](const std::vector<Value>& figures) {
             const FollowedFigure followed{approach(figures), reasons_of(figures)};
-            return OverMoments{value_in_range(followed, near_m, far_m, share),
-                               shares_in_range(followed.approach, figures, near_m, far_m, share)};
+            return OverMoments{value_in_range(followed, near_m, far_m, share, of_largest),
+                               shares_in_range(followed.approach, figures, near_m, far_m, share, of_largest)};
         };
     } else if (key.distance_m) {
         over_moments_ = [this, at_m = *key.distance_m](const std::vector<Value>& figures) {
             const Approach samples = approach(figures);
             return OverMoments{value_at(samples, at_m), value_at_shares(samples, at_m)};
         };
-    } else if (key.statistic == Statistic::maximum) {
-        quantile_ = 1.0;
-        over_moments_ = [this](const std::vector<Value>& figures) {
+    } else if (key.statistic == worst) {
+        quantile_ = of_largest ? 1.0 : 0.0;
+        over_moments_ = [this, of_largest](const std::vector<Value>& figures) {
             const FollowedFigure followed{approach(figures), reasons_of(figures)};
-            return OverMoments{followed.missing().empty() ? Value::of(largest(followed.approach), "no moment of the drive was measured")
+            return OverMoments{followed.missing().empty() ? Value::of(of_largest ? largest(followed.approach) : smallest(followed.approach),
+                                                                      "no moment of the drive was measured")
                                                           : Value::not_measured("in some moment: " + followed.missing()),
-                               largest_shares(figures)};
+                               of_largest ? largest_shares(figures) : quantile_shares(figures, 0.0)};
         };
     } else {
-        refuse(key, "the largest of the approach (_max), or a range of it");
+        refuse(key, "the worst of the approach (_max, of de Boer's rating _min), or a range of it");
     }
 }
 

@@ -13,7 +13,8 @@ namespace {
 std::string value_text(const ImportanceResult& result) {
     if (!result.value.measured())
         return "not measured: " + result.why_not;
-    return fmt::format("{} {}", with_bound(result.value, four_digits(*result.value.figure())), result.unit);
+    const std::string figure = with_bound(result.value, four_digits(*result.value.figure()));
+    return result.unit == "1" ? figure : fmt::format("{} {}", figure, result.unit);
 }
 
 Cell signed_cell(double value) {

@@ -195,7 +195,7 @@ PlayedReading played_drive(const ImportanceRequest& request, ImportanceResult& r
     std::vector<int> ticks(static_cast<std::size_t>(count));
     std::iota(ticks.begin(), ticks.end(), result.first_tick);
     played.moments = moments_at(ticks, stage, lamp_set);
-    played.reading = std::make_unique<ReadingOfLight>(key, stage.drive, stage.route, played.moments);
+    played.reading = std::make_unique<ReadingOfLight>(key, stage.drive, stage.route, played.moments, "--reading", &lamp_set);
     return played;
 }
 

@@ -199,7 +199,7 @@ TEST(ReadingOfLight, FollowsEverySensorEyeMirrorAndKerbAsTheirFoldsDo) {
         mirrors.add(moment, played.drive.lamp_sets.front());
         places.add(moment);
     }
-    int told = 0, refused = 0, veils = 0;
+    int told = 0, refused = 0, of_eye = 0;
     for (const Readings& readings : {sensors.readings(), oncoming.readings(), mirrors.readings(), places.readings()})
         for (const Reading& one : readings) {
             const std::string name = one.name();
@@ -213,9 +213,13 @@ TEST(ReadingOfLight, FollowsEverySensorEyeMirrorAndKerbAsTheirFoldsDo) {
                 if (*one.value.number() > 0.0)
                     expect_gradient(reading, played.moments, name, 3);
                 ++told;
-                if (one.key.quantity == Quantity::glare_veiling) {
-                    ++veils;
-                    EXPECT_NEAR(by_all_light(reading.gradient(played.moments)), *one.value.number(), 1e-9 * *one.value.number()) << name;
+                const bool is_rating = one.key.quantity == Quantity::glare_de_boer;
+                if (is_rating || one.key.quantity == Quantity::glare_veiling || one.key.quantity == Quantity::glare_increment) {
+                    ++of_eye;
+                    const double all = is_rating ? -2.0 / std::log(10.0) : *one.value.number(); // by W = 5 - 2 lg of the light
+                    if (is_rating && one.key.to_m && one.key.statistic == Statistic::minimum)
+                        continue; // at the range's end the rating runs in its logarithm between two moments
+                    EXPECT_NEAR(by_all_light(reading.gradient(played.moments)), all, 1e-9 * std::abs(all)) << name;
                 }
             } catch (const InputError& error) {
                 EXPECT_THAT(error.what(), HasSubstr("a reading that is light or where light ends")) << name;
@@ -223,7 +227,7 @@ TEST(ReadingOfLight, FollowsEverySensorEyeMirrorAndKerbAsTheirFoldsDo) {
             }
         }
     EXPECT_GT(told, 40);
-    EXPECT_GT(veils, 5);
+    EXPECT_GE(of_eye, 3);
     EXPECT_GT(refused, 20);
 }
 

@@ -60,7 +60,7 @@ TEST(ImproveCommand, RefusesWhatItCannotSeek) {
     EXPECT_THAT(refusal(straight + "--gain reach_5lx_target_own_m"), HasSubstr("READING by AMOUNT"));
     EXPECT_THAT(refusal(straight + "--gain 'reach_5lx_target_own_m by 5 lx'"), HasSubstr("reach_5lx_target_own_m in m"));
     EXPECT_THAT(refusal(straight + "--gain 'brightness by 5'"), HasSubstr("fernlicht readings"));
-    EXPECT_THAT(refusal(straight + "--gain 'area_3lx_road_own_m2 by 5'"), HasSubstr("--gain, straight-1: found 'area_3lx_road_own_m2'"));
+    EXPECT_THAT(refusal(straight + "--gain 'patch_dark_own_m by 5'"), HasSubstr("--gain, straight-1: found 'patch_dark_own_m'"));
     EXPECT_THAT(refusal(straight + "--gain 'bend: reach_5lx_target_own_m by 5'"), HasSubstr("a drive among straight-1"));
     EXPECT_THAT(refusal(straight + "--gain 'reach_5lx_target_own_m by 5' --keep glare_oncoming_facing_max_lx"),
                 HasSubstr("a drive with oncoming drivers"));
