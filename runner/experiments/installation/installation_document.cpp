@@ -92,7 +92,7 @@ Table kinks_table(const InstallationFound& found) {
         {}};
     for (const InstalledLamp& lamp : found.lamps)
         for (const auto& [bends, kink] : {std::pair("left", &lamp.left_bends), {"right", &lamp.right_bends}}) {
-            std::vector<Cell> row{lamp.lamp, bends, {fmt::format("{:.2f}", lamp.moved_deg), lamp.moved_deg}};
+            std::vector<Cell> row{lamp.lamp, bends, {fmt::format("{:.2f}", kink->moved_deg), kink->moved_deg}};
             if (found.kink(lamp, *kink) == InstallationVerdict::not_applicable)
                 row.insert(row.end(), 7, Cell(""));
             else

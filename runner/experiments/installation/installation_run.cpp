@@ -102,7 +102,8 @@ void add_kinks(std::vector<InstalledLamp>& found, const std::vector<LowBeam>& be
             if (lit == before->lamps.end())
                 continue;
             const KinkLook look = look_of(*before, *lit, beams[i].mark);
-            found[i].moved_deg = std::max(found[i].moved_deg, std::abs(look.right_deg - rest_deg[i]));
+            const double moved_deg = std::abs(look.right_deg - rest_deg[i]);
+            found[i].moved_deg = std::max(found[i].moved_deg, moved_deg);
             if (places.size() < 3)
                 continue;
             const std::size_t n = places.size();
@@ -110,7 +111,9 @@ void add_kinks(std::vector<InstalledLamp>& found, const std::vector<LowBeam>& be
             if (!circle || std::abs(circle->curvature_per_m) < straight_per_m)
                 continue;
             const bool left = circle->curvature_per_m > 0.0;
-            take_crossing(left ? found[i].left_bends : found[i].right_bends, samples[i][left ? 0 : 1], *circle, look,
+            KinkFound& bends = left ? found[i].left_bends : found[i].right_bends;
+            bends.moved_deg = std::max(bends.moved_deg, moved_deg);
+            take_crossing(bends, samples[i][left ? 0 : 1], *circle, look,
                           glm::dvec2(to_parent(before->ego, {stage.drive.bumper_m, 0.0, 0.0})), before->time_s);
         }
         before = std::move(moment);

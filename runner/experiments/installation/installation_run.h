@@ -20,6 +20,7 @@ struct KinkFound {
     double at_s = 0.0;                    ///< when that was
     std::optional<double> median_m;       ///< over the moments in which it crosses
     double beyond_s = 0.0, bends_s = 0.0; ///< how long it crossed beyond its limit, and of how long in such bends with the lamp lit
+    double moved_deg = 0.0;               ///< how far at most the lamp was turned sideways in them, from how it is aimed
     std::optional<double> from_lamp_m;    ///< the farthest from where the lamp is: reported, not judged
 };
 
@@ -28,7 +29,7 @@ struct InstalledLamp {
     double height_m = 0.0;
     std::optional<InclinationBand> band;
     std::vector<double> percent; ///< of the cut-off against the road, by load; empty: not found
-    double moved_deg = 0.0;      ///< how far at most it was turned sideways from how it is aimed
+    double moved_deg = 0.0;      ///< the same over the whole drive
     bool has_kink = false;
     KinkFound left_bends, right_bends;
     std::string why_not; ///< of what was not found

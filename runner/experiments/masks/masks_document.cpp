@@ -198,19 +198,37 @@ Table masks_table(const MasksFound& found) {
     return table;
 }
 
+/// Of a lamp set's margins the least that keeps all others below their limits.
+std::optional<std::string> least_margin_words(const MasksFound& found, const std::string& lamp_set) {
+    const MaskedDrive* least = nullptr;
+    bool judged = false;
+    for (const MaskedDrive& one : found.drives)
+        if (one.lamp_set == lamp_set && one.margin_deg) {
+            judged = judged || one.most_of_limit;
+            if (one.most_of_limit && one.above_lxs == 0.0 && (!least || *one.margin_deg < *least->margin_deg))
+                least = &one;
+        }
+    if (!judged)
+        return std::nullopt;
+    return least ? fmt::format("Of the margins tried, {:g}° is the least with nothing above limits", *least->margin_deg)
+                 : "None of the margins tried keeps all light below limits";
+}
+
 std::vector<std::string> told(const MasksFound& found) {
     const MaskedDrive& full = full_light(found);
     std::vector<std::string> sentences;
+    if (std::ranges::all_of(found.drives, [](const MaskedDrive& one) { return one.others_lxs == 0.0; }))
+        sentences.push_back("No eye or mirror of others gets any light in this drive: there is nobody to spare, and margins say nothing");
     for (const MaskedDrive* const one : as_they_are(found))
-        if (one != &full)
+        if (const std::string least = least_margin_words(found, one->lamp_set).value_or(""); one != &full)
             sentences.push_back(fmt::format(
-                "{}{}: {}. Others get {} lx s, {} of them above limits; with {} {} and {}", short_text(one->lamp_set, 40),
+                "{}{}: {}. Others get {} lx s, of which {} lx s above limits; with {} {} and {}{}", short_text(one->lamp_set, 40),
                 one->margin_deg ? fmt::format(", margin {:g}°", *one->margin_deg) : "",
                 one->lost_percent ? fmt::format("{} % of {}’s light on own lane and verge is lost, {} lx s", figure(*one->lost_percent, 1),
                                                 short_text(full.lamp_set, 40), four_digits(one->lost_lxs))
                                   : no_light(found),
                 four_digits(one->others_lxs), four_digits(one->above_lxs), short_text(full.lamp_set, 40), four_digits(full.others_lxs),
-                four_digits(full.above_lxs)));
+                four_digits(full.above_lxs), least.empty() ? "" : ". " + least));
     return sentences;
 }
 

@@ -65,6 +65,9 @@ VisibilityTarget walker_of(const Drive& drive) {
     return found != asked.end() ? *found : *std::ranges::find(default_targets(), usual, &VisibilityTarget::name);
 }
 
+/// An eye, or what is behind a mirror, of whoever meets the light.
+bool is_carried_eye(const Photometer& photometer) { return !photometer.on.empty() && photometer.faces != PhotometerFacing::lamps; }
+
 /// Nothing is measured but what masks change.
 void strip(Drive& drive) {
     drive.extent.reset();
@@ -141,6 +144,10 @@ MasksFound run_masks(const MasksRequest& request) {
     if (std::ranges::none_of(drive.lamp_sets, masks_others))
         throw InputError({drive.file, 0, 0, "lamp_sets"}, "found none that masks others", "one with control: {glare_free: ...}");
     found.drives = set_out(drive, request.margins_deg);
+    if (std::ranges::none_of(request.limits.photometers, is_carried_eye))
+        throw InputError({request.limits.file, 0, 0, "--limits"},
+                         fmt::format("rating '{}' has no photometer on road users that faces forward or backward", request.limits.name),
+                         "one that has eyes and mirrors, as adb-track");
     const std::size_t full = place_of_full(found.drives, request.against, drive);
     const VisibilityTarget walker = walker_of(drive);
     strip(drive);

@@ -60,12 +60,12 @@ std::string compared_words(const PlayedCell& played) {
             : ""; // where lamps of the reference are no points
     const std::string tiles =
         error.tiles < error.tiles_of
-            ? fmt::format(
-                  ", {} of {} tiles at random, whose errors these are (in brackets: 95 % confidence interval of the 95th percentile)",
-                  error.tiles, error.tiles_of)
+            ? fmt::format(". Compared were {} of {} tiles of 4 × 4 pixels, drawn at random; in brackets: where the 95 % would "
+                          "lie, with 95 % confidence, had all been",
+                          error.tiles, error.tiles_of)
             : "";
-    return fmt::format("{} against {} at {} × {} pixels{}{}, which took {} s; {}", played.technique, counted(error.ticks.size(), "moment"),
-                       error.width_px, error.height_px, tiles, discs, figure(error.seconds, 1),
+    return fmt::format("{} against the reference in {} at {} × {} pixels{}{}. Comparing took {} s; {}", played.technique,
+                       counted(error.ticks.size(), "moment"), error.width_px, error.height_px, discs, tiles, figure(error.seconds, 1),
                        played.throughput.view_s  ? fmt::format("a frame of the run takes {}", time_text(*played.throughput.view_s))
                        : played.no_times.empty() ? "too few moments were played to time a frame"
                                                  : "times are not measured: " + played.no_times);
@@ -106,12 +106,13 @@ void add_accuracy(const ComparedDrive& drive, Sections& sections) {
     }
     if (sentences.items.empty())
         return;
-    Section& section = sections.emplace_back(
-        Section{"Error against run time",
-                {"As rendered against the reference, which traces rays in double precision and knows its "
-                 "own noise: nothing is claimed below its floor. Where the reference has at least 0.05 lx, or 0.001 cd/m².",
-                 sentences},
-                3});
+    Section& section =
+        sections.emplace_back(Section{"Error against run time",
+                                      {"As rendered against the reference, which traces rays in double precision and knows its "
+                                       "own noise: nothing is claimed below its floor. Errors are shares of the light, and only pixels "
+                                       "count where the reference has at least 0.05 lx, or 0.001 cd/m².",
+                                       sentences},
+                                      3});
     if (!errors.rows.empty())
         section.blocks.emplace_back(std::move(errors));
     if (!reaches.rows.empty())
