@@ -172,7 +172,7 @@ MasksFound run_masks(const MasksRequest& request) {
     State state = start(stage.drive);
     for (int k = 0; k < found.moments; ++k, state = advance(state, stage.drive)) {
         if (weather_of(stage.drive, state.time_s).wetness > 0.0)
-            throw InputError({stage.drive.file, 0, 0, "weather"}, "a wet road, by way of which light comes, too", "a dry one");
+            throw InputError({stage.drive.file, 0, 0, "weather"}, "a wet road, whose mirrored light is not computed here", "a dry one");
         std::optional<MaskScene> scene; // by the first lamp set's car
         glm::dvec3 lamps_m(0.0);
         for (std::size_t i = 0; i < found.drives.size(); ++i) {

@@ -22,7 +22,8 @@ PlayedRating::PlayedRating(Drive drive)
     : owned(std::make_unique<Stage>(std::move(drive))), stage(*owned), lamp_set(stage.drive.lamp_sets.front()) {
     for (State state = start(stage.drive); state.tick < tick_count(stage.drive); state = advance(state, stage.drive)) {
         if (weather_of(stage.drive, state.time_s).wetness > 0.0)
-            throw InputError({stage.drive.file, 0, 0, "weather"}, "a wet road, by way of which light comes, too", "a dry one in a rating");
+            throw InputError({stage.drive.file, 0, 0, "weather"}, "a wet road, whose mirrored light a rating does not compute",
+                             "a dry one");
         states.push_back(state);
     }
 }
