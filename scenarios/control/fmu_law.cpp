@@ -241,23 +241,22 @@ std::string FmuLaw::start() {
 }
 
 std::string FmuLaw::step(const fernlicht_control_input& in, fernlicht_control_output& out) {
-    std::vector<double> values;
     for (const Port<Read>& port : inputs_) {
-        values.clear();
+        values_.clear();
         for (const Read& read : port.values)
-            values.push_back(port.variable.unit.from_base(read(in)));
-        if (std::string wrong = fmu_.set(port.variable, values); !wrong.empty())
+            values_.push_back(port.variable.unit.from_base(read(in)));
+        if (std::string wrong = fmu_.set(port.variable, values_); !wrong.empty())
             return wrong;
     }
     if (std::string wrong = started_ ? fmu_.step(in.time_s - in.dt_s, in.dt_s) : fmu_.begin(); !wrong.empty())
         return wrong;
     started_ = true;
     for (const Port<Write>& port : outputs_) {
-        values.assign(port.values.size(), 0.0);
-        if (std::string wrong = fmu_.get(port.variable, values); !wrong.empty())
+        values_.assign(port.values.size(), 0.0);
+        if (std::string wrong = fmu_.get(port.variable, values_); !wrong.empty())
             return wrong;
-        for (std::size_t i = 0; i < values.size(); ++i)
-            port.values[i](out, port.variable.unit.to_base(values[i]));
+        for (std::size_t i = 0; i < values_.size(); ++i)
+            port.values[i](out, port.variable.unit.to_base(values_[i]));
     }
     return {};
 }

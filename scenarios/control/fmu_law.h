@@ -46,6 +46,7 @@ class FmuLaw {
     std::vector<std::pair<FmuVariable, std::string>> texts_; ///< start values
     std::vector<std::pair<FmuVariable, double>> numbers_;
     std::vector<std::string> unread_;
+    std::vector<double> values_; ///< of one variable while it is told; a member, since a crash in the FMU leaves a step without its ends
     bool started_ = false;
 };
 
