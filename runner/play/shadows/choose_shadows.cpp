@@ -265,7 +265,7 @@ class PlanarTrial {
 
 std::vector<ShadowMethod> shadow_methods_by_cost() {
     using enum ShadowMethod;
-    return {none, under_car, planar, map, one_map, volumes, perspective_map, light_space_map, soft_map};
+    return {none, under_car, planar, one_map, map, perspective_map, light_space_map, volumes, soft_map};
 }
 
 std::optional<ShadowChoice> choose_shadows(Stage& stage, Device& device, const RendererSettings& settings) {
