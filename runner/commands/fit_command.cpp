@@ -68,7 +68,7 @@ void add_fit_command(CLI::App& app, const std::vector<std::string>& command, std
     sub->add_option("--hold", flags->hold, "what keeps the drive's value: pitch, yaw, flux, height, or of one lamp, e.g. left.height")
         ->allow_extra_args(false);
     sub->add_option("--lamp", flags->lamps,
-                    "[SIDE=]FILE: use this lamp file for all lamps, or for those whose name contains SIDE (left, right)")
+                    "[SIDE=]FILE: use this lamp file for all low beams, or for the lamps whose name contains SIDE (left, right, high)")
         ->allow_extra_args(false);
     add_recipe_flag(*sub, flags->recipe);
     sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's");

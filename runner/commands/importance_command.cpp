@@ -76,7 +76,7 @@ void add_importance_command(CLI::App& app, const std::vector<std::string>& comma
     sub->add_option("--photometer", flags->photometer, "of the row's this one alone")->needs(rating);
     sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drive (default: its first)");
     sub->add_option("--lamp", flags->lamps,
-                    "[SIDE=]FILE: use this lamp file for all lamps, or for those whose name contains SIDE (left, right)")
+                    "[SIDE=]FILE: use this lamp file for all low beams, or for the lamps whose name contains SIDE (left, right, high)")
         ->allow_extra_args(false)
         ->excludes(rating);
     add_recipe_flag(*sub, flags->recipe);

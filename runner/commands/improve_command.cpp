@@ -107,15 +107,18 @@ void add_improve_command(CLI::App& app, const std::vector<std::string>& command,
     const auto flags = std::make_shared<ImproveFlags>();
     CLI::App* sub = app.add_subcommand("improve", "the smallest change of a lamp that gains what is asked of readings");
     sub->add_option("LAMP", flags->lamp, "lamp file, low beams on both sides of every drive")->required();
-    sub->add_option("--drive", flags->drives, "drive files (YAML)");
+    sub->add_option("--drive", flags->drives, "drive files (YAML)")->allow_extra_args(false);
     sub->add_option("--study", flags->study, "study file (YAML): its cells with this lamp, instead of --drive");
     sub->add_option("--only", flags->only, "with --study: comma-separated names of cells, * and ? allowed")->allow_extra_args(false);
     sub->add_option("--gain", flags->gains,
-                    "'[DRIVE:]READING by AMOUNT', in its unit or %, for the better; one of those that `importance` tells of");
-    sub->add_option("--keep", flags->kept, "'[DRIVE:]READING' that gets no worse, 'READING within AMOUNT', 'READING at least|most FIGURE'");
+                    "'[DRIVE:]READING by AMOUNT', in its unit or %, for the better; one of those that `importance` tells of")
+        ->allow_extra_args(false);
+    sub->add_option("--keep", flags->kept, "'[DRIVE:]READING' that gets no worse, 'READING within AMOUNT', 'READING at least|most FIGURE'")
+        ->allow_extra_args(false);
     sub->add_option("--regulation", flags->regulation,
                     "table whose rows get no worse than it allows; `fernlicht lamp --regulation list FILE` names all");
-    sub->add_option("--keep-row", flags->kept_rows, "row of the regulation that gets no worse, such as 'zone III'");
+    sub->add_option("--keep-row", flags->kept_rows, "row of the regulation that gets no worse, such as 'zone III'")
+        ->allow_extra_args(false);
     sub->add_flag("--left-hand-traffic", flags->left_hand_traffic, "use the regulation's mirrored table");
     sub->add_option("--max-change", flags->change_percent, "the most that a sample may change, per cent of it")
         ->check(CLI::Range(0.1, 1e4));

@@ -291,14 +291,15 @@ void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::funct
         "--at", [request](double s) { request->levels_s = s; }, "with --levels: the time in s at which the lamp is looked at");
     command->add_option("--scale", request->scale, "multiply the intensities")->capture_default_str();
     command->add_flag("--mirror", request->mirror, "swap left and right: right-hand to left-hand traffic and back");
-    command->add_option("--add", request->add, "add another lamp's light");
+    command->add_option("--add", request->add, "add another lamp's light")->allow_extra_args(false);
     command->add_option("--against", request->against,
                         "report what differs from this lamp (aim, cut-off, level, zones, and at 75R, 50V, B50L, kerb shoulder, "
                         "foreground and other named places) and what is only noise");
     command->add_option_function<std::string>(
         "--noise", [request](const std::string& text) { request->noise_relative = share_of("--noise", text); },
         "with --against: standard deviation of an intensity, e.g. 1%; the noise found in the tables is used if larger");
-    command->add_option("--subtract", request->subtract, "subtract another lamp's light; negative results become 0 and are counted");
+    command->add_option("--subtract", request->subtract, "subtract another lamp's light; negative results become 0 and are counted")
+        ->allow_extra_args(false);
     add_choice(*command, "--rule", request->reading.rule, {{"linear", BetweenSamples::linear_cd}, {"log", BetweenSamples::log_cd}},
                "interpolation between samples: linear (in cd) or log (in log cd)");
     add_choice(*command, "--axis", request->reading.type_c_axis,

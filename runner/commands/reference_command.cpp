@@ -180,7 +180,7 @@ void add_reference_command(CLI::App& app, const std::vector<std::string>& comman
                     "radius of lamps as discs in metres, 0: points (default: lamp_radius_m of a drive with soft-map shadows, else 0)")
         ->check(CLI::Range(0.0, 1.0));
     sub->add_option("--lamp", flags->lamps,
-                    "[SIDE=]FILE: use this lamp file for all lamps, or for those whose name contains SIDE (left, right)")
+                    "[SIDE=]FILE: use this lamp file for all low beams, or for the lamps whose name contains SIDE (left, right, high)")
         ->allow_extra_args(false);
     add_recipe_flag(*sub, flags->recipe);
     sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's");

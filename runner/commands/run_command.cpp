@@ -146,7 +146,7 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
                     "drive files (YAML), or storyboards (OpenSCENARIO, .xosc): played with halogen low beams on all cars")
         ->required();
     sub->add_option("--lamp", flags->lamps,
-                    "[SIDE=]FILE: use this lamp file for all lamps, or for those whose name contains SIDE (left, right)")
+                    "[SIDE=]FILE: use this lamp file for all low beams, or for the lamps whose name contains SIDE (left, right, high)")
         ->allow_extra_args(false);
     add_recipe_flag(*sub, flags->recipe);
     sub->add_option("--aim", flags->aim,

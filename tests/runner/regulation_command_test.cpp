@@ -106,7 +106,8 @@ TEST(RegulationCommand, TwoFilesAreHalfTheirSumWhereTheTableSaysSo) {
     const auto rows = [](const std::string& arguments) { return json::parse(run_program(arguments).output)["rows"]; };
     const std::string table = "--regulation r123-c --aim as-is --json";
     const json one = rows(lamp("halogen-low") + table);
-    const json same = rows(lamp("halogen-low") + "--add '" + library_file("lamps/halogen-low.ies") + "' " + table);
+    const std::string halogen = "'" + library_file("lamps/halogen-low.ies") + "' ";
+    const json same = rows("lamp --add " + halogen + halogen + table);
     const json both = rows(lamp("halogen-low") + "--add '" + library_file("lamps/xenon-low.ies") + "' " + table);
     const json other = rows(lamp("xenon-low") + table);
     const auto found = [](const json& all, const std::string& id) {
