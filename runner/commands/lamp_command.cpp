@@ -282,7 +282,9 @@ void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::funct
     command->add_option("--picture", request->picture,
                         "write the isocandela diagram, or with --cut-off its scans and the elbow, as .svg or .png");
     command->add_flag("--force", request->force, "let --convert and --picture replace an existing file");
-    command->add_option("--window", request->window, "left, right, bottom and top edge of the picture in degrees")->expected(4);
+    command->add_option("--window", request->window, "left, right, bottom and top edge of the picture in degrees")
+        ->expected(4)
+        ->allow_extra_args(false);
     command->add_option("--spots", request->spots, "fit this many OpenGL 1.x spot lights (1 to 8) and report the residual");
     command->add_option("--convert", request->convert,
                         "write the lamp as .ies (LM-63-2002, type A), .csv (beam matrix) or .exr (beam texture)");

@@ -158,5 +158,11 @@ TEST_F(LampCheckOfARun, AStudyDoesTheSame) {
     EXPECT_THAT(content_of(folder_ / "study/report.html"), HasSubstr("Lamp files"));
 }
 
+TEST(LampFlags, LeaveTheFileThatFollowsToTheCommand) {
+    const TemporaryFolder folder;
+    printed("lamp --picture '" + (folder / "beam.svg").string() + "' --window -10 10 -5 5 " + library_file("lamps/led-low.ies"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "beam.svg"));
+}
+
 } // namespace
 } // namespace fernlicht
