@@ -17,8 +17,8 @@ namespace fernlicht {
 
 /// Of tables of adaptive beams: whom a lamp of pixels spares, or of fmvss108-adb where the beam is dimmed.
 struct AdaptiveRequest {
-    std::vector<double> dimmed_deg; ///< left, right, bottom, top in the file's angles, turned with the lamp; empty: the other itself
-    std::vector<double> other_m;    ///< ahead of the lamp, left of the car's middle: its nearer end; empty: nobody
+    std::vector<double> dimmed_deg = {}; ///< left, right, bottom, top in the file's angles, turned with the lamp; empty: the other itself
+    std::vector<double> other_m = {};    ///< ahead of the lamp, left of the car's middle: its nearer end; empty: nobody
     std::vector<double> other_size_m{1.8, 1.5}; ///< width, height
     std::vector<double> lamp_at_m{0.45, 0.65};  ///< left of the car's middle, above the road
     double margin_deg = 0.7;                    ///< of dark round the other

@@ -32,8 +32,11 @@ constexpr List lists[] = {
 
 /// Of a drive, each law of each lamp set once, or of one file.
 std::vector<ListedFmu> fmus_of(const std::filesystem::path& file) {
-    if (file.extension() == ".fmu")
-        return {{file.filename().string(), fmu_ties({.library = file})}};
+    if (file.extension() == ".fmu") {
+        PluginParameters alone;
+        alone.library = file;
+        return {{file.filename().string(), fmu_ties(alone)}};
+    }
     std::vector<ListedFmu> fmus;
     std::vector<PluginParameters> told;
     for (const LampSet& lamp_set : read_drive(file).lamp_sets)

@@ -141,7 +141,7 @@ std::vector<LoadState> load_states(const InstallationRequest& request, const Lam
         for (const auto& [axle, added_kg, share] :
              {std::tuple("front", load.front_kg, car.front_load), {"rear", load.rear_kg, 1.0 - car.front_load}})
             if (!(added_kg + car.mass_kg * share > 0.0))
-                throw InputError({{}, 0, 0, "--load"},
+                throw InputError({{}, 0, 0, request.loads.empty() ? "control.load" : "--load"},
                                  fmt::format("found {:.0f} kg on the {} axle ('{}')", added_kg, axle, printable(load.name)),
                                  fmt::format("more than -{:.0f} kg, which the car has there", car.mass_kg * share));
     return loads;

@@ -130,7 +130,8 @@ TEST(Preparation, DroppedProgramsComeBackWithTheSameFigures) {
     Renderer unpruned(device, stage.scene, settings);
     PlayedCell played;
     played.ticks_done = 1;
-    played.throughput = {.wall_s = 100.0, .view_s = 1e-3};
+    played.throughput.wall_s = 100.0;
+    played.throughput.view_s = 1e-3;
     const DriveError before = measure_drive_error(stage, first, played, 0, pruned);
     const PruningSavings saved = measure_savings(stage, first, played, 0, pruned, unpruned);
     const int compiled = pruned.compiled_programs();

@@ -352,7 +352,8 @@ TEST_F(FmuDrive, ItsVariablesAreListedWithWhatTheyAreTiedTo) {
     const std::string more = fmu_variable(2, "v", "input", "Real", 4, "unit=\"km/h\" start=\"0\"") +
                              fmu_variable(2, "ambient", "input", "Real", 5) + fmu_variable(2, "spare", "output", "Real", 70) +
                              fmu_variable(2, "inner", "local", "Real", 71);
-    PluginParameters plugin{.library = fmu_archive({2, more})};
+    PluginParameters plugin;
+    plugin.library = fmu_archive({2, more});
     plugin.values = {{"preview_s", "2"}};
     plugin.inputs = {{"v", "others[1].speed_mps"}};
     plugin.outputs = {{"lamp.left.swivel_command_rad", "lamp.*.swivel_command_rad"}};
