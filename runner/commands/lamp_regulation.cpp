@@ -121,6 +121,7 @@ int lamp_cut_off(const LampRequest& request) {
 }
 
 void refuse_regulation_options(const LampRequest& request) {
+    request.adaptive.check();
     const char* option = !request.aim.empty()        ? "--aim"
                          : !request.aim_by.empty()   ? "--aim-by"
                          : request.no_re_aim         ? "--no-re-aim"

@@ -26,8 +26,8 @@ const MaskedDrive& full_light(const MasksFound& found) {
     return **std::ranges::find(own, found.against, &MaskedDrive::lamp_set);
 }
 
-/// Margins that come from radians: to a hundredth.
-std::string margin_text(double deg) { return fmt::format("{:g}", std::round(100.0 * deg) / 100.0); }
+/// Margins that come from radians: to a thousandth.
+std::string margin_text(double deg) { return fmt::format("{:g}", std::round(1000.0 * deg) / 1000.0); }
 std::string degrees_text(double deg) { return margin_text(deg) + "°"; }
 
 std::string name_in_plots(const MaskedDrive& one) { return short_text(one.lamp_set, 24); }

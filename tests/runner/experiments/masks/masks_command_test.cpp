@@ -99,7 +99,7 @@ TEST(MasksCommand, LabelsOfMarginsDoNotCollide) {
     std::string labels;
     for (const plots::Note& note : close.notes)
         labels += note.text + "|";
-    EXPECT_EQ(labels, "matrix 0.5, 0.5|0.25|1, 1.01|");
+    EXPECT_EQ(labels, "matrix 0.498, 0.5|0.25|1, 1.01|");
 }
 
 } // namespace
