@@ -162,7 +162,10 @@ TEST(InstallationCommand, TheDrivesOwnLoadAndLampsForTheOtherSideAreTold) {
     EXPECT_NEAR(found.at("loads").at(5).at("rear_kg").get<double>(), 100.0, 1e-9);
     const json given = found_in((folder / "bend.yaml") + " --load behind=0,100", 1);
     ASSERT_EQ(given.at("loads").size(), 1U);
-    EXPECT_EQ(given.at("lamps").at(0).at("inclination").at(0).at("percent"), found.at("lamps").at(0).at("inclination").at(5).at("percent"));
+    const auto percent = [](const json& of, std::size_t load) {
+        return of.at("lamps").at(0).at("inclination").at(load).at("percent").get<double>();
+    };
+    EXPECT_NEAR(percent(given, 0), percent(found, 5), 1e-9);
     const json other_side = found_in(bend_drive(folder, "", "mirrored: true"), 1);
     ASSERT_EQ(other_side.at("warnings").size(), 1U);
     EXPECT_THAT(other_side.at("warnings").at(0).get<std::string>(), HasSubstr("readings with it are meaningless"));
