@@ -95,7 +95,7 @@ TEST(MasksCommand, LabelsOfMarginsDoNotCollide) {
                                 .lost_lxs = 40.0 * margin_deg,
                                 .others_lxs = 30.0 / margin_deg});
     const Document told = document(found);
-    const plots::Figure& close = std::get<Plot>(told.sections[0].blocks.at(2)).figure;
+    const auto& close = std::get<plots::Figure>(std::get<Plot>(told.sections[0].blocks.at(2)).figure);
     std::string labels;
     for (const plots::Note& note : close.notes)
         labels += note.text + "|";
