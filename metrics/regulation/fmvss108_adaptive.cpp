@@ -50,7 +50,7 @@ std::vector<Direction> frame_between(const AngleBox& outer, const AngleBox& inne
 const Regulation& of_family(const std::string& id, const char* beam, const char* expected) {
     const Regulation& r = regulation(id);
     if (!r.id.starts_with(beam))
-        throw InputError({{}, 0, 0, "--tables"}, "found '" + printable(id) + "'", expected);
+        throw InputError({{}, 0, 0, "--adb-tables"}, "found '" + printable(id) + "'", expected);
     return r;
 }
 

@@ -26,10 +26,11 @@ LoadState load_of(const std::string& typed) {
     char comma = 0;
     std::string rest;
     std::istringstream weights(sign == std::string::npos ? "" : typed.substr(sign + 1));
+    const auto possible = [](double kg) { return kg >= -2000.0 && kg <= 5000.0; }; // as of a drive's `load`
     if (!(weights >> load.front_kg >> comma >> load.rear_kg) || comma != ',' || weights >> rest || load.name.empty() ||
-        std::abs(load.front_kg) > 1e5 || std::abs(load.rear_kg) > 1e5)
+        !possible(load.front_kg) || !possible(load.rear_kg))
         throw InputError({{}, 0, 0, "--load"}, "found '" + printable(typed) + "'",
-                         "NAME=KG_ON_FRONT_AXLE,KG_ON_REAR_AXLE, each from -100000 to 100000");
+                         "NAME=KG_ON_FRONT_AXLE,KG_ON_REAR_AXLE, each from -2000 to 5000");
     return load;
 }
 
@@ -55,7 +56,8 @@ void add_installation_command(CLI::App& app, const std::vector<std::string>&, st
     sub->add_option("DRIVE", flags->drive, "drive file (YAML)")->required();
     sub->add_option("--lamps", flags->lamps, "file of lamp sets with their mounts, vehicle and control in place of the drive's");
     sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drive (default: its first)");
-    sub->add_option("--load", flags->loads, "a load beyond the car with its driver, in place of R48's states for a usual car")
+    sub->add_option("--load", flags->loads,
+                    "a load beyond the car with its driver, in place of R48's states for a usual car and of the drive's own `load`")
         ->option_text("NAME=FRONT_KG,REAR_KG")
         ->allow_extra_args(false);
     sub->add_flag("--json", flags->json, "print JSON");

@@ -23,18 +23,44 @@ AngleBox dimmed_of(const std::vector<double>& edges) {
     return box;
 }
 
-/// The lamp of pixels in the state in which it spares the other one, without what is added to it.
-AngleBox spare(LampFile& lamp, const AdaptiveRequest& request, std::string& how) {
+} // namespace
+
+void AdaptiveRequest::check() const {
+    const auto need = [](const char* option, const std::vector<double>& numbers, bool good, const char* expected) {
+        if (!good)
+            refuse(option, fmt::format("found {}", fmt::join(numbers, " ")), expected);
+    };
+    const auto within = [](double value, double least, double most) { return value >= least && value <= most; };
+    if (!dimmed_deg.empty())
+        dimmed_of(dimmed_deg);
+    need("--other-size", other_size_m, within(other_size_m[0], 0.01, 100.0) && within(other_size_m[1], 0.01, 100.0),
+         "a width and a height from 0.01 to 100 m");
+    need("--lamp-at", lamp_at_m, within(lamp_at_m[0], -5.0, 5.0) && within(lamp_at_m[1], 0.0, 5.0),
+         "metres left of the car's middle, from -5 to 5, and above the road, up to 5");
+    need("--margin", {margin_deg}, within(margin_deg, 0.0, 10.0), "degrees from 0 to 10");
+    if (!other_m.empty()) {
+        need("--other", other_m, within(other_m[0], 0.1, 10'000.0) && within(other_m[1], -10'000.0, 10'000.0),
+             "metres ahead of the lamp, from 0.1, and left of the car's middle, up to 10000");
+        return;
+    }
+    const AdaptiveRequest usual;
+    const char* const alone = other_size_m != usual.other_size_m ? "--other-size"
+                              : lamp_at_m != usual.lamp_at_m     ? "--lamp-at"
+                              : margin_deg != usual.margin_deg   ? "--margin"
+                                                                 : nullptr;
+    if (alone)
+        refuse(alone, "found without --other", "--other AHEAD LEFT with it");
+}
+
+AngleBox spare_other(LampFile& lamp, const AdaptiveRequest& request, std::string& how) {
     if (!lamp.pixels)
         refuse("--other", "found with " + printable(lamp.name, 90) + ", none of whose parts dims by itself",
-               "a pixel lamp, or --dimmed and the file of the dimmed state");
+               "a pixel lamp, or the file of the dimmed state, of fmvss108-adb with --dimmed");
     OtherUser other;
     other.ahead_m = request.other_m[0];
     other.left_m = request.other_m[1];
     other.width_m = request.other_size_m[0];
     other.height_m = request.other_size_m[1];
-    if (!(other.ahead_m > 0.0 && other.width_m > 0.0 && other.height_m > 0.0))
-        refuse("--other", fmt::format("found {}", fmt::join(request.other_m, " ")), "someone ahead, of a width and a height above 0");
     const LampPlace place{.position_m = {0.0, request.lamp_at_m[0], request.lamp_at_m[1]}};
     const std::optional<SparingState> state = sparing_state(*lamp.pixels, other, place, request.margin_deg);
     if (!state)
@@ -48,10 +74,9 @@ AngleBox spare(LampFile& lamp, const AdaptiveRequest& request, std::string& how)
     return state->spared;
 }
 
-} // namespace
-
 int lamp_adaptive(const LampRequest& request) {
     const AdaptiveRequest& asked = request.adaptive;
+    asked.check();
     if (!asked.asked())
         refuse("--regulation", fmt::format("found {} and not where the beam is dimmed", adaptive_table), "--other or --dimmed with it");
     if (request.left_hand_traffic)
@@ -62,7 +87,7 @@ int lamp_adaptive(const LampRequest& request) {
     alone.add.clear();
     LampFile lamp = lamp_of(alone);
     std::string how = "the file is the beam in the state that is dimmed there";
-    AngleBox dimmed = asked.other_m.empty() ? dimmed_of(asked.dimmed_deg) : spare(lamp, asked, how);
+    AngleBox dimmed = asked.other_m.empty() ? dimmed_of(asked.dimmed_deg) : spare_other(lamp, asked, how);
     if (!asked.dimmed_deg.empty())
         dimmed = dimmed_of(asked.dimmed_deg);
     std::vector<std::string> names{lamp.name};
@@ -89,7 +114,7 @@ int lamp_adaptive(const LampRequest& request) {
 }
 
 void add_adaptive_options(CLI::App& command, AdaptiveRequest& request) {
-    const char* group = "Adaptive beams (of --regulation fmvss108-adb)";
+    const char* group = "Adaptive beams (of --regulation fmvss108-adb, r149-adb-... and r123-adb-...)";
     command.add_option("--other", request.other_m, "a pixel lamp spares what is so far ahead of it and left of the car's middle, in m")
         ->expected(2)
         ->option_text("AHEAD LEFT")
@@ -101,11 +126,12 @@ void add_adaptive_options(CLI::App& command, AdaptiveRequest& request) {
         ->group(group);
     command.add_option("--margin", request.margin_deg, "degrees of dark to each side of it")->capture_default_str()->group(group);
     command
-        .add_option("--dimmed", request.dimmed_deg, "the area that counts as dimmed, in degrees of the file as filed (default: the other)")
+        .add_option("--dimmed", request.dimmed_deg,
+                    "of fmvss108-adb: the area that counts as dimmed, in degrees of the file as filed (default: the other)")
         ->expected(4)
         ->option_text("LEFT RIGHT BOTTOM TOP")
         ->group(group);
-    command.add_option("--tables", request.tables, "tables of the lower and of the upper beam")
+    command.add_option("--adb-tables", request.tables, "of fmvss108-adb: tables of the lower and of the upper beam")
         ->expected(2)
         ->capture_default_str()
         ->group(group);

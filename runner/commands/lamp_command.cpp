@@ -67,12 +67,16 @@ void label_changes(LampFile& lamp, const std::vector<std::string>& changes) {
         lamp.labels.emplace_back("OTHER", fmt::format("changed, other texts are of the lamp before: {}", fmt::join(changes, "; ")));
 }
 
-/// A pixel lamp as it shines at that time of a file of levels, with its own delays: an ordinary lamp from then on.
-void set_levels(LampFile& lamp, const std::filesystem::path& file, double time_s) {
+/// A pixel lamp as it shines at that time of a file of levels, with its own delays, or as it shone in a run: an ordinary lamp from then on.
+void set_levels(LampFile& lamp, const std::filesystem::path& file, double time_s, const std::string& of_lamp) {
     if (!lamp.pixels)
         throw InputError({file, 0, 0, "--levels"}, "found levels of a lamp without pixels", "a pixel lamp (docs/pixel-lamps.md)");
-    const std::shared_ptr<const LevelTrack> track = read_levels(file, std::make_shared<const LampFile>(lamp), lamp.opened);
-    const PixelState state = PixelStates(lamp.pixels).of(track->levels(time_s));
+    std::optional<ShownLevels> shown = read_shown_levels(file, *lamp.pixels, of_lamp, time_s, lamp.opened);
+    if (!shown && !of_lamp.empty())
+        throw InputError({file, 0, 0, "--levels-lamp"}, "found with levels that belong to no lamp of a car", "levels-*.csv of a run");
+    if (!shown)
+        shown.emplace(ShownLevels{1.0, read_levels(file, std::make_shared<const LampFile>(lamp), lamp.opened)->levels(time_s)});
+    const PixelState state = PixelStates(lamp.pixels).of(shown->pixels);
     const std::size_t count = lamp.pixels->count();
     const std::size_t boxes = state.dark.size() + state.more_dark;
     std::string dark = boxes > 1 ? fmt::format("; dark in {} boxes", boxes) : "";
@@ -84,9 +88,12 @@ void set_levels(LampFile& lamp, const std::filesystem::path& file, double time_s
                             box.left_deg, box.right_deg, box.bottom_deg, box.top_deg);
     if (state.more_dark > 0)
         dark += fmt::format("; and {} more", state.more_dark);
-    lamp.notes.push_back(fmt::format("levels of {} at {:g} s: {} of {} parts shine, {:.4g} % of the flux{}", file.filename().string(),
-                                     time_s, state.lit, count, 100.0 * state.flux, dark));
-    lamp.table = track->at(time_s)->table;
+    const std::string whole = shown->level == 1.0 ? "" : fmt::format(", the lamp as a whole at {:.4g} %", 100.0 * shown->level);
+    lamp.notes.push_back(fmt::format("levels of {} at {:g} s: {} of {} parts shine, {:.4g} % of the flux{}{}", file.filename().string(),
+                                     time_s, state.lit, count, 100.0 * state.flux, whole, dark));
+    lamp.table = lamp.pixels->table(shown->pixels);
+    if (shown->level != 1.0)
+        lamp.table = scaled(std::move(lamp.table), shown->level);
     lamp.pixels.reset();
 }
 
@@ -217,7 +224,7 @@ LampFile lamp_of(const LampRequest& request) {
     if (request.levels_s) {
         if (!(*request.levels_s >= 0.0 && *request.levels_s <= 1e6))
             throw InputError({{}, 0, 0, "--at"}, fmt::format("found {}", *request.levels_s), "a time from 0 to 1000000 s");
-        set_levels(lamp, request.levels, *request.levels_s);
+        set_levels(lamp, request.levels, *request.levels_s, request.levels_lamp);
         changes.push_back(fmt::format("pixels as in {} at {:g} s", request.levels.filename().string(), *request.levels_s));
     }
     if (request.scale != 1.0) {
@@ -288,7 +295,9 @@ void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::funct
     command->add_option("--spots", request->spots, "fit this many OpenGL 1.x spot lights (1 to 8) and report the residual");
     command->add_option("--convert", request->convert,
                         "write the lamp as .ies (LM-63-2002, type A), .csv (beam matrix) or .exr (beam texture)");
-    command->add_option("--levels", request->levels, "of a pixel lamp: levels of its pixels over time (CSV), as a drive takes them");
+    command->add_option("--levels", request->levels,
+                        "of a pixel lamp: levels of its pixels over time (CSV), as a drive takes them, or levels-*.csv of a run");
+    command->add_option("--levels-lamp", request->levels_lamp, "with levels-*.csv of several lamps: whose");
     command->add_option_function<double>(
         "--at", [request](double s) { request->levels_s = s; }, "with --levels: the time in s at which the lamp is looked at");
     command->add_option("--scale", request->scale, "multiply the intensities")->capture_default_str();

@@ -15,16 +15,18 @@ class App;
 
 namespace fernlicht {
 
-/// Of --regulation fmvss108-adb: where the beam is dimmed, or whom a lamp of pixels spares.
+/// Of tables of adaptive beams: whom a lamp of pixels spares, or of fmvss108-adb where the beam is dimmed.
 struct AdaptiveRequest {
-    std::vector<double> dimmed_deg; ///< left, right, bottom, top in the file's angles, turned with the lamp; empty: the other itself
-    std::vector<double> other_m;    ///< ahead of the lamp, left of the car's middle: its nearer end; empty: nobody
+    std::vector<double> dimmed_deg = {}; ///< left, right, bottom, top in the file's angles, turned with the lamp; empty: the other itself
+    std::vector<double> other_m = {};    ///< ahead of the lamp, left of the car's middle: its nearer end; empty: nobody
     std::vector<double> other_size_m{1.8, 1.5}; ///< width, height
     std::vector<double> lamp_at_m{0.45, 0.65};  ///< left of the car's middle, above the road
     double margin_deg = 0.7;                    ///< of dark round the other
     std::vector<std::string> tables{"fmvss108-lb2v-vol", "fmvss108-ub2"};
 
     bool asked() const { return !dimmed_deg.empty() || !other_m.empty(); }
+    /// Throws InputError naming the flag whose numbers are none of its kind, or that nothing hears.
+    void check() const;
 };
 
 struct LampRequest {
@@ -33,6 +35,7 @@ struct LampRequest {
     LampReadOptions reading;
     std::filesystem::path levels;   ///< of a pixel lamp's pixels over time; empty: all at full
     std::optional<double> levels_s; ///< when
+    std::string levels_lamp;        ///< of a file of levels that a run wrote: whose; empty: of its only lamp
     double scale = 1.0;
     bool mirror = false;
     std::vector<std::filesystem::path> add, subtract;
@@ -72,6 +75,8 @@ int lamp_regulation(const LampRequest& request);
 
 /// The same for --regulation fmvss108-adb, whose table follows from where the beam is dimmed.
 int lamp_adaptive(const LampRequest& request);
+/// Puts the lamp of pixels into the state in which it spares the other one; says how. Returns the other's own outline. Throws InputError.
+AngleBox spare_other(LampFile& lamp, const AdaptiveRequest& request, std::string& how);
 inline constexpr const char* adaptive_table = "fmvss108-adb";
 
 /// How request.aim is meant; nullopt: the regulation's own. Throws InputError.
@@ -94,7 +99,7 @@ void refuse_regulation_options(const LampRequest& request);
 
 /// The flags of both.
 void add_regulation_options(CLI::App& command, LampRequest& request);
-/// Those of --regulation fmvss108-adb.
+/// Those of tables of adaptive beams.
 void add_adaptive_options(CLI::App& command, AdaptiveRequest& request);
 /// Those of the check.
 void add_check_options(CLI::App& command, LampRequest& request);

@@ -21,10 +21,18 @@ void refuse_other_work(const LampRequest& request, const char* option) {
     refuse(!request.against.empty(), "--against");
 }
 
-/// The lamp, and the other side where --add names it.
-std::vector<LampFile> requested_lamps(const LampRequest& request, const Regulation& r) {
+/// The lamp, and the other side where --add names it, which sits across the car's middle.
+std::vector<LampFile> requested_lamps(const LampRequest& request, const Regulation& r, std::vector<std::string>& notes) {
+    const auto spared = [&](LampFile lamp, double side) {
+        if (request.adaptive.other_m.empty())
+            return lamp;
+        AdaptiveRequest asked = request.adaptive;
+        asked.lamp_at_m[0] *= side;
+        spare_other(lamp, asked, notes.emplace_back());
+        return lamp;
+    };
     if (!r.pairs || request.add.empty())
-        return {lamp_of(request)};
+        return {spared(lamp_of(request), 1.0)};
     if (request.add.size() > 1)
         throw InputError({{}, 0, 0, "--add"}, fmt::format("found {} files", request.add.size()),
                          "one, the lamp of the other side: " + r.id + " judges half the sum of both");
@@ -35,7 +43,7 @@ std::vector<LampFile> requested_lamps(const LampRequest& request, const Regulati
     other.model.clear();
     other.levels.clear();
     other.levels_s.reset();
-    return {lamp_of(one), lamp_of(other)};
+    return {spared(lamp_of(one), 1.0), spared(lamp_of(other), -1.0)};
 }
 
 } // namespace
@@ -68,11 +76,18 @@ int lamp_regulation(const LampRequest& request) {
         throw InputError({{}, 0, 0, "--cut-off"}, "found together with --regulation", "one of them");
     if (request.regulation == adaptive_table)
         return lamp_adaptive(request);
-    if (request.adaptive.asked())
-        throw InputError({{}, 0, 0, request.adaptive.other_m.empty() ? "--dimmed" : "--other"},
-                         "found with --regulation " + printable(request.regulation), fmt::format("--regulation {}", adaptive_table));
-    const Regulation& r = regulation(request.regulation);
-    const std::vector<LampFile> lamps = requested_lamps(request, r);
+    Regulation r = regulation(request.regulation);
+    request.adaptive.check();
+    const bool adaptive = r.id.find("-adb-") != std::string::npos; // one state of an adaptive beam
+    if (!request.adaptive.dimmed_deg.empty() || (!adaptive && request.adaptive.asked()))
+        throw InputError({{}, 0, 0, request.adaptive.dimmed_deg.empty() ? "--other" : "--dimmed"},
+                         "found with --regulation " + printable(request.regulation),
+                         adaptive ? "--other AHEAD LEFT: this table has places of its own"
+                                  : fmt::format("--regulation {}", adaptive_table));
+    if (!request.adaptive.other_m.empty() &&
+        (request.scale != 1.0 || request.mirror || !request.subtract.empty() || request.left_hand_traffic))
+        throw InputError({{}, 0, 0, "--other"}, "found with a lamp that is changed, or with --left-hand-traffic", "the lamp as it is");
+    const std::vector<LampFile> lamps = requested_lamps(request, r, r.notes);
     std::vector<CandelaTable> tables;
     std::vector<std::string> names;
     for (const LampFile& lamp : lamps) {
@@ -106,6 +121,7 @@ int lamp_cut_off(const LampRequest& request) {
 }
 
 void refuse_regulation_options(const LampRequest& request) {
+    request.adaptive.check();
     const char* option = !request.aim.empty()        ? "--aim"
                          : !request.aim_by.empty()   ? "--aim-by"
                          : request.no_re_aim         ? "--no-re-aim"

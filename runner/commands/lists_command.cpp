@@ -4,8 +4,12 @@
 #include "runner/commands/flag_values.h"
 #include "runner/findings/lists.h"
 #include "runner/write/document.h"
+#include "scenarios/control/control_parameters.h"
+#include "scenarios/drives/drive.h"
+#include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
@@ -26,12 +30,33 @@ constexpr List lists[] = {
     {"signals", "list the signals of lamp control: name, unit, range, who writes them, and whether a CAN bus may", signals_document,
      signals_json}};
 
+/// Of a drive, each law of each lamp set once, or of one file.
+std::vector<ListedFmu> fmus_of(const std::filesystem::path& file) {
+    if (file.extension() == ".fmu") {
+        PluginParameters alone;
+        alone.library = file;
+        return {{file.filename().string(), fmu_ties(alone)}};
+    }
+    std::vector<ListedFmu> fmus;
+    std::vector<PluginParameters> told;
+    for (const LampSet& lamp_set : read_drive(file).lamp_sets)
+        for (const PluginParameters& plugin : lamp_set.control ? lamp_set.control->plugins : std::vector<PluginParameters>{})
+            if (plugin.fmu && std::ranges::find(told, plugin) == told.end()) {
+                told.push_back(plugin);
+                fmus.push_back({fmt::format("{}, lamp set {}", plugin.library.filename().string(), lamp_set.name), fmu_ties(plugin)});
+            }
+    if (fmus.empty())
+        throw InputError({file, 0, 0, "control.plugins"}, "found no FMU", "a drive with one, or a file named *.fmu");
+    return fmus;
+}
+
 } // namespace
 
 void add_list_commands(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     struct Form {
         bool json = false;
         const OutputFormat* printed = nullptr;
+        std::filesystem::path file;
     };
     for (const List& list : lists) {
         const auto form = std::make_shared<Form>();
@@ -40,9 +65,17 @@ void add_list_commands(CLI::App& app, const std::vector<std::string>&, std::func
         if (list.json)
             others.push_back(command->add_flag("--json", form->json, "print JSON"));
         add_print_flags(*command, form->printed, others);
+        if (list.document == signals_document)
+            command->add_option("FILE", form->file,
+                                "a drive or an FMU: the variables of its FMUs instead, and what each is tied to (docs/control.md)");
         command->callback([form, &list, &chosen] {
             chosen = [form, &list] {
-                fmt::print("{}", form->json ? list.json() : (form->printed ? form->printed->of_document : document_text)(list.document()));
+                const std::vector<ListedFmu> fmus = form->file.empty() ? std::vector<ListedFmu>{} : fmus_of(form->file);
+                const auto text_of = form->printed ? form->printed->of_document : document_text;
+                if (fmus.empty())
+                    fmt::print("{}", form->json ? list.json() : text_of(list.document()));
+                else
+                    fmt::print("{}", form->json ? fmus_json(fmus) : text_of(fmus_document(fmus)));
                 return 0;
             };
         });

@@ -173,6 +173,15 @@ std::vector<std::string> lamp_warnings(const std::vector<CheckedLampFile>& files
     return warnings;
 }
 
+std::vector<std::string> lamp_warnings(const Drive& drive, const LampSet& lamp_set, bool left_hand_traffic) {
+    Drive alone;
+    alone.lamp_sources = drive.lamp_sources;
+    alone.lamp_sets = {lamp_set};
+    LampFileChecks checks;
+    checks.add(alone, left_hand_traffic);
+    return lamp_warnings(checks.files());
+}
+
 Table lamp_files_table(const std::vector<CheckedLampFile>& files) {
     Table table{.name = "lamp-files",
                 .caption = "Lamp files",

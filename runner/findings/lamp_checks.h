@@ -46,6 +46,8 @@ void refuse_meaningless(const std::filesystem::path& file, const std::vector<Int
 
 /// One sentence for each finding that makes readings meaningless.
 std::vector<std::string> lamp_warnings(const std::vector<CheckedLampFile>& files);
+/// The same of the lamps of one lamp set alone.
+std::vector<std::string> lamp_warnings(const Drive& drive, const LampSet& lamp_set, bool left_hand_traffic);
 /// What was found and how each file was understood, with what the voltage leaves open; without rows where there is no file.
 Table lamp_files_table(const std::vector<CheckedLampFile>& files);
 /// "not stated: taken as 13.2 V; measured at 12.8 V (FMVSS 108) it would be 0.90 of that"; what does not depend on it says so.

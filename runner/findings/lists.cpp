@@ -96,4 +96,37 @@ std::string signals_json() {
     return all.dump(2) + "\n";
 }
 
+Document fmus_document(const std::vector<ListedFmu>& fmus) {
+    Document document{"Variables of FMUs", {}};
+    for (const ListedFmu& fmu : fmus) {
+        Table all{.name = fmt::format("fmu-{}", document.sections.size() + 1),
+                  .caption = "",
+                  .columns = columns_of("variable`|is<|type<|unit<|tied to<"),
+                  .rows = {}};
+        for (const FmuTie& tie : fmu.ties)
+            all.rows.push_back(
+                {tie.variable.name, tie.variable.causality,
+                 tie.variable.count ? fmt::format("{}, {} values", tie.variable.element, *tie.variable.count) : tie.variable.element,
+                 tie.variable.unit.name, tie.tie});
+        document.sections.push_back({fmu.title, {std::move(all)}});
+    }
+    return document;
+}
+
+std::string fmus_json(const std::vector<ListedFmu>& fmus) {
+    Json all = Json::array();
+    for (const ListedFmu& fmu : fmus) {
+        Json variables = Json::array();
+        for (const FmuTie& tie : fmu.ties)
+            variables.push_back({{"name", tie.variable.name},
+                                 {"causality", tie.variable.causality},
+                                 {"type", tie.variable.element},
+                                 {"values", tie.variable.count.value_or(1)},
+                                 {"unit", tie.variable.unit.name},
+                                 {"tie", tie.tie}});
+        all.push_back({{"fmu", fmu.title}, {"variables", variables}});
+    }
+    return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 } // namespace fernlicht

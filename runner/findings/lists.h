@@ -3,6 +3,7 @@
 
 #include "renderer/technique.h"
 #include "runner/findings/document.h"
+#include "scenarios/control/fmu_law.h"
 #include "scenarios/drives/shadow_settings.h"
 
 namespace fernlicht {
@@ -17,5 +18,13 @@ std::string techniques_json(std::span<const Technique> rows, ShadowMethods shado
 Document readings_document();
 Document signals_document();
 std::string signals_json();
+
+/// An FMU of a drive's lamp set, or one by itself.
+struct ListedFmu {
+    std::string title;
+    std::vector<FmuTie> ties;
+};
+Document fmus_document(const std::vector<ListedFmu>& fmus);
+std::string fmus_json(const std::vector<ListedFmu>& fmus);
 
 } // namespace fernlicht

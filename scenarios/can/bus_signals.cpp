@@ -84,9 +84,11 @@ BusSignals::BusSignals(const BusMapping& mapping, std::vector<CanDatabase> datab
             source.second = reading(*input.also);
             source.also_stale_after_ns = staleness_ns(input, *source.second->message);
         }
-        if (input.policy(BusState::missing) == BusPolicy::fail && source.stale_after_ns == never_ns)
-            throw InputError(input.where, fmt::format("missing: fail, and nothing says when '{}' would be there", input.source.text()),
-                             "stale_after_s, or a cycle time in the database");
+        for (const auto& [state, then] : {std::pair(BusState::missing, "there"), {BusState::stale, "stale"}})
+            if (input.policy(state) == BusPolicy::fail && source.stale_after_ns == never_ns)
+                throw InputError(input.where,
+                                 fmt::format("{}: fail, and nothing says when '{}' would be {}", name_of(state), input.source.text(), then),
+                                 "stale_after_s, or a cycle time in the database");
         if (source.stale_after_ns != never_ns)
             records_[i].stale_after_s = in_seconds(source.stale_after_ns);
         const auto read_by = [&](const CanMessage& message, bool second) {

@@ -42,8 +42,8 @@ struct BusRecordOfInput {
 class BusSignals {
   public:
     /// `databases` as read_bus_databases reads them. Throws InputError with the mapping's place for a message or signal that none or more
-    /// than one of them has, a label that the signal lacks, units that do not fit, `missing: fail` without a time after which it is
-    /// missing.
+    /// than one of them has, a label that the signal lacks, units that do not fit, `missing: fail` or `stale: fail` without a
+    /// time after which it is so.
     BusSignals(const BusMapping& mapping, std::vector<CanDatabase> databases);
     BusSignals(BusSignals&&) = default; // inner pointers go along with a move, not with a copy
 

@@ -153,8 +153,8 @@ void ControlLoop::tell_boxes(const std::vector<OtherUser>& others) {
     }
 }
 
-/// Road users by the boxes that were written. One of whom something is lost may be anywhere.
-std::vector<OtherUser> ControlLoop::told_boxes() const {
+/// Road users by the boxes that were written. One of whom something is lost, or whose edges lie the wrong way round, may be anywhere.
+std::vector<OtherUser> ControlLoop::told_boxes() {
     std::vector<OtherUser> users;
     for (const SignalTable::Listed& listed : table_.boxes()) {
         const auto value = [&](std::size_t which) { return table_[listed.place + which]; };
@@ -166,7 +166,10 @@ std::vector<OtherUser> ControlLoop::told_boxes() const {
         SeenBox box{value(listed_signal::left), value(listed_signal::right), value(listed_signal::bottom), value(listed_signal::top)};
         if (!std::isfinite(value(listed_signal::valid) + box.left_rad + box.right_rad + box.bottom_rad + box.top_rad))
             box = {};
-        else if (!std::isnan(value(listed_signal::distance)))
+        else if (box.left_rad < box.right_rad || box.top_rad < box.bottom_rad) {
+            box = {};
+            ++impossible_[listed.number];
+        } else if (!std::isnan(value(listed_signal::distance)))
             box.distance_m = value(listed_signal::distance);
         users.push_back(user_in_box(box));
     }
@@ -399,9 +402,21 @@ std::vector<std::string> ControlLoop::notes() const {
             notes.push_back(fmt::format("signal {} was outside {:g} to {:g} {} at {} ticks, and taken for lost there", table_.name(place),
                                         table_.kind(place).least, table_.kind(place).greatest, table_.kind(place).unit,
                                         out_of_range_[place]));
+    for (const auto& [number, ticks] : impossible_)
+        notes.push_back(fmt::format("others[{}] had its left edge to the right of its right one, or its top below its bottom, at {} ticks: "
+                                    "it counts as lost there, so that all windows are dark (a bus whose angles are positive to the right "
+                                    "needs `opposite: true`)",
+                                    number, ticks));
     for (const ControlPlugin& plugin : plugins_)
         std::ranges::copy(plugin.notes(), std::back_inserter(notes));
     return notes;
+}
+
+std::optional<InputError> ControlLoop::unusable() const {
+    for (const ControlPlugin& plugin : plugins_)
+        if (std::optional<InputError> error = plugin.unusable())
+            return error;
+    return std::nullopt;
 }
 
 bool StuckSwivel::step(double asked_rad, double actual_rad, double dt_s) {

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <deque>
+#include <map>
 
 namespace fernlicht {
 
@@ -80,6 +81,8 @@ class ControlLoop {
     std::vector<LampRun> finish(double end_s);
     /// What was odd: signals out of range, calls of plug-ins; one sentence each.
     std::vector<std::string> notes() const;
+    /// Of a plug-in none of whose commands could be used: what to tell; nullopt: there is none.
+    std::optional<InputError> unusable() const;
 
   private:
     struct Driven {
@@ -92,7 +95,7 @@ class ControlLoop {
     };
     void read(const ControlInputs& inputs);
     void tell_boxes(const std::vector<OtherUser>& others);
-    std::vector<OtherUser> told_boxes() const;
+    std::vector<OtherUser> told_boxes();
     void write_over(const ControlInputs& inputs, bool of_laws);
     void take_segments();
     void stamp(const ControlInputs& inputs);
@@ -119,6 +122,7 @@ class ControlLoop {
     std::vector<std::size_t> scripted_, failing_;    ///< places of their signals, or the lamps that they are about
     std::vector<std::size_t> out_of_range_;          ///< how often, by signal
     std::vector<bool> written_;                      ///< by place, of signals of lists
+    std::map<std::size_t, std::size_t> impossible_;  ///< at how many ticks, by the number of a box
     bool boxes_written_ = false;
     double last_s_ = 0.0;
     bool started_ = false;

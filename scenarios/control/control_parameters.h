@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenarios/lamps/lamp_file.h"
+#include "scenarios/values/errors.h"
 #include "scenarios/vehicle/vehicle_parameters.h"
 
 #include <array>
@@ -111,6 +112,21 @@ struct ControlCameraParameters {
     bool operator==(const ControlCameraParameters&) const = default;
 };
 
+/// Where a law stands in the drive file: told, not compared.
+struct PluginPlaces {
+    InputError::Where own;
+    std::vector<InputError::Where> maps; ///< parameters, inputs, outputs, as far as they are given
+
+    /// Of one of them, else its own.
+    InputError::Where of(const std::string& key) const {
+        for (const InputError::Where& map : maps)
+            if (map.key.ends_with('.' + key))
+                return map;
+        return {own.file, own.line, own.column, own.key + '.' + key};
+    }
+    bool operator==(const PluginPlaces&) const { return true; }
+};
+
 /// A control law in a shared library (fernlicht_control.h), or in an FMU (fmu_law.h).
 struct PluginParameters {
     std::filesystem::path library;  ///< or the FMU
@@ -122,6 +138,7 @@ struct PluginParameters {
     bool fmu = false;
     /// Of an FMU, by its variables' names: start values, what its inputs read and its outputs command where names differ.
     std::vector<std::pair<std::string, std::string>> values = {}, inputs = {}, outputs = {};
+    PluginPlaces places = {};
 
     bool operator==(const PluginParameters&) const = default;
 };

@@ -95,6 +95,7 @@ ControlRun ControlRunner::at(double time_s) const {
 ControlRun ControlRunner::finish(double end_s) {
     keep_rows(end_s - 1.0e-9);
     run_.notes = loop_.notes();
+    run_.unusable = loop_.unusable();
     const SignalTable table = loop_.signals();
     for (std::size_t place = 0; place < table.size(); ++place) {
         run_.changed_s.push_back(table.changed_s(place));

@@ -20,6 +20,7 @@ struct ControlRun {
     std::vector<std::vector<double>> rows;
     std::vector<double> changed_s, age_s; ///< of the signals at the end: when they last became another, how old they are
     std::vector<std::string> notes;
+    std::optional<InputError> unusable; ///< what to tell of a plug-in none of whose commands could be used
 
     std::size_t lamp(const std::string& name) const; ///< lamps.size(): none of this name
     double swivel_rad(std::size_t lamp, double time_s) const;

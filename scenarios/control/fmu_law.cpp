@@ -74,7 +74,8 @@ std::string element_of(const FmuVariable& variable, const std::string& name, std
 
 } // namespace
 
-FmuLaw::FmuLaw(const PluginParameters& parameters, const std::vector<ControlledLamp>& lamps) : file_(parameters.library), fmu_(file_) {
+FmuLaw::FmuLaw(const PluginParameters& parameters, const std::vector<ControlledLamp>& lamps)
+    : file_(parameters.library), places_(parameters.places), fmu_(file_) {
     std::vector<std::string> names;
     for (const ControlledLamp& lamp : lamps)
         names.push_back(lamp.name);
@@ -111,7 +112,9 @@ FmuLaw::FmuLaw(const PluginParameters& parameters, const std::vector<ControlledL
 }
 
 void FmuLaw::refuse(const std::string& key, const std::string& found, const std::string& expected) const {
-    throw InputError({file_, 0, 0, key}, found, expected);
+    if (places_.own.file.empty())
+        throw InputError({file_, 0, 0, key}, found, expected);
+    throw InputError(places_.of(key), file_.filename().string() + ": " + found, expected);
 }
 
 void FmuLaw::take_parameters(const PluginParameters& parameters) {
@@ -259,6 +262,35 @@ std::string FmuLaw::step(const fernlicht_control_input& in, fernlicht_control_ou
             port.values[i](out, port.variable.unit.to_base(values_[i]));
     }
     return {};
+}
+
+std::vector<FmuTie> fmu_ties(const PluginParameters& parameters) {
+    const Fmu fmu(parameters.library);
+    std::vector<FmuTie> ties;
+    for (const FmuVariable& variable : fmu.description().variables) {
+        const bool input = variable.causality == "input", output = variable.causality == "output";
+        if (!input && !output && variable.causality != "parameter")
+            continue;
+        const std::string name = mapped(input ? parameters.inputs : output ? parameters.outputs : parameters.values, variable.name);
+        const auto start = std::ranges::find(parameters.values, variable.name, &std::pair<std::string, std::string>::first);
+        const std::string element = element_of(variable, input || output ? name : std::string(), 0);
+        const SignalKind* const kind = known_signal(element);
+        std::string tie = input    ? "nothing: it needs a signal (inputs) or a value (parameters)"
+                          : output ? "nothing"
+                                   : "its own start value";
+        if (!output && start != parameters.values.end())
+            tie = "is " + start->second;
+        else if (input && (kind || element == "dt_s" ||
+                           std::ranges::find(list_members(), place_in_list(element).first, &ListMember::name) != list_members().end()))
+            tie = "reads " + name;
+        else if (input && variable.type == FmuType::text)
+            tie = "its own start value";
+        else if (output && kind &&
+                 (kind->name.ends_with("_command_rad") || kind->name == "lamp.*.level" || kind->name == "lamp.*.segments[#]"))
+            tie = "commands " + name;
+        ties.push_back({variable, tie});
+    }
+    return ties;
 }
 
 } // namespace fernlicht

@@ -40,6 +40,7 @@ class FmuLaw {
     [[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& expected) const;
 
     std::filesystem::path file_;
+    PluginPlaces places_;
     Fmu fmu_;
     std::vector<Port<Read>> inputs_;
     std::vector<Port<Write>> outputs_;
@@ -49,5 +50,14 @@ class FmuLaw {
     std::vector<double> values_; ///< of one variable while it is told; a member, since a crash in the FMU leaves a step without its ends
     bool started_ = false;
 };
+
+/// What becomes of an input, output or parameter of an FMU, in words: "reads ego.speed_mps".
+struct FmuTie {
+    FmuVariable variable;
+    std::string tie;
+};
+/// Of all of them, in the FMU's order, by its own names and the law's maps. Whether lamps and units fit is for FmuLaw to say. Throws as Fmu
+/// does.
+std::vector<FmuTie> fmu_ties(const PluginParameters& parameters);
 
 } // namespace fernlicht

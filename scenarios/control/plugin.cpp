@@ -32,7 +32,9 @@ struct ControlPlugin::Parts {
     std::string name;
     void* state = nullptr;
     bool failed = false; ///< it must not be called any more
-    std::uint64_t every = 1, ticks = 0, calls = 0, over_budget = 0, left_out = 0;
+    std::uint64_t every = 1, ticks = 0, calls = 0, over_budget = 0, left_out = 0, calls_with_some_left_out = 0;
+    bool any_used = false;      ///< a command that changed something
+    std::string first_left_out; ///< "lamp.left.swivel_command_rad 2.5 at 0.02 s, which goes from -1.6 to 1.6"
     double slowest_s = 0.0, last_s = 0.0;
     /// Its last commands, that hold between calls.
     std::vector<fernlicht_lamp_command> commands;
@@ -202,21 +204,30 @@ void ControlPlugin::step(SignalTable& table, std::vector<std::vector<double>>& a
     ++p.calls;
 
     const bool first = p.commands.empty();
-    const auto value_in_range = [&](double value, double least, double greatest, double otherwise) {
-        const bool good = value >= least && value <= greatest;
-        p.left_out += good ? 0U : 1U;
-        return good ? value : otherwise;
+    const std::uint64_t left_out_before = p.left_out;
+    const auto take = [&](double& value, double given, double held, const auto& name, double least, double greatest) {
+        if (value >= least && value <= greatest) {
+            p.any_used = p.any_used || value != given;
+            return;
+        }
+        if (p.left_out++ == 0)
+            p.first_left_out = fmt::format("{} {:g} at {:g} s, which goes from {:g} to {:g}", name(), value, in.time_s, least, greatest);
+        value = held;
     };
     for (std::size_t i = 0; i < commands.size(); ++i) {
         if (!p.may_move[i])
             continue;
-        const fernlicht_lamp_command& held = first ? before[i] : p.commands[i];
-        commands[i].swivel_rad = value_in_range(commands[i].swivel_rad, -1.6, 1.6, held.swivel_rad);
-        commands[i].pitch_rad = value_in_range(commands[i].pitch_rad, -0.3, 0.3, held.pitch_rad);
-        commands[i].level = value_in_range(commands[i].level, 0.0, 1.0, held.level);
+        const fernlicht_lamp_command &held = first ? before[i] : p.commands[i], &given = before[i];
+        const auto of = [&](const char* command) { return [&, command] { return fmt::format("lamp.{}.{}", p.lamps[i].name, command); }; };
+        take(commands[i].swivel_rad, given.swivel_rad, held.swivel_rad, of("swivel_command_rad"), -1.6, 1.6);
+        take(commands[i].pitch_rad, given.pitch_rad, held.pitch_rad, of("pitch_command_rad"), -0.3, 0.3);
+        take(commands[i].level, given.level, held.level, of("level"), 0.0, 1.0);
         for (std::size_t k = 0; k < segments[i].size(); ++k)
-            segments[i][k] = value_in_range(segments[i][k], 0.0, 1.0, first ? all_segments[i][k] : p.segments[i][k]);
+            take(
+                segments[i][k], all_segments[i][k], first ? all_segments[i][k] : p.segments[i][k],
+                [&] { return fmt::format("lamp.{}.segments[{}]", p.lamps[i].name, k + 1); }, 0.0, 1.0);
     }
+    p.calls_with_some_left_out += p.left_out > left_out_before ? 1U : 0U;
     p.commands = std::move(commands);
     p.segments = std::move(segments);
     p.keep(table, all_segments);
@@ -231,8 +242,20 @@ std::vector<std::string> ControlPlugin::notes() const {
         notes.push_back(
             fmt::format("control law '{}': some calls took longer than their budget of {:g} ms", p.name, 1e3 * p.parameters.budget_s));
     if (p.left_out > 0)
-        notes.push_back(fmt::format("control law '{}': {} commands were no numbers or out of range, and left out", p.name, p.left_out));
+        notes.push_back(fmt::format("control law '{}': {} commands were no numbers or out of range, and left out; the first: {}", p.name,
+                                    p.left_out, p.first_left_out));
     return notes;
+}
+
+std::optional<InputError> ControlPlugin::unusable() const {
+    const Parts& p = *parts_;
+    if (p.any_used || 2 * p.calls_with_some_left_out <= p.calls)
+        return std::nullopt;
+    const InputError::Where& own = p.parameters.places.own;
+    return InputError(
+        own.file.empty() ? InputError::Where{p.parameters.library, 0, 0, {}} : own,
+        fmt::format("control law '{}', none of whose {} commands could be used; the first: {}", p.name, p.left_out, p.first_left_out),
+        "numbers inside their ranges");
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scenarios/control/lamp_controller.h"
+#include "scenarios/values/errors.h"
 
 #include <functional>
 #include <string>
@@ -24,6 +25,9 @@ class ControlPlugin {
 
     /// How it went: calls, time over the budget, commands left out. Times are the machine's: they go into notes and nowhere else.
     std::vector<std::string> notes() const;
+    /// What ends the drive where not one command of the law could be used: most of its calls had some that were no numbers or out of
+    /// range, and none changed anything. nullopt: some were used, or none was given.
+    std::optional<InputError> unusable() const;
 
   private:
     struct Parts;

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -72,5 +73,15 @@ class LevelTrack {
 /// blanks; lines that begin with # and one line of names are skipped. Times ascend, levels are 0 to 1; each holds until the next. Throws
 /// InputError with file and line.
 std::shared_ptr<const LevelTrack> read_levels(const std::filesystem::path& path, std::shared_ptr<const LampFile> lamp, FilesRead& opened);
+
+/// A pixel lamp as a run's levels-*.csv tells of it (findings/pixel_levels.h): as it shone, its delays done with.
+struct ShownLevels {
+    double level = 1.0; ///< of the lamp as a whole
+    std::vector<float> pixels;
+};
+/// By the last moment that is not after `time_s`. `name`: of the lamp on its car; "": the only one. nullopt: the file is none of these.
+/// Throws InputError with file and line.
+std::optional<ShownLevels> read_shown_levels(const std::filesystem::path& path, const PixelLamp& lamp, const std::string& name,
+                                             double time_s, FilesRead& opened);
 
 } // namespace fernlicht

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <set>
 
 namespace fernlicht {
 namespace {
@@ -112,6 +113,56 @@ std::shared_ptr<const LevelTrack> read_levels(const std::filesystem::path& path,
     opened.insert(opened.end(), own.begin(), own.end());
     track->came_from(std::move(own));
     return track;
+}
+
+std::optional<ShownLevels> read_shown_levels(const std::filesystem::path& path, const PixelLamp& lamp, const std::string& name,
+                                             double time_s, FilesRead& opened) {
+    FilesRead own;
+    const std::string text = lamp_text(read_file(path, own, max_lamp_text_bytes), path);
+    LineReader lines(text);
+    std::string_view line;
+    if (!lines.next(line) || !line.starts_with("time_s,lamp,level,"))
+        return std::nullopt;
+    const std::vector<std::string_view> head = cells_of(line, ',');
+    const auto first = static_cast<std::size_t>(std::ranges::find(head, "level_1") - head.begin());
+    std::set<std::string> lamps;
+    std::optional<ShownLevels> shown;
+    double first_s = latest_s;
+    while (lines.next(line)) {
+        if (trimmed(line).empty())
+            continue;
+        const std::vector<std::string_view> cells = cells_of(line, ',');
+        const InputError::Where at{path, lines.number(), 0, {}};
+        if (cells.size() < 7)
+            throw InputError(at, fmt::format("found {} cells", cells.size()), "a line of a run's levels");
+        const std::string of(cells[1]);
+        lamps.insert(of);
+        const double at_s = finite_number(cells[0], at);
+        if ((!name.empty() && of != name) || at_s > time_s) {
+            first_s = std::min(first_s, at_s);
+            continue;
+        }
+        const std::size_t told = cells.size() > first ? cells.size() - first : 0;
+        const auto has = static_cast<std::size_t>(whole_number(cells[4], 1, 1'000'000'000, at));
+        if (has != lamp.count() || told < lamp.count())
+            throw InputError(at, fmt::format("found {} of {} levels", std::min(told, has), has),
+                             has == lamp.count() ? "a level of each: a run writes those of lamps with at most 100"
+                                                 : fmt::format("{}, as the lamp has", lamp.count()));
+        shown.emplace(ShownLevels{static_cast<double>(level_in(finite_number(cells[2], at), at)), {}});
+        for (std::size_t i = 0; i < lamp.count(); ++i)
+            shown->pixels.push_back(level_in(finite_number(cells[first + i], at), at));
+    }
+    const std::string all = fmt::format("{}", fmt::join(lamps, ", "));
+    if (name.empty() ? lamps.size() > 1 : !lamps.contains(name))
+        throw InputError({path, 0, 0, "--levels-lamp"},
+                         name.empty() ? fmt::format("levels of {}", printable(all, 200))
+                                      : fmt::format("no levels of '{}'", printable(name)),
+                         name.empty() ? "--levels-lamp with one of them" : "one of " + printable(all, 200));
+    if (!shown)
+        throw InputError({path, 0, 0, {}}, fmt::format("no levels at {:g} s or before", time_s),
+                         fmt::format("a time from {:g} s on", first_s));
+    opened.insert(opened.end(), own.begin(), own.end());
+    return shown;
 }
 
 } // namespace fernlicht

@@ -106,6 +106,8 @@ TEST_F(ControlRunTest, PixelsOverTheDriveAreToldAndDrawn) {
     EXPECT_EQ(levels[7].at("lit"), "2");
     EXPECT_EQ(levels[7].at("dark"), "-8:0/-3:3");
     EXPECT_EQ(levels[7].at("level_4"), "1");
+    EXPECT_THAT(printed("lamp " + (folder_ / "pixels.yaml") + " --levels " + out + "/levels-pixels-cut.csv --at 0.36"),
+                HasSubstr("2 of 4 parts shine, 50 % of the flux, the lamp as a whole at 80 %; dark at H -8 to 0"));
     for (const char* name : {"/levels-pixels-cut-left.svg", "/levels-pixels-cut-left.png"})
         EXPECT_TRUE(std::filesystem::exists(out + name)) << name;
     const std::string page = content_of(out + "/report.html");

@@ -155,6 +155,8 @@ Document document(const InstallationFound& found) {
     Table facts{"facts", "", {{.head = "", .words = true}, {.head = "", .words = true}}, {}};
     facts.rows = {{"drive", found.drive + ", lamp set " + found.lamp_set},
                   {"by", "UN R48, 09 series, 6.2.6.1.2 and 6.2.6.4, by one published transcription"}};
+    for (const std::string& warning : found.warnings)
+        facts.rows.push_back({"warning", warning});
     for (const std::string& note : notes_of(found))
         facts.rows.push_back({"note", note});
     Document document{"Low beams on the car, modelled on UN R48", {{"", {facts}}}};
@@ -199,6 +201,7 @@ std::string installation_json(const InstallationFound& found) {
     return Json{{"drive", found.drive},
                 {"lamp_set", found.lamp_set},
                 {"by", "UN R48, 09 series, 6.2.6.1.2 and 6.2.6.4"},
+                {"warnings", found.warnings},
                 {"notes", notes_of(found)},
                 {"loads", loads},
                 {"lamps", lamps},

@@ -1,17 +1,20 @@
 #include "runner/experiments/installation/installation_run.h"
 
+#include "runner/findings/lamp_checks.h"
 #include "runner/play/aim_lamps.h"
 #include "runner/play/stage.h"
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/pose.h"
+#include "scenarios/vehicle/car_model.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <tuple>
 
 namespace fernlicht {
 namespace {
@@ -124,6 +127,26 @@ void add_kinks(std::vector<InstalledLamp>& found, const std::vector<LowBeam>& be
     }
 }
 
+/// Those of the request, else R48's and the drive's own. Throws InputError for one that lifts an axle off the road.
+std::vector<LoadState> load_states(const InstallationRequest& request, const LampSet& lamp_set, const VehicleParameters& car,
+                                   double wheelbase_m, std::optional<CarCapacity>& capacity) {
+    std::vector<LoadState> loads = request.loads;
+    if (loads.empty()) {
+        capacity = CarCapacity::usual(car, wheelbase_m);
+        loads = r48_load_states(car, wheelbase_m, *capacity);
+        if (const AxleLoad own = lamp_set.control ? lamp_set.control->load : AxleLoad{}; own != AxleLoad{})
+            loads.push_back({"the drive's own load", own.front_n / gravity_mps2, own.rear_n / gravity_mps2});
+    }
+    for (const LoadState& load : loads)
+        for (const auto& [axle, added_kg, share] :
+             {std::tuple("front", load.front_kg, car.front_load), {"rear", load.rear_kg, 1.0 - car.front_load}})
+            if (!(added_kg + car.mass_kg * share > 0.0))
+                throw InputError({{}, 0, 0, request.loads.empty() ? "control.load" : "--load"},
+                                 fmt::format("found {:.0f} kg on the {} axle ('{}')", added_kg, axle, printable(load.name)),
+                                 fmt::format("more than -{:.0f} kg, which the car has there", car.mass_kg * share));
+    return loads;
+}
+
 } // namespace
 
 InstallationVerdict InstallationFound::inclination(const InstalledLamp& lamp, std::size_t load) const {
@@ -171,11 +194,8 @@ InstallationFound run_installation(const InstallationRequest& request) {
     found.own_vehicle = stage.drive.vehicle.has_value();
     const VehicleParameters car = stage.drive.vehicle.value_or(VehicleParameters{});
     const double wheelbase_m = stage.drive.wheelbase_m;
-    found.loads = request.loads;
-    if (found.loads.empty()) {
-        found.capacity = CarCapacity::usual(car, wheelbase_m);
-        found.loads = r48_load_states(car, wheelbase_m, *found.capacity);
-    }
+    found.loads = load_states(request, lamp_set, car, wheelbase_m, found.capacity);
+    found.warnings = lamp_warnings(stage.drive, lamp_set, left_hand_traffic(stage));
     const std::optional<LevellingParameters>& levelling = lamp_set.control ? lamp_set.control->levelling : lamp_set.levelling;
     found.levelled = levelling.has_value();
     for (const LoadState& load : found.loads)

@@ -11,7 +11,7 @@ namespace fernlicht {
 struct InstallationRequest {
     Drive drive;
     std::string lamp_set;         ///< "": the first
-    std::vector<LoadState> loads; ///< none: those of R48 for a usual car of this mass
+    std::vector<LoadState> loads; ///< none: those of R48 for a usual car of this mass, and the drive's own `load`
 };
 
 /// Where a lamp's kink crossed the car's path ahead, in bends to one side, as seen from the car's middle.
@@ -49,6 +49,7 @@ struct InstallationFound {
     bool own_vehicle = true;             ///< false: the drive has none, and our middle-class car stands in
     bool levelled = false;
     std::vector<InstalledLamp> lamps;
+    std::vector<std::string> warnings; ///< of lamp files that mean nothing here, as those for the other side's traffic
 
     InstallationVerdict inclination(const InstalledLamp& lamp, std::size_t load) const;
     InstallationVerdict inclination() const; ///< of all lamps and loads
@@ -59,7 +60,7 @@ struct InstallationFound {
 };
 
 /// Plays the drive by the twin. Lamps are aimed as the drive has them in the car with its driver alone, the state of R48's initial
-/// inclination, whatever the loads. Throws InputError for a lamp set without a low beam.
+/// inclination, whatever the loads. Throws InputError for a lamp set without a low beam, and for a load that lifts an axle off the road.
 InstallationFound run_installation(const InstallationRequest& request);
 
 const char* name_of(InstallationVerdict verdict); ///< "within", "not_met", "not_measured", "not_applicable"

@@ -223,6 +223,8 @@ Report LiveSession::play() {
     drive_on(*figures);
     if (!figures->late_s.empty()) {
         play_->finish();
+        if (const auto& control = lamp_set().motion->control; control && control->unusable && !failure_)
+            failure_ = std::make_exception_ptr(*control->unusable);
         write_replay(*figures);
         if (lamp_set().motion->control)
             write_file(options_.folder / file("signals", ".csv"),

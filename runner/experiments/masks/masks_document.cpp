@@ -26,6 +26,10 @@ const MaskedDrive& full_light(const MasksFound& found) {
     return **std::ranges::find(own, found.against, &MaskedDrive::lamp_set);
 }
 
+/// Margins that come from radians: to a thousandth.
+std::string margin_text(double deg) { return fmt::format("{:g}", std::round(1000.0 * deg) / 1000.0); }
+std::string degrees_text(double deg) { return margin_text(deg) + "°"; }
+
 std::string name_in_plots(const MaskedDrive& one) { return short_text(one.lamp_set, 24); }
 
 /// By margin, which plots draw as a curve.
@@ -44,23 +48,40 @@ struct CostLabel {
     plots::Colour colour;
 };
 
-/// Labels that would stand on another are left out, those at the very same point joined; the first come first.
+/// A label at a place that another takes joins that one where both are of one curve or at the very same point, else moves up or down to the
+/// next free place; with none within three lines it is left out. The first come first.
 void add_labels(plots::Figure& figure, const std::vector<CostLabel>& labels) {
-    constexpr double wide = 0.07, high = 0.035; // of the plot: what a short label takes
-    std::vector<CostLabel> placed;
+    constexpr double letter = 0.013, high = 0.035; // of the plot's width and height: what a letter and a line take
+    constexpr std::size_t longest = 32;
+    struct Placed {
+        CostLabel label;
+        double from, to, at; // shares of the plot
+    };
+    std::vector<Placed> placed;
     for (const CostLabel& label : labels) {
-        const auto away = [&](const CostLabel& other, double x_share, double y_share) {
-            return std::abs(plots::position(figure.x, label.x) - plots::position(figure.x, other.x)) > x_share ||
-                   std::abs(plots::position(figure.y, label.y) - plots::position(figure.y, other.y)) > y_share;
+        const double from = plots::position(figure.x, label.x), to = from + letter * (static_cast<double>(label.text.size()) + 1.0);
+        const double at = plots::position(figure.y, label.y);
+        const auto on = [&](double y) {
+            return std::ranges::find_if(
+                placed, [&](const Placed& other) { return from < other.to && other.from < to && std::abs(y - other.at) < high; });
         };
-        const auto same = std::ranges::find_if(placed, [&](const CostLabel& other) { return !away(other, 1e-3, 1e-3); });
-        if (same != placed.end())
-            same->text += ", " + label.text;
-        else if (std::ranges::all_of(placed, [&](const CostLabel& other) { return away(other, wide, high); }))
-            placed.push_back(label);
+        const auto met = on(at);
+        if (met != placed.end()) {
+            const bool one_point = std::abs(met->from - from) < 1e-3 && std::abs(met->at - at) < 1e-3;
+            if ((one_point || met->label.colour == label.colour) && met->label.text.size() + label.text.size() < longest) {
+                met->label.text += ", " + label.text;
+                met->to += letter * (static_cast<double>(label.text.size()) + 2.0);
+                continue;
+            }
+        }
+        for (const double lines : {0.0, -1.0, 1.0, -2.0, 2.0, -3.0, 3.0})
+            if (const double y = at + lines * high; y > 0.0 && y < 1.0 && on(y) == placed.end()) {
+                placed.push_back({label, from, to, y});
+                break;
+            }
     }
-    for (const CostLabel& label : placed)
-        figure.notes.push_back({label.x, label.y, label.text, label.colour});
+    for (const Placed& one : placed)
+        figure.notes.push_back({one.label.x, figure.y.from + one.at * (figure.y.to - figure.y.from), one.label.text, one.label.colour});
 }
 
 /// `close`: of lamp sets that mask alone, which on the whole plot may lie on one another.
@@ -83,10 +104,10 @@ plots::Figure cost_figure(const MasksFound& found, bool close) {
             y.push_back(one->lost_lxs);
             line.points.push_back({x.back(), y.back()});
             if (one->margin_deg && !one->as_it_is)
-                margins.push_back({x.back(), y.back(), fmt::format("{:g}", *one->margin_deg), colour});
+                margins.push_back({x.back(), y.back(), margin_text(*one->margin_deg), colour});
         }
         names.push_back(
-            {own[i]->others_lxs, own[i]->lost_lxs, own[i]->margin_deg ? fmt::format("{} {:g}", name, *own[i]->margin_deg) : name, colour});
+            {own[i]->others_lxs, own[i]->lost_lxs, own[i]->margin_deg ? name + " " + margin_text(*own[i]->margin_deg) : name, colour});
         figure.series.push_back(std::move(line));
         figure.series.push_back({.points = {{names.back().x, names.back().y}}, .colour = colour, .width_px = 3.6, .markers = true});
     }
@@ -182,7 +203,7 @@ Table masks_table(const MasksFound& found) {
         const auto place = std::ranges::find(own, one.lamp_set, &MaskedDrive::lamp_set) - own.begin();
         std::vector<Cell>& row = table.rows.emplace_back();
         row.push_back(Cell::of_series(short_text(one.lamp_set, 40), static_cast<std::size_t>(place)));
-        row.push_back(one.margin_deg ? Cell(fmt::format("{:g}{}", *one.margin_deg, one.as_it_is ? ", as it is" : ""), *one.margin_deg)
+        row.push_back(one.margin_deg ? Cell(margin_text(*one.margin_deg) + (one.as_it_is ? ", as it is" : ""), *one.margin_deg)
                                      : Cell("–"));
         row.insert(row.end(), {lux_seconds(one.lane_lxs), lux_seconds(one.verge_lxs), lux_seconds(one.lost_lxs),
                                one.lost_percent ? Cell(figure(*one.lost_percent, 1), *one.lost_percent) : Cell("–").hinted(no_light(found)),
@@ -198,6 +219,15 @@ Table masks_table(const MasksFound& found) {
     return table;
 }
 
+/// Of the lamp sets that mask nobody the one that others get least of, the low beam mostly; nullptr: there is none but the full light.
+const MaskedDrive* least_without_masks(const MasksFound& found) {
+    const MaskedDrive* least = nullptr;
+    for (const MaskedDrive& one : found.drives)
+        if (!one.margin_deg && one.lamp_set != found.against && (!least || one.others_lxs < least->others_lxs))
+            least = &one;
+    return least;
+}
+
 /// Of a lamp set's margins the least that keeps all others below their limits.
 std::optional<std::string> least_margin_words(const MasksFound& found, const std::string& lamp_set) {
     const MaskedDrive* least = nullptr;
@@ -210,8 +240,14 @@ std::optional<std::string> least_margin_words(const MasksFound& found, const std
         }
     if (!judged)
         return std::nullopt;
-    return least ? fmt::format("Of the margins tried, {:g}° is the least with nothing above limits", *least->margin_deg)
-                 : "None of the margins tried keeps all light below limits";
+    if (least)
+        return fmt::format("Of the margins tried, {} is the least with nothing above limits", degrees_text(*least->margin_deg));
+    std::string none = "None of the margins tried keeps all light below limits";
+    if (const MaskedDrive* const low = least_without_masks(found); low && low->above_lxs > 0.0)
+        none +=
+            fmt::format(": {} by itself gives {} lx s above them, up to {} % of a limit, which no mask takes away",
+                        short_text(low->lamp_set, 40), four_digits(low->above_lxs), figure(100.0 * low->most_of_limit.value_or(0.0), 0));
+    return none;
 }
 
 std::vector<std::string> told(const MasksFound& found) {
@@ -223,7 +259,7 @@ std::vector<std::string> told(const MasksFound& found) {
         if (const std::string least = least_margin_words(found, one->lamp_set).value_or(""); one != &full)
             sentences.push_back(fmt::format(
                 "{}{}: {}. Others get {} lx s, of which {} lx s above limits; with {} {} and {}{}", short_text(one->lamp_set, 40),
-                one->margin_deg ? fmt::format(", margin {:g}°", *one->margin_deg) : "",
+                one->margin_deg ? ", margin " + degrees_text(*one->margin_deg) : "",
                 one->lost_percent ? fmt::format("{} % of {}’s light on own lane and verge is lost, {} lx s", figure(*one->lost_percent, 1),
                                                 short_text(full.lamp_set, 40), four_digits(one->lost_lxs))
                                   : no_light(found),

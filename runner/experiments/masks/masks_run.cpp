@@ -1,6 +1,7 @@
 #include "runner/experiments/masks/masks_run.h"
 
 #include "runner/files/output_folder.h"
+#include "runner/findings/lamp_checks.h"
 #include "runner/findings/run_context.h"
 #include "runner/play/stage.h"
 #include "scenarios/control/control_parameters.h"
@@ -165,7 +166,11 @@ MasksFound run_masks(const MasksRequest& request) {
     found.places.left_hand = left_hand_traffic(stage);
     found.moments = tick_count(stage.drive);
     found.step_s = stage.drive.step_s;
-    found.notes = stage.drive.notes;
+    LampFileChecks lamps;
+    lamps.add(request.drive, found.places.left_hand); // without the margins tried
+    for (const std::string& warning : lamp_warnings(lamps.files()))
+        found.notes.push_back("warning: " + warning);
+    found.notes.insert(found.notes.end(), stage.drive.notes.begin(), stage.drive.notes.end());
     const VisibilityFold visibility(stage.drive, stage.route);
     std::vector<WalkerApproaches> walkers(found.drives.size());
     std::vector<double> apart_m(found.drives.size());

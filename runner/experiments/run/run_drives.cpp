@@ -61,8 +61,8 @@ std::vector<std::string> notes_for(const Stage& stage, const LampSet& lamp_set, 
     std::map<const LampFile*, std::optional<double>> beam_errors; // which take their time, and most lamps come in pairs
     for (const MountedLamp& lamp : lamp_set.lamps) {
         if (lamp.photometric_distance_m > 0.0)
-            notes.push_back(fmt::format("{}: nearer than {} m it is in its near field, where a point source is an approximation", lamp.name,
-                                        lamp.photometric_distance_m));
+            notes.push_back(fmt::format("{}: nearer than {:.3g} m it is in its near field, where a point source is an approximation",
+                                        lamp.name, lamp.photometric_distance_m));
         for (const std::string& note : lamp.file->notes)
             notes.push_back(lamp.name + ": " + note);
         const auto [known, is_new] = beam_errors.try_emplace(lamp.file.get());

@@ -167,6 +167,35 @@ const Fields<BusInput>& bus_input_fields() {
     return fields;
 }
 
+/// "lamp.high-left.segments[1:84]": from which number to which, and the name with the number in place; nullopt: one signal.
+struct NumberRange {
+    std::size_t first = 0, last = 0;
+    std::string before, behind;
+
+    std::string name(std::size_t number) const { return before + std::to_string(number) + behind; }
+};
+std::optional<NumberRange> number_range(const std::string& text, const YamlEntry& entry) {
+    const std::size_t open = text.find('['), colon = text.find(':', std::min(open, text.size())),
+                      close = text.find(']', std::min(colon, text.size()));
+    if (close == std::string::npos)
+        return std::nullopt;
+    NumberRange range{0, 0, text.substr(0, open + 1), text.substr(close)};
+    const char* const from = text.data();
+    const auto [colon_at, wrong] = std::from_chars(from + open + 1, from + colon, range.first);
+    const auto [close_at, worse] = std::from_chars(from + colon + 1, from + close, range.last);
+    if (wrong != std::errc() || worse != std::errc() || colon_at != from + colon || close_at != from + close || range.first < 1 ||
+        range.last <= range.first || range.last - range.first >= max_mapped)
+        entry.refuse(fmt::format("'{}'", printable(text)), fmt::format("[FIRST:LAST], whole numbers from 1 on, at most {}", max_mapped));
+    return range;
+}
+
+/// "Masks.Level#" with the number in place.
+void number(BusSource& source, std::size_t number) {
+    for (std::string* const part : {&source.message, &source.signal})
+        if (const std::size_t sign = part->find('#'); sign != std::string::npos)
+            part->replace(sign, 1, std::to_string(number));
+}
+
 BusInput read_bus_input(const std::string& name, const YamlEntry& entry) {
     BusInput input = default_input();
     input.name = name;
@@ -307,7 +336,7 @@ const Fields<BusMapping>& can_fields() {
                 R"({"anyOf": [{"type": "number", "minimum": 0}, {"type": "string", "pattern": "^[0-9]{1,10}(\\.[0-9]{1,9})?$"}]})",
                 "stamp in the log that is the drive's 0 s; that of its first frame by default"),
             named("inputs", 5, &BusMapping::inputs, max_mapped, bus_input_fields(),
-                  "signals of lamp control (fernlicht signals) and where they come from")
+                  "signals of lamp control (fernlicht signals) and where they come from; segments[1:84] with # in the bus's names: each")
                 .schema_by(mapped_schema(R"({"type": "string"})", source_schema, bus_input_fields())),
             own<BusMapping>("outputs", 6, nullptr, outputs_told<flow_text>, mapped_schema(source_schema, file_schema, bus_output_fields()),
                             "what is sent: Message.Signal and the signal of lamp control")
@@ -370,8 +399,21 @@ void read_can(const YamlMap& keys, const DriveEdits& edits, Drive& drive) {
             start->refuse("a start without a recording", "log: FILE beside it");
     }
     if (const auto inputs = of.find("inputs"))
-        for (const auto& [name, entry] : texts_of(*inputs, max_mapped))
-            mapping.inputs.push_back(read_bus_input(name, entry));
+        for (const auto& [name, entry] : texts_of(*inputs, max_mapped)) {
+            const auto range = number_range(name, entry);
+            if (!range)
+                mapping.inputs.push_back(read_bus_input(name, entry));
+            for (std::size_t i = range ? range->first : 1; range && i <= range->last; ++i) {
+                BusInput& input = mapping.inputs.emplace_back(read_bus_input(range->name(i), entry));
+                if (input.source.text().find('#') == std::string::npos)
+                    entry.refuse(fmt::format("one signal for {}", printable(name)), "# for the number in its signal");
+                number(input.source, i);
+                if (input.also)
+                    number(*input.also, i);
+            }
+        }
+    if (mapping.inputs.size() > max_mapped)
+        given->refuse(fmt::format("{} inputs", mapping.inputs.size()), fmt::format("at most {}", max_mapped));
     if (const auto outputs = of.find("outputs"))
         for (const auto& [target, entry] : texts_of(*outputs, max_mapped))
             mapping.outputs.push_back(read_bus_output(target, entry));

@@ -26,7 +26,8 @@ template <bool is_fmu> std::string law_file_text(const PluginParameters& of) {
 using VariableTexts = std::vector<std::pair<std::string, std::string>>;
 
 /// By an FMU's names, which may hold anything.
-void read_variables(const YamlEntry& entry, VariableTexts& texts) {
+void read_variables(const YamlEntry& entry, VariableTexts& texts, PluginPlaces& places) {
+    places.maps.push_back({entry.file(), entry.value().line, entry.value().column, entry.key_path()});
     if (entry.is_scalar() || entry.is_list() || entry.value().members.empty() || entry.value().members.size() > max_variables)
         entry.refuse(fmt::format("a map of 1 to {} names", max_variables));
     for (const YamlMember& member : entry.value().members)
@@ -43,7 +44,7 @@ std::string variables_text(const VariableTexts& texts) {
 template <VariableTexts PluginParameters::*member>
 FieldOf<PluginParameters> variables(std::string_view key, int id, std::string_view meaning) {
     return own<PluginParameters>(
-        key, id, [](const YamlEntry& entry, PluginParameters& plugin) { read_variables(entry, plugin.*member); },
+        key, id, [](const YamlEntry& entry, PluginParameters& plugin) { read_variables(entry, plugin.*member, plugin.places); },
         [](const PluginParameters& plugin) { return variables_text(plugin.*member); },
         R"({"type": "object", "minProperties": 1, "maxProperties": 1000, "additionalProperties": {"type": "string", "minLength": 1}})",
         meaning);
@@ -290,7 +291,7 @@ const Fields<PluginParameters>& plugin_fields() {
             own<Plugin>(
                 "parameters", 2,
                 [](const YamlEntry& entry, Plugin& plugin) {
-                    entry.is_scalar() ? void(plugin.parameters = entry.text()) : read_variables(entry, plugin.values);
+                    entry.is_scalar() ? void(plugin.parameters = entry.text()) : read_variables(entry, plugin.values, plugin.places);
                 },
                 [](const Plugin& plugin) { return plugin.parameters.empty() ? variables_text(plugin.values) : quoted(plugin.parameters); },
                 R"({"anyOf": [{"type": ["string", "number"], "minLength": 1},

@@ -135,6 +135,7 @@ GlareFreeParameters read_glare_free(const YamlEntry& given, const LampSet& lamp_
 
 PluginParameters read_plugin(const YamlEntry& given, const LampSet& lamp_set) {
     PluginParameters plugin;
+    plugin.places.own = {given.file(), given.value().line, given.value().column, given.key_path()};
     read_group(plugin_fields(), given, &plugin);
     check_lamps(given, "lamps", lamp_set);
     default_lamps(plugin.lamps, lamp_set, [](const std::string&) { return true; });

@@ -140,10 +140,15 @@ void note_signals(Drive& drive, const BusPlay& play) {
             drive.notes.push_back(fmt::format("can: {} of {} was {} of {}", drive.can->inputs[i].name, drive.can->inputs[i].source.text(),
                                               states, play.ticks.size()));
     }
+    std::string never; // without a time after which they are stale
+    for (std::size_t i = 0; i < play.records.size(); ++i)
+        if (std::isinf(play.records[i].stale_after_s))
+            never += (never.empty() ? "" : ", ") + drive.can->inputs[i].name;
     if (*play.last_s + shortest_gap_s < drive.duration_s)
         drive.notes.push_back(fmt::format("can: the recording ends at {:.3f} s of the drive's {:.3f} s; from then on the policies of stale "
-                                          "signals hold",
-                                          *play.last_s, drive.duration_s));
+                                          "signals hold{}",
+                                          *play.last_s, drive.duration_s,
+                                          never.empty() ? "" : "; these never go stale and keep their last value: " + never));
 }
 
 } // namespace

@@ -103,6 +103,10 @@ std::vector<std::string> bus_warnings(const Drive& drive) {
     for (std::size_t i = 0; i < drive.can->inputs.size() && i < drive.bus->records.size(); ++i) {
         const BusInput& input = drive.can->inputs[i];
         const BusRecordOfInput& record = drive.bus->records[i];
+        if (const BusPolicy stale = input.policy(BusState::stale); stale != BusPolicy::lost && std::isinf(record.stale_after_s))
+            warnings.push_back(fmt::format("{}: `stale: {}` of {} never acts, its last value holds for ever: nothing says when {} is stale "
+                                           "(stale_after_s, or a cycle time in the database)",
+                                           drive.name, name_of(stale), input.name, input.source.text()));
         std::string states;
         double share = 0.0;
         for (std::size_t state = 1; state < bus_states; ++state) {

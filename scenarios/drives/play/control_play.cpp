@@ -179,6 +179,8 @@ void simulate_control(Drive& drive, const Route& route) {
             for (std::size_t tick = 0; play.next_s() < drive.duration_s; ++tick)
                 play.step(drive.bus ? drive.bus->ticks[tick] : std::vector<BusValue>{});
             lamp_set.motion = std::make_shared<const Motion>(play.finish());
+            if (const std::optional<InputError>& unusable = lamp_set.motion->control->unusable)
+                throw InputError(*unusable);
         } catch (const InputError& error) {
             if (!error.where().file.empty())
                 throw;

@@ -233,7 +233,7 @@ TEST_F(LampCommand, JudgesAnAdaptiveBeamForOneVehicleAndSaysWhatItAssumes) {
     EXPECT_THAT(text, HasSubstr("assumed: pixels are dark for what is 1.8 m wide and 1.5 m high 60 m ahead"));
     EXPECT_THAT(text, HasSubstr("dimmed 0.5U, 1.5L to L"));
     request.adaptive.tables = {"fmvss108-ub2", "fmvss108-lb2v-vol"};
-    EXPECT_THAT(refusal(request), HasSubstr("--tables"));
+    EXPECT_THAT(refusal(request), HasSubstr("--adb-tables: found"));
     request.adaptive.tables = {"fmvss108-lb2v-vol", "fmvss108-ub2"};
     request.adaptive.other_m = {60.0, 100.0};
     EXPECT_THAT(refusal(request), HasSubstr("no pixel lights a place"));
@@ -247,6 +247,45 @@ TEST_F(LampCommand, JudgesAnAdaptiveBeamForOneVehicleAndSaysWhatItAssumes) {
     EXPECT_THAT(refusal(request), HasSubstr("fmvss108-adb"));
     request.regulation.clear();
     EXPECT_THAT(refusal(request), HasSubstr("--dimmed"));
+}
+
+TEST_F(LampCommand, NamesTheFlagOfAnAdaptiveBeamThatIsWrong) {
+    LampRequest request;
+    request.file = library_file("lamps/matrix-84.yaml");
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const char* const table : {"fmvss108-adb", "r149-adb-oncoming-50m"}) {
+        request.regulation = table;
+        const auto told = [&](const AdaptiveRequest& asked) {
+            request.adaptive = asked;
+            return refusal(request);
+        };
+        EXPECT_THAT(told({.other_m = {50.0, 3.5}, .other_size_m = {0.0, 1.5}}), testing::StartsWith("--other-size: found 0 1.5"));
+        EXPECT_THAT(told({.other_m = {50.0, 3.5}, .lamp_at_m = {0.5, -1.0}}), testing::StartsWith("--lamp-at: found 0.5 -1"));
+        EXPECT_THAT(told({.other_m = {50.0, 3.5}, .margin_deg = -0.1}), testing::StartsWith("--margin: found -0.1, expected degrees"));
+        EXPECT_THAT(told({.other_m = {50.0, 3.5}, .margin_deg = nan}), testing::StartsWith("--margin: found nan"));
+        EXPECT_THAT(told({.other_m = {-50.0, 3.5}}), testing::StartsWith("--other: found -50 3.5"));
+        EXPECT_THAT(told({.margin_deg = 2.0}), testing::StartsWith("--margin: found without --other"));
+        EXPECT_THAT(told({.dimmed_deg = {-5.0, -1.0, -1.0, 2.0}, .lamp_at_m = {0.5, 0.7}}),
+                    testing::StartsWith("--lamp-at: found without --other"));
+    }
+    request.adaptive = {.dimmed_deg = {-5.0, -1.0, -1.0, 2.0}};
+    EXPECT_THAT(refusal(request),
+                testing::StartsWith("--dimmed: found with --regulation r149-adb-oncoming-50m, expected --other AHEAD LEFT"));
+    request.adaptive = {.other_m = {50.0, 3.5}};
+    request.regulation = "r149-c";
+    EXPECT_THAT(refusal(request), testing::StartsWith("--other: found with --regulation r149-c, expected --regulation fmvss108-adb"));
+}
+
+/// All on, a lamp of pixels is far too bright on the line; with a car there spared it keeps to it, on both sides of the car.
+TEST_F(LampCommand, MakesTheStateThatEuropesLinesJudge) {
+    const std::string check = "lamp '" + library_file("lamps/pixels-16384.yaml") + "' --regulation r149-adb-oncoming-50m";
+    EXPECT_EQ(run_program(check).exit_code, 1);
+    const std::string both = check + " --add '" + library_file("lamps/pixels-16384.yaml") + "' --other 50 3";
+    const Outcome spared = run_program(both + " --other-size 3 1.5");
+    EXPECT_EQ(spared.exit_code, 0) << spared.output;
+    EXPECT_THAT(spared.output, testing::AllOf(HasSubstr("50 m ahead of the lamp and 3 m left of the car's middle"),
+                                              HasSubstr("the lamp is 0.45 m left of the middle"), HasSubstr("the lamp is -0.45 m left")));
+    EXPECT_EQ(run_program(check + " --other 50 -6").exit_code, 1) << "somebody elsewhere";
 }
 
 TEST_F(LampCommand, TurnsALampAndWhereItIsDimmedByTheSameAim) {
@@ -290,6 +329,24 @@ TEST_F(LampCommand, LooksAtAPixelLampAtATime) {
     request.levels = folder_ / "every-other.csv";
     EXPECT_THAT(printed(request), HasSubstr("; dark in 101 boxes: H -8 to -7.921, V -3 to 3; "));
     EXPECT_THAT(lamp_of(request).notes, testing::Contains(testing::EndsWith("; and 1 more")));
+    request.file = folder_ / "pixels.yaml"; // what a run writes: as it shone
+    request.levels = folder_ / "levels-drive-set.csv";
+    std::ofstream(request.levels, std::ios::binary)
+        << "time_s,lamp,level,lit,of,flux,dark,level_1,level_2,level_3,level_4\r\n0,high-left,1,4,4,1,,1,1,1,1\r\n"
+           "0,high-right,1,4,4,1,,1,1,1,1\r\n1,high-left,0.5,3,4,0.75,0:4/-3:3,1,1,0,1\r\n1,high-right,1,4,4,1,,1,1,1,1\r\n";
+    request.levels_s = 1.5;
+    EXPECT_THAT(refusal(request), HasSubstr("--levels-lamp: levels of high-left, high-right, expected --levels-lamp with one of them"));
+    request.levels_lamp = "high";
+    EXPECT_THAT(refusal(request), HasSubstr("no levels of 'high', expected one of high-left, high-right"));
+    request.levels_lamp = "high-left";
+    EXPECT_LT(intensity_cd(lamp_of(request).table, 2.0, 0.0), 1.0);
+    EXPECT_NEAR(intensity_cd(lamp_of(request).table, -6.0, 0.0), 500.0, 1.0) << "the lamp as a whole is at half";
+    EXPECT_THAT(printed(request), HasSubstr("75 % of the flux, the lamp as a whole at 50 %; dark at H 0 to 4"));
+    request.levels_s = 0.9;
+    EXPECT_NEAR(intensity_cd(lamp_of(request).table, 2.0, 0.0), 1000.0, 1.0);
+    request.file = folder_ / "many.yaml";
+    EXPECT_THAT(refusal(request), HasSubstr("levels-drive-set.csv:2: found 4 of 4 levels, expected 202, as the lamp has"));
+    request.levels_lamp.clear();
     request.levels_s.reset();
     EXPECT_THAT(refusal(request), HasSubstr("--levels FILE and --at S, both or neither"));
     request = shipped("halogen-low");

@@ -265,7 +265,15 @@ TEST(Plugin, CommandsThatAreNoneAreLeftOut) {
         run(with(compiled_plugin("odd", "out->lamps[0].swivel_rad = in->time_s < 1 ? 0.05 : NAN; out->lamps[0].level = 7;")));
     EXPECT_NEAR(odd.swivel_rad(0, 1.95), 0.05, 1e-9) << "the last good command holds";
     EXPECT_EQ(odd.level(0, 1.95), 1.0);
-    EXPECT_THAT(odd.notes, testing::Contains("control law 'odd': 150 commands were no numbers or out of range, and left out"));
+    EXPECT_THAT(odd.notes,
+                testing::Contains(HasSubstr("control law 'odd': 150 commands were no numbers or out of range, and left out; the first: ")));
+    EXPECT_FALSE(odd.unusable);
+    EXPECT_FALSE(run(with(compiled_plugin("once", "if (in->time_s == 0) out->lamps[0].swivel_rad = NAN;"))).unusable)
+        << "it asked for nothing else";
+    const ControlRun never = run(with(compiled_plugin("never", "out->lamps[0].level = 7;")));
+    ASSERT_TRUE(never.unusable);
+    EXPECT_THAT(never.unusable->what(),
+                HasSubstr("none of whose 100 commands could be used; the first: lamp.left.level 7 at 0 s, which goes from 0 to 1"));
 }
 
 } // namespace

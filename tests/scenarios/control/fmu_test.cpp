@@ -2,8 +2,11 @@
 #include "scenarios/control/control_run.h"
 #include "scenarios/control/fmu/fmi.h"
 #include "scenarios/control/fmu/fmu.h"
+#include "scenarios/control/fmu_law.h"
 #include "tests/fmu_archive.h"
 #include "tests/scenarios/drives/drive_fixture.h"
+#include "tests/scenarios/drives/play/staged_drive.h"
+#include "tests/shipped.h"
 
 #include <cmath>
 #include <cstring>
@@ -106,7 +109,11 @@ TEST(FmuLaw, BadAnswersAreLeftOutOrEndTheRunWithASentence) {
         const std::filesystem::path law = fmu_archive({version});
         const ControlRun odd = run_fmu(law, {{"fault", "1"}});
         EXPECT_EQ(odd.swivel_rad(0, 1.9), 0.0);
-        EXPECT_THAT(odd.notes, Contains("control law 'bend light': 100 commands were no numbers or out of range, and left out"));
+        EXPECT_THAT(odd.notes, Contains("control law 'bend light': 100 commands were no numbers or out of range, and left out; the first: "
+                                        "lamp.left.swivel_command_rad nan at 0 s, which goes from -1.6 to 1.6"));
+        ASSERT_TRUE(odd.unusable);
+        EXPECT_THAT(odd.unusable->what(), HasSubstr("law.fmu: control law 'bend light', none of whose 100 commands could be used; "));
+        EXPECT_FALSE(run_fmu(law).unusable);
         for (const auto& [fault, word] : {std::pair("12", "discard"), std::pair("13", "error"), std::pair("14", "fatal")})
             EXPECT_THAT(fmu_refusal(law, {{"fault", fault}}),
                         HasSubstr(fmt::format("law.fmu: 'bend light' at 0.02 s: fmi{}DoStep() returned {}: no step of 20 ms, expected ok",
@@ -319,6 +326,44 @@ TEST_F(FmuDrive, KeysAreReadBackAndTheFileIsAnInput) {
     EXPECT_THAT(refused("{library: low.ies, parameters: {a: 1}}"), HasSubstr("expected the library's own text"));
     EXPECT_THAT(refused("{library: low.ies, inputs: {a: b}}"), HasSubstr("fmu in its place"));
     EXPECT_THAT(refused("{fmu: nowhere.fmu}"), HasSubstr("there is no file"));
+}
+
+/// What is wrong with a mapping, or with all of a law's commands, is told at its place in the drive.
+TEST_F(FmuDrive, WhatDoesNotFitIsToldInTheDrive) {
+    std::filesystem::copy_file(fmu_archive({}), folder / "law.fmu");
+    const auto refused = [&](const std::string& more) {
+        const std::string road = (shipped_library / "roads/straight.xodr").string();
+        const std::string yaml = "fernlicht: 1\nroad: " + road + "\nspeed_kmh: 72\nduration_s: 1\nlamp_sets:\n  one:\n    file: low.ies\n" +
+                                 "    control:\n      plugins:\n        - fmu: law.fmu\n" + more;
+        return tests::refusal_of([&] { StagedDrive(read(yaml)); }, "");
+    };
+    EXPECT_EQ(refused("          give_up_s: 20\n"), "");
+    EXPECT_THAT(
+        refused("          inputs: {yaw: ego.speed_mps}\n"),
+        testing::ContainsRegex("/drive.yaml:11:[0-9]+: .*control.plugins.*.inputs: law.fmu: no input 'yaw', expected an input of the FMU"));
+    EXPECT_THAT(refused("          outputs: {lamp.left.swivel_command_rad: lamp.lift.level}\n"),
+                testing::ContainsRegex("/drive.yaml:11:[0-9]+: .*outputs: law.fmu: 'lamp.lift.level' for"));
+    EXPECT_THAT(
+        refused("          parameters: {fault: 1}\n"),
+        testing::ContainsRegex("/drive.yaml:10:[0-9]+: .*plugins.*: control law 'bend light', none of whose 50 commands could be used"));
+}
+
+TEST_F(FmuDrive, ItsVariablesAreListedWithWhatTheyAreTiedTo) {
+    const std::string more = fmu_variable(2, "v", "input", "Real", 4, "unit=\"km/h\" start=\"0\"") +
+                             fmu_variable(2, "ambient", "input", "Real", 5) + fmu_variable(2, "spare", "output", "Real", 70) +
+                             fmu_variable(2, "inner", "local", "Real", 71);
+    PluginParameters plugin;
+    plugin.library = fmu_archive({2, more});
+    plugin.values = {{"preview_s", "2"}};
+    plugin.inputs = {{"v", "others[1].speed_mps"}};
+    plugin.outputs = {{"lamp.left.swivel_command_rad", "lamp.*.swivel_command_rad"}};
+    std::vector<std::string> ties;
+    for (const FmuTie& tie : fmu_ties(plugin))
+        ties.push_back(tie.variable.name + " " + tie.tie);
+    EXPECT_THAT(ties, testing::ElementsAre("ego.yaw_rate_rad_s reads ego.yaw_rate_rad_s", "ego.speed_mps reads ego.speed_mps",
+                                           "lamp.left.swivel_command_rad commands lamp.*.swivel_command_rad", "fault its own start value",
+                                           "preview_s is 2", "v reads others[1].speed_mps",
+                                           "ambient nothing: it needs a signal (inputs) or a value (parameters)", "spare nothing"));
 }
 
 } // namespace

@@ -145,10 +145,31 @@ TEST(InstallationCommand, SaysWhatIsAssumedAndRefusesWhatIsNoLoad) {
                                                              "actuators: {levelling: static}\n"),
                         1),
                 ContainsRegex("\ninclination +not measured: left: it is mounted 1.30 m over the road, and R48 allows"));
-    for (const char* load : {"boot", "boot=1", "=1,2", "boot=1,2,3", "boot=1;2", "boot=1,1e9"})
+    for (const char* load : {"boot", "boot=1", "=1,2", "boot=1,2,3", "boot=1;2", "boot=1,1e9", "boot=-9000,0", "boot=nan,0", "boot=0,inf"})
         EXPECT_THAT(run_program("installation " + bend_drive(folder, "") + " --load '" + load + "'").output,
                     HasSubstr("NAME=KG_ON_FRONT_AXLE,KG_ON_REAR_AXLE"))
             << load;
+    EXPECT_THAT(printed("installation " + bend_drive(folder, "") + " --load boot=-900,0", 2),
+                HasSubstr("--load: found -900 kg on the front axle ('boot'), expected more than -825 kg, which the car has there"));
+}
+
+TEST(InstallationCommand, TheDrivesOwnLoadAndLampsForTheOtherSideAreTold) {
+    const TemporaryFolder folder;
+    const json found = found_in(bend_drive(folder, "control: {load: {rear_kg: 100}}\n"), 1);
+    EXPECT_TRUE(found.at("warnings").empty());
+    ASSERT_EQ(found.at("loads").size(), 6U);
+    EXPECT_EQ(found.at("loads").at(5).at("name"), "the drive's own load");
+    EXPECT_NEAR(found.at("loads").at(5).at("rear_kg").get<double>(), 100.0, 1e-9);
+    const json given = found_in((folder / "bend.yaml") + " --load behind=0,100", 1);
+    ASSERT_EQ(given.at("loads").size(), 1U);
+    const auto percent = [](const json& of, std::size_t load) {
+        return of.at("lamps").at(0).at("inclination").at(load).at("percent").get<double>();
+    };
+    EXPECT_NEAR(percent(given, 0), percent(found, 5), 1e-9);
+    const json other_side = found_in(bend_drive(folder, "", "mirrored: true"), 1);
+    ASSERT_EQ(other_side.at("warnings").size(), 1U);
+    EXPECT_THAT(other_side.at("warnings").at(0).get<std::string>(), HasSubstr("readings with it are meaningless"));
+    EXPECT_THAT(printed("installation " + (folder / "bend.yaml"), 1), ContainsRegex("\nwarning +lamp file halogen-low.ies"));
 }
 
 } // namespace

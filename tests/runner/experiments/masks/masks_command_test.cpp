@@ -17,6 +17,9 @@ TEST(MasksCommand, SetsLightLostAgainstLightOfOthersByMargin) {
     const TemporaryFolder folder;
     const std::string said = printed("masks " + drive_file("adaptive-crest") + " --margins 0,2 --out " + (folder / "out"));
     EXPECT_THAT(said, HasSubstr("of high’s light on own lane and verge is lost"));
+    EXPECT_THAT(said,
+                ::testing::ContainsRegex("None of the margins tried keeps all light below limits: low by itself gives [0-9.]+ lx s above "
+                                         "them, up to [0-9]+ % of a limit, which no mask takes away"));
     const json found = tests::checked(content_of(folder / "out/masks.json"), masks_members);
     std::map<std::string, json> drives;
     for (const json& one : found.at("drives"))
@@ -78,6 +81,25 @@ TEST(MasksCommand, RefusesWhatItCannotTell) {
                 HasSubstr("rating 'iihs' has no photometer on road users that faces forward or backward"));
     for (const char* margins : {"-1", "x", "0,11", "0,,1"})
         EXPECT_THAT(printed("masks " + drive_file("adaptive-crest") + " --margins=" + margins, 2), HasSubstr("--margins"));
+}
+
+/// Margins that lie on one another share a label; none is left without, and radians do not show.
+TEST(MasksCommand, LabelsOfMarginsDoNotCollide) {
+    MasksFound found;
+    found.against = "high";
+    found.drives.push_back({.lamp_set = "high", .lost_lxs = 0.0, .others_lxs = 500.0});
+    for (const auto& [margin_deg, own] : {std::pair(0.25, false), {0.498473, true}, {0.5, false}, {1.0, false}, {1.01, false}})
+        found.drives.push_back({.lamp_set = "matrix",
+                                .margin_deg = margin_deg,
+                                .as_it_is = own,
+                                .lost_lxs = 40.0 * margin_deg,
+                                .others_lxs = 30.0 / margin_deg});
+    const Document told = document(found);
+    const auto& close = std::get<plots::Figure>(std::get<Plot>(told.sections[0].blocks.at(2)).figure);
+    std::string labels;
+    for (const plots::Note& note : close.notes)
+        labels += note.text + "|";
+    EXPECT_EQ(labels, "matrix 0.498, 0.5|0.25|1, 1.01|");
 }
 
 } // namespace

@@ -24,6 +24,27 @@ class BusKeys : public DriveFixture {
     std::string with_input(const std::string& input) { return with("inputs: {" + input + "}"); }
 };
 
+/// A line for many: the number goes into each name.
+TEST_F(BusKeys, ARangeOfNumbersIsASignalEach) {
+    const Drive drive =
+        read(minimal + "can: {databases: bus.dbc, inputs: {'others[2:4].left_rad': {signal: Object#.Left, also: Also.Left#, "
+                       "opposite: true}, 'others[9].valid': A.B}}\n");
+    const std::vector<BusInput>& inputs = drive.can->inputs;
+    ASSERT_EQ(inputs.size(), 4U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(inputs[i].name, fmt::format("others[{}].left_rad", i + 2));
+        EXPECT_EQ(inputs[i].source.text(), fmt::format("Object{}.Left", i + 2));
+        EXPECT_EQ(inputs[i].also->text(), fmt::format("Also.Left{}", i + 2));
+        EXPECT_TRUE(inputs[i].opposite);
+    }
+    EXPECT_EQ(write_drive(read(write_drive(drive))), write_drive(drive));
+    EXPECT_THAT(with_input("'others[1:3].valid': Object.Valid"), HasSubstr("one signal for others[1:3].valid, expected # for the number"));
+    for (const char* range : {"0:3", "3:3", "4:3", "1:", ":3", "1:x", "1:5000"})
+        EXPECT_THAT(with_input(fmt::format("'others[{}].valid': Object#.Valid", range)),
+                    HasSubstr("[FIRST:LAST], whole numbers from 1 on"));
+    EXPECT_THAT(with_input("'others[1:600].valid': O#.V, 'others[1:600].left_rad': O#.L"), HasSubstr("1200 inputs, expected at most 1000"));
+}
+
 TEST_F(BusKeys, ResolvedDrivesReadBackToTheSame) {
     const Drive drive = read(minimal + R"(can:
   databases: [bus.dbc]

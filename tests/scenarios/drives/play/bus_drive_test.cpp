@@ -2,6 +2,7 @@
 #include "scenarios/can/candump_log.h"
 #include "scenarios/drives/play/bus_drive.h"
 #include "scenarios/drives/play/bus_recording.h"
+#include "scenarios/drives/play/bus_report.h"
 #include "tests/scenarios/drives/drive_fixture.h"
 #include "tests/scenarios/drives/play/staged_drive.h"
 
@@ -181,6 +182,37 @@ TEST_F(BusDriveTest, APlaceFromTheBusIsWhereTheCarIs) {
     EXPECT_EQ(played.at_tick(15, 0).speed_mps, 10.0) << "the last that was known";
     EXPECT_THAT(played.drive.notes, Contains(HasSubstr("the recording ends at 1.000 s of the drive's 2.000 s")));
     EXPECT_THAT(played.drive.notes, Contains(HasSubstr("speed was lost at 92 ticks")));
+}
+
+/// The same database with cycle times and without: there the last value holds for ever, whatever its policy, and that is told.
+TEST_F(BusDriveTest, WithoutACycleTimeNothingGoesStale) {
+    std::string dbc;
+    for (const bool cyclic : {true, false}) {
+        if (!cyclic) {
+            std::ifstream in(std::filesystem::path(FERNLICHT_SOURCE_DIR) / "scenarios/library/can/mock-up.dbc");
+            for (std::string line; std::getline(in, line);)
+                dbc += line.starts_with("BA_ \"GenMsgCycleTime\"") ? "" : line + '\n';
+            write_file(folder / "no-cycles.dbc", dbc);
+        }
+        std::string yaml =
+            on("straight", "2", "{ego.speed_mps: {signal: Travel.Speed, stale: default, default: 20}, ego.indicator: Switches.Indicator}");
+        if (!cyclic)
+            yaml.replace(yaml.find("  databases: ") + 13, yaml.find("\n  log") - yaml.find("  databases: ") - 13, "no-cycles.dbc");
+        write_file(folder / "bus.log", "(100.000000) can0 110#100E881300000000\n"); // 36 km/h
+        const StagedDrive played(read(yaml));
+        EXPECT_EQ(played.at_tick(10, 0).speed_mps, cyclic ? 20.0 : 10.0);
+        const std::string ends = "the recording ends at 0.000 s of the drive's 2.000 s; from then on the policies of stale signals hold";
+        const std::string never = "; these never go stale and keep their last value: ego.speed_mps, ego.indicator";
+        EXPECT_THAT(played.drive.notes, Contains(testing::EndsWith(cyclic ? ends : ends + never)));
+        const auto warned =
+            Contains(HasSubstr("`stale: default` of ego.speed_mps never acts, its last value holds for ever: nothing says when "
+                               "Travel.Speed is stale (stale_after_s, or a cycle time in the database)"));
+        const std::vector<std::string> warnings = bus_warnings(played.drive);
+        if (cyclic)
+            EXPECT_THAT(warnings, testing::Not(warned));
+        else
+            EXPECT_THAT(warnings, warned);
+    }
 }
 
 TEST_F(BusDriveTest, TheRouteEndsTheDrive) {

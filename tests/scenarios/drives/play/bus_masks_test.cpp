@@ -126,7 +126,9 @@ TEST_F(BusMasks, ABoxThatIsLostDarkensAllAndOneWithoutDistanceIsFar) {
     // A box 2 to 3 degrees to the left and no distance: infinitely far the lamp sees it there, too; margins of 0.5 degrees.
     for (const auto& [input, expected] :
          {std::pair("'others[1].left_rad': Other1.Left, 'others[1].right_rad': Other1.Right", std::vector<double>{0, 0, 1, 1}),
-          std::pair("'others[1].left_rad': Other1.Left", std::vector<double>{0, 0, 0, 0})}) {
+          std::pair("'others[1].left_rad': Other1.Left", std::vector<double>{0, 0, 0, 0}),
+          std::pair("'others[1].left_rad': Other1.Right, 'others[1].right_rad': Other1.Left", std::vector<double>{0, 0, 0, 0}),
+          std::pair("'others[1].bottom_rad': Other1.Left, 'others[1].top_rad': Other1.Right", std::vector<double>{0, 0, 0, 0})}) {
         CanFrame frame{.time_ns = 0, .channel = "can0", .id = 769, .fd = true};
         frame.length = 48;
         for (const auto& [at, value] : {std::pair(0, radians(3.0)), std::pair(8, radians(2.0))})
@@ -136,6 +138,14 @@ TEST_F(BusMasks, ABoxThatIsLostDarkensAllAndOneWithoutDistanceIsFar) {
             one.push_back(frame);
         const StagedDrive far(by(one, yaml(fmt::format("{{{}}}", input))));
         EXPECT_EQ(control_of(far).runs[0].segments.front().second, expected) << input;
+        const bool wrong_way =
+            std::string(input).find(".Right, ") != std::string::npos || std::string(input).find("bottom") != std::string::npos;
+        const auto told = testing::Contains(testing::ContainsRegex("others.1. had its left edge to the right of its right one, or its top "
+                                                                   "below its bottom, at 10[0-9] ticks: it counts as lost there"));
+        if (wrong_way)
+            EXPECT_THAT(control_of(far).notes, told) << input;
+        else
+            EXPECT_THAT(control_of(far).notes, testing::Not(told)) << input;
     }
 }
 
