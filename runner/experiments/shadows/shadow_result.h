@@ -76,7 +76,7 @@ TileSheet shadow_sheet(const ShadowSceneResult& scene);
 
 /// docs/shadows.md tells how to read it.
 Document document(const ShadowResult& result);
-/// All scenes in one table, as docs/shadow-tables.md has it.
+/// All scenes in one table, as `--markdown` prints it.
 Document shadow_paper(const ShadowResult& result);
 /// docs/shadows.md and shadows.schema.json describe it.
 JsonMembers shadow_members(ShadowResult& result); ///< of its JSON; pictures do not come back

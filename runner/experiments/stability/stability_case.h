@@ -78,7 +78,7 @@ struct StabilityRow {
 /// a device that cannot be opened is thrown on.
 StabilityRow judge(const StabilityCase& one, StabilityBench& bench);
 
-/// All cases, families in the order of docs/accuracy.md.
+/// All cases, family by family.
 const std::vector<StabilityCase>& stability_cases();
 
 struct StabilityResult : Findings {
@@ -88,7 +88,7 @@ struct StabilityResult : Findings {
 
 /// One case, as soon as it is judged.
 Document document(const StabilityRow& row);
-/// The table of docs/accuracy.md, and how many passed. No times: the same on every run of one machine.
+/// A row a case, and how many passed. No times: the same on every run of one machine.
 Document document(const StabilityResult& result);
 std::string stability_json(const StabilityResult& result);
 

@@ -35,7 +35,7 @@ TEST(ShadowFigures, BelowWhatCanBeMeasuredAreZero) {
     EXPECT_EQ(shadow_m2(0.0063), "0.0063");
 }
 
-/// Rows as docs/shadow-tables.md has them, whatever is measured.
+/// Rows as `--markdown` prints them, whatever is measured.
 TEST(ShadowFigures, MarkdownHasTheFormOfTheTables) {
     ShadowResult result;
     ShadowSceneResult& scene = result.scenes.emplace_back();
