@@ -25,6 +25,7 @@ AddCommand add_bench_command;        // times the techniques against one another
 AddCommand add_compare_command;      // what differs between two pictures, lamps or runs; 1 when a class of strictness is not kept
 AddCommand add_accuracy_command;     // error against run time
 AddCommand add_aliasing_command;     // how much of what a picture shows is not there, by how it is drawn
+AddCommand add_film_command;         // drives as a film, lamp sets beside one another
 AddCommand add_fit_command;          // aim, flux and height of lamps that explain measured lux points
 AddCommand add_importance_command;   // where in the beam a reading of a drive is decided
 AddCommand add_masks_command;        // what masks of an adaptive beam cost the driver, against what they spare others

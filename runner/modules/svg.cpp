@@ -21,6 +21,22 @@ void check(cairo_status_t status, const char* doing) {
         throw std::runtime_error(std::string(doing) + ": " + cairo_status_to_string(status));
 }
 
+/// A picture of the surface's size, before anything is drawn.
+void put_below(const Image<Colour>& picture, cairo_surface_t* surface) {
+    if (picture.width() != cairo_image_surface_get_width(surface) || picture.height() != cairo_image_surface_get_height(surface))
+        throw std::invalid_argument("a drawing over a picture of another size");
+    cairo_surface_flush(surface);
+    unsigned char* const rows = cairo_image_surface_get_data(surface);
+    const std::ptrdiff_t stride = cairo_image_surface_get_stride(surface);
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x) {
+            const Colour& c = picture.at(x, y);
+            const std::uint32_t rgb = std::uint32_t{c.r} << 16 | std::uint32_t{c.g} << 8 | c.b;
+            std::memcpy(rows + y * stride + std::ptrdiff_t{4} * x, &rgb, sizeof rgb);
+        }
+    cairo_surface_mark_dirty(surface);
+}
+
 std::invalid_argument invalid_svg(GError* error) {
     const std::string reason = error ? error->message : "unknown reason";
     g_clear_error(&error);
@@ -44,6 +60,8 @@ extern "C" __attribute__((visibility("default"))) void fernlicht_draw_svg(const 
     const Context context(cairo_create(surface.get()), &cairo_destroy);
     cairo_set_source_rgb(context.get(), 1.0, 1.0, 1.0);
     cairo_paint(context.get());
+    if (!pixels.empty())
+        put_below(pixels, surface.get());
     const RsvgRectangle viewport{0.0, 0.0, static_cast<double>(columns), static_cast<double>(rows)};
     if (!rsvg_handle_render_document(handle.get(), context.get(), &viewport, &error))
         throw invalid_svg(error);

@@ -7,6 +7,15 @@
 #include <stdexcept>
 
 namespace fernlicht::plots {
+namespace {
+
+void draw(const std::string& svg, double scale, Image<Colour>& pixels) {
+    static const auto by_module = reinterpret_cast<DrawSvg*>(module_function("fernlicht-svg", "fernlicht_draw_svg"));
+    by_module(svg, scale, pixels);
+}
+
+} // namespace
+
 std::string png_of_pixels(const Image<Colour>& pixels, int zlib) {
     if (pixels.empty() || pixels.width() > 32767 || pixels.height() > 32767)
         throw std::runtime_error("cannot encode a PNG of an empty or a huge image");
@@ -15,11 +24,12 @@ std::string png_of_pixels(const Image<Colour>& pixels, int zlib) {
 }
 
 std::string png_of_svg(const std::string& svg, double scale) {
-    static const auto draw = reinterpret_cast<DrawSvg*>(module_function("fernlicht-svg", "fernlicht_draw_svg"));
     Image<Colour> pixels;
     draw(svg, scale, pixels);
     return png_of_pixels(pixels);
 }
+
+void draw_over(Image<Colour>& picture, const std::string& svg) { draw(svg, 1.0, picture); }
 
 std::string base64(const std::string& bytes) {
     static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -16,6 +16,9 @@ std::string png_of_pixels(const Image<Colour>& pixels, int zlib = drawing_zlib);
 /// DeviceError where the module is missing.
 std::string png_of_svg(const std::string& svg, double scale = 1.0);
 
+/// The drawing over a picture of its size. Throws as png_of_svg does.
+void draw_over(Image<Colour>& picture, const std::string& svg);
+
 /// RFC 4648, with padding.
 std::string base64(const std::string& bytes);
 

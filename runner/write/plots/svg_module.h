@@ -8,7 +8,8 @@
 
 namespace fernlicht::plots {
 
-/// The drawing on white at `scale` times its own size. Throws std::invalid_argument with librsvg's reason when it is no valid SVG.
+/// The drawing at `scale` times its own size, over the picture in `pixels`, which is as large, or on white where it is empty. Throws
+/// std::invalid_argument with librsvg's reason when it is no valid SVG.
 extern "C" using DrawSvg = void(const std::string& svg, double scale, Image<Colour>& pixels);
 
 } // namespace fernlicht::plots

@@ -1,0 +1,177 @@
+#include "runner/files/film_file.h"
+
+#include "runner/files/picture_file.h"
+#include "scenarios/values/errors.h"
+
+#include <array>
+#include <cerrno>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <string>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+extern char** environ; // NOLINT: POSIX's
+
+namespace fernlicht {
+namespace {
+
+constexpr const char* number_form = "%06d";
+
+/// No thread counts by cores, no date and no version: what is encoded depends on the frames alone. Colours are sRGB's, in BT.709's matrix
+/// and limited range, as browsers expect them.
+std::vector<std::string> encoder_words(FilmKind kind, int width_px, int height_px, FrameRate rate, const std::filesystem::path& to) {
+    std::vector<std::string> words{"ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error", "-y"};
+    const auto add = [&words](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
+    add({"-f", "rawvideo", "-pix_fmt", "rgb24", "-s", fmt::format("{}x{}", width_px, height_px)});
+    add({"-framerate", fmt::format("{}/{}", rate.frames, rate.seconds), "-i", "pipe:0"});
+    add({"-vf", "scale=in_range=full:out_range=limited:out_color_matrix=bt709:flags=bicubic+accurate_rnd+full_chroma_int,format=yuv420p"});
+    add({"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"});
+    if (kind == FilmKind::webm)
+        add({"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "good", "-cpu-used", "3", "-tile-columns", "2", "-row-mt", "0"});
+    else
+        add({"-c:v", "libx264", "-preset", "medium", "-crf", "18", "-movflags", "+faststart"});
+    add({"-threads", "4", "-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
+    add({"-f", kind == FilmKind::webm ? "webm" : "mp4", "file:" + to.string()});
+    return words;
+}
+
+} // namespace
+
+FilmKind film_kind(const std::filesystem::path& file) {
+    const std::string extension = file.extension().string(), name = file.filename().string();
+    if (extension == ".webm")
+        return FilmKind::webm;
+    if (extension == ".mp4")
+        return FilmKind::mp4;
+    if (extension == ".png" && name.find(number_form) != std::string::npos)
+        return FilmKind::png;
+    throw InputError({{}, 0, 0, "--film"}, "found '" + printable(file.string()) + "'",
+                     "a file.webm or file.mp4, or pictures by number: frame-%06d.png");
+}
+
+std::filesystem::path numbered_file(const std::filesystem::path& pattern, int number) {
+    std::string name = pattern.filename().string();
+    name.replace(name.find(number_form), std::string(number_form).size(), fmt::format("{:06}", number));
+    return pattern.parent_path() / name;
+}
+
+FilmFile::FilmFile(std::filesystem::path file, int width_px, int height_px, FrameRate rate)
+    : file_(std::move(file)), kind_(film_kind(file_)) {
+    if (kind_ == FilmKind::png)
+        return;
+    part_ = std::filesystem::absolute(file_);
+    part_ += ".part";
+    start(width_px, height_px, rate);
+}
+
+/// A socket for a pipe, since a reader that is gone then is an error and no signal. Its process group is its own: Ctrl-C on the terminal
+/// is for this program, which ends the film in order.
+void FilmFile::start(int width_px, int height_px, FrameRate rate) {
+    std::vector<std::string> words = encoder_words(kind_, width_px, height_px, rate, part_);
+    std::vector<char*> pointers;
+    for (std::string& word : words)
+        pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    int ends[2] = {-1, -1};
+    said_ = std::tmpfile();
+    if (!said_ || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+        throw DeviceError(fmt::format("ffmpeg cannot be started: {}", std::generic_category().message(errno)));
+    frames_ = ends[0];
+    posix_spawn_file_actions_t actions;
+    ::posix_spawn_file_actions_init(&actions);
+    ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
+    ::posix_spawn_file_actions_adddup2(&actions, ::fileno(said_), STDOUT_FILENO);
+    ::posix_spawn_file_actions_adddup2(&actions, ::fileno(said_), STDERR_FILENO);
+    posix_spawnattr_t attributes;
+    ::posix_spawnattr_init(&attributes);
+    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    ::posix_spawnattr_setpgroup(&attributes, 0);
+    ::pid_t pid = -1;
+    const int error = ::posix_spawnp(&pid, pointers.front(), &actions, &attributes, pointers.data(), environ);
+    ::posix_spawnattr_destroy(&attributes);
+    ::posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[1]);
+    if (error == 0) {
+        ffmpeg_ = pid;
+        return;
+    }
+    ::close(frames_); // there is no destructor yet
+    std::fclose(said_);
+    throw DeviceError(fmt::format("{}: ffmpeg, which encodes it, cannot be started: {}; install Debian's package ffmpeg, or film to "
+                                  "pictures, --film frame-%06d.png",
+                                  printable(file_.string(), 400), std::generic_category().message(error)));
+}
+
+FilmFile::~FilmFile() {
+    if (ffmpeg_ >= 0) {
+        wait();
+        std::error_code ignored;
+        std::filesystem::remove(part_, ignored);
+    }
+    if (frames_ >= 0)
+        ::close(frames_);
+    if (said_)
+        std::fclose(said_);
+}
+
+/// Tells it that there are no more frames; gives the status that it ended with.
+int FilmFile::wait() {
+    ::close(std::exchange(frames_, -1));
+    int status = 0;
+    while (::waitpid(ffmpeg_, &status, 0) < 0 && errno == EINTR)
+        ;
+    ffmpeg_ = -1;
+    return status;
+}
+
+void FilmFile::fail(int status) {
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
+    std::array<char, 4096> text{};
+    std::rewind(said_);
+    std::string words(text.data(), std::fread(text.data(), 1, text.size(), said_));
+    while (words.ends_with('\n'))
+        words.pop_back();
+    words = words.substr(words.rfind('\n') + 1);
+    if (words.empty())
+        words = WIFSIGNALED(status) ? fmt::format("it was ended by signal {}", WTERMSIG(status))
+                                    : fmt::format("it ended with {}", WEXITSTATUS(status));
+    throw DeviceError(fmt::format("{}: ffmpeg cannot encode it: {}", printable(file_.string(), 400), printable(words, 400)));
+}
+
+void FilmFile::add(const Image<Rgb8>& picture, int number) {
+    if (kind_ == FilmKind::png) {
+        write_png(picture, numbered_file(file_, number));
+        return;
+    }
+    const char* bytes = reinterpret_cast<const char*>(picture.data());
+    std::size_t left = picture.size() * sizeof(Rgb8);
+    while (left > 0) {
+        const ::ssize_t sent = ::send(frames_, bytes, left, MSG_NOSIGNAL);
+        if (sent < 0 && errno == EINTR)
+            continue;
+        if (sent < 0)
+            fail(wait());
+        bytes += sent;
+        left -= static_cast<std::size_t>(sent);
+    }
+}
+
+void FilmFile::finish() {
+    if (kind_ == FilmKind::png)
+        return;
+    const int status = wait();
+    if (status != 0)
+        fail(status);
+    std::error_code error;
+    std::filesystem::rename(part_, file_, error);
+    if (error)
+        throw DeviceError(fmt::format("{}: cannot be written: {}", printable(file_.string(), 400), error.message()));
+}
+
+} // namespace fernlicht

@@ -1,0 +1,191 @@
+#include "runner/experiments/film/film_layout.h"
+#include "runner/files/film_file.h"
+#include "runner/files/picture_file.h"
+#include "scenarios/values/errors.h"
+#include "tests/runner/program.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <regex>
+
+namespace fernlicht {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const std::string filmed_drive = library_file("drives/straight.yaml");
+constexpr int film_width = 320, film_height = 240;
+
+/// `more` may say otherwise how large, and which frames.
+std::string film_line(const std::string& film, const std::string& more) {
+    std::string line = fmt::format("film {} --film '{}' --backend software --quiet {}", filmed_drive, film, more);
+    if (more.find("--resolution") == std::string::npos)
+        line += fmt::format(" --resolution {}x{}", film_width, film_height);
+    return more.find("--frames") == std::string::npos ? line + " --frames 0:4" : line;
+}
+
+Image<Rgb8> frame_of(const TemporaryFolder& folder, const std::string& name, int number) {
+    return read_png(folder / fmt::format("{}-{:06}.png", name, number));
+}
+
+void film_frames(const TemporaryFolder& folder, const std::string& name, const std::string& more) {
+    printed(film_line(folder / (name + "-%06d.png"), more));
+}
+
+Image<Rgb8> box_of(const Image<Rgb8>& frame, const PixelBox& box) { return part_of(frame, box.x, box.y, box.width, box.height); }
+
+bool has_light(const Image<Rgb8>& picture) {
+    return std::ranges::any_of(picture.pixels(), [](const Rgb8& p) { return p.r > 60; });
+}
+
+bool has_ffmpeg() { return run_shell("ffmpeg -version").exit_code == 0 && run_shell("ffprobe -version").exit_code == 0; }
+
+TEST(FilmCommand, SameFramesTwiceWithEverythingOverThem) {
+    const TemporaryFolder folder;
+    const std::string all = "--overlay lux,isolux --overlay readings,speed";
+    film_frames(folder, "once", all);
+    film_frames(folder, "again", all);
+    film_frames(folder, "bare", "");
+    const FilmLayout layout = film_layout(FilmArrangement::automatic, 2, film_width, film_height, {.readings = true, .maps = true});
+    for (int k = 0; k < 5; ++k) {
+        const Image<Rgb8> frame = frame_of(folder, "once", k);
+        EXPECT_EQ(frame, frame_of(folder, "again", k)) << k;
+        for (const FilmPanelBoxes& boxes : layout.panels)
+            for (const PixelBox& box : {boxes.title, boxes.picture, boxes.map})
+                EXPECT_TRUE(has_light(box_of(frame, box))) << k << ", box at " << box.x << ", " << box.y;
+        EXPECT_TRUE(has_light(box_of(frame, layout.footer))) << k;
+        EXPECT_NE(frame, frame_of(folder, "bare", k)) << k;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "once-000005.png"));
+    EXPECT_NE(frame_of(folder, "bare", 0), frame_of(folder, "bare", 4)) << "the car moves";
+}
+
+TEST(FilmCommand, PanelsStandWhereTheArrangementHasThem) {
+    const TemporaryFolder folder;
+    film_frames(folder, "beside", "--frames 2:2");
+    film_frames(folder, "swapped", "--frames 2:2 --side-by-side --lamp-set xenon,halogen");
+    film_frames(folder, "grid", "--frames 2:2 --grid --lamp-set xenon --lamp-set halogen,xenon");
+    film_frames(folder, "wipe", "--frames 2:2 --wipe");
+    film_frames(folder, "halogen", "--frames 2:2 --lamp-set halogen");
+    film_frames(folder, "xenon", "--frames 2:2 --lamp-set xenon");
+    const Image<Rgb8> beside = frame_of(folder, "beside", 2), swapped = frame_of(folder, "swapped", 2);
+    const FilmLayout two = film_layout(FilmArrangement::side_by_side, 2, film_width, film_height, {});
+    const PixelBox &left = two.panels[0].picture, &right = two.panels[1].picture;
+    EXPECT_EQ(box_of(beside, left), box_of(swapped, right));
+    EXPECT_EQ(box_of(beside, right), box_of(swapped, left));
+    EXPECT_NE(box_of(beside, left), box_of(beside, right));
+    const Image<Rgb8> grid = frame_of(folder, "grid", 2);
+    const FilmLayout three = film_layout(FilmArrangement::grid, 3, film_width, film_height, {});
+    EXPECT_EQ(box_of(grid, three.panels[0].picture), box_of(grid, three.panels[2].picture));
+    EXPECT_NE(box_of(grid, three.panels[0].picture), box_of(grid, three.panels[1].picture));
+    EXPECT_GT(three.panels[2].picture.y, three.panels[1].picture.y);
+
+    const Image<Rgb8> wipe = frame_of(folder, "wipe", 2);
+    const FilmLayout one = film_layout(FilmArrangement::wipe, 2, film_width, film_height, {});
+    const FilmLayout alone = film_layout(FilmArrangement::automatic, 1, film_width, film_height, {});
+    ASSERT_EQ(one.panels[0].picture, alone.panels[0].picture);
+    for (const bool first : {true, false}) {
+        PixelBox side = one.panels[first ? 0 : 1].shown;
+        side.x += first ? 0 : 2; // beside the line between them
+        side.width -= 2;
+        EXPECT_EQ(box_of(wipe, side), box_of(frame_of(folder, first ? "halogen" : "xenon", 2), side)) << first;
+        EXPECT_NE(box_of(wipe, side), box_of(frame_of(folder, first ? "xenon" : "halogen", 2), side)) << first;
+    }
+}
+
+TEST(FilmCommand, VideosHoldEachFrameAtItsTime) {
+    if (!has_ffmpeg())
+        GTEST_SKIP() << "ffmpeg is not installed";
+    const TemporaryFolder folder;
+    for (const std::string extension : {"webm", "mp4"}) {
+        const std::string film = folder / ("film." + extension), again = folder / ("again." + extension);
+        EXPECT_THAT(printed(film_line(film, "--rate 50/3")), HasSubstr("5 frames, 0.300 s"));
+        printed(film_line(again, "--rate 50/3"));
+        EXPECT_EQ(content_of(film), content_of(again)) << extension;
+        const Outcome times = run_shell("ffprobe -v error -select_streams v -show_entries frame=pts_time -of csv=p=0 " + film);
+        std::vector<double> found;
+        for (const std::vector<std::string>& row : csv_rows(times.output))
+            found.push_back(std::stod(row[0]));
+        EXPECT_THAT(found, ::testing::ElementsAre(::testing::DoubleNear(0.0, 1e-6), ::testing::DoubleNear(0.06, 1e-6),
+                                                  ::testing::DoubleNear(0.12, 1e-6), ::testing::DoubleNear(0.18, 1e-6),
+                                                  ::testing::DoubleNear(0.24, 1e-6)))
+            << extension;
+        // Colours come back: what a video keeps of a PNG's levels, on average.
+        printed(film_line(folder / "still-%06d.png", "--rate 50/3 --force"));
+        ASSERT_EQ(
+            run_shell(fmt::format("ffmpeg -v error -i {} -vf scale=in_color_matrix=bt709 {}", film, folder / (extension + "-%06d.png")))
+                .exit_code,
+            0);
+        const Image<Rgb8> still = frame_of(folder, "still", 4), decoded = read_png(folder / (extension + "-000005.png"));
+        ASSERT_EQ(still.size(), decoded.size());
+        double sum = 0.0;
+        for (std::size_t i = 0; i < still.size(); ++i)
+            sum += std::abs(still.pixels()[i].r - decoded.pixels()[i].r) + std::abs(still.pixels()[i].g - decoded.pixels()[i].g) +
+                   std::abs(still.pixels()[i].b - decoded.pixels()[i].b);
+        EXPECT_LT(sum / (3.0 * static_cast<double>(still.size())), 2.0) << extension;
+    }
+}
+
+TEST(FilmCommand, RefusesInOneSentence) {
+    const TemporaryFolder folder;
+    const auto refused = [&](const std::string& film, const std::string& more, int code, const std::string& words,
+                             const std::string& before = {}) {
+        const Outcome run = run_program(film_line(film, more), before);
+        EXPECT_EQ(run.exit_code, code) << run.output;
+        EXPECT_THAT(run.output, HasSubstr(words));
+        EXPECT_THAT(run.output, StartsWith("fernlicht: "));
+        EXPECT_EQ(std::ranges::count(run.output, '\n'), 1) << run.output;
+    };
+    const std::string film = folder / "film.webm", pictures = folder / "film-%06d.png";
+    refused(folder / "film.avi", "", 2, "a file.webm or file.mp4, or pictures by number: frame-%06d.png");
+    refused(folder / "film.png", "", 2, "frame-%06d.png");
+    refused(folder / "nowhere/film.webm", "", 2, "there is no folder");
+    refused(film, "", 3, "install Debian's package ffmpeg", "PATH=" + folder.path().string());
+    refused(film, "--overlay lux,fog", 2, "found 'fog', expected some of lux, isolux, readings, speed");
+    refused(film, "--rate 0", 2, "frames a second");
+    refused(film, "--resolution 321x240", 2, "even numbers");
+    refused(film, "--lamp-set laser", 2, "one of halogen, xenon");
+    refused(film, "--wipe --lamp-set xenon", 2, "--wipe: found 1 panel");
+    refused(film, "--frames 100000:", 2, "frames of the film");
+    refused(film, "--technique plain --overlay lux", 2, "does not compute an illuminance");
+    const std::string other = folder / "other.yaml";
+    std::ofstream(other) << std::regex_replace(content_of(filmed_drive), std::regex("[.][.]/"), library_file(""))
+                         << "tone_mapper: {l_max_cdm2: 50}\n";
+    refused(pictures, other, 2, "one tone mapper and display for all panels of a film");
+    EXPECT_FALSE(std::filesystem::exists(film));
+    std::ofstream(film) << "mine";
+    refused(film, "", 2, "is there already");
+    EXPECT_EQ(content_of(film), "mine");
+}
+
+TEST(FilmCommand, InterruptedItKeepsWhatWasFilmed) {
+    if (!has_ffmpeg())
+        GTEST_SKIP() << "ffmpeg is not installed";
+    const TemporaryFolder folder;
+    const Outcome run = run_interrupted(
+        fmt::format("film {} --film {} --resolution 160x120 --backend software --frames 0:199", filmed_drive, folder / "film.mp4"),
+        "film of straight");
+    EXPECT_EQ(run.exit_code, 1) << run.output;
+    EXPECT_THAT(run.output, HasSubstr("incomplete: interrupted by the user"));
+    const Outcome counted = run_shell("ffprobe -v error -select_streams v -count_frames -show_entries stream=nb_read_frames -of csv=p=0 " +
+                                      (folder / "film.mp4"));
+    EXPECT_THAT(run.output, HasSubstr(fmt::format(": {} of 200 frames", std::stoi(counted.output))));
+    EXPECT_FALSE(std::filesystem::exists(folder / "film.mp4.part"));
+}
+
+/// An encoder that gives up: its own words come out, and no half film stays.
+TEST(FilmFile, TellsWhatTheEncoderSays) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "ffmpeg")
+        << "#!/bin/sh\nfor last; do :; done\n: >\"${last#file:}\"\nread x\necho 'no room is left' >&2\nexit 1\n";
+    std::filesystem::permissions(folder / "ffmpeg", std::filesystem::perms::owner_all);
+    const Outcome run = run_program(film_line(folder / "film.mp4", ""), "PATH=" + folder.path().string() + ":$PATH");
+    EXPECT_EQ(run.exit_code, 3);
+    EXPECT_THAT(run.output, HasSubstr("ffmpeg cannot encode it: no room is left"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "film.mp4.part"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "film.mp4"));
+}
+
+} // namespace
+} // namespace fernlicht
