@@ -26,6 +26,7 @@ struct FilmFlags {
     std::vector<std::filesystem::path> drives;
     FilmRequest request;
     std::vector<std::string> overlays, lamp_sets;
+    double vertical_fov_deg = 0.0;
     std::string frames, rate, resolution, technique, aim, shadows;
     std::filesystem::path film;
     bool side_by_side = false, wipe = false, grid = false, force = false;
@@ -77,6 +78,11 @@ FilmRequest request_of(const FilmFlags& flags) {
                                              : FilmArrangement::automatic;
     if (!flags.lamp_sets.empty())
         request.lamp_sets = items_of("--lamp-set", flags.lamp_sets);
+    if (flags.vertical_fov_deg != 0.0) {
+        if (!(flags.vertical_fov_deg >= 1.0 && flags.vertical_fov_deg <= 120.0))
+            refuse_flag("--vertical-fov", fmt::format("{}", flags.vertical_fov_deg), "1 to 120 degrees");
+        request.vertical_fov_rad = radians(flags.vertical_fov_deg);
+    }
     request.rate = rate_of(flags.rate);
     request.frames = tick_range(flags.frames);
     std::tie(request.width_px, request.height_px) = resolution_of(flags.resolution);
@@ -142,6 +148,8 @@ void add_film_command(CLI::App& app, const std::vector<std::string>&, std::funct
     sub->add_option("--frames", flags->frames, "FIRST:LAST: film these frames only, counted from 0");
     flags->resolution = "1280x720";
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the film")->capture_default_str();
+    sub->add_option("--vertical-fov", flags->vertical_fov_deg,
+                    "vertical field of view in degrees, in place of the drive's: a smaller one shows more of what is far");
     sub->add_option("--aim", flags->aim, "in place of the drive's aim of low and high beams: as-is or auto")->option_text("as-is|auto");
     sub->add_option("--technique", flags->technique, "technique to light the scene with; `fernlicht techniques` lists them");
     sub->add_option("--shadows", flags->shadows, "shadow method; `fernlicht techniques` lists them");

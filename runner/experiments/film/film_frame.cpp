@@ -82,21 +82,25 @@ void add_isolux(Drawing& drawing, const FilmLayout& layout, const FilmPanelBoxes
     std::vector<Point> labels;
     std::vector<std::pair<Point, std::string>> words;
     for (const double level : isolux_lines_lx) {
-        std::optional<Point> leftmost;
+        std::optional<Point> leftmost; // of the longest line
+        double longest = least_line_px;
         for (Polyline& line : plots::isolines(grid, level)) {
-            if (length_of(line) < least_line_px)
+            const double length = length_of(line);
+            if (length < least_line_px)
                 continue;
-            for (Point& point : line) {
+            for (Point& point : line)
                 point.x -= left;
-                if (point.x >= 0.0 && point.x < shown.width && (!leftmost || point.x < leftmost->x))
-                    leftmost = point;
+            if (length >= longest) {
+                longest = length;
+                leftmost = *std::ranges::min_element(line, {}, &Point::x);
             }
             drawing.line(line, {{0, 0, 0}, 3.0, {}, 0.55});
             drawing.line(std::move(line), {{255, 255, 255}, 1.2, {}, 0.9});
         }
         if (!leftmost)
             continue;
-        const Point at{std::min(leftmost->x + 0.3 * size, shown.width - 2.0 * size), std::clamp(leftmost->y, size, shown.height - 2.0)};
+        const Point at{std::clamp(leftmost->x + 0.3 * size, 2.0, shown.width - 2.0 * size),
+                       std::clamp(leftmost->y, size, shown.height - 2.0)};
         if (std::ranges::none_of(labels, [&](const Point& other) {
                 return std::abs(other.x - at.x) < 2.0 * size && std::abs(other.y - at.y) < 1.1 * size;
             })) {

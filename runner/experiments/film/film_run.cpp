@@ -10,13 +10,16 @@
 #include "runner/play/shadows/choose_shadows.h"
 #include "runner/play/stage.h"
 #include "scenarios/drives/play/advance.h"
+#include "scenarios/drives/play/camera.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/trace.h"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/geometric.hpp>
 #include <iterator>
 #include <limits>
 #include <memory>
@@ -70,14 +73,7 @@ class FilmedDrive {
         return moment_at(state, stage_.drive, stage_.route, lamp_set);
     }
 
-    /// NaN where the picture shows anything else.
-    Image<float> ground_lx(const Frame& frame) const {
-        Image<float> lx = frame.illuminance_lx;
-        for (std::size_t i = 0; i < lx.size(); ++i)
-            if (const std::uint32_t id = frame.ids.pixels()[i]; id == 0 || id > is_ground_.size() || !is_ground_[id - 1])
-                lx.pixels()[i] = std::numeric_limits<float>::quiet_NaN();
-        return lx;
-    }
+    bool is_ground_mesh(std::uint32_t id) const { return id > 0 && id <= is_ground_.size() && is_ground_[id - 1]; }
 
   private:
     const Stage& stage_;
@@ -99,6 +95,7 @@ struct DrawnPanel {
     std::string title;
     double speed_mps = 0.0;
     View view;
+    Camera camera;
     Frame frame;
     LuxMap map;
     std::optional<ExtentDrawing> extent;
@@ -150,8 +147,9 @@ void check_shown(const std::deque<Stage>& stages) {
 }
 
 /// Beside what is shown nothing is drawn, unless an eye or a windscreen spreads its light.
-View view_in(const FilmPanelBoxes& boxes, const Drive& drive) {
+View view_in(const FilmPanelBoxes& boxes, const Drive& drive, const std::optional<double>& vertical_fov_rad) {
     View view = at_size(*driver_view(drive), boxes.picture.width, boxes.picture.height);
+    view.vertical_fov_rad = vertical_fov_rad.value_or(view.vertical_fov_rad);
     if (!(boxes.shown == boxes.picture) && !is_shown_after_drawing(drive.display, drive.tone_mapper))
         view.looked_at = {{boxes.shown.x - boxes.picture.x, boxes.shown.y - boxes.picture.y, boxes.shown.width, boxes.shown.height}};
     return view;
@@ -162,13 +160,15 @@ View map_in(const PixelBox& box) {
     return map_of("film's map", -film_map_behind_m, film_map_ahead_m, beside_m, box.height, box.width);
 }
 
-DrawnPanel drawn(FilmedDrive& filmed, const FilmedPanel& panel, const FilmPanelBoxes& boxes, int frame, const FilmOverlays& overlays) {
+DrawnPanel drawn(FilmedDrive& filmed, const FilmedPanel& panel, const FilmPanelBoxes& boxes, int frame, const FilmRequest& request) {
+    const FilmOverlays& overlays = request.overlays;
     const Drive& drive = filmed.stage().drive;
     Renderer& renderer = filmed.renderer();
     const Moment moment = filmed.moment_of(frame, *panel.lamp_set);
-    DrawnPanel out{&filmed, panel.title, moment.speed_mps, view_in(boxes, drive), {}, {}, {}};
+    DrawnPanel out{&filmed, panel.title, moment.speed_mps, view_in(boxes, drive, request.vertical_fov_rad), {}, {}, {}, {}};
+    out.camera = camera_of(moment, out.view);
     FrameOutputs outputs{.colour = true};
-    outputs.illuminance = outputs.ids = overlays.isolux;
+    outputs.illuminance = outputs.depth = outputs.ids = overlays.isolux;
     outputs = filmed.display().with_light(outputs, out.view, true, true);
     Pending picture = renderer.submit(moment, out.view, outputs), above;
     const View map = map_in(boxes.map.height > 0 ? boxes.map : PixelBox{0, 0, 1, 1});
@@ -205,6 +205,23 @@ std::string told_readings(const DrawnPanel& drawn) {
     return fmt::format("{:g} lx: the own lane ends", threshold_lx);
 }
 
+/// NaN where the picture shows anything but ground, and on kerbs' faces: what stands upright has other light.
+Image<float> ground_lx(const DrawnPanel& drawn) {
+    constexpr double least_upward = 0.8; // of a normal
+    const Frame& frame = drawn.frame;
+    Image<float> lx(frame.ids.width(), frame.ids.height(), std::numeric_limits<float>::quiet_NaN());
+    const auto place = [&](int x, int y) { return shown_at(drawn.camera, drawn.view, x, y, frame.depth_m.at(x, y)); };
+    for (int y = 1; y < lx.height(); ++y)
+        for (int x = 1; x < lx.width(); ++x) {
+            if (!drawn.drive->is_ground_mesh(frame.ids.at(x, y)) || frame.ids.at(x - 1, y) == 0 || frame.ids.at(x, y - 1) == 0)
+                continue;
+            const glm::dvec3 here = place(x, y), normal = glm::cross(place(x - 1, y) - here, place(x, y - 1) - here);
+            if (std::abs(normal.z) >= least_upward * glm::length(normal))
+                lx.at(x, y) = frame.illuminance_lx.at(x, y);
+        }
+    return lx;
+}
+
 FilmPanelMoment told(DrawnPanel& drawn, const FilmOverlays& overlays) {
     const FilmedDrive& filmed = *drawn.drive;
     FilmPanelMoment moment;
@@ -213,7 +230,7 @@ FilmPanelMoment told(DrawnPanel& drawn, const FilmOverlays& overlays) {
         moment.speed = figure(3.6 * drawn.speed_mps, 0) + " km/h";
     moment.readings = told_readings(drawn);
     if (overlays.isolux)
-        moment.ground_lx = filmed.ground_lx(drawn.frame);
+        moment.ground_lx = ground_lx(drawn);
     moment.map = std::move(drawn.map);
     if (drawn.frame.light.empty()) {
         moment.picture = std::move(drawn.frame.colour);
@@ -289,7 +306,7 @@ FilmFound run_film(const FilmRequest& request) {
         const TraceSpan span("frame", "film");
         const auto row = std::make_shared<std::vector<DrawnPanel>>();
         for (std::size_t i = 0; i < panels.size(); ++i)
-            row->push_back(drawn(drives[panels[i].drive], panels[i], layout.panels[i], frame, request.overlays));
+            row->push_back(drawn(drives[panels[i].drive], panels[i], layout.panels[i], frame, request));
         writers.submit([row, frame, &request, &layout, &caption] {
             FilmMoment moment{request.rate.time_s(frame), caption, {}};
             for (DrawnPanel& panel : *row)

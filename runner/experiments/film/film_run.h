@@ -7,6 +7,7 @@
 #include "runner/play/play.h"
 
 #include <functional>
+#include <optional>
 
 namespace fernlicht {
 
@@ -24,7 +25,8 @@ struct FilmRequest {
     FilmOverlays overlays;
     FrameRate rate; ///< in place of the drives' steps
     int width_px = 1280, height_px = 720;
-    TickRange frames; ///< frame k shows the drives at k / rate
+    std::optional<double> vertical_fov_rad; ///< of the driver's view; nullopt: the drive's
+    TickRange frames;                       ///< frame k shows the drives at k / rate
     std::string backend = "auto";
     LightPass light_pass = LightPass::automatic;
     bool quiet = false;
