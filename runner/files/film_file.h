@@ -26,8 +26,9 @@ FilmKind film_kind(const std::filesystem::path& file);
 /// "frames/000012.png" for "frames/%06d.png"
 std::filesystem::path numbered_file(const std::filesystem::path& pattern, int number);
 
-/// A film while it is written. A video gets its name in finish(): before, and after an error, there is none. Of one rate and size the same
-/// frames give the same bytes.
+/// A film while it is written. ffmpeg is a program beside ours, not a library in it: who films nothing neither installs it nor waits for
+/// it. A video gets its name in finish(): before, and after an error, there is none. Of one rate and size the same frames give the same
+/// bytes.
 class FilmFile {
   public:
     /// Starts ffmpeg for a video, whose width and height are even. Throws DeviceError where it is not installed.
