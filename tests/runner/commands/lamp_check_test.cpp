@@ -160,7 +160,7 @@ TEST_F(LampCheckOfARun, AStudyDoesTheSame) {
 
 TEST(LampFlags, LeaveTheFileThatFollowsToTheCommand) {
     const TemporaryFolder folder;
-    printed("lamp --picture '" + (folder / "beam.svg").string() + "' --window -10 10 -5 5 " + library_file("lamps/led-low.ies"));
+    printed("lamp --picture '" + folder / "beam.svg" + "' --window -10 10 -5 5 " + library_file("lamps/led-low.ies"));
     EXPECT_TRUE(std::filesystem::exists(folder / "beam.svg"));
 }
 

@@ -329,6 +329,7 @@ TEST_F(LampCommand, LooksAtAPixelLampAtATime) {
     request.levels = folder_ / "every-other.csv";
     EXPECT_THAT(printed(request), HasSubstr("; dark in 101 boxes: H -8 to -7.921, V -3 to 3; "));
     EXPECT_THAT(lamp_of(request).notes, testing::Contains(testing::EndsWith("; and 1 more")));
+    request.mirror = false;
     request.file = folder_ / "pixels.yaml"; // what a run writes: as it shone
     request.levels = folder_ / "levels-drive-set.csv";
     std::ofstream(request.levels, std::ios::binary)

@@ -1,6 +1,4 @@
 // The play loop with a picture that is made up: no GPU, so that what the loop does can be told exactly.
-#include "runner/experiments/accuracy/drive_error.h"
-#include "runner/experiments/run/savings.h"
 #include "runner/files/output_folder.h"
 #include "runner/play/play.h"
 #include "runner/play/preparation.h"
@@ -116,40 +114,6 @@ TEST(Preparation, OnlyWhatTheDriveShowsIsCompiledWhereOthersHaveLamps) {
     renderer.keep_programs_of({});
     prepare(renderer, stage.drive, stage.route, dipped, {0, 0});
     EXPECT_GT(renderer.compiled_programs(), compiled);
-}
-
-/// Between two lamp sets programs go. What is measured of the first afterwards is what was measured before.
-TEST(Preparation, DroppedProgramsComeBackWithTheSameFigures) {
-    const Stage stage = stage_of("first-light.yaml");
-    const LampSet &first = stage.drive.lamp_sets[0], &second = stage.drive.lamp_sets[1];
-    Device device = open_device("auto");
-    RendererSettings settings{.technique = std::string(pruned_technique), .light_pass = LightPass::shader};
-    settings.shadows.width = settings.shadows.height = 64;
-    Renderer pruned(device, stage.scene, settings);
-    settings.technique = std::string(unpruned_technique);
-    Renderer unpruned(device, stage.scene, settings);
-    PlayedCell played;
-    played.ticks_done = 1;
-    played.throughput.wall_s = 100.0;
-    played.throughput.view_s = 1e-3;
-    const DriveError before = measure_drive_error(stage, first, played, 0, pruned);
-    const PruningSavings saved = measure_savings(stage, first, played, 0, pruned, unpruned);
-    const int compiled = pruned.compiled_programs();
-    measure_savings(stage, second, played, 0, pruned, unpruned);
-    const int with_second = pruned.compiled_programs();
-    EXPECT_GT(with_second, compiled);
-    const DriveError after = measure_drive_error(stage, first, played, 0, pruned);
-    EXPECT_GT(pruned.compiled_programs(), with_second) << "they had been dropped";
-    ASSERT_TRUE(before.road && after.road);
-    EXPECT_EQ(before.road->mean, after.road->mean);
-    EXPECT_EQ(before.road_p95, after.road_p95);
-    const PruningSavings again = measure_savings(stage, first, played, 0, pruned, unpruned);
-    for (const auto& [a, b] : {std::pair(saved.pruned, again.pruned), std::pair(saved.unpruned, again.unpruned)}) {
-        EXPECT_EQ(a.draws, b.draws);
-        EXPECT_EQ(a.features, b.features);
-        EXPECT_EQ(a.fragments, b.fragments);
-        EXPECT_GT(a.fragments, 0U);
-    }
 }
 
 TEST(Preparation, NothingCompilesWhileADriveIsPlayed) {

@@ -260,7 +260,7 @@ TEST(BusSignals, RefuseWhatTheDatabaseLacks) {
     input.policies.fill(BusPolicy::fail);
     EXPECT_THAT(refused(input), HasSubstr("nothing says when 'Event.YawRate' would be there, expected stale_after_s"));
     input.policies.fill(BusPolicy::lost);
-    EXPECT_EQ(refused(input), "");
+    EXPECT_EQ(refused(input), "not refused");
     input.policies[static_cast<std::size_t>(BusState::stale)] = BusPolicy::fail;
     EXPECT_THAT(refused(input), HasSubstr("stale: fail, and nothing says when 'Event.YawRate' would be stale, expected stale_after_s"));
     EXPECT_THAT(tests::refusal_of([] {
