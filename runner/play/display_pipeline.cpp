@@ -10,6 +10,8 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <numbers>
 
 namespace fernlicht {
@@ -25,6 +27,12 @@ Image<glm::vec3> behind_windscreen(const Image<glm::vec3>& light, double vertica
     for (glm::vec3& pixel : seen.pixels())
         pixel *= static_cast<float>(screen.transmittance);
     return seen;
+}
+
+/// The light that an eye with this adaptation calls grey, of luminance 1: what rods see has no colour.
+glm::dvec3 seen_as_grey(const WhiteAdaptation& white) {
+    const glm::dvec3 light = glm::inverse(light_adaptation(white).value_or(glm::dmat3(1.0))) * glm::dvec3(1.0);
+    return light / glm::dot(glm::dvec3(0.2126, 0.7152, 0.0722), light);
 }
 
 } // namespace
@@ -46,12 +54,12 @@ ShownPicture show(const Image<glm::vec3>& light, double vertical_fov_rad, const 
             seen = scattered(seen, vertical_fov_rad, eye_scatter({display.veil->age_years, display.veil->pigmentation}));
         });
     if (display.night_colours)
-        stage("colours at night", [&] { seen = colours_at_night(seen, pixel_deg); });
+        stage("colours at night", [&] { seen = colours_at_night(seen, pixel_deg, seen_as_grey(display.white)); });
     if (display.night_sharpness)
         stage("sharpness at night", [&] { seen = sharpness_at_night(seen, pixel_deg); });
     const DisplayProfile profile = display.profile.value_or(srgb_display());
     shown.bits = profile.bits;
-    stage("tone mapper and display", [&] { shown.codes = display_picture(profile, mapper, seen); });
+    stage("tone mapper and display", [&] { shown.codes = display_picture(profile, mapper, seen, light_adaptation(display.white)); });
     return shown;
 }
 
@@ -80,6 +88,8 @@ std::string shown_by(const DisplaySettings& display, const ToneMapper& mapper) {
         text += "; colours at night";
     if (display.night_sharpness)
         text += "; sharpness at night";
+    if (display.white.adapts())
+        text += "; " + adaptation_text(display.white);
     if (display.adaptation)
         text += "; adapting";
     return text;
@@ -151,6 +161,9 @@ std::vector<std::string> display_stages(const RenderingSettings& drawn) {
         stages.emplace_back("colours at night");
     if (display.night_sharpness)
         stages.emplace_back("sharpness at night");
+    if (display.white.adapts())
+        stages.push_back(fmt::format("white of an eye adapted to light of x = {:.4f}, y = {:.4f} by {:.4g} (CAT16)",
+                                     display.white.chromaticity->x, display.white.chromaticity->y, *display.white.degree));
     if (display.adaptation)
         stages.push_back(
             fmt::format("adaptation: white follows the driver's picture, in {:g} s towards brighter and {:g} s towards darker light",

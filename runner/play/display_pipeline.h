@@ -47,7 +47,11 @@ struct RenderingSettings {
     DisplaySettings display;
 
     /// Whether nothing of tone mapper and display is set in the drive.
-    bool shown_as_usual() const { return tone_mapper == ToneMapper{} && display == DisplaySettings{}; }
+    bool shown_as_usual() const {
+        DisplaySettings usual;
+        usual.white = display.white; // each drive has its own
+        return tone_mapper == ToneMapper{} && display == usual;
+    }
 };
 
 /// Of a drive as it is played: method and tone mapper are no longer open.

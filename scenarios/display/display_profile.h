@@ -2,6 +2,7 @@
 // The way from a drive's light to its pictures: windscreen, eye, display. All of it is off unless a drive asks for it.
 #pragma once
 
+#include "scenarios/display/white_adaptation.h"
 #include "scenarios/values/files.h"
 
 #include <filesystem>
@@ -94,6 +95,7 @@ struct DisplaySettings {
     std::optional<Windscreen> windscreen;
     std::optional<EyeVeil> veil;
     bool night_colours = false, night_sharpness = false;
+    WhiteAdaptation white; ///< of pictures drawn and shown alike
     std::optional<ExposureAdaptation> adaptation;
 
     /// Whether pictures are made of coloured light after drawing, and not by the drawing itself.

@@ -100,6 +100,22 @@ constexpr std::string_view white_schema =
 constexpr std::string_view curve_schema = R"({"type": "array", "minItems": 2, "maxItems": 10000,
     "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "number"}}})";
 
+constexpr double least_y = 0.01;
+
+void read_chromaticity(const YamlEntry& entry, WhiteAdaptation& white) {
+    const std::vector<double> xy = entry.numbers(2, 2, 0.0, 1.0);
+    if (!(xy[1] >= least_y && xy[0] + xy[1] <= 1.0))
+        entry.refuse(fmt::format("the chromaticity {}, {}", xy[0], xy[1]), "x and y of a light, CIE 1931: y from 0.01, x + y up to 1");
+    white.chromaticity = {xy[0], xy[1]};
+}
+
+std::string chromaticity_text(const WhiteAdaptation& white) {
+    return white.chromaticity ? fmt::format("[{}, {}]", white.chromaticity->x, white.chromaticity->y) : "";
+}
+
+constexpr std::string_view chromaticity_schema =
+    R"({"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "number", "minimum": 0, "maximum": 1}})";
+
 } // namespace
 
 const Fields<ToneMapper>& tone_mapper_fields() {
@@ -162,6 +178,15 @@ const Fields<DisplaySettings>& display_fields() {
                             .or_flag(),
                         field("colours", 2, &DisplaySettings::night_colours, any(), "lost in the dark"),
                         field("sharpness", 3, &DisplaySettings::night_sharpness, any(), "lost in the dark"),
+                        field("white", 4, &DisplaySettings::white,
+                              Fields<WhiteAdaptation>{
+                                  field("degree", 1, &WhiteAdaptation::degree, range(0.0, 1.0),
+                                        "how far the eye adapts, 0 not at all; default: CIECAM16's D for a dark surround, 0.66 at night"),
+                                  own("xy", 2, read_chromaticity, chromaticity_text, chromaticity_schema,
+                                      "chromaticity of the light that it is adapted to; default: that of the drive's lamps and sky"),
+                              },
+                              "adaptation to the colour of the light; CAT16")
+                            .written_off_default(),
                     },
                     "what it does to the picture")
                 .written_off_default(),
