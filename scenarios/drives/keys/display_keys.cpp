@@ -100,6 +100,53 @@ constexpr std::string_view white_schema =
 constexpr std::string_view curve_schema = R"({"type": "array", "minItems": 2, "maxItems": 10000,
     "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "number"}}})";
 
+bool has_gamma(const void* camera) { return static_cast<const CameraSettings*>(camera)->tone == TransferKind::gamma; }
+
+const Fields<CameraSettings>& recording_camera_fields() {
+    static const Fields<CameraSettings> fields{
+        field("tone", 1, &CameraSettings::tone, words({"linear", "gamma", "srgb"}), "from the share of saturation to the code"),
+        field("gamma", 2, &CameraSettings::gamma, range(0.1, 10.0), "of `tone: gamma`").heard_if(has_gamma),
+        field("exposure_s", 3, &CameraSettings::exposure_s, above(0.0, 3600.0), "exposure time"),
+        field("f_number", 4, &CameraSettings::f_number, range(0.5, 100.0), "of the lens"),
+        field("iso", 5, &CameraSettings::iso, range(1.0, 1.0e7), "saturation-based speed, ISO 12232: 78 lx s over it saturate"),
+        field("saturation_e", 6, &CameraSettings::saturation_e, range(0.0, 1.0e7),
+              "electrons of a channel at saturation, at this speed; 0: no noise"),
+        field("read_noise_e", 7, &CameraSettings::read_noise_e, range(0.0, 1.0e4), "standard deviation of reading, in electrons"),
+        field("bloom", 8, &CameraSettings::bloom, range(0.0, 0.3), "share of the light that the lens turns by more than 2.5 degrees"),
+    };
+    return fields;
+}
+
+/// A camera has neither lens and retina nor a tone mapper of its own choice, and its codes are for sRGB.
+void refuse_beside_camera(const YamlMap& keys, const DisplaySettings& display) {
+    const auto eye = keys.find("eye");
+    if (!display.camera || !eye)
+        return;
+    const char* const beside = display.profile           ? "profile"
+                               : display.veil            ? "eye.veil"
+                               : display.night_colours   ? "eye.colours"
+                               : display.night_sharpness ? "eye.sharpness"
+                               : display.adaptation      ? "adaptation"
+                                                         : nullptr;
+    if (beside != nullptr)
+        eye->refuse(fmt::format("a camera beside {}", beside), "one of the two: a camera stands in the place of eye and display");
+}
+
+const Fields<NightSky>& night_sky_fields() {
+    static const Fields<NightSky> fields{
+        field("zenith_cdm2", 1, &NightSky::zenith_cdm2, range(0.0, 1.0), "at the zenith, without moon and towns; dark sites have 0.00025"),
+        field("extinction_mag", 2, &NightSky::extinction_mag, range(0.0, 5.0), "of the air above, magnitudes at the zenith"),
+        named("towns", 3, &NightSky::towns, 64,
+              Fields<Town>{
+                  field("azimuth", 1, &Town::azimuth_rad, degrees_within("azimuth", 360.0), "from north over east"),
+                  field("distance_km", 2, &Town::distance_km, range(1.0, 200.0), "to its middle; Walker's law was found from 10 to 50"),
+                  field("inhabitants", 3, &Town::inhabitants, range(0.0, 1.0e8), "whose light glows above it"),
+              },
+              "that light the sky up"),
+    };
+    return fields;
+}
+
 constexpr double least_y = 0.01;
 
 void read_chromaticity(const YamlEntry& entry, WhiteAdaptation& white) {
@@ -187,6 +234,8 @@ const Fields<DisplaySettings>& display_fields() {
                               },
                               "adaptation to the colour of the light; CAT16")
                             .written_off_default(),
+                        field("camera", 5, &DisplaySettings::camera, recording_camera_fields(), "in the place of eye and tone mapper")
+                            .or_flag(),
                     },
                     "what it does to the picture")
                 .written_off_default(),
@@ -198,6 +247,7 @@ const Fields<DisplaySettings>& display_fields() {
                 },
                 "white follows what the eye is adapted to")
                 .or_flag(),
+            field("sky", 5, &Display::sky, night_sky_fields(), "of a clear night, in pictures alone").or_flag(),
         }
             .block();
     return fields;
@@ -214,6 +264,7 @@ void read_display(const YamlEntry& given, Drive& drive) {
     if (const auto profile = keys.find("profile"))
         read_profile(*profile);
     read_group(display_fields(), keys, &drive.display);
+    refuse_beside_camera(keys, drive.display);
 }
 
 } // namespace fernlicht
