@@ -76,7 +76,7 @@ Table read(const std::string& yaml) {
     return read_fields(table_fields(), YamlEntry(document, file, "table"));
 }
 
-std::string refused_table(const std::string& yaml) {
+std::string table_refusal(const std::string& yaml) {
     try {
         read(yaml);
     } catch (const InputError& error) {
@@ -106,19 +106,19 @@ TEST(Fields, ReadsWhatIsGivenAndKeepsDefaults) {
 }
 
 TEST(Fields, RefusesWithPlaceAndNearestKey) {
-    EXPECT_EQ(refused_table("shape: rund"),
+    EXPECT_EQ(table_refusal("shape: rund"),
               "/room/table.yaml:1:8: table.shape: found 'rund', expected one of round, square (nearest: 'round')");
-    EXPECT_THAT(refused_table("folds: true\nshap: round"),
+    EXPECT_THAT(table_refusal("folds: true\nshap: round"),
                 HasSubstr("table.yaml:2:1: table.shap: unknown key, expected 'shape', the nearest"));
-    EXPECT_THAT(refused_table("tilt: 3"), HasSubstr("'tilt_deg', the nearest known key"));
-    EXPECT_THAT(refused_table("{tilt_deg: 3, tilt_rad: 0.1}"), HasSubstr("'tilt_rad' beside 'tilt_deg', expected one of them"));
-    EXPECT_THAT(refused_table("tilt_deg: 11"), HasSubstr("expected a number from -10 to 10"));
-    EXPECT_THAT(refused_table("cups: {a: {height_m: 2}}"), HasSubstr("table.cups.a.height_m: found '2', expected a number from 0.01 to 1"));
+    EXPECT_THAT(table_refusal("tilt: 3"), HasSubstr("'tilt_deg', the nearest known key"));
+    EXPECT_THAT(table_refusal("{tilt_deg: 3, tilt_rad: 0.1}"), HasSubstr("'tilt_rad' beside 'tilt_deg', expected one of them"));
+    EXPECT_THAT(table_refusal("tilt_deg: 11"), HasSubstr("expected a number from -10 to 10"));
+    EXPECT_THAT(table_refusal("cups: {a: {height_m: 2}}"), HasSubstr("table.cups.a.height_m: found '2', expected a number from 0.01 to 1"));
     EXPECT_EQ(field_named(table_fields(), "drop_m").id, 5);
     EXPECT_THROW(field_named(table_fields(), "drop"), std::logic_error) << "a word of our own, no user's";
-    EXPECT_THAT(refused_table("own_cup: 3"), HasSubstr("expected true or false"));
-    EXPECT_THAT(refused_table("folds: true"), HasSubstr("two legs that fold"));
-    EXPECT_THAT(refused_table("{shape: round, corner_m: 0.1}"),
+    EXPECT_THAT(table_refusal("own_cup: 3"), HasSubstr("expected true or false"));
+    EXPECT_THAT(table_refusal("folds: true"), HasSubstr("two legs that fold"));
+    EXPECT_THAT(table_refusal("{shape: round, corner_m: 0.1}"),
                 HasSubstr("a key that shape 'round' does not use, expected none but shape"));
 }
 
