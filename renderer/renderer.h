@@ -11,6 +11,7 @@
 #include "scenarios/values/errors.h"
 #include "scenarios/values/scene.h"
 
+#include <glm/mat3x3.hpp>
 #include <optional>
 
 namespace fernlicht {
@@ -32,6 +33,7 @@ LightPass light_pass_for(const DeviceInfo& device, LightPass wish);
 struct RendererSettings {
     std::string technique = "photometric";
     ToneMapper tone_mapper;
+    std::optional<glm::dmat3> white; ///< of an eye that is adapted to another light, for colours shown (light_adaptation); `ours` alone
     std::optional<BeamTexels> beams; ///< how fine beam textures are; nullopt: as fine as the technique takes them, in float
     ShadowSettings shadows;
     double target_height_m = 0.25;

@@ -281,6 +281,12 @@ FN real tone_logarithmic(real l, real l_max, real s) {
     return log(1.0 + s * x) / log(1.0 + s);
 }
 
+// Light as an eye sees it that is adapted to another white: rows of a matrix in linear sRGB (scenarios/display/white_adaptation.h).
+// Float: 2e-07 of |light| and the longest row, condition 1.
+FN vec3 white_adapted(vec3 light, vec3 r, vec3 g, vec3 b) {
+    return vec3(dot(r, light), dot(g, light), dot(b, light));
+}
+
 // IEC 61966-2-1, linear 0..1 -> encoded 0..1.
 // Float: 1e-06 of 1, condition 0.5.
 FN real srgb_encoded(real c) {

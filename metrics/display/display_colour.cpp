@@ -34,9 +34,13 @@ glm::dvec3 into_gamut(GamutRule rule, const glm::dvec3& rgb, double grey) {
     return glm::clamp(glm::dvec3(grey) + keep * (rgb - grey), 0.0, 1.0);
 }
 
-glm::dvec3 shares_of_light(const DisplayProfile& profile, const DisplayMatrices& m, const ToneMapper& mapper, const glm::dvec3& light) {
+double luminance_of(const glm::dvec3& light) {
     static const glm::dmat3 light_xyz = xyz_from_light();
-    const double luminance = light_xyz[0].y * light.x + light_xyz[1].y * light.y + light_xyz[2].y * light.z;
+    return light_xyz[0].y * light.x + light_xyz[1].y * light.y + light_xyz[2].y * light.z;
+}
+
+glm::dvec3 shares_of_light(const DisplayProfile& profile, const DisplayMatrices& m, const ToneMapper& mapper, const glm::dvec3& light) {
+    const double luminance = luminance_of(light);
     const double share = toned(mapper, luminance);
     if (share == 0.0)
         return glm::dvec3(0.0);
@@ -67,13 +71,19 @@ glm::dvec3 display_code(const DisplayProfile& profile, const ToneMapper& mapper,
     return {encoded(profile, shares.x), encoded(profile, shares.y), encoded(profile, shares.z)};
 }
 
-Image<glm::u16vec3> display_picture(const DisplayProfile& profile, const ToneMapper& mapper, const Image<glm::vec3>& light) {
+Image<glm::u16vec3> display_picture(const DisplayProfile& profile, const ToneMapper& mapper, const Image<glm::vec3>& light,
+                                    const std::optional<glm::dmat3>& white) {
     const DisplayMatrices m(profile);
     const double most = profile.bits == 16 ? 65535.0 : 255.0;
     Image<glm::u16vec3> codes(light.width(), light.height());
     tbb::parallel_for(0, light.height(), [&](int y) {
         for (int x = 0; x < light.width(); ++x) {
-            const glm::dvec3 shares = shares_of_light(profile, m, mapper, glm::dvec3(light.at(x, y)));
+            glm::dvec3 seen(light.at(x, y));
+            if (const double luminance = luminance_of(seen); white && luminance > 0.0) {
+                seen = *white * seen;
+                seen *= luminance / luminance_of(seen);
+            }
+            const glm::dvec3 shares = shares_of_light(profile, m, mapper, seen);
             for (int i = 0; i < 3; ++i)
                 codes.at(x, y)[i] = static_cast<std::uint16_t>(std::lround(most * encoded(profile, shares[i])));
         }

@@ -9,7 +9,9 @@
 #include "scenarios/values/image.h"
 
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 namespace fernlicht {
@@ -25,8 +27,10 @@ glm::dvec3 shown_xyz(const DisplayProfile& profile, const glm::dvec3& code);
 /// (peak - black); chromaticity stays.
 glm::dvec3 display_code(const DisplayProfile& profile, const ToneMapper& mapper, const glm::dvec3& light);
 
-/// Three codes a pixel of profile.bits each; rounded to the nearest.
-Image<glm::u16vec3> display_picture(const DisplayProfile& profile, const ToneMapper& mapper, const Image<glm::vec3>& light);
+/// Three codes a pixel of profile.bits each; rounded to the nearest. `white`: of an eye that is adapted to another light
+/// (light_adaptation); chromaticities go through it, luminances stay.
+Image<glm::u16vec3> display_picture(const DisplayProfile& profile, const ToneMapper& mapper, const Image<glm::vec3>& light,
+                                    const std::optional<glm::dmat3>& white = std::nullopt);
 
 /// Mean luminance of the display over the pixels of such a picture, black included, cd/m2; not empty.
 double mean_shown_cdm2(const DisplayProfile& profile, const Image<glm::u16vec3>& codes);

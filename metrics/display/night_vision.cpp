@@ -102,14 +102,14 @@ Image<float> adaptation_cdm2(const Image<glm::vec3>& light, double pixel_deg) {
     return mean;
 }
 
-Image<glm::vec3> colours_at_night(const Image<glm::vec3>& light, double pixel_deg) {
+Image<glm::vec3> colours_at_night(const Image<glm::vec3>& light, double pixel_deg, const glm::dvec3& grey) {
     const Image<float> adapted = adaptation_cdm2(light, pixel_deg);
     Image<glm::vec3> seen = light;
     tbb::parallel_for(0, light.height(), [&](int y) {
         for (int x = 0; x < light.width(); ++x)
             if (const double m = cone_share(static_cast<double>(adapted.at(x, y))); m < 1.0) {
                 const glm::dvec3 rgb(light.at(x, y));
-                seen.at(x, y) = glm::vec3(m * rgb + (1.0 - m) * rod_luminance_cdm2(rgb));
+                seen.at(x, y) = glm::vec3(m * rgb + (1.0 - m) * rod_luminance_cdm2(rgb) * grey);
             }
     });
     return seen;

@@ -29,8 +29,8 @@ double rod_luminance_cdm2(const glm::dvec3& light);
 /// Luminance of what one degree around each pixel has, cd/m2. A square window, cut at the picture's edges. 0 < pixel_deg.
 Image<float> adaptation_cdm2(const Image<glm::vec3>& light, double pixel_deg);
 
-/// m of the light as it is, 1 - m of it as rods see it, in grey. Pixels where m = 1 keep their bytes.
-Image<glm::vec3> colours_at_night(const Image<glm::vec3>& light, double pixel_deg);
+/// m of the light as it is, 1 - m of it as rods see it, in `grey` (luminance 1). Pixels where m = 1 keep their bytes.
+Image<glm::vec3> colours_at_night(const Image<glm::vec3>& light, double pixel_deg, const glm::dvec3& grey = glm::dvec3(1.0));
 
 /// Blurred by a Gaussian that leaves a tenth of the finest grating: sigma = 0.3415 degrees / acuity. Where that is less than a fifth of a
 /// pixel the pixels keep their bytes.

@@ -120,7 +120,7 @@ const Program& LampFaces::program(const FrameOutputs& outputs) {
     if (const auto known = programs_.find(output_bits(outputs)); known != programs_.end())
         return known->second;
     std::vector<Program::Define> d = Targets::defines(outputs);
-    add_tone_defines(d, tone_);
+    add_tone_defines(d, tone_, white_);
     return programs_.emplace(output_bits(outputs), Program(context_, "lamp_face.vert.glsl", "lamp_face.frag.glsl", d)).first->second;
 }
 

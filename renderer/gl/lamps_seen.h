@@ -56,7 +56,8 @@ class LampsInFog {
 
 class LampFaces {
   public:
-    LampFaces(Context& context, const ToneMapper& tone) : context_(context), tone_(tone) {}
+    LampFaces(Context& context, const ToneMapper& tone, const std::optional<glm::dmat3>& white)
+        : context_(context), tone_(tone), white_(white) {}
 
     /// After the scene, into its targets. Nothing for maps and without lamps that shine towards the eye.
     void draw(const Shot& shot);
@@ -72,6 +73,7 @@ class LampFaces {
 
     Context& context_;
     ToneMapper tone_;
+    std::optional<glm::dmat3> white_;
     std::map<int, Program> programs_;
     GrowingBuffer buffer_;
     VertexArray layout_;

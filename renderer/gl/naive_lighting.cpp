@@ -3,6 +3,7 @@
 #include "renderer/gl/shadows/shadow_maps.h"
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 namespace fernlicht::gl {
 NaiveLighting::NaiveLighting(Context& context, const Scene& scene, const RendererSettings& settings)
@@ -104,6 +105,8 @@ void NaiveLighting::draw(const Shot& shot) {
     program.set("shadow_tolerance_m", settings_.shadows.tolerance_m);
     const ToneMapper& tone = settings_.tone_mapper;
     program.set("tone", glm::vec4(static_cast<float>(tone.kind), tone.s, tone.l_max_cdm2, 0.0));
+    const glm::mat3 rows(glm::transpose(settings_.white.value_or(glm::dmat3(1.0))));
+    gl.Uniform3fv(program.uniform("white"), 3, &rows[0][0]);
     gl.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_);
     for (std::size_t i = 0; i < lamps_.size(); ++i) {
         gl.BindTextureUnit(static_cast<GLuint>(i), beams_.of(lamps_[i].file).texture);

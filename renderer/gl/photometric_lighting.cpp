@@ -57,10 +57,10 @@ PhotometricLighting::PhotometricLighting(Context& context, const Scene& scene, c
       beams_(context, settings.beams, light_pass_for(context.info, settings.light_pass) == LightPass::cpu),
       shadows_(make_shadows(context, scene_, settings.shadows, {settings.target_height_m, pruned, settings.shadow_eye})),
       traffic_(context, scene_, beams_, settings.traffic_levels, pruned), lamps_in_fog_(context, beams_, pruned),
-      faces_(context, settings.tone_mapper), list_(context, scene_),
+      faces_(context, settings.tone_mapper, settings.white), list_(context, scene_),
       block_(make_buffer(context, std::vector<Packed>(max_lamps), GL_DYNAMIC_STORAGE_BIT)) {
     if (light_pass_for(context.info, settings.light_pass) == LightPass::cpu)
-        cpu_light_.emplace(scene, settings.tone_mapper, settings.target_height_m, settings.sources, settings.light_level);
+        cpu_light_.emplace(scene, settings.tone_mapper, settings.white, settings.target_height_m, settings.sources, settings.light_level);
 }
 
 std::string PhotometricLighting::why_shader(const Shot& shot) const {
@@ -218,7 +218,7 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
     define("TEXTURED", f.surface.texture == 0 ? "0" : (f.everything ? "2" : "1"));
     define("TEXTURE_MODE", std::to_string(f.surface.texture - 1));
     define("TARGET_HEIGHT", literal(settings_.target_height_m));
-    add_tone_defines(d, settings_.tone_mapper);
+    add_tone_defines(d, settings_.tone_mapper, settings_.white);
     define("BEAM_GRIDS", list(beams, [](const Beam& b) {
                return fmt::format("vec4({}, {}, {}, {})", literal(b.grid.h_first_rad), literal(b.grid.v_first_rad),
                                   literal(1.0 / b.grid.h_step_rad), literal(1.0 / b.grid.v_step_rad));

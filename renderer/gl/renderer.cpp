@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <glm/geometric.hpp>
 #include <list>
 
 namespace fernlicht {
@@ -103,10 +104,14 @@ std::shared_ptr<gl::Targets> Renderer::State::targets_for(const View& view, cons
 Work Renderer::State::shoot(const Moment& moment, const View& view, const FrameOutputs& outputs, PassClock& clock,
                             void (gl::Lighting::*take)(const gl::Shot&), Work work) {
     const double sky_luminance = moment.daylight.horizontal_illuminance_lx / pi;
-    const float grey = static_cast<float>(photometry::srgb_encoded(toned(settings.tone_mapper, sky_luminance)));
+    const glm::dvec3 sky = settings.white.value_or(glm::dmat3(1.0)) * glm::dvec3(1.0);
+    const double sky_share = toned(settings.tone_mapper, sky_luminance) / glm::dot(glm::dvec3(0.2126, 0.7152, 0.0722), sky);
+    glm::vec3 shown_sky;
+    for (int i = 0; i < 3; ++i)
+        shown_sky[i] = static_cast<float>(photometry::srgb_encoded(std::clamp(sky_share * sky[i], 0.0, 1.0)));
     const Camera camera = camera_of(moment, view);
     const std::shared_ptr<gl::Targets> target = targets_for(view, outputs);
-    const gl::Shot shot{moment, view, outputs, camera, *target, glm::vec3(grey), static_cast<float>(sky_luminance), clock, work, lit};
+    const gl::Shot shot{moment, view, outputs, camera, *target, shown_sky, static_cast<float>(sky_luminance), clock, work, lit};
     (*lighting.*take)(shot);
     if (take == &gl::Lighting::draw) {
         ++(lit ? light_passes.cpu : light_passes.shader);

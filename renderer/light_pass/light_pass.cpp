@@ -8,6 +8,7 @@
 #include <ctime>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -179,8 +180,11 @@ template <class T> T* wanted(bool is, Image<T>& image, int width, int height) {
 
 } // namespace
 
-CpuLight::CpuLight(const Scene& scene, const ToneMapper& tone, double target_height_m, bool sources, packs::Level level)
+CpuLight::CpuLight(const Scene& scene, const ToneMapper& tone, const std::optional<glm::dmat3>& white, double target_height_m, bool sources,
+                   packs::Level level)
     : tone_(tone), target_height_m_(target_height_m), level_(level) {
+    if (white)
+        white_rows_ = glm::mat3(glm::transpose(*white));
     for (const Material& material : scene.materials)
         materials_.push_back(material_of(material, sources));
 }
@@ -265,6 +269,7 @@ void CpuLight::draw(const DrawnPicture& picture, const DrawnSurfaces& surfaces, 
     to.tone_kind = static_cast<std::int32_t>(tone_.kind);
     to.tone_s = static_cast<float>(tone_.s);
     to.tone_l_max = static_cast<float>(tone_.l_max_cdm2);
+    to.white_rows = white_rows_ ? &(*white_rows_)[0][0] : nullptr;
     to.triangle = &Triangles::of;
     const auto light = [&] {
         oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, height, rows_at_once),

@@ -76,7 +76,8 @@ struct DrawnPicture {
 class CpuLight {
   public:
     /// `sources`: what shines by itself is seen.
-    CpuLight(const Scene& scene, const ToneMapper& tone, double target_height_m, bool sources, packs::Level level);
+    CpuLight(const Scene& scene, const ToneMapper& tone, const std::optional<glm::dmat3>& white, double target_height_m, bool sources,
+             packs::Level level);
     ~CpuLight();
 
     /// Fills what the picture wants of the frame; pictures of the right size are written over.
@@ -86,6 +87,7 @@ class CpuLight {
     const std::vector<float>& padded(const BeamTexture& beam);
 
     ToneMapper tone_;
+    std::optional<glm::mat3> white_rows_;
     double target_height_m_;
     packs::Level level_;
     std::vector<packs::PassMaterial> materials_;

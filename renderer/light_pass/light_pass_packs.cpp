@@ -315,7 +315,13 @@ void light_pack(const PassPicture& picture, const Shown& s, Place at, Floats x, 
         put_light(picture, at, select(s.seen, light, vec3(sky, sky, sky)));
     if (picture.colour != nullptr) {
         const Mask bright = s.seen && luminance > none;
-        const vec3 shown = select(bright, light * (toned(picture, luminance) / luminance), vec3(none, none, none));
+        vec3 adapted = light;
+        Floats weighed = luminance;
+        if (const float* rows = picture.white_rows) {
+            adapted = photometry::white_adapted(light, in_all(rows), in_all(rows + 3), in_all(rows + 6));
+            weighed = 0.2126 * adapted.x + 0.7152 * adapted.y + 0.0722 * adapted.z;
+        }
+        const vec3 shown = select(bright, adapted * (toned(picture, luminance) / weighed), vec3(none, none, none));
         const Ints rgb = encoded(shown.x) | encoded(shown.y) << 8 | encoded(shown.z) << 16;
         put_colour(picture, at, select(s.seen, rgb, background(picture)));
     }

@@ -60,6 +60,7 @@ struct PassPicture {
     float sky_luminance;
     std::int32_t tone_kind; ///< 0 linear, 1 rational, else logarithmic
     float tone_s, tone_l_max;
+    const float* white_rows;                                    ///< of the eye's adaptation, three of three; nullptr: none
     const PassTriangle& (*triangle)(void* of, std::int32_t id); ///< until the next call
 };
 

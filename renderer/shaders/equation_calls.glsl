@@ -80,5 +80,9 @@ FN vec4 equation_value(int equation, vec4 a, vec4 b, vec4 c, vec4 d) {
         return vec4(wet_albedo(a.x, a.y, a.z), 0.0, 0.0, 0.0);
     if (equation == 37)
         return vec4(wet_mirrored(first_three(a), first_three(b), first_three(c), a.w), 0.0, 0.0, 0.0);
+    if (equation == 38) {
+        vec3 light = white_adapted(first_three(a), first_three(b), first_three(c), first_three(d));
+        return vec4(light.x, light.y, light.z, 0.0);
+    }
     return vec4(quick_srgb_encoded(a.x), 0.0, 0.0, 0.0);
 }

@@ -10,6 +10,7 @@ uniform vec4 eye_axis;         // xyz: viewing direction, depth along it
 uniform float sky_lx;          // horizontal illuminance
 uniform float target_height_m;
 uniform vec4 tone;             // kind, s, l_max
+uniform vec3 white[3];         // rows of the eye's adaptation; the unit matrix: none
 
 in vec3 v_position_m;
 in vec3 v_normal;
@@ -102,7 +103,8 @@ void main() {
     float luminance = dot(luminance_weights, light);
 #endif
 #if WANT_COLOUR
-    vec3 shown = luminance > 0.0 ? clamp(light * (toned(luminance) / luminance), 0.0, 1.0) : vec3(0.0);
+    vec3 adapted = white_adapted(light, white[0], white[1], white[2]);
+    vec3 shown = luminance > 0.0 ? clamp(adapted * (toned(luminance) / dot(luminance_weights, adapted)), 0.0, 1.0) : vec3(0.0);
     out_colour = vec4(srgb_encoded(shown.r), srgb_encoded(shown.g), srgb_encoded(shown.b), 1.0);
 #endif
 #if WANT_ILLUMINANCE

@@ -27,4 +27,14 @@ float toned(float l) {
         return tone_linear(l, TONE_L_MAX);
     return TONE_KIND == 1 ? tone_rational(l, TONE_L_MAX, TONE_S) : tone_logarithmic(l, TONE_L_MAX, TONE_S);
 }
+
+/// Shares of the display's channels, which may lie outside 0..1; the luminance is toned, the colour is as the eye sees it.
+vec3 shown_light(vec3 light, float luminance) {
+#ifdef WHITE_R
+    light = white_adapted(light, WHITE_R, WHITE_G, WHITE_B);
+    return light * (toned(luminance) / dot(vec3(0.2126, 0.7152, 0.0722), light));
+#else
+    return light * (toned(luminance) / luminance);
+#endif
+}
 #endif

@@ -29,7 +29,8 @@ struct StoredFrame {
     int tick = 0;
     double time_s = 0.0;
     std::string view;
-    std::string png, exr; ///< "" when not stored
+    std::string png, exr;      ///< "" when not stored
+    std::string shown_by = {}; ///< as the PNG has it; only where a page lays pictures over each other. Not part of the report
 };
 
 /// Lux on the road seen from above at one moment, for the bird's-eye picture. Row 0 is the farthest ahead; columns from left to right.

@@ -1,5 +1,6 @@
 #include "runner/play/display_pipeline.h"
 
+#include "metrics/display/camera_picture.h"
 #include "metrics/display/display_colour.h"
 #include "metrics/display/night_vision.h"
 #include "metrics/display/scatter.h"
@@ -10,6 +11,8 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <numbers>
 
 namespace fernlicht {
@@ -27,9 +30,16 @@ Image<glm::vec3> behind_windscreen(const Image<glm::vec3>& light, double vertica
     return seen;
 }
 
+/// The light that an eye with this adaptation calls grey, of luminance 1: what rods see has no colour.
+glm::dvec3 seen_as_grey(const WhiteAdaptation& white) {
+    const glm::dvec3 light = glm::inverse(light_adaptation(white).value_or(glm::dmat3(1.0))) * glm::dvec3(1.0);
+    return light / glm::dot(glm::dvec3(0.2126, 0.7152, 0.0722), light);
+}
+
 } // namespace
 
-ShownPicture show(const Image<glm::vec3>& light, double vertical_fov_rad, const DisplaySettings& display, const ToneMapper& mapper) {
+ShownPicture show(const Image<glm::vec3>& light, double vertical_fov_rad, const DisplaySettings& display, const ToneMapper& mapper,
+                  std::uint64_t seed) {
     using Clock = std::chrono::steady_clock;
     ShownPicture shown;
     Image<glm::vec3> seen = light;
@@ -41,17 +51,22 @@ ShownPicture show(const Image<glm::vec3>& light, double vertical_fov_rad, const 
     const double pixel_deg = scene_pixel_deg(vertical_fov_rad, std::max(light.height(), 1));
     if (display.windscreen)
         stage("windscreen", [&] { seen = behind_windscreen(seen, vertical_fov_rad, *display.windscreen); });
+    if (display.camera) {
+        stage("camera",
+              [&] { shown.codes = camera_picture(*display.camera, seen, vertical_fov_rad, light_adaptation(display.white), seed); });
+        return shown;
+    }
     if (display.veil)
         stage("veil in the eye", [&] {
             seen = scattered(seen, vertical_fov_rad, eye_scatter({display.veil->age_years, display.veil->pigmentation}));
         });
     if (display.night_colours)
-        stage("colours at night", [&] { seen = colours_at_night(seen, pixel_deg); });
+        stage("colours at night", [&] { seen = colours_at_night(seen, pixel_deg, seen_as_grey(display.white)); });
     if (display.night_sharpness)
         stage("sharpness at night", [&] { seen = sharpness_at_night(seen, pixel_deg); });
     const DisplayProfile profile = display.profile.value_or(srgb_display());
     shown.bits = profile.bits;
-    stage("tone mapper and display", [&] { shown.codes = display_picture(profile, mapper, seen); });
+    stage("tone mapper and display", [&] { shown.codes = display_picture(profile, mapper, seen, light_adaptation(display.white)); });
     return shown;
 }
 
@@ -59,7 +74,33 @@ bool is_shown_after_drawing(const DisplaySettings& display, const ToneMapper& ma
     return display.after_drawing() || mapper.kind == ToneMapperKind::histogram;
 }
 
+namespace {
+
+std::string sky_text(const NightSky& sky) {
+    std::string all = fmt::format("{} {}", sky.zenith_cdm2, sky.extinction_mag);
+    for (const Town& town : sky.towns)
+        all += fmt::format(" {} {} {}", town.azimuth_rad, town.distance_km, town.inhabitants);
+    return fmt::format("night sky {:.4g} cd/m2 ({})", sky.zenith_cdm2, content_hash(all.data(), all.size()).substr(0, 8));
+}
+
+std::string camera_text(const CameraSettings& camera) {
+    static constexpr const char* tones[] = {"linear", "gamma", "srgb"};
+    return fmt::format("camera {:.6g} s f/{:.4g} ISO {:.6g}, {:.6g} e- at saturation, read noise {:.4g} e-, bloom {:.4g}, tone {}{}",
+                       camera.exposure_s, camera.f_number, camera.iso, camera.saturation_e, camera.read_noise_e, camera.bloom,
+                       tones[static_cast<std::size_t>(camera.tone)],
+                       camera.tone == TransferKind::gamma ? fmt::format(" {:.4g}", camera.gamma) : "");
+}
+
+} // namespace
+
 std::string shown_by(const DisplaySettings& display, const ToneMapper& mapper) {
+    if (display.camera) {
+        const std::string windscreen =
+            display.windscreen ? fmt::format("windscreen {:g} haze {:g}; ", display.windscreen->transmittance, display.windscreen->haze)
+                               : "";
+        return (display.sky ? sky_text(*display.sky) + "; " : "") + windscreen + camera_text(*display.camera) +
+               (display.white.adapts() ? "; " + adaptation_text(display.white) : "");
+    }
     std::string text = std::string(name(mapper.kind));
     if (mapper.kind == ToneMapperKind::rational || mapper.kind == ToneMapperKind::logarithmic)
         text += fmt::format(" s={:.6g}", mapper.s);
@@ -72,6 +113,8 @@ std::string shown_by(const DisplaySettings& display, const ToneMapper& mapper) {
         const std::string profile = write_display_profile(*display.profile);
         text += fmt::format(" ({})", content_hash(profile.data(), profile.size()).substr(0, 8));
     }
+    if (display.sky)
+        text += "; " + sky_text(*display.sky);
     if (display.windscreen)
         text += fmt::format("; windscreen {:g} haze {:g}", display.windscreen->transmittance, display.windscreen->haze);
     if (display.veil)
@@ -80,6 +123,8 @@ std::string shown_by(const DisplaySettings& display, const ToneMapper& mapper) {
         text += "; colours at night";
     if (display.night_sharpness)
         text += "; sharpness at night";
+    if (display.white.adapts())
+        text += "; " + adaptation_text(display.white);
     if (display.adaptation)
         text += "; adapting";
     return text;
@@ -135,12 +180,17 @@ DisplayProfile display_of(const RenderingSettings& drawn) {
 
 double shown_cdm2(const RenderingSettings& drawn, double seen_cdm2) {
     const DisplayProfile display = display_of(drawn);
+    if (const auto& camera = drawn.display.camera)
+        return display.black_cdm2 + decoded(display, camera_code(*camera, seen_cdm2 / camera->saturation_cdm2())) * display.white_cdm2();
     return display.black_cdm2 + toned(drawn.tone_mapper, seen_cdm2) * display.white_cdm2();
 }
 
 std::vector<std::string> display_stages(const RenderingSettings& drawn) {
     const DisplaySettings& display = drawn.display;
     std::vector<std::string> stages;
+    if (display.sky)
+        stages.push_back(fmt::format("night sky of {:.4g} cd/m² at the zenith and the glow of {} towns, in pictures alone",
+                                     display.sky->zenith_cdm2, display.sky->towns.size()));
     if (display.windscreen)
         stages.push_back(
             fmt::format("windscreen, transmittance {:g}, haze {:g}", display.windscreen->transmittance, display.windscreen->haze));
@@ -151,6 +201,11 @@ std::vector<std::string> display_stages(const RenderingSettings& drawn) {
         stages.emplace_back("colours at night");
     if (display.night_sharpness)
         stages.emplace_back("sharpness at night");
+    if (display.camera)
+        stages.push_back(fmt::format("{}: saturated by {:.4g} cd/m2", camera_text(*display.camera), display.camera->saturation_cdm2()));
+    if (display.white.adapts())
+        stages.push_back(fmt::format("white of an eye adapted to light of x = {:.4f}, y = {:.4f} by {:.4g} (CAT16)",
+                                     display.white.chromaticity->x, display.white.chromaticity->y, *display.white.degree));
     if (display.adaptation)
         stages.push_back(
             fmt::format("adaptation: white follows the driver's picture, in {:g} s towards brighter and {:g} s towards darker light",

@@ -8,6 +8,7 @@
 #include "scenarios/drives/shadow_settings.h"
 #include "scenarios/values/image.h"
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
 #include <utility>
@@ -24,8 +25,9 @@ struct ShownPicture {
 };
 
 /// `light`: perspective, square pixels, linear in sRGB's primaries, Y in cd/m2. The mapper is closed (ToneMapper::is_open). Without a
-/// profile: sRGB.
-ShownPicture show(const Image<glm::vec3>& light, double vertical_fov_rad, const DisplaySettings& display, const ToneMapper& mapper);
+/// profile: sRGB. `seed`: of a camera's noise.
+ShownPicture show(const Image<glm::vec3>& light, double vertical_fov_rad, const DisplaySettings& display, const ToneMapper& mapper,
+                  std::uint64_t seed = 0);
 
 /// Whether pictures are made of coloured light by `show`, and not by the drawing itself, which clips each channel and has no curves.
 bool is_shown_after_drawing(const DisplaySettings& display, const ToneMapper& mapper);
@@ -47,7 +49,11 @@ struct RenderingSettings {
     DisplaySettings display;
 
     /// Whether nothing of tone mapper and display is set in the drive.
-    bool shown_as_usual() const { return tone_mapper == ToneMapper{} && display == DisplaySettings{}; }
+    bool shown_as_usual() const {
+        DisplaySettings usual;
+        usual.white = display.white; // each drive has its own
+        return tone_mapper == ToneMapper{} && display == usual;
+    }
 };
 
 /// Of a drive as it is played: method and tone mapper are no longer open.

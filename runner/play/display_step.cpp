@@ -1,12 +1,23 @@
 #include "runner/play/display_step.h"
 
 #include "metrics/display/display_colour.h"
+#include "metrics/display/sky_picture.h"
 #include "runner/files/picture_file.h"
 #include "runner/play/display_pipeline.h"
+#include "scenarios/values/files.h"
 
 #include <algorithm>
 
 namespace fernlicht {
+namespace {
+
+/// Each picture of a drive has noise of its own: by lamp set, view and moment, which its file is named by.
+std::uint64_t seed_of(std::uint64_t drive, const std::filesystem::path& picture) {
+    const std::string name = picture.parent_path().filename().string() + "/" + picture.filename().string();
+    return drive ^ std::stoull(content_hash(name.data(), name.size()).substr(0, 16), nullptr, 16);
+}
+
+} // namespace
 
 DisplayStep::DisplayStep(const Drive& drive)
     : drive_(drive), after_drawing_(is_shown_after_drawing(drive.display, drive.tone_mapper)), written_(std::make_shared<Written>()) {
@@ -17,8 +28,10 @@ DisplayStep::DisplayStep(const Drive& drive)
 }
 
 FrameOutputs DisplayStep::with_light(FrameOutputs outputs, const View& view, bool stored, bool drivers) const {
-    if (after_drawing_ && outputs.colour && view.projection == Projection::perspective)
+    if (after_drawing_ && outputs.colour && view.projection == Projection::perspective) {
         outputs.light = stored || (drivers && adapted_);
+        outputs.ids = outputs.ids || (outputs.light && drive_.display.sky);
+    }
     return outputs;
 }
 
@@ -44,17 +57,18 @@ ToneMapper DisplayStep::mapper() const {
     return mapper;
 }
 
-WritePicture DisplayStep::writer() const {
+WritePicture DisplayStep::writer(const Moment& moment) const {
     const PictureTags tags{shown_by(drive_.display, drive_.tone_mapper), icc_};
     if (!after_drawing_)
         return [tags](const Frame& frame, const View&, const std::filesystem::path& path) { write_png(frame.colour, tags, path); };
-    return [tags, mapper = mapper(), display = drive_.display, written = written_](const Frame& frame, const View& view,
-                                                                                   const std::filesystem::path& path) {
+    return [tags, mapper = mapper(), display = drive_.display, written = written_, seed = drive_.seed,
+            moment](const Frame& frame, const View& view, const std::filesystem::path& path) {
         if (frame.light.empty()) {
             write_png(frame.colour, {shown_by({}, mapper), ""}, path);
             return;
         }
-        const ShownPicture shown = show(frame.light, view.vertical_fov_rad, display, mapper);
+        const Image<glm::vec3> light = display.sky ? with_night_sky(frame, moment, view, *display.sky) : frame.light;
+        const ShownPicture shown = show(light, view.vertical_fov_rad, display, mapper, seed_of(seed, path));
         PictureTags own = tags;
         own.shown_by = shown_by(display, mapper);
         write_png(shown.codes, shown.bits, own, path);

@@ -28,9 +28,9 @@ class DisplayStep {
     bool adapts() const { return adapted_.has_value(); }
     /// The driver's frame of a moment, before its pictures are written. Nothing without adaptation.
     void see(const Frame& frame);
-    /// With the exposure of now; may be called by another thread, and later. Frames without coloured light (techniques that compute no
-    /// luminance) are written as they were drawn.
-    WritePicture writer() const;
+    /// Of that moment, with the exposure of now; may be called by another thread, and later. Frames without coloured light (techniques that
+    /// compute no luminance) are written as they were drawn.
+    WritePicture writer(const Moment& moment) const;
     /// What each stage took, a sample a picture. After all is written.
     std::vector<PassTime> times() const;
     /// How the pictures are seen; nullptr where the profile does not say from where, or how large its pixels are. After all is written.

@@ -53,7 +53,7 @@ class Pictures {
             if (view->projection == Projection::map)
                 keep_map(frame, moment, *view);
             StoredFrame stored = store_frame(writers_, options_.folder, drive_.name + "-" + played_.lamp_set, drive_.capture,
-                                             std::move(frame), moment, *view, display_.writer());
+                                             std::move(frame), moment, *view, display_.writer(moment));
             played_.frames.push_back(std::move(stored));
         }
         ++captured_;

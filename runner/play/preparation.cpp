@@ -78,6 +78,7 @@ RendererSettings settings_for(Device& device, bool profile) {
 RendererSettings settings_for(const Drive& drive, RendererSettings settings) {
     settings.technique = drive.technique;
     settings.tone_mapper = drive.tone_mapper;
+    settings.white = light_adaptation(drive.display.white);
     settings.beams = drive.beams;
     settings.shadows = drive.shadows;
     if (drive.extent)

@@ -4,6 +4,7 @@
 #include "metrics/folds/seeing_fold.h"
 #include "renderer/technique.h"
 #include "runner/play/aim_lamps.h"
+#include "scenarios/drives/edits/adapting_white.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/staged_scene.h"
 #include "scenarios/drives/story/apply_storyboard.h"
@@ -46,7 +47,9 @@ Stage::Stage(Drive d)
     : drive(with_aimed_lamps(std::move(d))), network(network_of(drive)), route(network, start_of(drive), drive.via),
       scene(staged_scene(drive, network, route)) {
     check_names(drive, SeeingFold(drive, route).readings());
-    technique_named(drive.technique, drive.file);
+    if (technique_named(drive.technique, drive.file).kind != TechniqueKind::ours)
+        drive.display.white.degree = 0.0; // what was published knows no colours of lamps
+    close_white(drive, white_of_lamps(drive));
     if (drive.extent && !drive.traffic.empty())
         drive.notes.emplace_back(
             "other road users: pictures and lux maps show the light of all lamps; reach, width and area are of the own lamps "

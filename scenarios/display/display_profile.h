@@ -2,6 +2,8 @@
 // The way from a drive's light to its pictures: windscreen, eye, display. All of it is off unless a drive asks for it.
 #pragma once
 
+#include "scenarios/display/night_sky.h"
+#include "scenarios/display/white_adaptation.h"
 #include "scenarios/values/files.h"
 
 #include <filesystem>
@@ -81,6 +83,24 @@ struct EyeVeil {
     bool operator==(const EyeVeil&) const = default;
 };
 
+/// A camera in the eye's place, for whoever holds pictures against footage. Its sensor has the channels that are shown, each pixel all of
+/// them.
+struct CameraSettings {
+    TransferKind tone = TransferKind::srgb; ///< from the share of saturation to the code; not pq
+    double gamma = 2.2;                     ///< TransferKind::gamma alone
+    double exposure_s = 0.02;               ///< > 0
+    double f_number = 1.8;                  ///< > 0
+    double iso = 800.0;                     ///< saturation-based speed (ISO 12232), > 0
+    double saturation_e = 4000.0;           ///< electrons of a channel at saturation, at this speed; 0: no noise at all
+    double read_noise_e = 3.0;              ///< standard deviation
+    double bloom = 0.01;                    ///< share of the light that the lens turns by more than 2.5 degrees, 0 to 0.3
+
+    /// What saturates it: H = 78 / S lx s (ISO 12232) by H = 0.65 L t / N^2, a lens of 0.9 transmittance 10 degrees off its axis: L = 120
+    /// N^2 / (S t).
+    double saturation_cdm2() const { return 78.0 / iso * f_number * f_number / (0.65 * exposure_s); }
+    bool operator==(const CameraSettings&) const = default;
+};
+
 /// White follows what the eye is adapted to: d ln A / dt = (ln L - ln A) / tau with L the picture's log-mean luminance. Pictures of
 /// different moments then have different exposures.
 struct ExposureAdaptation {
@@ -91,13 +111,16 @@ struct ExposureAdaptation {
 struct DisplaySettings {
     std::optional<DisplayProfile> profile; ///< nullopt: sRGB, each channel clipped, encoded where it is drawn
     std::filesystem::path profile_file;
+    std::optional<NightSky> sky; ///< behind what is seen; nullopt: the drive's even one
     std::optional<Windscreen> windscreen;
     std::optional<EyeVeil> veil;
     bool night_colours = false, night_sharpness = false;
+    WhiteAdaptation white;                ///< of pictures drawn and shown alike
+    std::optional<CameraSettings> camera; ///< in place of eye, tone mapper and profile
     std::optional<ExposureAdaptation> adaptation;
 
     /// Whether pictures are made of coloured light after drawing, and not by the drawing itself.
-    bool after_drawing() const { return profile || windscreen || veil || night_colours || night_sharpness || adaptation; }
+    bool after_drawing() const { return profile || sky || windscreen || veil || night_colours || night_sharpness || camera || adaptation; }
     bool operator==(const DisplaySettings&) const = default;
 };
 

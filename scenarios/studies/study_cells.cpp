@@ -1,5 +1,6 @@
 #include "scenarios/studies/study.h"
 
+#include "scenarios/drives/edits/adapting_white.h"
 #include "scenarios/drives/edits/mirrored_drive.h"
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/drives/keys/lamp_keys.h"
@@ -171,6 +172,7 @@ Drive drive_of_cell(const Study& study, const StudyCell& cell) {
     if (study.conditions.mirror[cell.mirror])
         mirror_traffic(drive, lamp.mirrors);
     read_adaptation_lamp(drive);
+    close_white(drive, white_of_studies());
     drive.capture.all = false;
     drive.capture.per_second = study.pictured_moments / drive.duration_s;
     // Of what the reader decided, that only one lamp set is left is the study's own doing.

@@ -1,6 +1,8 @@
 // Light on the CPU is that of the fragment shader, whatever the packs' width; what it does not do is lit by the shader.
 #include "renderer/light_pass/light_pass_packs.h"
 #include "renderer/light_pass/peaks.h"
+#include "scenarios/display/white_adaptation.h"
+#include "scenarios/photometry.h"
 #include "tests/renderer/reference/rooms.h"
 #include "tests/renderer/shadow_scene.h"
 
@@ -120,6 +122,45 @@ TEST_F(LightPassTest, GivesTheSameBytesAtEveryWidth) {
         const Frame frame = draw(moment, view, settings);
         expect_same_frames(frame, widest, std::to_string(static_cast<int>(level)));
         EXPECT_EQ(frame.light, widest.light);
+    }
+}
+
+/// What is shown of the light, by the equations themselves.
+Rgb8 shown(const glm::vec3& light, const ToneMapper& tone, const glm::dmat3& white) {
+    const glm::dvec3 weights(0.2126, 0.7152, 0.0722), adapted = white * glm::dvec3(light);
+    const double share = toned(tone, glm::dot(weights, glm::dvec3(light)));
+    const auto code = [&](double channel) {
+        const double part = share > 0.0 ? channel * share / glm::dot(weights, adapted) : 0.0;
+        return static_cast<std::uint8_t>(std::lround(255.0 * photometry::srgb_encoded(std::clamp(part, 0.0, 1.0))));
+    };
+    return {code(adapted.r), code(adapted.g), code(adapted.b)};
+}
+
+TEST_F(LightPassTest, AnAdaptedEyeSeesOtherColoursAndNothingElseChanges) {
+    const View view = driver_view(203, 120, 40.0);
+    const Moment moment = night(0.7, false);
+    const std::optional<glm::dmat3> white = light_adaptation({0.66, glm::dvec2(0.4234, 0.3990)});
+    const Image<glm::vec3> light = draw(moment, view, {}).light; // the naive technique has none
+    for (const auto& [technique, pass] : {std::pair("photometric", LightPass::cpu), std::pair("photometric", LightPass::shader),
+                                          std::pair("photometric-naive", LightPass::shader)}) {
+        RendererSettings settings{.technique = technique, .light_pass = pass};
+        Frame plain = draw(moment, view, settings);
+        settings.white = white;
+        Frame adapted = draw(moment, view, settings);
+        ToneMapper tone;
+        tone.l_max_cdm2 = 20.0;
+        int off = 0;
+        for (std::size_t i = 0; i < light.size(); ++i)
+            for (const auto& [frame, matrix] : {std::pair(&plain, glm::dmat3(1.0)), std::pair(&adapted, *white)}) {
+                const Rgb8 a = frame->colour.pixels()[i], b = shown(light.pixels()[i], tone, matrix);
+                off += std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}) > 1 ? 1 : 0;
+            }
+        EXPECT_LT(off, technique == std::string("photometric") ? 30 : 487)
+            << technique; // 1 %: the naive one computes angles by other means
+        EXPECT_NE(adapted.colour, plain.colour);
+        EXPECT_EQ(adapted.light, plain.light);
+        plain.colour = adapted.colour;
+        expect_same_frames(adapted, plain, technique);
     }
 }
 

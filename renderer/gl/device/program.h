@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,7 +65,10 @@ inline void add_lamp_defines(std::vector<Program::Define>& defines, std::size_t 
 }
 
 /// How light is shown, for shaders that are compiled for it.
-inline void add_tone_defines(std::vector<Program::Define>& defines, const ToneMapper& tone) {
+inline void add_tone_defines(std::vector<Program::Define>& defines, const ToneMapper& tone, const std::optional<glm::dmat3>& white) {
+    for (int i = 0; white && i < 3; ++i)
+        defines.push_back({std::string("WHITE_") + "RGB"[i],
+                           fmt::format("vec3({}, {}, {})", literal((*white)[0][i]), literal((*white)[1][i]), literal((*white)[2][i]))});
     defines.push_back({"TONE_KIND", std::to_string(static_cast<int>(tone.kind))});
     defines.push_back({"TONE_S", literal(tone.s)});
     defines.push_back({"TONE_L_MAX", literal(tone.l_max_cdm2)});

@@ -52,8 +52,10 @@ DisplaySheet display_sheet(const Stage& stage, const LampSet& lamp_set, const Mo
     all.add(frame.luminance_cdm2);
     surfaces.add(Renderer(device, stage.scene, surfaces_alone).draw(moment, view, {.luminance = true}).luminance_cdm2);
     const double brightest = std::max(all.max_cdm2(), 1.0e-6), brightest_surface = std::max(surfaces.max_cdm2(), 1.0e-6);
+    DisplaySettings plain;
+    plain.white = stage.drive.display.white;
     const auto add = [&](const char* name, const ToneMapper& mapper) {
-        sheet.mappers.push_back({name, mapper_words(mapper), shown_tile(frame.light, view, {}, mapper)});
+        sheet.mappers.push_back({name, mapper_words(mapper), shown_tile(frame.light, view, plain, mapper)});
     };
     const auto mapper = [](ToneMapperKind kind, double s, double l_max_cdm2) {
         ToneMapper made;
@@ -72,12 +74,12 @@ DisplaySheet display_sheet(const Stage& stage, const LampSet& lamp_set, const Mo
         sheet.eyes.push_back({name, words, shown_tile(frame.light, view, display, stage.drive.tone_mapper)});
     };
     const double pixel_arcmin = 60.0 * glm::degrees(2.0 * std::atan(std::tan(0.5 * view.vertical_fov_rad) / view.height_px));
-    DisplaySettings windscreen, young, old, colours, sharpness;
+    DisplaySettings windscreen = plain, young = plain, old = plain, colours = plain, sharpness = plain;
     windscreen.windscreen = Windscreen{0.75, 0.03};
     young.veil = EyeVeil{25.0, 0.5};
     old.veil = EyeVeil{75.0, 0.5};
     colours.night_colours = sharpness.night_sharpness = true;
-    add_eye("as it is", "the drive's own tone mapper, as in all of these", {});
+    add_eye("as it is", "the drive's own tone mapper, as in all of these", plain);
     add_eye("windscreen", "transmittance 0.75, haze 3 %: a worn one", windscreen);
     add_eye("veil, 25 years", "the CIE's general glare equation", young);
     add_eye("veil, 75 years", "the same eye later", old);

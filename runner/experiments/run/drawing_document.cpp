@@ -82,14 +82,18 @@ void add_shown_by(const RenderingSettings& drawn, Sections& sections) {
     const bool seen_first = drawn.display.windscreen || drawn.display.veil || drawn.display.night_colours || drawn.display.night_sharpness;
     const char* const at_first = adapts ? " at first" : "";
     Listing stages(display_stages(drawn));
-    stages.items.push_back(fmt::format("Tone mapper `{}`{}, white at {:.4g} cd/m²{}", name(mapper.kind),
-                                       has_s ? fmt::format(", s = {:.3g}", mapper.s) : "", mapper.l_max_cdm2, at_first));
+    if (!drawn.display.camera)
+        stages.items.push_back(fmt::format("Tone mapper `{}`{}, white at {:.4g} cd/m²{}", name(mapper.kind),
+                                           has_s ? fmt::format(", s = {:.3g}", mapper.s) : "", mapper.l_max_cdm2, at_first));
     stages.items.push_back(fmt::format("Display `{}`{}: peak {:.4g} cd/m², black {:.3g} cd/m², {} bits; colours that it does not hold {}",
                                        drawn.display.profile ? short_text(display.name, 60) : "sRGB, no profile",
                                        drawn.display.profile && !display.title.empty() ? " (" + short_text(display.title, 80) + ")" : "",
                                        display.peak_cdm2(), display.black_cdm2, display.bits, gamut));
     stages.items.push_back(fmt::format("An even area that {} 0.1, 1 and 10 cd/m² is shown with {}{}",
-                                       seen_first ? "the eye sees with" : "has", levels, at_first));
+                                       drawn.display.camera ? "comes to the camera with"
+                                       : seen_first         ? "the eye sees with"
+                                                            : "has",
+                                       levels, at_first));
     section.blocks = {std::move(stages), "In the PNGs: `" + by + "`."};
 }
 

@@ -161,10 +161,11 @@ JsonMembers shown_by_members(RenderingSettings& drawn) {
     const auto luminance_members = [](std::pair<double, double>& seen) -> JsonMembers {
         return {{"seen_cdm2", seen.first}, {"shown_cdm2", seen.second}};
     };
+    const auto& camera = drawn.display.camera;
     return {{"text", shown_by(drawn.display, drawn.tone_mapper)},
-            {"tone_mapper", name(kind)},
-            {"s", has_s ? std::optional(drawn.tone_mapper.s) : std::nullopt},
-            {"white_cdm2", drawn.tone_mapper.l_max_cdm2},
+            {"tone_mapper", camera ? "camera" : name(kind)},
+            {"s", has_s && !camera ? std::optional(drawn.tone_mapper.s) : std::nullopt},
+            {"white_cdm2", camera ? seven_digits(camera->saturation_cdm2()) : drawn.tone_mapper.l_max_cdm2},
             {"display", display.name},
             {"gamut", display.gamut == GamutRule::clip ? "clip" : "keep-luminance"},
             {"peak_cdm2", seven_digits(display.peak_cdm2())},

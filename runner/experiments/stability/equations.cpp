@@ -121,7 +121,13 @@ std::vector<Equation> make() {
         {26, "tone_logarithmic", "", "the same, s 1 to 1e6",
          std::vector{logarithmic(0, 1e-6, 1e12), logarithmic(1, 1e-6, 1e9), logarithmic(2, 1.0, 1e6)}, 1, one},
         {27, "srgb_encoded", "", "0 to 1", std::vector{logarithmic(0, 1e-9, 1.0)}, 1, one},
-        {28, "quick_srgb_encoded", "", "0 to 1", std::vector{logarithmic(0, 1e-9, 1.0)}, 1, one}};
+        {28, "quick_srgb_encoded", "", "0 to 1", std::vector{logarithmic(0, 1e-9, 1.0)}, 1, one},
+        {38, "white_adapted", "", "1e-6 to 1e6 cd/m2, entries 0.001 to 10, either sign",
+         three(logarithmic(0, 1e-6, 1e6)) + three(either_sign(4, 1e-3, 10.0)) + three(either_sign(8, 1e-3, 10.0)) +
+             three(either_sign(12, 1e-3, 10.0)),
+         3, [](const EquationDoubles& x, double) {
+             return length(x, 0) * std::max({length(x, 4), length(x, 8), length(x, 12)});
+         }}};
     for (const Equation& equation : of_sky_and_weather())
         all.push_back(equation);
     // Each position by its own angle, first angle and step; one scale for both is the larger one's.
@@ -163,6 +169,7 @@ constexpr EquationBound bounds[] = {
     {"tone_linear", 3.1e-7, "relative", 1.0, "GLSL's quotient is exact to 5 u"},
     {"tone_rational", 6e-7, "relative", 1.0, "no term of the sum is negative: 4 u and GLSL's quotient 5 u; nothing cancels at s = 1"},
     {"tone_logarithmic", 2e-6, "of 1", 1.0, "GLSL's log is exact to 2^-21 near 1, over log(2) at least, twice"},
+    {"white_adapted", 2e-7, "of |light| and the longest row", 1.0, "three products and two sums: 3 u of the sum of their sizes"},
     {"srgb_encoded", 1e-6, "of 1", 0.5, "GLSL's pow by way of log2 and exp2: 2^-21 / 2.4, and 3 units"},
     {"quick_srgb_encoded", 1e-6, "of 1", 0.5, "GLSL's roots 4.5 units each, in terms whose sizes add up to 1.8"},
     {"directional_illuminance", 4e-7, "of perpendicular_lx", 1.0, "a dot product of unit vectors 3 u and their own rounding, a product"},

@@ -3,6 +3,7 @@
 #include "metrics/readings/reading_key.h"
 #include "runner/experiments/run/run_judging.h"
 #include "runner/experiments/run/run_report.h"
+#include "runner/files/picture_file.h"
 #include "runner/findings/run_context.h"
 #include "runner/play/stage.h"
 #include "scenarios/values/errors.h"
@@ -102,6 +103,9 @@ void judge_cell(const Study& study, const PlannedCell& planned, const StudyOptio
     write_file(folder / planned.resolved_file, write_drive(drive));
     options.judge_cell(report, folder);
     PlayedResult played = played_result(report.played.front(), read_moments(folder, report, 0), folder_name_of(planned));
+    for (StoredFrame& frame : played.frames)
+        if (!frame.png.empty())
+            frame.shown_by = read_png_tags(options.folder / frame.png).shown_by;
     static_cast<Steps&>(played) = result; // the drive's, not the report's
     static_cast<PlayedResult&>(result) = std::move(played);
     result.command = repeating(options, planned);

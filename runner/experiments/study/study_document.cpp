@@ -7,6 +7,7 @@
 #include "runner/findings/extent_keys.h"
 #include "runner/findings/figures.h"
 #include "runner/judge/verdict_line.h"
+#include "scenarios/values/errors.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -270,11 +271,17 @@ Section views_section(const StudyResult& result) {
         for (const auto& [tested, against] : pairs)
             for (const StoredFrame& now : result.cells[tested].frames)
                 for (const StoredFrame& before : result.cells[against].frames)
-                    if (now.tick == before.tick && now.view == before.view && !now.png.empty() && !before.png.empty())
-                        section.blocks.emplace_back(PictureOverlay{fmt::format("{}, after {:.1f} s ({})", result.cells[tested].title,
-                                                                               now.time_s, result.cells[tested].cell.condition),
-                                                                   {pair.tested, pair.against},
-                                                                   {now.png, before.png}});
+                    if (now.tick == before.tick && now.view == before.view && !now.png.empty() && !before.png.empty()) {
+                        const std::string what = fmt::format("{}, after {:.1f} s ({})", result.cells[tested].title, now.time_s,
+                                                             result.cells[tested].cell.condition);
+                        if (now.shown_by == before.shown_by)
+                            section.blocks.emplace_back(PictureOverlay{what, {pair.tested, pair.against}, {now.png, before.png}});
+                        else
+                            section.blocks.emplace_back(fmt::format(
+                                "{}: pictures of {} and {} are not laid over each other, as they have no common exposure, "
+                                "white and tone: `{}` and `{}`.",
+                                what, pair.tested, pair.against, printable(now.shown_by, 200), printable(before.shown_by, 200)));
+                    }
     }
     return section;
 }

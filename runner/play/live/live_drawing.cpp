@@ -51,7 +51,7 @@ void LiveDrawing::draw(const LivePicture& picture) {
             continue;
         if (view.projection == Projection::map && !frame.illuminance_lx.empty() && maps_.size() < max_live_maps)
             maps_.push_back(lux_map_of(frame, moment, view, stage_.route, drive.bumper_m));
-        frames_.push_back(store_frame(writers_, folder_, set_, drive.capture, std::move(frame), moment, view, display_.writer()));
+        frames_.push_back(store_frame(writers_, folder_, set_, drive.capture, std::move(frame), moment, view, display_.writer(moment)));
     }
     ++drawn_;
     captured_ += picture.captured ? 1 : 0;

@@ -100,6 +100,69 @@ constexpr std::string_view white_schema =
 constexpr std::string_view curve_schema = R"({"type": "array", "minItems": 2, "maxItems": 10000,
     "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "number"}}})";
 
+bool has_gamma(const void* camera) { return static_cast<const CameraSettings*>(camera)->tone == TransferKind::gamma; }
+
+const Fields<CameraSettings>& recording_camera_fields() {
+    static const Fields<CameraSettings> fields{
+        field("tone", 1, &CameraSettings::tone, words({"linear", "gamma", "srgb"}), "from the share of saturation to the code"),
+        field("gamma", 2, &CameraSettings::gamma, range(0.1, 10.0), "of `tone: gamma`").heard_if(has_gamma),
+        field("exposure_s", 3, &CameraSettings::exposure_s, above(0.0, 3600.0), "exposure time"),
+        field("f_number", 4, &CameraSettings::f_number, range(0.5, 100.0), "of the lens"),
+        field("iso", 5, &CameraSettings::iso, range(1.0, 1.0e7), "saturation-based speed, ISO 12232: 78 lx s over it saturate"),
+        field("saturation_e", 6, &CameraSettings::saturation_e, range(0.0, 1.0e7),
+              "electrons of a channel at saturation, at this speed; 0: no noise"),
+        field("read_noise_e", 7, &CameraSettings::read_noise_e, range(0.0, 1.0e4), "standard deviation of reading, in electrons"),
+        field("bloom", 8, &CameraSettings::bloom, range(0.0, 0.3), "share of the light that the lens turns by more than 2.5 degrees"),
+    };
+    return fields;
+}
+
+/// A camera has neither lens and retina nor a tone mapper of its own choice, and its codes are for sRGB.
+void refuse_beside_camera(const YamlMap& keys, const DisplaySettings& display) {
+    const auto eye = keys.find("eye");
+    if (!display.camera || !eye)
+        return;
+    const char* const beside = display.profile           ? "profile"
+                               : display.veil            ? "eye.veil"
+                               : display.night_colours   ? "eye.colours"
+                               : display.night_sharpness ? "eye.sharpness"
+                               : display.adaptation      ? "adaptation"
+                                                         : nullptr;
+    if (beside != nullptr)
+        eye->refuse(fmt::format("a camera beside {}", beside), "one of the two: a camera stands in the place of eye and display");
+}
+
+const Fields<NightSky>& night_sky_fields() {
+    static const Fields<NightSky> fields{
+        field("zenith_cdm2", 1, &NightSky::zenith_cdm2, range(0.0, 1.0), "at the zenith, without moon and towns; dark sites have 0.00025"),
+        field("extinction_mag", 2, &NightSky::extinction_mag, range(0.0, 5.0), "of the air above, magnitudes at the zenith"),
+        named("towns", 3, &NightSky::towns, 64,
+              Fields<Town>{
+                  field("azimuth", 1, &Town::azimuth_rad, degrees_within("azimuth", 360.0), "from north over east"),
+                  field("distance_km", 2, &Town::distance_km, range(1.0, 200.0), "to its middle; Walker's law was found from 10 to 50"),
+                  field("inhabitants", 3, &Town::inhabitants, range(0.0, 1.0e8), "whose light glows above it"),
+              },
+              "that light the sky up"),
+    };
+    return fields;
+}
+
+constexpr double least_y = 0.01;
+
+void read_chromaticity(const YamlEntry& entry, WhiteAdaptation& white) {
+    const std::vector<double> xy = entry.numbers(2, 2, 0.0, 1.0);
+    if (!(xy[1] >= least_y && xy[0] + xy[1] <= 1.0))
+        entry.refuse(fmt::format("the chromaticity {}, {}", xy[0], xy[1]), "x and y of a light, CIE 1931: y from 0.01, x + y up to 1");
+    white.chromaticity = {xy[0], xy[1]};
+}
+
+std::string chromaticity_text(const WhiteAdaptation& white) {
+    return white.chromaticity ? fmt::format("[{}, {}]", white.chromaticity->x, white.chromaticity->y) : "";
+}
+
+constexpr std::string_view chromaticity_schema =
+    R"({"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "number", "minimum": 0, "maximum": 1}})";
+
 } // namespace
 
 const Fields<ToneMapper>& tone_mapper_fields() {
@@ -162,6 +225,17 @@ const Fields<DisplaySettings>& display_fields() {
                             .or_flag(),
                         field("colours", 2, &DisplaySettings::night_colours, any(), "lost in the dark"),
                         field("sharpness", 3, &DisplaySettings::night_sharpness, any(), "lost in the dark"),
+                        field("white", 4, &DisplaySettings::white,
+                              Fields<WhiteAdaptation>{
+                                  field("degree", 1, &WhiteAdaptation::degree, range(0.0, 1.0),
+                                        "how far the eye adapts, 0 not at all; default: CIECAM16's D for a dark surround, 0.66 at night"),
+                                  own("xy", 2, read_chromaticity, chromaticity_text, chromaticity_schema,
+                                      "chromaticity of the light that it is adapted to; default: that of the drive's lamps and sky"),
+                              },
+                              "adaptation to the colour of the light; CAT16")
+                            .written_off_default(),
+                        field("camera", 5, &DisplaySettings::camera, recording_camera_fields(), "in the place of eye and tone mapper")
+                            .or_flag(),
                     },
                     "what it does to the picture")
                 .written_off_default(),
@@ -173,6 +247,7 @@ const Fields<DisplaySettings>& display_fields() {
                 },
                 "white follows what the eye is adapted to")
                 .or_flag(),
+            field("sky", 5, &Display::sky, night_sky_fields(), "of a clear night, in pictures alone").or_flag(),
         }
             .block();
     return fields;
@@ -189,6 +264,7 @@ void read_display(const YamlEntry& given, Drive& drive) {
     if (const auto profile = keys.find("profile"))
         read_profile(*profile);
     read_group(display_fields(), keys, &drive.display);
+    refuse_beside_camera(keys, drive.display);
 }
 
 } // namespace fernlicht

@@ -185,6 +185,28 @@ TEST(Scatter, OneSourceVeilsAsTheEquationSays) {
     }
 }
 
+/// A lamp that sends 1 lx to the eye, with pixels of a third and of a 24th of a degree: the veil is that of the equation and of each other.
+TEST(Scatter, TheVeilOfALampDoesNotDependOnThePixels) {
+    const ScatterFunction f = eye_scatter({25.0, 0.5});
+    std::vector<std::vector<double>> veils;
+    for (const int a_degree : {3, 24}) {
+        const int width = 40 * a_degree + 1, height = 6 * a_degree + 1;
+        const double step = std::tan(1.0 * std::numbers::pi / 180.0) / a_degree;
+        Image<glm::vec3> picture(width, height, glm::vec3(0.0F));
+        picture.at(width / 2, height / 2) = glm::vec3(static_cast<float>(1.0 / (step * step))); // whose solid angle is step^2
+        const Image<glm::vec3> shown = scattered(picture, 2.0 * std::atan(0.5 * height * step), f);
+        std::vector<double>& found = veils.emplace_back();
+        for (const int degrees : {1, 3, 10}) {
+            const double theta = std::atan(degrees * a_degree * step);
+            found.push_back(static_cast<double>(shown.at(width / 2 + degrees * a_degree, height / 2).y));
+            EXPECT_NEAR(found.back() / (f.at(theta * 180.0 / std::numbers::pi) * std::cos(theta)), 1.0, 0.02) << degrees << ' ' << a_degree;
+        }
+    }
+    EXPECT_NEAR(veils[0][0], 15.1805, 0.02 * 15.1805); // by hand (tests/metrics/glare/glare_test.cpp)
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_NEAR(veils[0][i] / veils[1][i], 1.0, 0.02);
+}
+
 /// Where all round is as bright, nothing is gained or lost; what lies within a pixel counts as kept.
 TEST(Scatter, EvenLightStaysEvenAndNothingScatteredIsTheSamePicture) {
     for (const int height : {60, 150, 300, 600}) {

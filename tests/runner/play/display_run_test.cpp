@@ -23,7 +23,8 @@ using testing::AllOf, testing::HasSubstr, testing::IsEmpty, testing::Not;
 using nlohmann::json;
 
 constexpr const char* few_shown = " --quiet --frames 20:22 --resolution 96x72 --capture all --no-accuracy --backend software ";
-constexpr const char* picture = "/frames/oncoming-1-halogen/driver-000021.png";
+constexpr const char* halogen_white = "; white adapted 0.66 to x=0.4234 y=0.3989";
+constexpr const char *picture = "/frames/oncoming-1-halogen/driver-000021.png", *exr = "/frames/oncoming-1-halogen/driver-000021.exr";
 
 /// The shipped drive with oncoming cars, halogen alone and nothing measured, with other lines at its end.
 std::string drive_with(const TemporaryFolder& folder, const std::string& name, const std::string& lines) {
@@ -73,14 +74,17 @@ TEST(DisplayRun, NamingTheDefaultsChangesNoPixel) {
 
 TEST(DisplayRun, PicturesSayWhatTheyWereShownBy) {
     const TemporaryFolder folder;
-    EXPECT_EQ(read_png_tags(played(folder, "plain", "") + picture).shown_by, "rational s=20 white=100 cd/m2; display srgb");
+    EXPECT_EQ(read_png_tags(played(folder, "plain", "") + picture).shown_by,
+              std::string("rational s=20 white=100 cd/m2; display srgb") + halogen_white);
     const std::string out =
         played(folder, "eye",
                "tone_mapper: {kind: linear, l_max_cdm2: 50}\ndisplay: {profile: " + library_file("displays/projector.yaml") +
                    ", windscreen: {haze: 0.02}, eye: {veil: {age_years: 60}, colours: true, sharpness: true}}\n");
-    EXPECT_THAT(read_png_tags(out + picture).shown_by,
-                testing::MatchesRegex("linear white=50 cd/m2; display projector \\([0-9a-f]*\\); windscreen 0.75 haze "
-                                      "0.02; eye of 60 years, pigmentation 0.5; colours at night; sharpness at night"));
+    EXPECT_THAT(
+        read_png_tags(out + picture).shown_by,
+        testing::MatchesRegex(
+            "linear white=50 cd/m2; display projector \\([0-9a-f]*\\); windscreen 0.75 haze "
+            "0.02; eye of 60 years, pigmentation 0.5; colours at night; sharpness at night; white adapted 0.66 to x=0.4... y=0.3..."));
     const json report = json::parse(content_of(out + "/report.json"));
     EXPECT_THAT(content_of(out + "/report.json"), Not(HasSubstr("compiled during the drive")));
     std::vector<std::string> passes;
@@ -104,15 +108,16 @@ TEST(DisplayRun, ReportAndPageSayHowPicturesWereShown) {
     };
     const std::string plain = played(folder, "plain", "shadows: map\n");
     json drive = drive_in(plain);
-    EXPECT_EQ(drive.at("shown_by").at("text"), "rational s=20 white=100 cd/m2; display srgb");
+    const std::string white = "white of an eye adapted to light of x = 0.4234, y = 0.3989 by 0.66 (CAT16)";
+    EXPECT_EQ(drive.at("shown_by").at("text"), std::string("rational s=20 white=100 cd/m2; display srgb") + halogen_white);
     EXPECT_EQ(drive.at("shown_by").at("gamut"), "clip");
-    EXPECT_THAT(drive.at("shown_by").at("stages"), IsEmpty());
+    EXPECT_EQ(drive.at("shown_by").at("stages"), json{white});
     EXPECT_NEAR(shown(drive, 0), 80.0 * 2.0 / 101.9, 1e-5);
     EXPECT_EQ(drive.at("shadows"), json::parse(R"({"method": "map", "objects_cast": true, "not_used": null,
         "settings": {"map_texels": [1024, 512], "tolerance_m": 0.03, "redraw_texels": 0}})"));
     const std::string short_page = content_of(plain + "/report.html");
-    EXPECT_THAT(short_page, HasSubstr("By <code>rational s=20 white=100 cd/m2; display srgb</code>: 0.1, 1 and 10 cd/m² as 1.57, 13.4 "
-                                      "and 55.2 cd/m² where white is 80 cd/m²"));
+    EXPECT_THAT(short_page, HasSubstr(std::string("By <code>rational s=20 white=100 cd/m2; display srgb") + halogen_white +
+                                      "</code>: 0.1, 1 and 10 cd/m² as 1.57, 13.4 and 55.2 cd/m² where white is 80 cd/m²"));
     EXPECT_THAT(short_page, HasSubstr("Shadows by <code>map</code> (map_texels [1024, 512], tolerance_m 0.03)"));
     EXPECT_THAT(short_page, Not(HasSubstr("<li>Tone mapper")));
 
@@ -126,8 +131,11 @@ TEST(DisplayRun, ReportAndPageSayHowPicturesWereShown) {
     EXPECT_NEAR(shown(drive, 2), 0.001 + 999.999 * 200.0 / 290.0, 1e-3);
     EXPECT_EQ(drive.at("shown_by").at("display"), "hdr-monitor");
     EXPECT_EQ(drive.at("shown_by").at("gamut"), "keep-luminance");
-    const json stages{"windscreen, transmittance 0.75, haze 0.02", "veil in an eye of 60 years, pigmentation 0.5", "colours at night",
+    const json stages{"windscreen, transmittance 0.75, haze 0.02",
+                      "veil in an eye of 60 years, pigmentation 0.5",
+                      "colours at night",
                       "sharpness at night",
+                      white,
                       "adaptation: white follows the driver's picture, in 0.5 s towards brighter and 10 s towards darker light"};
     EXPECT_EQ(drive.at("shown_by").at("stages"), stages);
     EXPECT_EQ(drive.at("shadows").at("settings").at("lamp_places"), 2);
@@ -147,8 +155,44 @@ TEST(DisplayRun, ReportAndPageSayHowPicturesWereShown) {
     const Outcome run =
         run_program("run " + drive_with(folder, "full", "shadows: volumes\n") + few_shown + "--technique full --out " + full);
     EXPECT_LE(run.exit_code, 1) << run.output;
+    EXPECT_EQ(read_png_tags(full + picture).shown_by, "rational s=20 white=100 cd/m2; display srgb"); // it knows no colours of lamps
     EXPECT_EQ(drive_in(full).at("shadows").at("not_used"), "it renders no shadows of lamps");
     EXPECT_THAT(content_of(full + "/report.html"), HasSubstr("technique <code>full</code> does not use it: it renders no shadows"));
+}
+
+/// Colours change and nothing else; the resolved drive has what was found, and `degree: 0` leaves colours as they are.
+TEST(DisplayRun, ColoursAreThoseOfAnEyeInTheLampsLight) {
+    const TemporaryFolder folder;
+    const std::string usual = played(folder, "usual", ""), plain = played(folder, "plain", "display: {eye: {white: {degree: 0}}}\n");
+    EXPECT_THAT(content_of(usual + "/oncoming-1.yaml"), HasSubstr("white: {degree: 0.66, xy: [0.4234, 0.3989]}"));
+    EXPECT_EQ(read_png_tags(plain + picture).shown_by, "rational s=20 white=100 cd/m2; display srgb");
+    EXPECT_EQ(content_of(usual + exr), content_of(plain + exr));
+    const Image<Rgb8> adapted = read_png(usual + picture), as_it_is = read_png(plain + picture);
+    const auto seen = [](const Rgb8& p) { return shown_xyz(srgb_display(), glm::dvec3(p.r, p.g, p.b) / 255.0); };
+    const glm::dvec3 road = seen(adapted.at(48, 60)), orange = seen(as_it_is.at(48, 60));
+    EXPECT_NEAR(road.y / orange.y, 1.0, 0.03); // codes are rounded
+    EXPECT_NEAR(chromaticity_of(road).x, 0.346, 0.012);
+    EXPECT_NEAR(chromaticity_of(orange).x, 0.423, 0.012);
+}
+
+/// A camera's noise is the same in each run. The sky is lit where nothing stands before it. EXRs keep their bytes.
+TEST(DisplayRun, CameraAndNightSkyAreInPicturesAlone) {
+    const TemporaryFolder folder;
+    const std::string lines = "display: {eye: {camera: {iso: 1600, bloom: 0}, white: {degree: 0}}}\n";
+    const std::string out = played(folder, "camera", lines), again = played(folder, "again", lines), plain = played(folder, "plain", "");
+    EXPECT_EQ(read_png_tags(out + picture).shown_by,
+              "camera 0.02 s f/1.8 ISO 1600, 4000 e- at saturation, read noise 3 e-, bloom 0, tone srgb");
+    EXPECT_EQ(content_of(out + picture), content_of(again + picture));
+    const json shown_by = drive_in(out).at("shown_by");
+    EXPECT_NEAR(shown_by.at("white_cdm2").get<double>(), 12.15, 1e-4); // 78 / 1600 lx s by 0.65 0.02 / 1.8^2
+    EXPECT_NEAR(shown_by.at("luminances").at(1).at("shown_cdm2").get<double>(), 80.0 / 12.15, 1e-3);
+    const std::string sky = played(folder, "sky", "display: {sky: {towns: {a: {azimuth_deg: 90, distance_km: 3, inhabitants: 1e6}}}}\n");
+    const Image<Rgb8> lit = read_png(sky + picture), dark = read_png(plain + picture);
+    EXPECT_GT(lit.at(20, 30).g, lit.at(20, 2).g); // brighter towards the horizon
+    EXPECT_GT(lit.at(20, 30).g, dark.at(20, 30).g + 20);
+    EXPECT_THAT(read_png_tags(sky + picture).shown_by, HasSubstr("; night sky 0.00025 cd/m2 ("));
+    for (const std::string& other : {out, sky})
+        EXPECT_EQ(content_of(other + exr), content_of(plain + exr));
 }
 
 // As docs/display.md says: white at the display's peak shows L as L + black (1 - L / peak). The codes that are written are decoded for the
@@ -246,7 +290,7 @@ TEST(DisplayRun, VeilAndWindscreenDoWhatTheySay) {
 TEST(DisplayRun, AdaptationNeedsNoMoreThanItsPictures) {
     const TemporaryFolder folder;
     const std::string out = played(folder, "adapting", "display: {adaptation: {brighter_s: 0.05, darker_s: 0.05}}\n");
-    EXPECT_THAT(read_png_tags(out + picture).shown_by, testing::EndsWith("; adapting"));
+    EXPECT_THAT(read_png_tags(out + picture).shown_by, testing::EndsWith(std::string(halogen_white) + "; adapting"));
     EXPECT_THAT(content_of(out + "/report.json"), Not(HasSubstr("compiled during the drive")));
     EXPECT_THAT(read_png_tags(out + "/frames/oncoming-1-halogen/driver-000020.png").shown_by, HasSubstr("white=100 cd/m2"));
     EXPECT_THAT(read_png_tags(out + picture).shown_by, Not(HasSubstr("white=100 cd/m2")));
@@ -283,6 +327,9 @@ TEST(DisplayRun, PicturesWithoutACommonScaleAreNotCompared) {
     mapper = {};
     mapper.s = 19.0;
     EXPECT_THAT(compared(stored("s", {}, mapper)), HasSubstr("s=19 "));
+    DisplaySettings halogen;
+    halogen.white = {0.66, glm::dvec2(0.4234, 0.399)};
+    EXPECT_THAT(compared(stored("halogen", halogen, {})), HasSubstr("display srgb; white adapted 0.66 to x=0.4234 y=0.3990'"));
     FilesRead opened;
     DisplaySettings projector;
     projector.profile = read_display_profile(library_file("displays/projector.yaml"), opened);
@@ -437,6 +484,8 @@ TEST(DisplayRun, RefusalsAreASentence) {
         {"tone_mapper: {l_max_cdm2: [1]}", "`surfaces`"},
         {"display: " + (folder / "black.yaml"), "peak_cdm2: a peak of 120 cd/m2 with black_cdm2: 120, expected more than black_cdm2"},
         {"display: nowhere.yaml", "nowhere.yaml"},
+        {"display: {eye: {veil: true, camera: true}}", "display.eye: a camera beside eye.veil, expected one of the two"},
+        {"display: {eye: {white: {xy: [0.9, 0.3]}}}", "display.eye.white.xy: the chromaticity 0.9, 0.3, expected x and y of a light"},
         {"display: {eye: {age: 3}}", "display.eye"},
         {"display: {windscreen: {haze: 0.5}}", "0.3"},
         {"tone_mapper: {kind: histogram, curve: [[0, -1], [1, -2]]}", "rise"}};

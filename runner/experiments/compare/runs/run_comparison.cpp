@@ -155,9 +155,9 @@ void pair_frames(DriveComparison& drive) {
         }
     }
     if (other_tones)
-        drive.left_out.emplace_back(
-            "PNGs: shown by another tone mapper, at another exposure or for another display than sRGB; the EXRs of the same moments are "
-            "compared");
+        drive.left_out.emplace_back("PNGs: shown by another tone mapper, at another exposure or white, or for another display than sRGB; "
+                                    "the EXRs of the same moments are "
+                                    "compared");
     if (png_alone)
         drive.left_out.emplace_back("PNGs that one run alone stored");
     if (exr_alone)

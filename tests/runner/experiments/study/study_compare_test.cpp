@@ -63,6 +63,27 @@ const Change& change_in(const StudyResult& result, const std::string& name) {
     throw std::runtime_error("no change of " + name);
 }
 
+/// Sliders over two pictures, and sentences that refuse one.
+std::pair<int, int> laid_over_and_refused(const StudyResult& result) {
+    std::pair<int, int> counts;
+    for (const Section& section : document(result).sections)
+        for (const DocumentPart& block : section.blocks) {
+            const auto* const text = std::get_if<std::string>(&block);
+            counts.first += std::holds_alternative<PictureOverlay>(block) ? 1 : 0;
+            counts.second += text && text->find("no common exposure, white and tone: `b` and `a`") != std::string::npos ? 1 : 0;
+        }
+    return counts;
+}
+
+TEST(StudyPictures, AreLaidOverEachOtherOnlyWhereTheyAreShownAlike) {
+    StudyResult result = two_cells(40.0, 50.0);
+    for (CellResult& cell : result.cells)
+        cell.frames = {{.view = "driver", .png = cell.cell.name + ".png", .exr = "", .shown_by = "a"}};
+    EXPECT_EQ(laid_over_and_refused(result), std::pair(1, 0));
+    result.cells[1].frames[0].shown_by = "b";
+    EXPECT_EQ(laid_over_and_refused(result), std::pair(0, 1));
+}
+
 ChangeKind kind_for(double old_m, double new_m) {
     StudyResult result = two_cells(old_m, new_m);
     compare_cells(result);
