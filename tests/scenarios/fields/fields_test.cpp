@@ -76,7 +76,7 @@ Table read(const std::string& yaml) {
     return read_fields(table_fields(), YamlEntry(document, file, "table"));
 }
 
-std::string refusal(const std::string& yaml) {
+std::string field_refusal(const std::string& yaml) {
     try {
         read(yaml);
     } catch (const InputError& error) {
@@ -106,17 +106,20 @@ TEST(Fields, ReadsWhatIsGivenAndKeepsDefaults) {
 }
 
 TEST(Fields, RefusesWithPlaceAndNearestKey) {
-    EXPECT_EQ(refusal("shape: rund"), "/room/table.yaml:1:8: table.shape: found 'rund', expected one of round, square (nearest: 'round')");
-    EXPECT_THAT(refusal("folds: true\nshap: round"), HasSubstr("table.yaml:2:1: table.shap: unknown key, expected 'shape', the nearest"));
-    EXPECT_THAT(refusal("tilt: 3"), HasSubstr("'tilt_deg', the nearest known key"));
-    EXPECT_THAT(refusal("{tilt_deg: 3, tilt_rad: 0.1}"), HasSubstr("'tilt_rad' beside 'tilt_deg', expected one of them"));
-    EXPECT_THAT(refusal("tilt_deg: 11"), HasSubstr("expected a number from -10 to 10"));
-    EXPECT_THAT(refusal("cups: {a: {height_m: 2}}"), HasSubstr("table.cups.a.height_m: found '2', expected a number from 0.01 to 1"));
+    EXPECT_EQ(field_refusal("shape: rund"),
+              "/room/table.yaml:1:8: table.shape: found 'rund', expected one of round, square (nearest: 'round')");
+    EXPECT_THAT(field_refusal("folds: true\nshap: round"),
+                HasSubstr("table.yaml:2:1: table.shap: unknown key, expected 'shape', the nearest"));
+    EXPECT_THAT(field_refusal("tilt: 3"), HasSubstr("'tilt_deg', the nearest known key"));
+    EXPECT_THAT(field_refusal("{tilt_deg: 3, tilt_rad: 0.1}"), HasSubstr("'tilt_rad' beside 'tilt_deg', expected one of them"));
+    EXPECT_THAT(field_refusal("tilt_deg: 11"), HasSubstr("expected a number from -10 to 10"));
+    EXPECT_THAT(field_refusal("cups: {a: {height_m: 2}}"), HasSubstr("table.cups.a.height_m: found '2', expected a number from 0.01 to 1"));
     EXPECT_EQ(field_named(table_fields(), "drop_m").id, 5);
     EXPECT_THROW(field_named(table_fields(), "drop"), std::logic_error) << "a word of our own, no user's";
-    EXPECT_THAT(refusal("own_cup: 3"), HasSubstr("expected true or false"));
-    EXPECT_THAT(refusal("folds: true"), HasSubstr("two legs that fold"));
-    EXPECT_THAT(refusal("{shape: round, corner_m: 0.1}"), HasSubstr("a key that shape 'round' does not use, expected none but shape"));
+    EXPECT_THAT(field_refusal("own_cup: 3"), HasSubstr("expected true or false"));
+    EXPECT_THAT(field_refusal("folds: true"), HasSubstr("two legs that fold"));
+    EXPECT_THAT(field_refusal("{shape: round, corner_m: 0.1}"),
+                HasSubstr("a key that shape 'round' does not use, expected none but shape"));
 }
 
 TEST(Fields, WritesWhatItReadsBack) {
