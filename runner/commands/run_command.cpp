@@ -26,7 +26,7 @@ struct RunFlags {
     std::vector<std::string> lamps;
     std::filesystem::path recipe, trace;
     RunOptions options;
-    std::string road, technique, resolution, frames, capture, out;
+    std::string road, technique, dressing, resolution, frames, capture, out;
     const OutputFormat* tables = nullptr;
     JudgingFlags judging;
     std::vector<std::string> road_folders;
@@ -49,6 +49,10 @@ DriveEdits edits_of(const RunFlags& flags) {
         edits.technique = std::string(technique_named(flags.technique, {}, "--technique").name);
     if (flags.shadows)
         edits.shadows = name(shadow_method_named(*flags.shadows, {}, "--shadows"));
+    if (!flags.dressing.empty() && flags.dressing != "none" && flags.dressing != "plain" && flags.dressing != "dressed")
+        refuse_flag("--dressing", flags.dressing, "none, plain or dressed");
+    if (!flags.dressing.empty())
+        edits.values.emplace_back("dressing", flags.dressing);
     if (!flags.resolution.empty())
         edits.resolution = resolution_of(flags.resolution);
     for (const std::string& folder : flags.road_folders)
@@ -165,6 +169,7 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     sub->add_option_function<std::string>(
         "--shadows", [flags](const std::string& method) { flags->shadows = method; }, // a function: it hears of an empty text, too
         "shadow method; `fernlicht techniques` lists them");
+    sub->add_option("--dressing", flags->dressing, "how what stands beside the road looks: none, plain or dressed");
     sub->add_option("--backend", flags->options.backend, backend_names);
     add_light_pass_flag(*sub, flags->options.light_pass);
     sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");

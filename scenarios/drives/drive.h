@@ -30,6 +30,9 @@ struct PixelBox {
     bool operator==(const PixelBox&) const = default;
 };
 
+/// How what stands beside the road looks (docs/scenery.md): left out, as plain shapes, or dressed.
+enum class Dressing { none, plain, dressed };
+
 struct View {
     std::string name;
     Projection projection = Projection::perspective;
@@ -142,6 +145,7 @@ struct Drive {
     ShadowSettings shadows;          ///< of the technique photometric; none: nothing casts a shadow, in rays neither
     std::optional<BeamTexels> beams; ///< how fine beam textures are; nullopt: as fine as the technique takes them, in float
     bool textured = true;            ///< surfaces have pictures
+    Dressing dressing = Dressing::plain;
     std::uint64_t seed = 1;
     std::vector<LampSource> lamp_sources; ///< where the lamps' files came from
     std::vector<std::string> notes;       ///< what was decided for the user ("the route ends after 8.2 s"), one sentence each

@@ -10,7 +10,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr ShadowMethodName names[] = {
+constexpr ShadowMethodName methods_by_name[] = {
     {ShadowMethod::none, "none", "", "nothing: light goes through everything", "all shadows"},
     {ShadowMethod::under_car, "under-car", "Knebel 2004, chapter on shadows",
      "a dark polygon under each body that moves: the ground within its outline from above gets no light of the own lamps",
@@ -40,12 +40,12 @@ constexpr ShadowMethodName names[] = {
 
 } // namespace
 
-std::span<const ShadowMethodName> shadow_method_names() { return names; }
+std::span<const ShadowMethodName> shadow_method_names() { return methods_by_name; }
 
 std::string_view name(ShadowMethod method) {
     if (method == ShadowMethod::automatic)
         return "auto";
-    return std::ranges::find(names, method, &ShadowMethodName::method)->name;
+    return std::ranges::find(methods_by_name, method, &ShadowMethodName::method)->name;
 }
 
 void set_shadow_method(ShadowSettings& shadows, ShadowMethod method) {
@@ -57,7 +57,7 @@ ShadowMethod shadow_method_named(const std::string& name, const std::filesystem:
     if (name == "auto")
         return ShadowMethod::automatic;
     std::vector<std::string> known{"auto"};
-    for (const ShadowMethodName& row : names) {
+    for (const ShadowMethodName& row : methods_by_name) {
         if (row.name == name)
             return row.method;
         known.emplace_back(row.name);

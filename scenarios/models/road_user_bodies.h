@@ -9,7 +9,9 @@ namespace fernlicht {
 struct BodySize {
     glm::dvec3 size_m{4.5, 1.8, 1.45}; ///< length, width, height, each > 0
     double rear_m = -0.9;              ///< x of the rear end
-    glm::vec3 paint{0.25F};            ///< linear sRGB reflectance
+    glm::vec3 paint{0.25F};            ///< linear sRGB reflectance; of a pedestrian the clothing above the waist
+    bool dressed = false;              ///< with the details of dressed scenery (docs/scenery.md)
+    std::uint32_t draw = 0;            ///< dressed only: which car (draw % 3: hatchback, saloon, estate), whether clothing reflects
 };
 
 /// Each closes at its box: from rear_m to rear_m + length, half the width to each side, from the road to its height. Motor vehicles have

@@ -15,27 +15,6 @@ namespace {
 
 constexpr double largest_mesh_m = 128.0, mesh_cell_m = 64.0;
 
-Mesh mesh_of(const TriangleSoup& soup, const std::vector<std::size_t>& triangles, const glm::dvec3& origin_m, std::string name) {
-    Mesh mesh{std::move(name), origin_m, {}, {}, {}};
-    std::map<std::uint32_t, std::vector<std::size_t>> by_material;
-    for (const std::size_t t : triangles)
-        by_material[soup.triangles[t].material].push_back(t);
-    std::unordered_map<std::uint32_t, std::uint32_t> taken;
-    for (const auto& [material, members] : by_material) {
-        mesh.batches.push_back({material, static_cast<std::uint32_t>(mesh.indices.size()), static_cast<std::uint32_t>(3 * members.size())});
-        for (const std::size_t t : members)
-            for (const std::uint32_t corner : soup.triangles[t].corners) {
-                const auto [it, fresh] = taken.try_emplace(corner, static_cast<std::uint32_t>(mesh.vertices.size()));
-                if (fresh) {
-                    const SoupVertex& v = soup.vertices[corner];
-                    mesh.vertices.push_back({glm::vec3(v.position_m - origin_m), glm::vec3(v.normal), v.uv});
-                }
-                mesh.indices.push_back(it->second);
-            }
-    }
-    return mesh;
-}
-
 constexpr double open_from_share = 0.85;
 
 using Key = std::array<long, 3>;
@@ -74,6 +53,27 @@ void TriangleSoup::add(const std::array<glm::dvec3, 3>& corners, std::uint32_t m
     for (const glm::dvec3& corner : corners)
         vertices.push_back({corner, normal / length});
     triangles.push_back({{first, first + 1, first + 2}, material});
+}
+
+Mesh mesh_of(const TriangleSoup& soup, const std::vector<std::size_t>& triangles, const glm::dvec3& origin_m, std::string name) {
+    Mesh mesh{std::move(name), origin_m, {}, {}, {}};
+    std::map<std::uint32_t, std::vector<std::size_t>> by_material;
+    for (const std::size_t t : triangles)
+        by_material[soup.triangles[t].material].push_back(t);
+    std::unordered_map<std::uint32_t, std::uint32_t> taken;
+    for (const auto& [material, members] : by_material) {
+        mesh.batches.push_back({material, static_cast<std::uint32_t>(mesh.indices.size()), static_cast<std::uint32_t>(3 * members.size())});
+        for (const std::size_t t : members)
+            for (const std::uint32_t corner : soup.triangles[t].corners) {
+                const auto [it, fresh] = taken.try_emplace(corner, static_cast<std::uint32_t>(mesh.vertices.size()));
+                if (fresh) {
+                    const SoupVertex& v = soup.vertices[corner];
+                    mesh.vertices.push_back({glm::vec3(v.position_m - origin_m), glm::vec3(v.normal), v.uv});
+                }
+                mesh.indices.push_back(it->second);
+            }
+    }
+    return mesh;
 }
 
 void add_meshes(Model& model, const TriangleSoup& soup) {

@@ -28,6 +28,9 @@ struct TriangleSoup {
     void add(const std::array<glm::dvec3, 3>& corners, std::uint32_t material);
 };
 
+/// These triangles (positions in `soup.triangles`) as a mesh about an origin: one batch a material, ascending.
+Mesh mesh_of(const TriangleSoup& soup, const std::vector<std::size_t>& triangles, const glm::dvec3& origin_m, std::string name);
+
 /// Adds the soup to the model: as one mesh, or as one a cell of 64 m where it is larger than 128 m. Sets the model's box.
 void add_meshes(Model& model, const TriangleSoup& soup);
 

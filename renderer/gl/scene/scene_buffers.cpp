@@ -195,7 +195,8 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded, b
             for (const auto& corner : corners)
                 places.emplace_back(mesh.vertices[corner.first].position_m);
             piece.corners_m = box_round(places);
-            piece.bodies_m = ground || mesh.body >= 0 ? std::vector{piece.corners_m} : boxes_round_bodies(places); // a car is one
+            // A car is one.
+            piece.bodies_m = ground || mesh.body >= 0 || mesh.whole ? std::vector{piece.corners_m} : boxes_round_bodies(places);
             if (std::find(classes_.begin(), classes_.end(), surface) == classes_.end())
                 classes_.push_back(surface);
             const glm::dvec3 centre = piece.origin_m + piece.centre_m;

@@ -98,7 +98,8 @@ Drive read_all(const YamlMap& keys, const YamlMap& of_car, const std::filesystem
     check_entities(keys, drive);
     drive.views = read_views(keys, drive.opened);
     drive.extent = ExtentParameters{};
-    read({"capture", "tone_mapper", "display", "technique", "scenery", "measure", "limits", "shadows", "beams", "textures", "seed"});
+    read({"capture", "tone_mapper", "display", "technique", "scenery", "measure", "limits", "shadows", "beams", "textures", "dressing",
+          "seed"});
     return drive;
 }
 

@@ -242,6 +242,16 @@ const Fields<Drive>& drive_fields() {
                 [](const Drive& drive) { return std::string(drive.textured ? "shipped" : "none"); }, R"({"enum": ["none", "shipped"]})",
                 "pictures on surfaces"),
             own<Drive>(
+                "dressing", 42,
+                [](const YamlEntry& entry, Drive& drive) {
+                    drive.dressing = static_cast<Dressing>(entry.choice({"none", "plain", "dressed"}));
+                },
+                [](const Drive& drive) {
+                    static constexpr const char* words[]{"none", "plain", "dressed"};
+                    return std::string(words[static_cast<std::size_t>(drive.dressing)]);
+                },
+                R"({"enum": ["none", "plain", "dressed"]})", "how the road's objects look: left out, plain shapes, or houses, trees and cars"),
+            own<Drive>(
                 "seed", 41, [](const YamlEntry& entry, Drive& drive) { drive.seed = entry.count(); },
                 [](const Drive& drive) { return fmt::format("{}", drive.seed); }, R"({"type": "integer", "minimum": 0})",
                 "of all that is random"),

@@ -1,5 +1,6 @@
 #include "scenarios/drives/play/staged_scene.h"
 
+#include "scenarios/dressing/dressing.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/control_play.h"
 #include "scenarios/drives/play/motion.h"
@@ -12,12 +13,47 @@
 #include "scenarios/traffic/road_user_mesh.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace fernlicht {
+namespace {
+
+/// At the picture's middle; of maps and where there is no view a default.
+double smallest_pixel_rad(const std::vector<View>& views) {
+    double least = 0.7e-3;
+    for (const View& view : views)
+        if (view.projection == Projection::perspective)
+            least = std::min(least, 2.0 * std::tan(0.5 * view.vertical_fov_rad) / view.height_px);
+    return least;
+}
+
+/// With a note of what shades the own lane.
+void dress(Scene& scene, Drive& drive, const RoadNetwork& network, const Route& route) {
+    Scene dressing;
+    dressing.materials.swap(scene.materials);
+    dressing.textures.swap(scene.textures);
+    add_dressing(dressing, network, route, {.textures = drive.textured, .seed = drive.seed, .pixel_rad = smallest_pixel_rad(drive.views)});
+    std::string names;
+    for (const std::string& name : shades_of_lane(dressing, route))
+        names += (names.empty() ? "" : ", ") + name;
+    if (!names.empty())
+        drive.notes.push_back("dressed objects that shade the own lane somewhere on the route: " + names);
+    scene.materials.swap(dressing.materials);
+    scene.textures.swap(dressing.textures);
+    std::ranges::move(dressing.meshes, std::back_inserter(scene.meshes));
+}
+
+} // namespace
 
 Scene staged_scene(Drive& drive, const RoadNetwork& network, const Route& route) {
-    Scene scene = build_scene(network, {.textures = drive.textured, .seed = drive.seed});
+    RoadMeshOptions options{.textures = drive.textured, .seed = drive.seed};
+    if (drive.dressing != Dressing::plain)
+        options.leave_out = [&](const RoadObject& object) { return drive.dressing == Dressing::none || is_dressed(object); };
+    Scene scene = build_scene(network, options);
+    if (drive.dressing == Dressing::dressed)
+        dress(scene, drive, network, route);
     add_scenery(scene, drive.scenery, route);
     find_street_lamps(drive, network);
     add_street_lamp_poles(drive, route, scene);
@@ -29,7 +65,7 @@ Scene staged_scene(Drive& drive, const RoadNetwork& network, const Route& route)
     simulate(drive, route);
     place_traffic(drive, network, route);
     simulate_control(drive, route);
-    add_road_users(scene, drive.traffic, drive.opened);
+    add_road_users(scene, drive.traffic, drive.opened, drive.dressing == Dressing::dressed);
     add_own_car(scene, drive);
     return scene;
 }

@@ -1,4 +1,5 @@
 #include "scenarios/roads/mesh/mesh_terrain.h"
+#include "scenarios/roads/mesh/road_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -190,7 +191,7 @@ Solid solid_of(const RoadObject& object) {
 }
 
 /// Upright at (s, t), heading counted from the road's.
-Pose standing(const RoadNetwork& network, const Road& road, double s_m, double t_m, double z_m, double heading, double pitch, double roll) {
+Pose stand_at(const RoadNetwork& network, const Road& road, double s_m, double t_m, double z_m, double heading, double pitch, double roll) {
     const Pose ground = surface_pose(network, road, s_m, t_m);
     const double yaw = std::atan2(ground.forward().y, ground.forward().x) + heading;
     // OpenDRIVE's pitch turns the nose down, ours up.
@@ -211,7 +212,7 @@ std::vector<Corner> corners(const RoadObject& object) {
 /// Outlines are given in a frame that lies in the road's surface, all else stands upright.
 Pose frame_of(const RoadNetwork& network, const Road& road, const RoadObject& object, Solid solid) {
     if (solid != Solid::outline)
-        return standing(network, road, object.s_m, object.t_m, object.z_offset_m, object.heading_rad, object.pitch_rad, object.roll_rad);
+        return standing(network, road, object);
     const Pose stand{{0.0, 0.0, object.z_offset_m}, axes_from_angles(object.heading_rad, object.pitch_rad, object.roll_rad)};
     return compose(surface_pose(network, road, object.s_m, object.t_m), stand);
 }
@@ -306,13 +307,17 @@ std::vector<std::array<std::size_t, 3>> triangulated(const std::vector<glm::dvec
     return out;
 }
 
+Pose standing(const RoadNetwork& network, const Road& road, const RoadObject& object) {
+    return stand_at(network, road, object.s_m, object.t_m, object.z_offset_m, object.heading_rad, object.pitch_rad, object.roll_rad);
+}
+
 void append_objects(Scene& scene, const RoadNetwork& network, const SurfacePlan& plan, const RoadMeshOptions& options) {
     const Road& road = *plan.road;
     const double chunk = std::clamp(options.chunk_length_m, 5.0, 200.0);
     std::map<std::pair<std::string, double>, MeshBuilder> meshes;
     for (const RoadObject& object : road.objects) {
         const Solid solid = solid_of(object);
-        if (solid == Solid::nothing)
+        if (solid == Solid::nothing || (options.leave_out && options.leave_out(object)))
             continue;
         const Pose foot = frame_of(network, road, object, solid);
         const std::string name = called(object, solid);
@@ -332,7 +337,7 @@ void append_signals(Scene& scene, const RoadNetwork& network, const SurfacePlan&
     const Road& road = *plan.road;
     for (const RoadSignal& signal : road.signals) {
         const double towards = signal.facing_forward ? pi : 0.0;
-        const Pose ground = standing(network, road, signal.s_m, signal.t_m, 0.0, towards + signal.heading_offset_rad, 0.0, 0.0);
+        const Pose ground = stand_at(network, road, signal.s_m, signal.t_m, 0.0, towards + signal.heading_offset_rad, 0.0, 0.0);
         MeshBuilder builder(fmt::format("signal {}", signal.id), ground.position_m);
         append_board(builder, signal, ground, !over_paved(plan, signal.s_m, signal.t_m));
         std::move(builder).add_to(scene);

@@ -263,6 +263,15 @@ constexpr double max_far_tiles = 250.0; // each way; larger then
 
 } // namespace
 
+double ground_drop_m(double out_m) {
+    const std::array<Column, 5> all = columns(unlimited);
+    for (std::size_t k = 1; k + 1 < all.size(); ++k)
+        if (out_m < all[k].out_m)
+            return all[k - 1].drop_m +
+                   (all[k].drop_m - all[k - 1].drop_m) * std::max(0.0, out_m - all[k - 1].out_m) / (all[k].out_m - all[k - 1].out_m);
+    return all.back().drop_m;
+}
+
 void append_terrain(Scene& scene, const SurfacePlan& plan, std::size_t road_index, const SurfaceRows& surface, const Footprints& footprints,
                     const RoadMeshOptions& options) {
     if (!(options.verge_width_m > 0.0))

@@ -5,6 +5,7 @@
 #include "scenarios/values/scene.h"
 
 #include <cstdint>
+#include <functional>
 
 namespace fernlicht {
 
@@ -14,6 +15,8 @@ struct RoadMeshOptions {
     double verge_width_m = 30.0;  ///< terrain beside the outermost lane on each side
     bool textures = true;         ///< pictures of asphalt, concrete, grass and worn paint (mesh_materials.h); mean reflectances stay
     std::uint64_t seed = 1;       ///< of the textures
+    /// Objects that are left out, because there are to be none or somebody else builds them. Empty: none are.
+    std::function<bool(const RoadObject&)> leave_out = {};
 };
 
 /// Surface with marks as materials of their own strips (no overlapping geometry), verge and terrain, objects, signal boards with posts.
@@ -24,6 +27,11 @@ struct RoadMeshOptions {
 /// not matter which of the two is seen; marks of connecting roads are lost there. Nothing is thrown; the reader has judged the network.
 /// Every vertex has its place in a texture (mesh_builder.h: texture_position).
 Scene build_scene(const RoadNetwork& network, const RoadMeshOptions& options = {});
+
+/// Where an object stands that is no outline: upright on the road's surface at its place, x along its heading.
+Pose standing(const RoadNetwork& network, const Road& road, const RoadObject& object);
+/// How far the ground beside a road lies below its edge, so many metres out.
+double ground_drop_m(double out_m);
 
 /// The materials that build_scene uses, untextured, by name: asphalt, concrete, kerb, marking-white, marking-yellow, verge, terrain, board,
 /// board-back, post, delineator, object, trunk, leaves.

@@ -53,7 +53,7 @@ void expect_same(const Drive& a, Drive b) {
     EXPECT_EQ(a.seeing, b.seeing);
     EXPECT_EQ(a.limits, b.limits);
     EXPECT_EQ(a.shadows, b.shadows);
-    EXPECT_EQ(std::tie(a.beams, a.textured, a.seed), std::tie(b.beams, b.textured, b.seed));
+    EXPECT_EQ(std::tie(a.beams, a.textured, a.dressing, a.seed), std::tie(b.beams, b.textured, b.dressing, b.seed));
 }
 
 /// Any drive that the format can hold; numbers with all their digits.
@@ -160,6 +160,7 @@ class AnyDrive {
         if (coin())
             drive.beams = coin() ? eight_bit_texels : BeamTexels{2 + static_cast<int>(drive.seed % 100), 33, coin() ? 16 : 32};
         drive.textured = coin();
+        drive.dressing = coin() ? Dressing::dressed : coin() ? Dressing::none : Dressing::plain;
         drive.seed = random_();
         return drive;
     }

@@ -1,0 +1,64 @@
+#include "scenarios/dressing/dressed_object.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace fernlicht {
+
+DressedObject dressed_fence(double length_m, double height_m, double fall_m) {
+    DressedObject out;
+    const auto box = [&](double x0, double x1, double y0, double y1, double z0, double z1) {
+        append_box(out.low, {x0, y0, z0}, {x1, y1, z1}, index_of(Stuff::wood));
+    };
+    const double half = 0.5 * length_m;
+    const int posts = std::max(2, static_cast<int>(length_m / 2.2) + 1), pickets = static_cast<int>(length_m / 0.22);
+    for (int i = 0; i < posts; ++i) {
+        const double x = -half + 0.05 + (length_m - 0.1) * i / (posts - 1);
+        box(x - 0.05, x + 0.05, -0.05, 0.05, -fall_m, height_m);
+    }
+    for (const double z : {0.25 * height_m, 0.75 * height_m})
+        box(-half, half, -0.02, 0.02, z - 0.04, z + 0.04);
+    for (int i = 0; i < pickets; ++i) {
+        const double x = -half + (i + 0.5) * length_m / pickets;
+        box(x - 0.045, x + 0.045, -0.03, -0.01, 0.06 * height_m, 0.96 * height_m);
+    }
+    return out;
+}
+
+DressedObject dressed_field_fence(double length_m) {
+    DressedObject out;
+    append_box(out.low, {-0.5 * length_m, -0.05, -0.4}, {-0.5 * length_m + 0.1, 0.05, 1.15}, index_of(Stuff::wood));
+    for (const double z : {0.5, 0.95})
+        append_box(out.low, {-0.5 * length_m, 0.05, z - 0.05}, {0.5 * length_m, 0.075, z + 0.05}, index_of(Stuff::wood));
+    return out;
+}
+
+DressedObject dressed_guard_rail(double length_m, double width_m, double height_m, bool road_left) {
+    DressedObject out;
+    // The beam's front, from below: two bulges with a valley between, as shares of depth and height.
+    static constexpr std::array<std::array<double, 2>, 10> face{
+        {{0.2, 0.0}, {0.75, 0.08}, {1.0, 0.16}, {1.0, 0.30}, {0.1, 0.45}, {0.1, 0.55}, {1.0, 0.70}, {1.0, 0.84}, {0.75, 0.92}, {0.2, 1.0}}};
+    constexpr double sheet = 0.08; // of the depth
+    const double side = road_left ? 1.0 : -1.0;
+    const auto at = [&](std::size_t k, bool front, double end) {
+        const double depth = face[k][0] * (1.0 - sheet) + (front ? sheet : 0.0);
+        return glm::dvec3(0.5 * end * length_m, side * width_m * (depth - 0.5), height_m * face[k][1]);
+    };
+    const auto quad = [&](std::array<glm::dvec3, 4> q) {
+        if (!road_left)
+            std::swap(q[1], q[3]);
+        out.low.add({q[0], q[1], q[2]}, index_of(Stuff::zinc));
+        out.low.add({q[0], q[2], q[3]}, index_of(Stuff::zinc));
+    };
+    for (std::size_t k = 0; k + 1 < face.size(); ++k)
+        for (const bool front : {true, false}) {
+            const double end = front ? 1.0 : -1.0;
+            quad({at(k, front, end), at(k, front, -end), at(k + 1, front, -end), at(k + 1, front, end)});
+        }
+    smooth(out.low, radians(50.0));
+    return out;
+}
+
+} // namespace fernlicht

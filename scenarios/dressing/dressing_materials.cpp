@@ -1,0 +1,176 @@
+#include "scenarios/dressing/dressing_materials.h"
+
+#include "scenarios/roads/mesh/mesh_materials.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fernlicht {
+namespace {
+
+using Tone = std::array<double, 3>; ///< a texel's tone in R, G, B
+
+/// A picture to modulate with: each channel's mean is `level` of 255 to within half a step, `tone(x, y, u, v)` its shape.
+template <class At> SurfaceTexture toned_picture(const char* name, double level, const At& tone) {
+    constexpr int px = road_texture_px;
+    std::vector<Tone> rows;
+    Tone sum{};
+    for (int y = 0; y < px; ++y)
+        for (int x = 0; x < px; ++x) {
+            Tone row = tone(x, y, (x + 0.5) / px, (y + 0.5) / px);
+            for (std::size_t c = 0; c < 3; ++c) {
+                row[c] = std::max(row[c], 0.0);
+                sum[c] += row[c];
+            }
+            rows.push_back(row);
+        }
+    SurfaceTexture texture{name, px, px, {}};
+    for (const Tone& row : rows) {
+        for (std::size_t c = 0; c < 3; ++c)
+            texture.rgba.push_back(
+                static_cast<std::uint8_t>(std::clamp(row[c] * level * static_cast<double>(rows.size()) / sum[c] + 0.5, 0.0, 255.0)));
+        texture.rgba.push_back(255);
+    }
+    return texture;
+}
+
+Tone grey_tone(double tone) { return {tone, tone, tone}; }
+
+/// Roughcast: fine grain, and the streaks that rain leaves below sills and eaves.
+SurfaceTexture plaster_picture(std::uint64_t seed) {
+    const TilingNoise grain(seed, 41), stains(seed, 42), streaks(seed, 43);
+    return toned_picture("plaster", 200.0, [&](int x, int y, double u, double v) {
+        return grey_tone(1.0 + 0.10 * (grain.uniform(x, y) - 0.5) + 0.07 * stains.octaves(u, v, 8, 4, 0.9) +
+                         0.06 * streaks.gradient(u, std::fmod(v * 0.125, 1.0), 64));
+    });
+}
+
+/// Courses of 83 mm in stretcher bond (12 to the metre, 4 bricks to the metre), each brick of its own tone.
+SurfaceTexture brick_picture(std::uint64_t seed) {
+    const TilingNoise bricks(seed, 51);
+    return toned_picture("brick", 140.0, [&](int, int, double u, double v) {
+        const double course = v * 96.0, along = u * 32.0 + 0.5 * std::fmod(std::floor(course), 2.0);
+        const bool joint = course - std::floor(course) < 0.16 || along - std::floor(along) < 0.06;
+        const double own = bricks.uniform(static_cast<int>(along) % 32, static_cast<int>(course));
+        const double tone = joint ? 1.25 : 0.75 + 0.5 * own;
+        return Tone{tone * (joint ? 0.9 : 1.0), tone, tone * (joint ? 1.15 : 1.0)};
+    });
+}
+
+/// Rows of interlocking tiles, 0.25 m wide and 0.33 m high, dark where one lies over the next.
+SurfaceTexture tile_picture(std::uint64_t seed) {
+    const TilingNoise tiles(seed, 61), moss(seed, 62), grain(seed, 63);
+    return toned_picture("tiles", 150.0, [&](int x, int y, double u, double v) {
+        const double row = v * 24.0, column = u * 32.0, up = row - std::floor(row), side = column - std::floor(column);
+        double tone = 0.85 + 0.35 * tiles.uniform(static_cast<int>(column), static_cast<int>(row)) + 0.15 * moss.octaves(u, v, 8, 3, 0.9);
+        tone *= up < 0.18 ? 0.45 : 1.0;
+        return grey_tone(tone * (0.82 + 0.36 * std::sin(pi * side)) + 0.06 * grain.uniform(x, y));
+    });
+}
+
+/// Furrows along the trunk.
+SurfaceTexture bark_picture(std::uint64_t seed) {
+    const TilingNoise furrows(seed, 71), plates(seed, 72), grain(seed, 73);
+    return toned_picture("bark", 130.0, [&](int x, int y, double u, double v) {
+        const double deep = std::abs(furrows.gradient(u, std::fmod(v * 0.25, 1.0), 64)) + 0.5 * std::abs(plates.gradient(u, v, 32));
+        return grey_tone(0.45 + 2.2 * deep + 0.3 * (grain.uniform(x, y) - 0.5));
+    });
+}
+
+/// Leaves of some 8 cm with dark gaps between them: what is bright lies in front, what is dark is the crown's inside.
+SurfaceTexture leaf_picture(std::uint64_t seed) {
+    const TilingNoise leaves(seed, 81), twigs(seed, 82), grain(seed, 83), hue(seed, 84);
+    return toned_picture("leaves", 90.0, [&](int x, int y, double u, double v) {
+        const double cover = 1.1 * leaves.gradient(u, v, 96) + 0.7 * twigs.gradient(u, v, 40) + 0.5 * (grain.uniform(x, y) - 0.5);
+        const double tone = std::clamp(0.75 + 2.2 * cover, 0.12, 2.4), dry = 0.2 * hue.octaves(u, v, 16, 3, 1.0);
+        return Tone{tone * (1.0 + dry), tone, tone * (1.0 - dry)};
+    });
+}
+
+enum class StuffPicture { plaster, brick, tiles, bark, leaves };
+
+struct DressedStuff {
+    Stuff stuff;
+    const char* name;
+    glm::vec3 reflectance;
+    int picture = -1; ///< StuffPicture
+};
+
+constexpr int layer_of(StuffPicture picture) { return static_cast<int>(picture); }
+
+/// Sources: docs/scenery.md, by the same names.
+const std::array<DressedStuff, index_of(Stuff::count)> dressed_stuff{{
+    {Stuff::white_plaster, "white plaster", {0.57F, 0.55F, 0.50F}, layer_of(StuffPicture::plaster)},
+    {Stuff::ochre_plaster, "ochre plaster", {0.50F, 0.38F, 0.20F}, layer_of(StuffPicture::plaster)},
+    {Stuff::grey_plaster, "grey plaster", {0.33F, 0.33F, 0.32F}, layer_of(StuffPicture::plaster)},
+    {Stuff::rose_plaster, "rose plaster", {0.48F, 0.33F, 0.27F}, layer_of(StuffPicture::plaster)},
+    {Stuff::brick, "brick", {0.33F, 0.14F, 0.09F}, layer_of(StuffPicture::brick)},
+    {Stuff::plinth, "plinth", {0.27F, 0.27F, 0.26F}, layer_of(StuffPicture::plaster)},
+    {Stuff::red_tiles, "red tiles", {0.30F, 0.13F, 0.08F}, layer_of(StuffPicture::tiles)},
+    {Stuff::dark_tiles, "dark tiles", {0.08F, 0.08F, 0.085F}, layer_of(StuffPicture::tiles)},
+    {Stuff::white_frame, "window frame", {0.55F, 0.55F, 0.54F}},
+    {Stuff::glass, "window", {0.07F, 0.07F, 0.07F}},
+    {Stuff::curtain, "lit curtain", {0.30F, 0.30F, 0.28F}},
+    {Stuff::room, "lit room", {0.07F, 0.07F, 0.07F}},
+    {Stuff::door, "door", {0.11F, 0.06F, 0.035F}},
+    {Stuff::shutter, "shutter", {0.05F, 0.09F, 0.06F}},
+    {Stuff::wood, "wood", {0.24F, 0.20F, 0.15F}},
+    {Stuff::bark, "bark", {0.12F, 0.09F, 0.06F}, layer_of(StuffPicture::bark)},
+    {Stuff::leaves, "leaves", {0.06F, 0.12F, 0.04F}, layer_of(StuffPicture::leaves)},
+    {Stuff::dry_leaves, "dry leaves", {0.13F, 0.12F, 0.04F}, layer_of(StuffPicture::leaves)},
+    {Stuff::needles, "needles", {0.03F, 0.06F, 0.03F}, layer_of(StuffPicture::leaves)},
+    {Stuff::hedge, "hedge", {0.045F, 0.09F, 0.035F}, layer_of(StuffPicture::leaves)},
+    {Stuff::grass, "tall grass", {0.105F, 0.130F, 0.060F}},
+    {Stuff::zinc, "zinc", {0.30F, 0.30F, 0.30F}},
+}};
+
+/// Of luminance 1: a black body of 2700 K, x 0.4599, y 0.4106 (CIE 15), in linear sRGB.
+const glm::vec3 light_of_2700_k{1.935F, 0.804F, 0.192F};
+
+constexpr std::uint64_t golden_ratio = 0x9E3779B97F4A7C15ULL;
+
+} // namespace
+
+std::vector<Material> dressing_materials() {
+    std::vector<Material> all;
+    for (const DressedStuff& row : dressed_stuff)
+        all.push_back({.name = row.name, .kind = SurfaceKind::object, .albedo = row.reflectance});
+    // A living room of 100 lx with walls of 0.5: 100 * 0.5 / pi = 16 cd/m2, through glass of 0.8 and, where drawn, a curtain of 0.25.
+    all[index_of(Stuff::room)].emission_cdm2 = 12.73F * light_of_2700_k;
+    all[index_of(Stuff::curtain)].emission_cdm2 = 3.18F * light_of_2700_k;
+    return all;
+}
+
+std::uint32_t add_dressing_materials(Scene& scene, bool textures, std::uint64_t seed) {
+    const auto first = static_cast<std::uint32_t>(scene.materials.size());
+    std::vector<Material> all = dressing_materials();
+    if (textures) {
+        const auto layer = static_cast<int>(scene.textures.size());
+        for (SurfaceTexture (*make)(std::uint64_t) : {plaster_picture, brick_picture, tile_picture, bark_picture, leaf_picture})
+            scene.textures.push_back(make(seed));
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (dressed_stuff[i].picture >= 0) {
+                all[i].texture = layer + dressed_stuff[i].picture;
+                const SurfaceTexture& texture = scene.textures[static_cast<std::size_t>(all[i].texture)];
+                all[i].albedo /= glm::vec3(mean_reflectance(texture, TextureMode::modulate, glm::dvec3(1.0), glm::dvec3(0.0)));
+            }
+    }
+    scene.materials.insert(scene.materials.end(), all.begin(), all.end());
+    return first;
+}
+
+Dice::Dice(std::uint64_t seed, std::string_view name) : state_(0xCBF29CE484222325ULL ^ (seed * golden_ratio)) {
+    for (const char c : name) // FNV-1a (Fowler, Noll, Vo)
+        state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
+}
+
+double Dice::share() {
+    state_ += golden_ratio;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
+}
+
+} // namespace fernlicht
