@@ -132,12 +132,13 @@ std::string key_sentence(const ComparedDrive& drive) {
     const bool within = found.change.measured() && found.by_aim && std::abs(*found.change.figure()) <= *found.by_aim;
     if (!found.change.measured() || found.change.figure() == 0.0)
         return fmt::format("{} and {}: {} {}", lamp, first, worded(*found.best), reading_label(keys.front()));
-    return fmt::format("{} is {} than {}{}: {} against {} ({}{})", lamp,
+    return fmt::format("{} is {} than {}{}: {} against {} ({}{}), {}", lamp,
                        is_better                   ? "better"
                        : better == Better::neither ? "other"
                                                    : "worse",
                        first, within ? ", by no more than 0.1° of aim," : "", worded(*found.best), worded(*found.first),
-                       found.changed() + unit_suffix(found.first->unit()), found.share().empty() ? "" : ", " + found.share());
+                       found.changed() + unit_suffix(found.first->unit()), found.share().empty() ? "" : ", " + found.share(),
+                       reading_label(keys.front()));
 }
 
 } // namespace fernlicht

@@ -142,7 +142,9 @@ Sections lead_of(const ComparedDrive& drive) {
         if (!course)
             continue;
         course->width_px = 600.0;
-        course->height_px = 175.0;
+        course->height_px = 190.0;
+        course->y.label = "reach";
+        std::erase_if(course->series, [](const plots::Series& series) { return !series.dash.empty(); }); // the twin's
         course->subtitle = course->title + ", own lane";
         course->title.clear();
         section.blocks.emplace_back(Plot{.name = drive.name + "-course", .figure = std::move(*course)});

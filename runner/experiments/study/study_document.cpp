@@ -355,7 +355,7 @@ Document document(const StudyResult& result, const std::vector<std::string>& pap
     add(std::move(answer), false);
     add(decision_section(result, decisions), false);
     if (was_judged(result))
-        add(verdict_section(result), false);
+        document.sections.push_back(verdict_section(result));
     for (Section* const section : {&reach, &glare})
         add(std::move(*section), false);
     add(largest_section(result), false);
