@@ -14,6 +14,7 @@
 #include "runner/judge/verdict_line.h"
 #include "runner/play/progress.h"
 #include "runner/write/document.h"
+#include "runner/write/paper.h"
 #include "runner/write/report_texts.h"
 #include "scenarios/values/errors.h"
 
@@ -34,7 +35,7 @@ struct StudyFlags {
     std::vector<std::string> only;
     JudgingFlags judging;
     bool strict = false, resume = false, quiet = false, no_accuracy = false, list = false;
-    std::string store, history;
+    std::string store, history, figures;
     int jobs = 0, per = 1;
     std::vector<std::string> expect;
     std::optional<double> cell_minutes, cell_memory_mib;
@@ -50,7 +51,8 @@ int list_cells(const std::vector<StudyCell>& cells) {
 }
 
 /// The page last: a disk that fills up takes it before it takes the numbers.
-void write_study(const StudyResult& result, const std::filesystem::path& folder, const std::optional<HistoryFindings>& history) {
+void write_study(const StudyResult& result, const std::filesystem::path& folder, const std::optional<HistoryFindings>& history,
+                 bool for_paper) {
     oneapi::tbb::parallel_invoke([&] { write_json(folder / "study.json", result, study_members); },
                                  [&] { write_file(folder / "study.csv", [&](const TakePiece& take) { study_csv(result, take); }); });
     std::vector<std::string> papers;
@@ -62,6 +64,8 @@ void write_study(const StudyResult& result, const std::filesystem::path& folder,
             if (format.for_papers)
                 write_file(folder / papers.emplace_back(std::string("study") + format.extension), format.of_document(paper));
     }
+    if (for_paper)
+        write_paper(paper_figures(result), paper_tables(result), folder / "paper");
     write_file(folder / "junit.xml", report_junit(suites_of(result)));
     write_file(folder / "study.yaml", result.study.text);
     Document page = document(result, papers);
@@ -267,7 +271,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
                 {findings->is_off_base() ? VerdictKind::fail : VerdictKind::pass, unchanged_verdict,
                  std::get<std::string>(changes_section(*findings).blocks.front()),
                  shell_quoted({command.front(), "history", "explain", "--study", result.study.name, "--history", flags.history})});
-        write_study(result, options.folder, findings);
+        write_study(result, options.folder, findings, flags.figures == "paper");
         if (findings)
             try_history([&] { remember(flags, result, options, *findings); });
     };
@@ -317,6 +321,9 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_flag("--no-accuracy", flags->no_accuracy, "do not compare moments of each cell with the reference");
     sub->add_option("--only", flags->only, "comma-separated names of cells, * and ? allowed: 'straight*,*xenon'")->allow_extra_args(false);
     add_trace_flag(*sub, flags->trace);
+    sub->add_option("--figures", flags->figures,
+                    "paper: figures at column width as PDF and SVG, captions, data and LaTeX tables in DIR/paper")
+        ->check(CLI::IsMember({"paper"}));
     sub->add_flag("--list", flags->list, "list the cells and play none");
     sub->add_option("--store", flags->store, "folder where played cells are kept (default: $XDG_CACHE_HOME/fernlicht/store)");
     sub->add_option("--jobs", flags->jobs, "cells to play at a time (default: one per core; with a GPU at most 4)")

@@ -2,6 +2,7 @@
 
 #include "runner/findings/figures.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <sstream>
 
@@ -77,6 +78,28 @@ std::vector<Column> columns_of(const std::string& line) {
         column.head = item;
     }
     return columns;
+}
+
+Table table_of(const PlaceMatrix& matrix) {
+    Table table{matrix.name, matrix.caption, {{.head = matrix.corner, .words = true}}, {}};
+    std::vector<bool> changes;
+    for (std::size_t i = 0; i < matrix.columns.size(); ++i) {
+        changes.push_back(std::ranges::any_of(matrix.rows, [&](const auto& row) { return !row.second[i].standing.empty(); }));
+        table.columns.push_back({.head = matrix.columns[i].text, .unit = matrix.unit, .series = matrix.columns[i].series});
+        if (changes.back())
+            for (const auto& [head, unit] :
+                 {std::pair("change", matrix.unit.c_str()), {"change", "%"}, {"±", matrix.open_by.c_str()}, {"is", ""}})
+                table.columns.push_back({.head = head, .unit = unit, .words = std::string_view(head) == "is"});
+    }
+    for (const auto& [name, entries] : matrix.rows) {
+        std::vector<Cell>& row = table.rows.emplace_back(std::vector<Cell>{name});
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            row.push_back(entries[i].value);
+            if (changes[i])
+                row.insert(row.end(), {entries[i].change, entries[i].share, entries[i].open, entries[i].standing});
+        }
+    }
+    return table;
 }
 
 Section work_precision_section(const WorkPrecision& diagram) {

@@ -66,6 +66,27 @@ struct Table {
     bool prose = false; ///< cells are sentences as paragraphs are, and nothing where there is none: too wide for columns of a terminal
 };
 
+/// One figure of one thing in one place, and how it stands to what it is compared with.
+struct MatrixEntry {
+    Cell value;                ///< as a table's; where it leads is where the comparison stands
+    std::string change = {};   ///< "+9.1", in its unit
+    std::string share = {};    ///< "+21", in per cent
+    std::string standing = {}; ///< "better", "worse", "changed", or in other words that it is none of these; "" where nothing is compared
+    std::string open = {};     ///< "6.3": what the change is open to, in its unit, either way
+    double shade = 0.0;        ///< from -1, much worse, to 1, much better
+};
+
+/// Things beside each other, a row for each place.
+struct PlaceMatrix {
+    std::string name, caption;      ///< as a table's
+    std::string corner, unit;       ///< what the rows are; of all values
+    std::string open_by = {};       ///< "aim": what opens changes
+    std::vector<Cell> columns = {}; ///< names of the things
+    std::vector<std::pair<Cell, std::vector<MatrixEntry>>> rows = {};
+};
+/// With a column for each thing's values, and one for its changes where there are any: for whatever draws no matrix.
+Table table_of(const PlaceMatrix& matrix);
+
 /// Sentences one below the other, without full stops.
 struct Listing {
     std::vector<Cell> items;
@@ -99,6 +120,8 @@ struct Plot {
     double scale = 1.0;                     ///< pixels of its PNG for one of the SVG
     bool beside = false;                    ///< small enough that others stand beside it
     bool png_alone = false;                 ///< made of pixels: no SVG is kept
+    std::string place = {};                 ///< by which a page filters and sorts it among others of its section; "": it stays
+    std::optional<double> rank = {};        ///< by which a page sorts it, largest first
 };
 
 /// Takes a plot that stands in no document, or that a document names by its files, to be written at once as NAME.png and .svg.
@@ -115,7 +138,7 @@ struct PictureStrip {
 };
 
 /// A string is a paragraph; in it and in a listing, what stands between backticks is meant as it is typed.
-using DocumentPart = std::variant<std::string, Table, Plot, Listing, Cards, PictureOverlay, PictureStrip>;
+using DocumentPart = std::variant<std::string, Table, PlaceMatrix, Plot, Listing, Cards, PictureOverlay, PictureStrip>;
 
 struct Section {
     std::string title; ///< "" for what stands before the first heading
@@ -123,6 +146,8 @@ struct Section {
     int level = 2;              ///< of its heading; 3 and more: a part of the section before
     bool on_page_alone = false; ///< too long for a terminal
     std::string verdict = {};   ///< of what says how it went: "pass", "fail", "flaky", "not_measured", "none" where nothing was judged
+    bool is_answer = false;     ///< what all was done for: large, and first on a page
+    bool folded = false;        ///< opened on a page by who wants to
 };
 
 struct Document {

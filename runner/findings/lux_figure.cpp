@@ -2,6 +2,7 @@
 
 #include "runner/files/clean_text.h"
 #include "runner/findings/figures.h"
+#include "runner/findings/lux_codes.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -9,6 +10,8 @@
 
 namespace fernlicht {
 namespace {
+
+const plots::Axis lux_scale{"illuminance on the road", "lx", 0.1, 100.0, plots::Scale::logarithmic, {}};
 
 std::vector<double> centres(double from, double to, int count) {
     std::vector<double> out;
@@ -55,25 +58,71 @@ void add_edges(plots::Figure& figure, const LuxMap& map, plots::Colour colour) {
     }
 }
 
+Image<float> ahead_to_the_right(const Image<float>& lx) {
+    Image<float> turned(lx.height(), lx.width());
+    for (int y = 0; y < lx.height(); ++y)
+        for (int x = 0; x < lx.width(); ++x)
+            turned.at(lx.height() - 1 - y, x) = lx.at(x, y);
+    return turned;
+}
+
+Image<plots::Colour> lux_picture(const Image<std::uint8_t>& codes) {
+    Image<float> lx(codes.width(), codes.height());
+    for (int y = 0; y < codes.height(); ++y)
+        for (int x = 0; x < codes.width(); ++x)
+            lx.at(x, y) = static_cast<float>(lux_of(codes.at(x, y)));
+    return plots::heat_map(lx, lux_scale);
+}
+
+std::optional<plots::Figure> isolux_figure(const std::vector<const LuxMap*>& maps, const std::vector<std::string>& lamps) {
+    const LuxMap& first = *maps.front();
+    std::optional<plots::Figure> drawn = lux_map_figure(first, lamps.front());
+    if (!drawn)
+        return std::nullopt;
+    drawn->title.clear();
+    drawn->width_px = 600.0;
+    drawn->height_px = std::clamp(82.0 + 530.0 * (first.left_m + first.right_m) / (first.ahead_m + first.behind_m), 190.0, 420.0);
+    if (maps.size() == 1) {
+        drawn->subtitle = "lux on the road, 0.1 to 100 lx";
+        drawn->colour_bar.reset();
+        return drawn;
+    }
+    drawn->subtitle = "lines of 1, 5 and 20 lx on the road";
+    drawn->height_px += 20.0;
+    drawn->colour_bar.reset();
+    drawn->rasters.clear();
+    drawn->isolines.clear();
+    drawn->series.clear();
+    drawn->background = {252, 252, 252};
+    add_edges(*drawn, first, {150, 156, 163});
+    for (plots::Series& edge : drawn->series)
+        edge.name.clear();
+    static constexpr const char* dashes[] = {"", "7 3", "2 2", "9 3 2 3"};
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        const plots::Colour colour = plots::lamp_colour(i);
+        const std::string dash = dashes[i % std::size(dashes)];
+        drawn->series.push_back({lamps[i], {}, colour, 1.6, dash});
+        const plots::Grid grid = grid_of(*maps[i]);
+        for (const double level : {1.0, 5.0, 20.0})
+            drawn->isolines.push_back({fmt::format("{:g}", level), plots::isolines(grid, level), colour, level == 5.0 ? 2.2 : 1.3, dash});
+    }
+    return drawn;
+}
+
 std::optional<plots::Figure> lux_map_figure(const LuxMap& map, const std::string& lamp) {
     if (map.lx.empty() || !(map.ahead_m > -map.behind_m) || !(map.left_m > -map.right_m))
         return std::nullopt;
-    const plots::Axis scale{"illuminance on the road", "lx", 0.1, 100.0, plots::Scale::logarithmic, {}};
     plots::Figure drawn = figure_over(map, short_text(lamp, 60));
     drawn.subtitle = fmt::format("lux on the road after {} s; lines at 1, 3, 5, 10, 30 and 50 lx", figure(map.time_s, 2));
-    Image<float> lx(map.lx.height(), map.lx.width()); // ahead to the right
-    for (int y = 0; y < map.lx.height(); ++y)
-        for (int x = 0; x < map.lx.width(); ++x)
-            lx.at(map.lx.height() - 1 - y, x) = map.lx.at(x, y);
-    drawn.rasters.push_back({plots::heat_map(lx, scale), -map.behind_m, map.ahead_m, map.left_m, -map.right_m});
+    drawn.rasters.push_back({plots::heat_map(ahead_to_the_right(map.lx), lux_scale), -map.behind_m, map.ahead_m, map.left_m, -map.right_m});
     const plots::Grid grid = grid_of(map);
     for (const double level : isolux_lines_lx) {
-        const bool dark = plots::luminance(plots::sequential(plots::position(scale, level))) < 0.35;
+        const bool dark = plots::luminance(plots::sequential(plots::position(lux_scale, level))) < 0.35;
         drawn.isolines.push_back({fmt::format("{:g}", level), plots::isolines(grid, level),
                                   dark ? plots::Colour{255, 255, 255} : plots::Colour{24, 24, 32}, 1.3});
     }
     add_edges(drawn, map, {205, 210, 218});
-    drawn.colour_bar = plots::ColourBar{scale};
+    drawn.colour_bar = plots::ColourBar{lux_scale};
     return drawn;
 }
 

@@ -16,6 +16,16 @@ plots::Grid grid_of(const LuxMap& map);
 /// lane and road edges. nullopt for an empty map.
 std::optional<plots::Figure> lux_map_figure(const LuxMap& map, const std::string& lamp);
 
+/// Rows of a map as columns, the farthest to the right.
+Image<float> ahead_to_the_right(const Image<float>& lx);
+
+/// Lux codes in the same colours, 0.1 to 100 lx.
+Image<plots::Colour> lux_picture(const Image<std::uint8_t>& codes);
+
+/// Several lamps' maps of one moment and extent: lines at 1, 5 and 20 lx in the lamps' colours and dashes; of one alone its colours. Small.
+/// nullopt where the first map is empty.
+std::optional<plots::Figure> isolux_figure(const std::vector<const LuxMap*>& maps, const std::vector<std::string>& lamps);
+
 /// A map's lanes and the car as lines, in one colour.
 void add_edges(plots::Figure& figure, const LuxMap& map, plots::Colour colour);
 

@@ -46,6 +46,13 @@ struct LuxMap {
     double time_s = 0.0;
 };
 
+/// Illuminance where a view looks at one moment, small and rounded (lux_codes.h).
+struct LuxView {
+    Image<std::uint8_t> codes;
+    std::string view;
+    int tick = 0;
+};
+
 /// Which of a moment's extents.
 struct ExtentKey {
     Surface surface = Surface::road;
@@ -173,6 +180,7 @@ struct PlayedCell {
     StoredFrame contact_sheet;                        ///< one moment drawn in every technique; without a PNG where none was asked for
     std::vector<StoredSheet> more_sheets;             ///< the same moment otherwise; only where contact_sheet is
     std::vector<LuxMap> maps;                         ///< at captured moments, at most as many as the page shows
+    std::vector<LuxView> lux_views = {};              ///< of the first view, likewise
     std::vector<ExtentRow> extents;                   ///< every moment
     std::vector<ExtentSummary> extent_summaries;      ///< of those, in the order of extent_keys()
     std::vector<std::pair<double, double>> speed_mps; ///< time, speed

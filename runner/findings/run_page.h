@@ -18,6 +18,7 @@ struct RunPage {
     std::vector<Section> live;
     struct OfDrive {
         ComparedDrive drive;
+        std::vector<Section> lead = {};       ///< the figures that matter and how they went over the drive: beside its pictures
         std::vector<Section> extents, others; ///< before and behind its pictures
     };
     std::vector<OfDrive> drives;

@@ -75,35 +75,4 @@ std::vector<LuxMap::Polyline> edges_on_map(const Moment& moment, const View& vie
     return edges;
 }
 
-LuxMaps::LuxMaps(std::size_t captured_moments) {
-    for (const std::size_t index : spread_over(captured_moments, max_pictured_moments))
-        shown_.insert(index);
-}
-
-void LuxMaps::add(std::size_t captured, const std::function<LuxMap()>& make) {
-    const auto kept = [this](std::size_t index) { return shown_.contains(index) || index % stride_ == 0; };
-    if (!kept(captured))
-        return;
-    maps_.emplace(captured, make());
-    const auto others = [this] {
-        std::set<std::size_t> moments;
-        for (const auto& [index, map] : maps_)
-            if (!shown_.contains(index))
-                moments.insert(index);
-        return moments.size();
-    };
-    while (others() > max_pictured_moments) {
-        stride_ *= 2;
-        std::erase_if(maps_, [&](const auto& entry) { return !kept(entry.first); });
-    }
-}
-
-std::vector<LuxMap> LuxMaps::finish(bool all_played) {
-    std::vector<LuxMap> maps;
-    for (auto& [index, map] : maps_)
-        if (!all_played || shown_.contains(index))
-            maps.push_back(std::move(map));
-    return maps;
-}
-
 } // namespace fernlicht

@@ -22,22 +22,48 @@ std::vector<LuxMap::Polyline> edges_on_map(const Moment& moment, const View& vie
 /// A car of 1.8 m, from its front bumper to 0.9 m behind its rear axle: where the light comes from, to scale.
 LuxMap::Polyline car_outline(double bumper_m);
 
-/// The maps that the page will show: of all captured moments those that spread_over picks, and until the drive is played to its end, in
-/// case it never is, as many of the others. Their number does not grow with the drive.
-class LuxMaps {
+/// What the page will show of captured moments: of those that spread_over picks, and until the drive is played to its end, in case it never
+/// is, of as many of the others. Their number does not grow with the drive.
+template <class Kept> class ShownMoments {
   public:
-    explicit LuxMaps(std::size_t captured_moments);
+    explicit ShownMoments(std::size_t captured_moments) {
+        for (const std::size_t index : spread_over(captured_moments, max_pictured_moments))
+            shown_.insert(index);
+    }
 
-    /// `captured`: the moment's number among the captured ones. The map is made only if it is kept.
-    void add(std::size_t captured, const std::function<LuxMap()>& make);
+    /// `captured`: the moment's number among the captured ones. It is made only if it is kept.
+    void add(std::size_t captured, const std::function<Kept()>& make) {
+        const auto kept = [this](std::size_t index) { return shown_.contains(index) || index % stride_ == 0; };
+        if (!kept(captured))
+            return;
+        all_.emplace(captured, make());
+        const auto others = [this] {
+            std::set<std::size_t> moments;
+            for (const auto& [index, one] : all_)
+                if (!shown_.contains(index))
+                    moments.insert(index);
+            return moments.size();
+        };
+        while (others() > max_pictured_moments) {
+            stride_ *= 2;
+            std::erase_if(all_, [&](const auto& entry) { return !kept(entry.first); });
+        }
+    }
     /// In the order of moments.
-    std::vector<LuxMap> finish(bool all_played);
+    std::vector<Kept> finish(bool all_played) {
+        std::vector<Kept> kept;
+        for (auto& [index, one] : all_)
+            if (!all_played || shown_.contains(index))
+                kept.push_back(std::move(one));
+        return kept;
+    }
 
   private:
     std::set<std::size_t> shown_;
     std::size_t stride_ = 1; ///< of the others every such is kept
-    std::multimap<std::size_t, LuxMap> maps_;
+    std::multimap<std::size_t, Kept> all_;
 };
+using LuxMaps = ShownMoments<LuxMap>;
 
 /// From `from_m` to `to_m` ahead of the car's reference point (from_m < to_m; behind it they are negative) and `beside_m` > 0 to each side.
 inline View map_of(std::string name, double from_m, double to_m, double beside_m, int width_px, int height_px) {

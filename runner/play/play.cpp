@@ -1,6 +1,7 @@
 #include "runner/play/play.h"
 
 #include "metrics/folds/sensitivity_fold.h"
+#include "runner/findings/lux_codes.h"
 #include "runner/play/display_pipeline.h"
 #include "runner/play/extent_fold.h"
 #include "runner/play/frame_times.h"
@@ -19,12 +20,14 @@
 namespace fernlicht {
 namespace {
 
+constexpr int lux_view_px = 256; ///< across, of what the page shows under the pointer
+
 /// Draws the views of a moment: all of them where it is captured, else the driver's; then hands to the writers what is stored.
 class Pictures {
   public:
     Pictures(const Drive& drive, const Route& route, const PlayOptions& options, PlayedCell& played, Writers& writers, FrameTimes& times)
         : drive_(drive), route_(route), options_(options), played_(played), writers_(writers), times_(times),
-          maps_(captured_moments(drive, options.ticks)), display_(drive) {}
+          maps_(captured_moments(drive, options.ticks)), lux_views_(captured_moments(drive, options.ticks)), display_(drive) {}
 
     /// "frame" is what a simulator would draw each time: the driver's view in colour; where every frame is stored, with its linear results.
     std::string kind(const Moment& moment) const {
@@ -52,6 +55,8 @@ class Pictures {
         for (auto& [view, frame] : drawn_) {
             if (view->projection == Projection::map)
                 keep_map(frame, moment, *view);
+            else if (view == &drive_.views.front() && !frame.illuminance_lx.empty())
+                lux_views_.add(captured_, [&] { return LuxView{lux_codes(frame.illuminance_lx, lux_view_px), view->name, moment.tick}; });
             StoredFrame stored = store_frame(writers_, options_.folder, drive_.name + "-" + played_.lamp_set, drive_.capture,
                                              std::move(frame), moment, *view, display_.writer(moment));
             played_.frames.push_back(std::move(stored));
@@ -62,6 +67,7 @@ class Pictures {
 
     void finish(bool all_played) {
         played_.maps = maps_.finish(all_played);
+        played_.lux_views = lux_views_.finish(all_played);
         if (options_.no_times.empty())
             std::ranges::copy(display_.times(), std::back_inserter(played_.passes));
         played_.display = display_.seen();
@@ -90,6 +96,7 @@ class Pictures {
     Writers& writers_;
     FrameTimes& times_;
     LuxMaps maps_;
+    ShownMoments<LuxView> lux_views_;
     DisplayStep display_;
     std::vector<std::pair<const View*, Frame>> drawn_; ///< of this moment, to be stored
     std::size_t captured_ = 0;                         ///< moments until now

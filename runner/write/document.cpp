@@ -27,14 +27,18 @@ std::string place_of(const Plot& plot) { return plot.name.find('/') == std::stri
 void write_tables(const Document& document, const std::filesystem::path& folder, const OutputFormat& format) {
     make_folder(folder / "tables");
     std::map<std::string, int> alike; // what is left of long names and odd letters
+    const auto write = [&](const Table& table) {
+        std::string name = file_name_of(table.name);
+        if (const int before = alike[name]++; before > 0)
+            name += fmt::format("-{}", before + 1);
+        write_file(folder / "tables" / (name + format.extension), format.of_table(table));
+    };
     for (const Section& section : document.sections)
         for (const DocumentPart& block : section.blocks)
-            if (const auto* table = std::get_if<Table>(&block)) {
-                std::string name = file_name_of(table->name);
-                if (const int before = alike[name]++; before > 0)
-                    name += fmt::format("-{}", before + 1);
-                write_file(folder / "tables" / (name + format.extension), format.of_table(*table));
-            }
+            if (const auto* table = std::get_if<Table>(&block))
+                write(*table);
+            else if (const auto* matrix = std::get_if<PlaceMatrix>(&block))
+                write(table_of(*matrix));
 }
 
 void write_plot(const Plot& plot, const std::filesystem::path& place) {

@@ -31,6 +31,8 @@ std::string table_markdown(const Table& table);
 std::string document_markdown(const Document& document);
 /// Its tables for LaTeX, as wide as the text; paragraphs and listings are comments.
 std::string document_latex(const Document& document);
+/// Words for LaTeX in UTF-8.
+std::string latex_text(const std::string& words);
 /// As LaTeX's `tabular` with the rules of booktabs, for \input; the caption is a comment above it.
 std::string table_latex(const Table& table);
 /// RFC 4180 with one line of heads. Figures are those that are shown, with a plain minus sign.

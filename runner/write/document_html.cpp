@@ -3,7 +3,7 @@
 #include "runner/findings/plots/colour.h"
 #include "runner/write/document.h"
 #include "runner/write/page_base.h"
-#include "runner/write/plots/png.h"
+#include "runner/write/thumbnail.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace {
 using kainjow::mustache::data;
 using List = data::type;
 
-constexpr std::size_t embedded_bytes = std::size_t{48} << 20; // of pictures as they lie on disk
+constexpr std::size_t embedded_bytes = std::size_t{32} << 20;
 
 std::string capitalised(std::string text) {
     if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
@@ -128,6 +128,48 @@ data part_of(const Table& table, const std::filesystem::path&, std::size_t&) {
     return part;
 }
 
+const char* mark_of(const MatrixEntry& entry) {
+    return entry.standing.empty()        ? ""
+           : entry.standing == "better"  ? "▲ "
+           : entry.standing == "worse"   ? "▼ "
+           : entry.standing == "changed" ? "◆ "
+                                         : "≈ ";
+}
+
+/// "▲ +9.1 (+21 %) better  aim ±6.3"
+std::string standing_html(const MatrixEntry& entry, const std::string& open_by) {
+    return fmt::format(" <span><span aria-hidden=\"true\">{}</span>{}{} {}{}</span>", mark_of(entry), xml_text(entry.change),
+                       entry.share.empty() ? "" : " (" + xml_text(entry.share) + " %)", xml_text(entry.standing),
+                       entry.open.empty() ? "" : fmt::format("<small> {} ±{}</small>", xml_text(open_by), xml_text(entry.open)));
+}
+
+data part_of(const PlaceMatrix& matrix, const std::filesystem::path&, std::size_t&) {
+    data part, heads{List::list};
+    std::string rows;
+    for (const Cell& column : matrix.columns)
+        heads.push_back(swatch(column.series) + xml_text(column.text));
+    for (const auto& [name, entries] : matrix.rows) {
+        rows += fmt::format("<tr><th scope=\"row\" title=\"{}\">{}</th>", xml_text(name.hint), xml_text(name.text));
+        for (const MatrixEntry& entry : entries)
+            rows += fmt::format("<td class=\"{}\" style=\"--shade:{:.2f}\" title=\"{}\"><b>{}</b>{}</td>",
+                                entry.shade > 0.0   ? "gain"
+                                : entry.shade < 0.0 ? "loss"
+                                                    : "even",
+                                std::abs(entry.shade), xml_text(entry.value.hint), linked_html(entry.value, xml_text(entry.value.text)),
+                                entry.standing.empty() ? "" : standing_html(entry, matrix.open_by));
+        rows += "</tr>\n";
+    }
+    part.set("is_matrix", true);
+    part.set("caption", xml_text(capitalised(clean_text(matrix.caption))));
+    part.set("unit", clean_text(matrix.unit));
+    part.set("corner", clean_text(capitalised(matrix.corner)));
+    part.set("narrow", matrix.columns.size() <= 3);
+    part.set("dense", matrix.rows.size() > 8);
+    part.set("heads", heads);
+    part.set("rows", rows);
+    return part;
+}
+
 data part_of(const Plot& plot, const std::filesystem::path& folder, std::size_t&) {
     data part, captions{List::list};
     for (const std::string& caption : plot.captions)
@@ -135,6 +177,9 @@ data part_of(const Plot& plot, const std::filesystem::path& folder, std::size_t&
     part.set("is_plot", true);
     part.set("svg", plot_svg(plot));
     part.set("beside", plot.beside);
+    part.set("place", plot.place.empty()
+                          ? std::string()
+                          : fmt::format(" data-place=\"{}\" data-rank=\"{}\"", xml_text(plot.place), plot.rank.value_or(0.0)));
     part.set("has_files", !folder.empty());
     part.set("link", relative_link(place_of(plot)));
     part.set("captions", captions);
@@ -173,7 +218,9 @@ data part_of(const Cards& cards, const std::filesystem::path&, std::size_t&) {
 /// Nothing where the page would grow too large.
 data part_of(const PictureOverlay& pair, const std::filesystem::path& folder, std::size_t& bytes_left) {
     FilesRead ignored;
-    const std::string over = read_file(folder / pair.paths[0], ignored), under = read_file(folder / pair.paths[1], ignored);
+    constexpr int most_px = 480; // a strip is 24 rem wide
+    const std::string over = embedded_picture(read_file(folder / pair.paths[0], ignored), most_px),
+                      under = embedded_picture(read_file(folder / pair.paths[1], ignored), most_px);
     data part;
     if (over.size() + under.size() > bytes_left)
         return part;
@@ -182,8 +229,8 @@ data part_of(const PictureOverlay& pair, const std::filesystem::path& folder, st
     part.set("title", clean_text(pair.title));
     part.set("over", clean_text(pair.names[0]));
     part.set("under", clean_text(pair.names[1]));
-    part.set("over_picture", plots::base64(over));
-    part.set("under_picture", plots::base64(under));
+    part.set("over_picture", over);
+    part.set("under_picture", under);
     part.set("over_link", relative_link(pair.paths[0]));
     part.set("under_link", relative_link(pair.paths[1]));
     return part;
@@ -194,12 +241,12 @@ data part_of(const PictureStrip& strip, const std::filesystem::path& folder, std
     data part, pictures{List::list};
     for (const Picture& picture : strip.pictures) {
         FilesRead ignored;
-        const std::string bytes = read_file(folder / picture.file, ignored);
+        const std::string embedded = embedded_picture(read_file(folder / picture.file, ignored));
         data row;
-        row.set("is_embedded", bytes.size() <= bytes_left);
-        if (bytes.size() <= bytes_left) {
-            bytes_left -= bytes.size();
-            row.set("bytes", plots::base64(bytes));
+        row.set("is_embedded", embedded.size() <= bytes_left);
+        if (embedded.size() <= bytes_left) {
+            bytes_left -= embedded.size();
+            row.set("embedded", embedded);
         }
         row.set("caption", clean_text(picture.caption));
         row.set("is_link", std::filesystem::path(picture.file).is_relative());
@@ -218,7 +265,8 @@ const char* mark_of(const std::string& verdict) {
 
 bool needs_script(const DocumentPart& block) {
     const auto* table = std::get_if<Table>(&block);
-    return (table && table->sortable) || std::holds_alternative<PictureOverlay>(block);
+    const auto* plot = std::get_if<Plot>(&block);
+    return (table && table->sortable) || (plot && !plot->place.empty()) || std::holds_alternative<PictureOverlay>(block);
 }
 
 } // namespace
@@ -234,6 +282,8 @@ data sections_part(const std::vector<Section>& all, const std::filesystem::path&
             has_script = has_script || needs_script(block);
         }
         part.set("is_verdict", !section.verdict.empty());
+        part.set("is_answer", section.is_answer);
+        part.set("is_folded", section.folded);
         part.set("verdict", section.verdict);
         part.set("mark", mark_of(section.verdict));
         part.set("has_title", !section.title.empty());

@@ -5,7 +5,6 @@
 #include <map>
 
 namespace fernlicht {
-namespace {
 
 /// For LaTeX in UTF-8, which knows most letters; signs that it knows in formulas alone become some.
 std::string latex_text(const std::string& words) {
@@ -40,6 +39,8 @@ std::string latex_text(const std::string& words) {
     }
     return out;
 }
+
+namespace {
 
 /// Figures as formulas, which set a minus sign as one.
 std::string latex_cell(const Cell& cell) {
@@ -89,6 +90,8 @@ std::string document_latex(const Document& document) {
         for (const DocumentPart& block : section.blocks)
             if (const auto* table = std::get_if<Table>(&block))
                 out += "\\resizebox{\\linewidth}{!}{%\n" + table_latex(*table) + "}\n";
+            else if (const auto* matrix = std::get_if<PlaceMatrix>(&block))
+                out += "\\resizebox{\\linewidth}{!}{%\n" + table_latex(table_of(*matrix)) + "}\n";
             else if (const auto* paragraph = std::get_if<std::string>(&block))
                 out += "% " + clean_text(*paragraph) + "\n";
             else if (const auto* listing = std::get_if<Listing>(&block)) {

@@ -48,6 +48,8 @@ std::string document_markdown(const Document& document) {
         for (const DocumentPart& block : section.blocks)
             if (const auto* table = std::get_if<Table>(&block))
                 text += "\n" + table_markdown(*table);
+            else if (const auto* matrix = std::get_if<PlaceMatrix>(&block))
+                text += "\n" + clean_text(matrix->caption) + ":\n\n" + table_markdown(table_of(*matrix));
             else if (const auto* paragraph = std::get_if<std::string>(&block))
                 text += "\n" + clean_text(*paragraph) + "\n";
             else if (const auto* listing = std::get_if<Listing>(&block)) {

@@ -61,6 +61,8 @@ std::string lines_of(const Table& table) {
 
 std::string text_of(const Table& table) { return table.off_terminal ? "" : table_text(table); }
 
+std::string text_of(const PlaceMatrix& matrix) { return table_text(table_of(matrix)); }
+
 std::string text_of(const std::string& paragraph) { return clean_text(paragraph) + "\n"; }
 
 std::string text_of(const Plot& plot) {

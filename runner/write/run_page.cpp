@@ -1,11 +1,13 @@
 #include "report_files.h"
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
+#include "runner/findings/lux_codes.h"
 #include "runner/findings/lux_figure.h"
 #include "runner/write/page_base.h"
 #include "runner/write/plots/png.h"
 #include "runner/write/plots/svg.h"
 #include "runner/write/report_texts.h"
+#include "runner/write/thumbnail.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -20,9 +22,11 @@ namespace {
 using kainjow::mustache::data;
 using List = data::type;
 
-/// Of pictures as they lie on disk; base64 makes a third more of it. Larger pages open slowly.
-constexpr std::size_t run_pictures_bytes = std::size_t{48} << 20;
+/// Of embedded pictures. Larger pages open slowly.
+constexpr std::size_t run_pictures_bytes = std::size_t{32} << 20;
 constexpr std::size_t largest_picture_bytes = std::size_t{16} << 20;
+constexpr int map_codes_px = 320;
+constexpr int picture_px = 640, sheet_px = 1600; ///< across, of what is embedded
 
 std::string lamp_colour(std::size_t lamp_set) { return plots::css(plots::lamp_colour(lamp_set)); }
 
@@ -67,7 +71,7 @@ const StoredFrame* find_frame(const PlayedCell& played, int tick, const std::str
     return found == played.frames.end() ? nullptr : &*found;
 }
 
-data cell_of(const StoredFrame* frame, const std::filesystem::path& folder, std::size_t& budget_bytes) {
+data cell_of(const StoredFrame* frame, const std::filesystem::path& folder, std::size_t& budget_bytes, int most_px = picture_px) {
     data part;
     const auto missing = [&](const std::string& why) { part.set("missing", clean_text(why)); };
     if (!frame || (frame->png.empty() && frame->exr.empty())) {
@@ -81,34 +85,109 @@ data cell_of(const StoredFrame* frame, const std::filesystem::path& folder, std:
     }
     try {
         FilesRead opened;
-        const std::string bytes = read_file(folder / frame->png, opened, std::min(largest_picture_bytes, budget_bytes));
-        budget_bytes -= std::min(budget_bytes, bytes.size());
-        part.set("embedded", plots::base64(bytes));
-    } catch (const InputError&) {
+        const std::string bytes = read_file(folder / frame->png, opened, largest_picture_bytes);
+        std::string picture = embedded_picture(bytes, most_px);
+        if (picture.size() <= budget_bytes) {
+            budget_bytes -= picture.size();
+            part.set("embedded", std::move(picture));
+        } else
+            missing("not in this page");
+    } catch (const std::exception&) {
         // Too large for what is left of the page, or gone: the link stands either way.
         missing("not in this page");
     }
     return part;
 }
 
+data picture_of(const ComparedDrive& drive, std::size_t lamp_set, const PicturedMoment& moment, const std::string& view,
+                const std::filesystem::path& folder, std::size_t& budget_bytes) {
+    data cell = cell_of(find_frame(*drive.lamp_sets[lamp_set], moment.tick, view), folder, budget_bytes);
+    cell.set("lamp", short_text(drive.lamp_sets[lamp_set]->lamp_set, 40));
+    cell.set("colour", lamp_colour(lamp_set));
+    cell.set("view", short_text(view, 40));
+    cell.set("time", figure(moment.time_s, 2));
+    return cell;
+}
+
+/// A picture of each lamp set, but for those that the pair shows.
 data views_at(const ComparedDrive& drive, const PicturedMoment& moment, const std::vector<std::string>& views,
               const std::filesystem::path& folder, std::size_t& budget_bytes) {
     data rows{List::list};
-    for (const std::string& view : views) {
+    for (std::size_t v = 0; v < views.size(); ++v) {
         data row, cells{List::list};
-        for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
-            data cell = cell_of(find_frame(*drive.lamp_sets[i], moment.tick, view), folder, budget_bytes);
-            cell.set("lamp", short_text(drive.lamp_sets[i]->lamp_set, 40));
-            cell.set("colour", lamp_colour(i));
-            cell.set("view", short_text(view, 40));
-            cell.set("time", figure(moment.time_s, 2));
-            cells.push_back(cell);
-        }
-        row.set("view", short_text(view, 40));
+        for (std::size_t i = v == 0 ? 2 : 0; i < drive.lamp_sets.size(); ++i)
+            cells.push_back(picture_of(drive, i, moment, views[v], folder, budget_bytes));
         row.set("pictures", cells);
-        rows.push_back(row);
+        if (cells.is_non_empty_list())
+            rows.push_back(row);
     }
     return rows;
+}
+
+/// The lux codes of up to three lamp sets, for what is shown under the pointer; nothing where one of the first two has none.
+data codes_part(const std::vector<const Image<std::uint8_t>*>& codes, const ComparedDrive& drive) {
+    data part;
+    if (codes.empty() || std::ranges::any_of(codes, [&](const auto* one) {
+            return !one || one->width() != codes[0]->width() || one->height() != codes[0]->height();
+        }))
+        return part;
+    std::string names;
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+        std::string name = short_text(drive.lamp_sets[i]->lamp_set, 24);
+        std::ranges::replace(name, '|', '/');
+        names += (i == 0 ? "" : "|") + name;
+    }
+    part.set("codes", embedded_codes(codes));
+    part.set("names", names);
+    return part;
+}
+
+/// The first view with the first two lamp sets, one over the other; of one lamp set with its lux.
+data pair_at(const ComparedDrive& drive, const PicturedMoment& moment, const std::string& view, const std::filesystem::path& folder,
+             std::size_t& budget_bytes) {
+    const std::size_t shown = std::min<std::size_t>(2, drive.lamp_sets.size());
+    std::vector<const Image<std::uint8_t>*> codes;
+    for (std::size_t i = 0; i < shown; ++i) {
+        const auto& all = drive.lamp_sets[i]->lux_views;
+        const auto found = std::ranges::find_if(all, [&](const LuxView& one) { return one.tick == moment.tick && one.view == view; });
+        codes.push_back(found == all.end() ? nullptr : &found->codes);
+    }
+    data part = codes_part(codes, drive);
+    data under = picture_of(drive, 0, moment, view, folder, budget_bytes);
+    if (shown == 2)
+        part.set("over", picture_of(drive, 1, moment, view, folder, budget_bytes));
+    else if (codes[0]) {
+        data lux;
+        lux.set("lamp", "its lux");
+        lux.set("view", short_text(view, 40));
+        lux.set("embedded", "data:image/png;base64," + plots::base64(plots::png_of_pixels(lux_picture(*codes[0]), 9)));
+        part.set("over", lux);
+    }
+    part.set("under", under);
+    return part;
+}
+
+/// Lux from above: of one lamp set in colours, of several the lines of all.
+std::optional<data> map_at(const ComparedDrive& drive, const PicturedMoment& moment) {
+    std::vector<const LuxMap*> maps;
+    std::vector<std::string> names;
+    std::vector<Image<std::uint8_t>> codes;
+    for (const PlayedCell* const played : drive.lamp_sets)
+        if (const auto map = std::ranges::find(played->maps, moment.tick, &LuxMap::tick); map != played->maps.end()) {
+            maps.push_back(&*map);
+            names.push_back(short_text(played->lamp_set, 24));
+        }
+    const auto figure = maps.empty() ? std::nullopt : isolux_figure(maps, names);
+    if (!figure)
+        return std::nullopt;
+    std::vector<const Image<std::uint8_t>*> all;
+    for (std::size_t i = 0; i < maps.size() && i < 3 && maps.size() == drive.lamp_sets.size(); ++i)
+        codes.push_back(lux_codes(ahead_to_the_right(maps[i]->lx), map_codes_px));
+    for (const Image<std::uint8_t>& one : codes)
+        all.push_back(&one);
+    data part = codes_part(all, drive);
+    part.set("svg", plots::svg_of(*figure));
+    return part;
 }
 
 data maps_at(const ComparedDrive& drive, const PicturedMoment& moment) {
@@ -131,7 +210,7 @@ data contact_sheets(const ComparedDrive& drive, const std::filesystem::path& fol
         for (const StoredSheet& sheet : all) {
             if (sheet.picture.png.empty())
                 continue;
-            data part = cell_of(&sheet.picture, folder, budget_bytes);
+            data part = cell_of(&sheet.picture, folder, budget_bytes, sheet_px);
             part.set("lamp", short_text(played.lamp_set, 40));
             part.set("colour", lamp_colour(i));
             part.set("time", figure(sheet.picture.time_s, 2));
@@ -196,8 +275,15 @@ data moments_part(const ComparedDrive& drive, const std::filesystem::path& folde
         part.set("time", figure(moment.time_s, 2));
         part.set("has_distance", moment.distance_m.has_value());
         part.set("distance", moment.distance_m ? figure(*moment.distance_m, 1) : "");
-        part.set("maps", maps_at(drive, moment));
-        part.set("views", views_at(drive, moment, views, folder, budget_bytes));
+        if (!views.empty())
+            part.set("pair", pair_at(drive, moment, views.front(), folder, budget_bytes));
+        const std::optional<data> map = map_at(drive, moment);
+        const data maps = maps_at(drive, moment), rows = views_at(drive, moment, views, folder, budget_bytes);
+        if (map)
+            part.set("map", *map);
+        part.set("maps", maps);
+        part.set("views", rows);
+        part.set("has_more", maps.is_non_empty_list() || rows.is_non_empty_list());
         moments.push_back(part);
     }
     data part;
@@ -239,9 +325,10 @@ std::string subtitle_of(const Report& report) {
 
 data drive_part(const RunPage::OfDrive& of, const std::filesystem::path& folder, std::size_t& budget_bytes, bool several) {
     data part;
-    part.set("title", several ? short_text(of.drive.name, 200) : "The drive");
+    part.set("title", several ? data(short_text(of.drive.name, 200)) : data(false));
     part.set("pictures", moments_part(of.drive, folder, budget_bytes));
     part.set("columns", fmt::format("{}", of.drive.lamp_sets.size()));
+    part.set("lead", sections_part(of.lead));
     part.set("extents", sections_part(of.extents));
     part.set("others", sections_part(of.others));
     return part;
@@ -268,7 +355,7 @@ std::string page_html(const Report& report, const RunPage& run, const data& driv
     data page;
     page.set("title", title_of(run));
     page.set("subtitle", subtitle_of(report));
-    page.set("script", std::string(report_file("report.js")));
+    page.set("script", std::string(report_file("document.js")) + std::string(report_file("report.js")));
     page.set("verdict", verdict_part(report, run.verdict));
     page.set("drives", drives);
     page.set("live", live);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdio> // jpeglib.h wants FILE
+#include <cstdlib>
 
 #include <jpeglib.h>
 #include <stdexcept>
@@ -12,16 +13,22 @@ namespace {
 /// Some ten are usual; each takes as long as the whole picture.
 constexpr int max_scans = 500;
 
+/// Errors are thrown, warnings passed over.
+void throw_errors(jpeg_error_mgr& errors) {
+    jpeg_std_error(&errors);
+    errors.error_exit = [](j_common_ptr jpeg) {
+        std::array<char, JMSG_LENGTH_MAX> why{};
+        jpeg->err->format_message(jpeg, why.data());
+        throw std::runtime_error(why.data());
+    };
+    errors.output_message = [](j_common_ptr) {};
+}
+
 class JpegReader {
   public:
     explicit JpegReader(std::string_view bytes) {
-        jpeg_.err = jpeg_std_error(&errors_);
-        errors_.error_exit = [](j_common_ptr jpeg) {
-            std::array<char, JMSG_LENGTH_MAX> why{};
-            jpeg->err->format_message(jpeg, why.data());
-            throw std::runtime_error(why.data());
-        };
-        errors_.output_message = [](j_common_ptr) {};
+        throw_errors(errors_);
+        jpeg_.err = &errors_;
         jpeg_create_decompress(&jpeg_);
         progress_.progress_monitor = [](j_common_ptr jpeg) {
             if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number > max_scans)
@@ -69,7 +76,51 @@ class JpegReader {
     bool is_cmyk_ = false;
 };
 
+class JpegWriter {
+  public:
+    JpegWriter() {
+        throw_errors(errors_);
+        jpeg_.err = &errors_;
+        jpeg_create_compress(&jpeg_);
+        jpeg_mem_dest(&jpeg_, &bytes_, &size_);
+    }
+    JpegWriter(const JpegWriter&) = delete;
+    JpegWriter& operator=(const JpegWriter&) = delete;
+    ~JpegWriter() {
+        jpeg_destroy_compress(&jpeg_);
+        std::free(bytes_); // libjpeg's own, by malloc
+    }
+
+    std::string write(const JpegPicture& picture, int quality) {
+        jpeg_.image_width = static_cast<JDIMENSION>(picture.width);
+        jpeg_.image_height = static_cast<JDIMENSION>(picture.height);
+        jpeg_.input_components = 3;
+        jpeg_.in_color_space = JCS_RGB;
+        jpeg_set_defaults(&jpeg_);
+        jpeg_set_quality(&jpeg_, quality, TRUE);
+        jpeg_.comp_info[0].h_samp_factor = jpeg_.comp_info[0].v_samp_factor = 1;
+        jpeg_.optimize_coding = TRUE;
+        jpeg_.dct_method = JDCT_ISLOW;
+        jpeg_start_compress(&jpeg_, TRUE);
+        while (jpeg_.next_scanline < jpeg_.image_height) {
+            JSAMPROW row =
+                const_cast<JSAMPROW>(picture.bytes.data()) + std::size_t{jpeg_.next_scanline} * std::size_t{jpeg_.image_width} * 3;
+            jpeg_write_scanlines(&jpeg_, &row, 1);
+        }
+        jpeg_finish_compress(&jpeg_);
+        return {reinterpret_cast<const char*>(bytes_), size_};
+    }
+
+  private:
+    jpeg_error_mgr errors_{};
+    jpeg_compress_struct jpeg_{};
+    unsigned char* bytes_ = nullptr;
+    unsigned long size_ = 0;
+};
+
 } // namespace
+
+std::string encode_jpeg(const JpegPicture& picture, int quality) { return JpegWriter().write(picture, quality); }
 
 JpegPicture decode_jpeg(std::string_view bytes, const std::function<void(const JpegPicture&)>& check) {
     JpegReader reader(bytes);

@@ -127,52 +127,12 @@ Table extent_table(const ComparedDrive& drive, const Axes& axes, Surface surface
     return table;
 }
 
-/// What decides first: 5 lx on a target that faces the lamps. Then the road's surface.
-struct Glance {
-    Surface surface;
-    ReadingPlace place;
-    double threshold_lx;
-    const char* where;
-};
-constexpr Glance glances[]{{Surface::target, ReadingPlace::right_edge, 5.0, "target, lane’s right edge"},
-                           {Surface::target, ReadingPlace::none, 5.0, "target, lane’s centre"},
-                           {Surface::road, ReadingPlace::none, 1.0, "road’s surface"},
-                           {Surface::road, ReadingPlace::none, 5.0, "road’s surface"}};
-
-/// Reach in the own lane.
-Cards reaches_at_a_glance(const ComparedDrive& drive) {
-    Cards reaches;
-    for (const auto& [surface, place, threshold_lx, where] : glances) {
-        Value first;
-        for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
-            const auto& all = drive.lamp_sets[i]->extent_summaries;
-            const ExtentKey key{surface, "own", threshold_lx};
-            const auto found = std::ranges::find(all, key, &ExtentSummary::key);
-            if (found == all.end())
-                continue;
-            const auto moments = found->moments.find(extent_reading(key, Quantity::reach, place));
-            if (moments == found->moments.end() || moments->second.count() == 0)
-                continue;
-            const Value reach = moments->second.quantile(0.5), by_tenth_degree = reach_moved_m(*found, by_aim, place);
-            const Value change = i == 0 ? Value() : difference(reach, first, "");
-            first = i == 0 ? reach : first;
-            reaches.push_back({fmt::format("reach at {:g} lx, {}", threshold_lx, where), value_cell(reach, 1).text, "m",
-                               change.measured() ? fmt::format("({} m)", with_bound(change, signed_figure(*change.figure(), 1))) : "",
-                               by_tenth_degree.measured() ? fmt::format("±{} m by 0.1° of aim", value_cell(by_tenth_degree, 1).text) : "",
-                               lamp_cell(drive, i)});
-        }
-    }
-    return reaches;
-}
-
 } // namespace
 
 void add_extents(const ComparedDrive& drive, Sections& sections) {
     const Axes axes = axes_of(drive);
     if (axes.places.empty())
         return;
-    if (Cards reaches = reaches_at_a_glance(drive); !reaches.empty())
-        sections.push_back({"At a glance", {"Own lane, median over the drive; targets face the lamps.", std::move(reaches)}, 3});
     Section& section = sections.emplace_back(Section{"Reach and width", {}, 3});
     section.blocks.emplace_back(
         fmt::format("Medians over the drive, from the rendered lux image. Reach runs from the bumper along the "

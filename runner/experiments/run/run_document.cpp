@@ -131,6 +131,28 @@ void add_costs(const ComparedDrive& drive, Sections& sections) {
     section.blocks.emplace_back(throughput_table(drive));
 }
 
+/// How the first of the plotted reaches went, small.
+Sections lead_of(const ComparedDrive& drive) {
+    Section section;
+    if (Cards figures = key_figures(drive); !figures.empty())
+        section.blocks.emplace_back(std::move(figures));
+    for (const Surface surface : {Surface::target, Surface::road}) {
+        const std::vector<double> limits_lx = plotted_thresholds_lx(drive);
+        std::optional<plots::Figure> course = limits_lx.empty() ? std::nullopt : reach_figure(drive, surface, limits_lx.back());
+        if (!course)
+            continue;
+        course->width_px = 600.0;
+        course->height_px = 190.0;
+        course->y.label = "reach";
+        std::erase_if(course->series, [](const plots::Series& series) { return !series.dash.empty(); }); // the twin's
+        course->subtitle = course->title + ", own lane";
+        course->title.clear();
+        section.blocks.emplace_back(Plot{.name = drive.name + "-course", .figure = std::move(*course)});
+        break;
+    }
+    return section.blocks.empty() ? Sections() : Sections{std::move(section)};
+}
+
 } // namespace
 
 Cell lamp_cell(const ComparedDrive& drive, std::size_t index) {
@@ -160,6 +182,16 @@ Section verdict_section(const Report& report) {
     for (const Verdict& verdict : report.listed)
         add(verdict, "list of known failures");
     Section section{verdict_word(report), {}};
+    const std::vector<ComparedDrive> drives = compared_drives(report);
+    const bool judged = count_verdicts(report).all() > 0 || !report.complete;
+    for (const ComparedDrive& drive : drives)
+        if (const std::string sentence = key_sentence(drive); !sentence.empty()) {
+            if (!judged && drives.size() == 1) { // nothing else to lead with
+                section.blocks.emplace_back(section.title + ".");
+                section.title = sentence;
+            } else
+                section.blocks.emplace_back((drives.size() > 1 ? drive.name + ": " : "") + sentence + ".");
+        }
     if (!report.complete)
         section.blocks.emplace_back("The run did not end: " + report.interrupted + ". What follows is what was done until then.");
     const VerdictCounts counts = count_verdicts(report);
@@ -202,7 +234,8 @@ void add_course(const ComparedDrive& drive, Sections& sections) {
 RunPage run_page(const Report& report) {
     RunPage page{verdict_section(report), report.live ? Sections{live_section(*report.live)} : Sections(), {}};
     for (ComparedDrive& drive : compared_drives(report)) {
-        RunPage::OfDrive& part = page.drives.emplace_back(RunPage::OfDrive{std::move(drive), {}, {}});
+        RunPage::OfDrive& part = page.drives.emplace_back(RunPage::OfDrive{std::move(drive), {}, {}, {}});
+        part.lead = lead_of(part.drive);
         add_extents(part.drive, part.extents);
         for (const auto add : {add_aims, add_course, add_cars, add_accuracy, add_details, add_drawing})
             add(part.drive, part.others);
@@ -213,7 +246,7 @@ RunPage run_page(const Report& report) {
 RunPage verdict_page(const Report& report) {
     RunPage page{verdict_section(report), {}, {}};
     for (ComparedDrive& drive : compared_drives(report))
-        page.drives.push_back({std::move(drive), {}, {}});
+        page.drives.push_back({std::move(drive), {}, {}, {}});
     return page;
 }
 
@@ -223,6 +256,8 @@ Document document(const Report& report) {
         document.sections.push_back(live_section(*report.live));
     for (const ComparedDrive& drive : compared_drives(report)) {
         document.sections.push_back({drive.name, {}});
+        if (Cards figures = key_figures(drive); !figures.empty())
+            document.sections.push_back({"At a glance", {std::move(figures)}, 3});
         for (const auto add : {add_extents, add_aims, add_course, add_cars, add_accuracy, add_details, add_drawing})
             add(drive, document.sections);
     }

@@ -13,6 +13,11 @@ Section verdict_section(const Report& report);
 /// Punctuality and losses of a live run.
 Section live_section(const LiveFigures& live);
 
+/// The three figures that matter most, lamp set against lamp set.
+Cards key_figures(const ComparedDrive& drive);
+/// "xenon against halogen: ...": the first of them in a sentence; "" where nothing was measured.
+std::string key_sentence(const ComparedDrive& drive);
+
 using Sections = std::vector<Section>;
 /// Each adds what it has to say of a drive, if anything. Reach, width and area per limit and lamp set, one table per plane and lane:
 void add_extents(const ComparedDrive& drive, Sections& sections);

@@ -24,16 +24,10 @@ bool is_same_result(const Change& a, const Change& b) {
     return a.kind == b.kind && is_same(a.old_value, b.old_value, unsure) && is_same(a.new_value, b.new_value, unsure);
 }
 
-/// Better is more: 1; less: -1.
-double direction(const ReadingKey& reading) {
-    const Better better = row_of(reading.quantity).better;
-    return better == Better::higher ? 1.0 : better == Better::lower ? -1.0 : 0.0;
-}
-
 /// By one change that is real.
 DecisionOutcome outcome_of(const Change& change) {
     const Value found = change.change();
-    const double gain = direction(change.reading) * (found.low() > 0.0 ? 1.0 : -1.0);
+    const double gain = better_is(change.reading) * (found.low() > 0.0 ? 1.0 : -1.0);
     return gain > 0.0 ? DecisionOutcome::better : gain < 0.0 ? DecisionOutcome::worse : DecisionOutcome::changed;
 }
 
@@ -54,7 +48,7 @@ void conclude(const StudyResult& result, DecidedReading& decided) {
     if (decided.outcome == DecisionOutcome::changed) {
         decided.outcome = outcome_of(result.changes[decided.decided_by.front()]);
         if (std::ranges::any_of(decided.decided_by, [&](std::size_t i) { return outcome_of(result.changes[i]) != decided.outcome; }))
-            decided.outcome = direction(decided.reading) == 0.0 ? DecisionOutcome::changed : DecisionOutcome::mixed;
+            decided.outcome = better_is(decided.reading) == 0.0 ? DecisionOutcome::changed : DecisionOutcome::mixed;
     }
     std::vector<std::size_t> by_size = decided.decided_by;
     std::ranges::stable_sort(by_size, {}, [&](std::size_t i) { return result.changes[i].size(); });
@@ -158,6 +152,11 @@ std::string undecided(const StudyResult& result, const Decision& decision) {
 }
 
 } // namespace
+
+double better_is(const ReadingKey& reading) {
+    const Better better = row_of(reading.quantity).better;
+    return better == Better::higher ? 1.0 : better == Better::lower ? -1.0 : 0.0;
+}
 
 const char* outcome_name(DecisionOutcome outcome) {
     static constexpr const char* names[] = {"better", "worse", "better and worse", "changed", "within aim", "undecided", "no difference"};

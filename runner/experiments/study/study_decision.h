@@ -5,6 +5,9 @@
 
 namespace fernlicht {
 
+/// More: 1; less: -1; 0 where neither is.
+double better_is(const ReadingKey& reading);
+
 enum class DecisionOutcome {
     better,
     worse,

@@ -348,14 +348,26 @@ Document document(const StudyResult& result, const std::vector<std::string>& pap
          "in study.json and study.csv, which have all other readings too.",
          files, readings_table(result)}};
     const std::vector<Decision> decisions = decide(result);
-    Document document{short_text(result.study.title, 160), {decision_section(result, decisions)}};
+    Document document{short_text(result.study.title, 160), {}};
+    const auto add = [&](Section section, bool folded) {
+        section.folded = folded;
+        if (!section.blocks.empty())
+            document.sections.push_back(std::move(section));
+    };
+    Section answer = answer_section(result, decisions);
+    if (was_judged(result) && overall(result) != VerdictKind::pass && !answer.blocks.empty())
+        answer.blocks.emplace_back(verdict_words(result) + ": what and where stands below.");
+    if (!result.warnings.empty() && !answer.blocks.empty())
+        answer.blocks.emplace_back(counted(result.warnings.size(), "warning") + ": " + result.warnings.front() + ".");
+    add(std::move(answer), false);
+    add(decision_section(result, decisions), false);
     if (was_judged(result))
         document.sections.push_back(verdict_section(result));
-    document.sections.push_back(largest_section(result));
-    for (const Section& section :
-         {lamps, aims_section(result), reach, glare, readings, cars_section(result), views_section(result), maps, cells})
-        if (!section.blocks.empty())
-            document.sections.push_back(section);
+    for (Section* const section : {&reach, &glare})
+        add(std::move(*section), false);
+    add(largest_section(result), false);
+    for (const Section& section : {lamps, aims_section(result), readings, cars_section(result), views_section(result), maps, cells})
+        add(section, true);
     add_lamp_files(result, document);
     return document;
 }

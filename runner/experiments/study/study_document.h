@@ -3,6 +3,8 @@
 
 #include "runner/experiments/study/study_result.h"
 #include "runner/files/described_json.h"
+#include "runner/findings/paper_figure.h"
+#include "runner/findings/plots/dot_plot.h"
 #include "runner/findings/report.h"
 
 namespace fernlicht {
@@ -35,6 +37,17 @@ std::vector<StudyFigure> study_figures(const StudyResult& result, const std::fil
 /// Lanes and car on the shown maps of cells that are played over the same road from the same drive; `drive` is one of theirs.
 void add_map_edges(const Drive& drive, std::vector<CellResult*> cells);
 
+/// Cells that differ in nothing but the lamp, in order; those that were not played are left out, and groups without any.
+std::vector<std::vector<std::size_t>> groups_of(const StudyResult& result);
+/// Of one of its cells: the drive, and the condition where there are several.
+std::string place_name(const StudyResult& result, std::size_t cell);
+
+/// What decides first of all that was measured.
+std::optional<ReadingKey> first_deciding(const StudyResult& result);
+/// By how much the first of these cells that is compared with another is better than that, relative; below 0: worse. 0 within what is open;
+/// nullopt where nothing tells.
+std::optional<double> gain_among(const StudyResult& result, const std::vector<std::size_t>& cells, const ReadingKey& key);
+
 /// "dimmer against production: part of zone I 5.0 % dimmer (8.2 to 2.9 degrees left, 4.2 to 1.5 degrees down). Nothing else differs
 /// beyond the noise of the tables, 0.82 %." Of a shift, the three named places that it changed most. Zones beyond the clearest three are
 /// counted. Angles are the goniometer's.
@@ -43,6 +56,16 @@ std::string lamp_verdict(const LampComparison& lamps);
 Section aims_section(const StudyResult& result);
 /// What cars within tolerances read, route by route; no blocks where nothing was asked.
 Section cars_section(const StudyResult& result);
+/// What decides first: best and worst lamp in a sentence, lamps by routes, and all that decides, ranked; no blocks where nothing was
+/// measured.
+struct Decision;
+Section answer_section(const StudyResult& result, const std::vector<Decision>& decisions);
+/// All that decides, ranked by how much better it becomes; nullopt where nothing is better or worse.
+std::optional<plots::DotPlot> ranking_of(const StudyResult& result, const Decision& decision);
+/// For papers: rankings, reach and glare over each drive, at column width.
+std::vector<PaperFigure> paper_figures(const StudyResult& result);
+/// For papers: lamps by routes, and what decides.
+Document paper_tables(const StudyResult& result);
 /// The check of the lamp files as a section: before all else where a file makes readings meaningless, else before the cells.
 void add_lamp_files(const StudyResult& result, Document& document);
 /// How many deciding readings changed, or why that is not known.

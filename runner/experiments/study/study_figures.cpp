@@ -32,19 +32,6 @@ const StoredFrame* map_frame(const CellResult& cell) {
     return maps.empty() ? nullptr : maps[maps.size() / 2];
 }
 
-/// Groups of cells that differ in nothing but the lamp, in order; those that were not played are left out, and groups without any.
-std::vector<std::vector<std::size_t>> groups_of(const StudyResult& result) {
-    std::vector<std::vector<std::size_t>> groups;
-    for (std::size_t i = 0; i < result.cells.size(); ++i) {
-        if (!result.cells[i].failed.empty())
-            continue;
-        if (groups.empty() || !is_same_place(result.cells[groups.back().front()].cell, result.cells[i].cell))
-            groups.emplace_back();
-        groups.back().push_back(i);
-    }
-    return groups;
-}
-
 /// Of one group, as StudyResult::pairs_of.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_within(const StudyResult& result, const std::vector<std::size_t>& group,
                                                               const StudyComparison& pair) {
@@ -73,11 +60,40 @@ StudyFigure with_files(const std::string& name, const std::string& title, declty
     return {{.name = "figures/" + name, .figure = std::move(figure), .scale = 2.0}, title, std::move(cells)};
 }
 
-StudyFigure small_figure(const std::string& name, plots::Figure figure, const std::vector<std::size_t>& cells) {
+StudyFigure small_figure(const StudyResult& result, const std::string& name, plots::Figure figure, const std::vector<std::size_t>& cells) {
     const std::string title = figure.title + ": " + figure.subtitle;
     StudyFigure small = with_files(name, title, std::move(figure), cells);
     small.plot.beside = true;
+    small.plot.place = place_name(result, cells.front());
     return small;
+}
+
+void widen(plots::Axis& axis, const plots::Axis& by) {
+    axis.from = std::min(axis.from, by.from);
+    axis.to = std::max(axis.to, by.to);
+}
+
+/// What stands beside each other is read in one scale. Along the route only where that leaves no plot half empty.
+void share_axes(std::vector<StudyFigure>& figures) {
+    constexpr double most_of_shortest = 2.0;
+    std::map<std::string, std::vector<plots::Figure*>> alike;
+    for (StudyFigure& drawn : figures)
+        if (auto* const figure = std::get_if<plots::Figure>(&drawn.plot.figure); figure && !drawn.plot.place.empty())
+            alike[figure->title].push_back(figure);
+    for (auto& [title, group] : alike) {
+        plots::Axis x = group.front()->x, y = group.front()->y;
+        double shortest = x.to - x.from;
+        for (const plots::Figure* const figure : group) {
+            widen(x, figure->x);
+            widen(y, figure->y);
+            shortest = std::min(shortest, figure->x.to - figure->x.from);
+        }
+        for (plots::Figure* const figure : group) {
+            figure->y = y;
+            if (x.to - x.from <= most_of_shortest * shortest)
+                figure->x = x;
+        }
+    }
 }
 
 /// A plot with a line a lamp of a group, and all values of its axes.
@@ -89,8 +105,8 @@ struct GroupLines {
     GroupLines(const StudyResult& of, const std::vector<std::size_t>& group, std::string title) : result(of) {
         figure.title = std::move(title);
         figure.subtitle = place_of(result, group);
-        figure.width_px = 560.0;
-        figure.height_px = 300.0;
+        figure.width_px = 420.0;
+        figure.height_px = 230.0;
     }
     void add(std::size_t cell, const std::vector<double>& x, const std::vector<double>& y) {
         plots::Series line{
@@ -150,7 +166,8 @@ void add_reach(const StudyResult& result, const std::vector<std::size_t>& group,
         }
     lines.figure.x = plots::axis_around("along the route", "m", lines.xs);
     lines.figure.y = plots::axis_around("reach", "m", lines.ys, plots::Scale::linear, true);
-    figures.push_back(small_figure(fmt::format("reach-{:g}lx-{}_{}", threshold_lx, surface_name(surface), group_name(result, group)),
+    figures.push_back(small_figure(result,
+                                   fmt::format("reach-{:g}lx-{}_{}", threshold_lx, surface_name(surface), group_name(result, group)),
                                    std::move(lines.figure), group));
 }
 
@@ -164,7 +181,7 @@ void add_glares(const StudyResult& result, const std::vector<std::size_t>& group
                     lines.add(cell, glare.at_m, glare.facing_lx);
         lines.figure.x = plots::axis_around(first.over, "m", lines.xs);
         lines.figure.y = plots::axis_around("facing illuminance", "lx", lines.ys, plots::Scale::logarithmic);
-        figures.push_back(small_figure(fmt::format("glare-{}_{}", file_name_of(eye_name(first.eye)), group_name(result, group)),
+        figures.push_back(small_figure(result, fmt::format("glare-{}_{}", file_name_of(eye_name(first.eye)), group_name(result, group)),
                                        std::move(lines.figure), group));
     }
 }
@@ -251,6 +268,24 @@ void add_lamp_differences(const StudyResult& result, std::vector<StudyFigure>& f
 
 } // namespace
 
+std::vector<std::vector<std::size_t>> groups_of(const StudyResult& result) {
+    std::vector<std::vector<std::size_t>> groups;
+    for (std::size_t i = 0; i < result.cells.size(); ++i) {
+        if (!result.cells[i].failed.empty())
+            continue;
+        if (groups.empty() || !is_same_place(result.cells[groups.back().front()].cell, result.cells[i].cell))
+            groups.emplace_back();
+        groups.back().push_back(i);
+    }
+    return groups;
+}
+
+std::string place_name(const StudyResult& result, std::size_t cell) {
+    const bool several = std::ranges::any_of(
+        result.cells, [&](const CellResult& other) { return other.cell.condition != result.cells.front().cell.condition; });
+    return result.cells[cell].drive + (several ? ", " + result.cells[cell].cell.condition : "");
+}
+
 std::vector<StudyFigure> study_figures(const StudyResult& result, const std::filesystem::path& folder) {
     std::vector<StudyFigure> figures;
     add_lamp_differences(result, figures);
@@ -261,6 +296,11 @@ std::vector<StudyFigure> study_figures(const StudyResult& result, const std::fil
             add_reach(result, group, surface, threshold_lx, figures);
     for (const std::vector<std::size_t>& group : groups)
         add_glares(result, group, figures);
+    share_axes(figures);
+    if (const std::optional<ReadingKey> first = first_deciding(result))
+        for (StudyFigure& drawn : figures)
+            if (!drawn.plot.place.empty())
+                drawn.plot.rank = gain_among(result, drawn.cells, *first);
     for (const std::vector<std::size_t>& group : groups)
         add_maps(result, group, folder, figures);
     add_work_precision(result, figures);

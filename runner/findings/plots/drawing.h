@@ -5,6 +5,7 @@
 #include "runner/findings/plots/isolines.h"
 #include "scenarios/values/image.h"
 
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -36,6 +37,7 @@ struct Drawing {
     struct Line {
         Polyline points;
         Stroke stroke;
+        std::string of = {}; ///< the series that it shows: a page hides it with that
     };
     struct Area {
         Polyline outline;
@@ -68,9 +70,17 @@ struct Drawing {
     double width = 0.0, height = 0.0;
     std::string title = {};
     std::vector<Mark> marks = {};
+    /// Where a plot's x axis lies and what it shows, by which a page moves a line across it; "" for none.
+    struct Course {
+        double left, top, width, height, from, to;
+        std::string label;
+    };
+    std::optional<Course> course = {};
 
-    void line(Polyline points, Stroke stroke) { marks.emplace_back(Line{std::move(points), std::move(stroke)}); } ///< one point: nothing
-    void area(Polyline outline, Fill fill) { marks.emplace_back(Area{std::move(outline), std::move(fill)}); }     ///< two points: nothing
+    void line(Polyline points, Stroke stroke, std::string of = {}) { ///< one point: nothing
+        marks.emplace_back(Line{std::move(points), std::move(stroke), std::move(of)});
+    }
+    void area(Polyline outline, Fill fill) { marks.emplace_back(Area{std::move(outline), std::move(fill)}); } ///< two points: nothing
     void rectangle(double left, double top, double wide, double high, Fill fill) {
         marks.emplace_back(Rectangle{left, top, wide, high, std::move(fill)});
     }

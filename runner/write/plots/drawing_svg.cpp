@@ -2,6 +2,7 @@
 #include "runner/write/plots/png.h"
 #include "runner/write/plots/svg.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -16,7 +17,31 @@ std::string px(double value) {
     return fmt::format("{:.6g}", static_cast<double>(hundredths) / 100.0);
 }
 
-std::string path_of(const Polyline& points) {
+/// Whether b lies on the straight way from a to c, as far as anybody can see.
+bool is_between(const Point& a, const Point& b, const Point& c) {
+    constexpr double seen_px = 0.04;
+    const double x = c.x - a.x, y = c.y - a.y, length = std::hypot(x, y), along = x * (b.x - a.x) + y * (b.y - a.y);
+    return length > 0.0 && along >= 0.0 && along <= length * length && std::abs(x * (b.y - a.y) - y * (b.x - a.x)) <= seen_px * length;
+}
+
+/// Without points that lie on the way between others.
+Polyline without_idle(const Polyline& points) {
+    constexpr std::size_t most_at_once = 64;
+    Polyline kept;
+    for (std::size_t at = 0; at < points.size();) {
+        kept.push_back(points[at]);
+        std::size_t next = at + 1;
+        while (next + 1 < points.size() && next - at < most_at_once &&
+               std::all_of(points.begin() + static_cast<std::ptrdiff_t>(at) + 1, points.begin() + static_cast<std::ptrdiff_t>(next) + 1,
+                           [&](const Point& p) { return is_between(points[at], p, points[next + 1]); }))
+            ++next;
+        at = next;
+    }
+    return kept;
+}
+
+std::string path_of(const Polyline& all) {
+    const Polyline points = without_idle(all);
     std::string d, last;
     for (const Point& p : points) {
         const std::string place = px(p.x) + "," + px(p.y);
@@ -27,6 +52,14 @@ std::string path_of(const Polyline& points) {
         last = place;
     }
     return d;
+}
+
+std::string course_of(const Drawing& drawing) {
+    if (!drawing.course)
+        return "";
+    const Drawing::Course& c = *drawing.course;
+    return fmt::format("data-course=\"{} {} {} {} {} {}\" data-along=\"{}\" ", px(c.left), px(c.top), px(c.width), px(c.height), c.from,
+                       c.to, xml_text(c.label));
 }
 
 /// Adds mark by mark.
@@ -42,6 +75,8 @@ struct SvgText {
                            css(stroke.colour), px(stroke.width_px));
         if (!stroke.dash.empty())
             svg += " stroke-dasharray=\"" + xml_text(stroke.dash) + "\"";
+        if (!mark.of.empty())
+            svg += " data-of=\"" + xml_text(mark.of) + "\"";
         if (stroke.opacity < 1.0)
             svg += " stroke-opacity=\"" + px(stroke.opacity) + "\"";
         svg += "/>\n";
@@ -106,9 +141,9 @@ struct SvgText {
 std::string svg_of(const Drawing& drawing, int zlib) {
     SvgText text{
         fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{0}\" height=\"{1}\" "
-                    "viewBox=\"0 0 {0} {1}\" role=\"img\" "
+                    "viewBox=\"0 0 {0} {1}\" role=\"img\" {2}"
                     "font-family=\"'DejaVu Sans','Liberation Sans',Helvetica,Arial,sans-serif\">\n",
-                    px(drawing.width), px(drawing.height)),
+                    px(drawing.width), px(drawing.height), course_of(drawing)),
         zlib};
     if (!drawing.title.empty())
         text.svg += "<title>" + xml_text(drawing.title) + "</title>\n";

@@ -114,7 +114,7 @@ void draw_heading(Drawing& c, const Figure& f, const Legend& legend, const Area&
         else if (luminance(e.colour) > 0.8) // a light line needs what it lies on in the plot
             c.rectangle(left, base - 10.0, 26.0, 12.0, {.fill = css(sequential(0.25))});
         if (!e.filled)
-            c.line({{left, base - 4.0}, {left + 26.0, base - 4.0}}, {.colour = e.colour, .width_px = 2.2, .dash = e.dash});
+            c.line({{left, base - 4.0}, {left + 26.0, base - 4.0}}, {.colour = e.colour, .width_px = 2.2, .dash = e.dash}, e.name);
         c.text(left + 33.0, base, e.name, {.size_px = 12.0, .colour = ink});
     }
 }
@@ -221,22 +221,22 @@ class Inside {
         finish_part();
     }
 
-    void draw_line(const Polyline& points, const Stroke& stroke) {
+    void draw_line(const Polyline& points, const Stroke& stroke, const std::string& of = {}) {
         Polyline part;
         for (const Point& p : points) {
             const Point px = place(p);
             if (std::isfinite(px.x) && std::isfinite(px.y)) {
                 part.push_back(px);
             } else {
-                c_.line(part, stroke);
+                c_.line(part, stroke, of);
                 part.clear();
             }
         }
-        c_.line(part, stroke);
+        c_.line(part, stroke, of);
     }
 
     void draw(const Series& s) {
-        draw_line(s.points, {.colour = s.colour, .width_px = s.width_px, .dash = s.dash});
+        draw_line(s.points, {.colour = s.colour, .width_px = s.width_px, .dash = s.dash}, s.name);
         if (!s.markers)
             return;
         for (const Point& p : s.points)
@@ -336,7 +336,9 @@ std::string svg_of(const Figure& f, int zlib) {
         check(f.colour_bar->axis);
     const Legend legend = legend_of(f);
     const Area area = area_of(f, legend);
-    Drawing canvas{f.width_px, f.height_px, f.title};
+    Drawing canvas{f.width_px, f.height_px, f.title.empty() ? f.subtitle : f.title};
+    if (f.x.scale == Scale::linear && f.rasters.empty() && !f.equal_units)
+        canvas.course = Drawing::Course{area.left, area.top, area.width, area.height, f.x.from, f.x.to, f.x.label};
     canvas.rectangle(0.0, 0.0, f.width_px, f.height_px, {.fill = css(f.background)});
     canvas.begin_window(area.left, area.top, area.width, area.height);
     Inside(canvas, f, area).draw();

@@ -12,4 +12,8 @@ namespace fernlicht::plots {
 /// std::invalid_argument with librsvg's reason when it is no valid SVG.
 extern "C" using DrawSvg = void(const std::string& svg, double scale, Image<Colour>& pixels);
 
+/// The drawing `width_pt` points wide for print, as PDF or as SVG; letters are embedded as glyphs. The same drawing gives the same bytes.
+/// Throws as above.
+extern "C" using PrintSvg = void(const std::string& svg, double width_pt, bool as_pdf, std::string& printed);
+
 } // namespace fernlicht::plots

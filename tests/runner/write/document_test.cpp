@@ -147,12 +147,26 @@ TEST_F(ToyExperiment, SortsAndLinksOnAPage) {
         EXPECT_THAT(page, HasSubstr(part));
 }
 
+TEST(DocumentMatrix, EveryFormatHasItsFigures) {
+    PlaceMatrix matrix{.name = "m", .caption = "how far", .corner = "route", .unit = "m", .open_by = "aim"};
+    matrix.columns = {Cell::of_series("old", 0), Cell::of_series("new", 1)};
+    matrix.rows.emplace_back(Cell("hill"),
+                             std::vector<MatrixEntry>{{{"40.1", 40.1}}, {{"50.2", 50.2}, "+10.1", "+25", "better", "2.0", 0.5}});
+    const Document document{"Ways", {{"First", {matrix}}}};
+    for (const OutputFormat& format : output_formats())
+        for (const char* part : {"hill", "40.1", "50.2", "10.1", "better"})
+            EXPECT_THAT(format.of_document ? format.of_document(document) : format.of_table(table_of(matrix)), HasSubstr(part))
+                << format.name;
+    EXPECT_EQ(table_csv(table_of(matrix)),
+              "route,\"old, m\",\"new, m\",\"change, m\",\"change, %\",\"±, aim\",is\r\nhill,40.1,50.2,10.1,25,2.0,better\r\n");
+}
+
 TEST(DocumentPictures, StandInThePageAndLinkToFilesBelowIt) {
     const TemporaryFolder folder;
     write_png(Image<Rgb8>(2, 2), folder / "a.png");
     const Document document{"Seen", {{"Beside", {PictureStrip{"One moment", {{"a.png", "old"}, {folder / "a.png", "new"}}}}, 2, true}}};
     EXPECT_THAT(document_html(document, {}, folder.path()),
-                AllOf(HasSubstr("<h3>One moment</h3>"), HasSubstr("<img alt=\"old\" src=\"data:image/png;base64,iVBOR"),
+                AllOf(HasSubstr("<h3>One moment</h3>"), HasSubstr("<img alt=\"old\" src=\"data:image/jpeg;base64,"),
                       HasSubstr("<a href=\"./a.png\">old</a>"), HasSubstr("<figcaption>new</figcaption>")));
     EXPECT_EQ(document_text(document), "") << "on the page alone";
 }

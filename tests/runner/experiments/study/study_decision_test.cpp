@@ -165,5 +165,68 @@ TEST(Decision, ALampThatIsOnlyAimedOtherwiseIsCalledSo) {
     EXPECT_THAT(decision_sentence(study.result, decide(study.result).front()), Not(HasSubstr("it is the aim")));
 }
 
+/// The first section of the page: its heading, the sentence below it, the matrix.
+struct FirstScreen {
+    Section section;
+    explicit FirstScreen(MadeStudy& study) : section(answer_section(study.result, study.decided())) {}
+    const std::string& where() const { return std::get<std::string>(section.blocks.at(0)); }
+    const MatrixEntry& entry(std::size_t row, std::size_t lamp) const {
+        return std::get<PlaceMatrix>(section.blocks.at(1)).rows.at(row).second.at(lamp);
+    }
+};
+
+TEST(Answer, NamesBestAndWorstByHowMuchAndWhere) {
+    MadeStudy study;
+    study.on(0, reach, 40.0, 50.0, 2.0).on(1, reach, 60.0, 63.0, 4.0).on(0, glare, 1.0, 1.2, 0.05);
+    const FirstScreen screen(study);
+    EXPECT_EQ(screen.section.title, "new is better than old: 56.5 m against 50.0 m (+6.50 m, +13 %)");
+    EXPECT_EQ(screen.where(),
+              "Reach at 5 lx on a target, own lane, median over 2 routes: better on 1 of 2 routes, on 1 within what calculation, "
+              "noise and 0.1° of aim leave open, most on drive-0 (+10.0 m).");
+    EXPECT_EQ(screen.entry(0, 0).standing, "") << "the old lamp is compared with nothing";
+    EXPECT_EQ(screen.entry(0, 1).standing, "better");
+    EXPECT_EQ(screen.entry(0, 1).change, "+10.00");
+    EXPECT_EQ(screen.entry(0, 1).share, "+25");
+    EXPECT_EQ(screen.entry(0, 1).open, "2.00");
+    EXPECT_DOUBLE_EQ(screen.entry(0, 1).shade, 0.25 / 0.4);
+    EXPECT_EQ(screen.entry(1, 1).standing, "within aim");
+    EXPECT_EQ(screen.entry(1, 1).shade, 0.0) << "what aim would do as well is not marked";
+    EXPECT_THAT(
+        std::get<std::string>(screen.section.blocks.back()),
+        testing::AllOf(HasSubstr("new is better in 1, worse in 1 of 2 deciding readings."), HasSubstr("Worse by largest illuminance")));
+    const std::string page = document_html(document(study.result), study.result);
+    EXPECT_LT(page.find(screen.section.title), page.find("class=\"wide matrix"));
+    EXPECT_THAT(page, HasSubstr("<td class=\"gain\" style=\"--shade:0.62\""));
+    EXPECT_THAT(page, HasSubstr("▲ </span>+10.00 (+25 %) better<small> aim ±2.00</small>"));
+}
+
+TEST(Answer, LessGlareIsBetterAndWithinAimNobodyWins) {
+    MadeStudy dim;
+    dim.result.study.decide = {glare};
+    dim.on(0, glare, 1.2, 1.0).on(1, glare, 1.0, 1.1);
+    const FirstScreen mixed(dim);
+    EXPECT_EQ(mixed.section.title, "new is better than old: 1.05 lx against 1.10 lx (−0.0500 lx, −5 %)");
+    EXPECT_THAT(mixed.where(), HasSubstr("better on 1 of 2 routes, worse on 1, most on drive-0 (−0.200 lx)"));
+    EXPECT_GT(mixed.entry(0, 1).shade, 0.0);
+    EXPECT_LT(mixed.entry(1, 1).shade, 0.0);
+    MadeStudy alike;
+    alike.on(0, reach, 40.0, 41.0, 3.0);
+    EXPECT_EQ(FirstScreen(alike).section.title,
+              "new and old do not differ by more than aim and noise: 41.0 m against 40.0 m (+1.00 m, +2 %)");
+}
+
+TEST(Answer, RanksWhatDecidesWithIntervals) {
+    MadeStudy study;
+    study.on(0, glare, 1.0, 1.2, 0.05).on(0, reach, 40.0, 50.0, 2.0);
+    const FirstScreen screen(study);
+    const auto& drawing = std::get<plots::Drawing>(std::get<Plot>(screen.section.blocks.at(2)).figure);
+    std::vector<std::string> names;
+    for (const plots::Drawing::Mark& mark : drawing.marks)
+        if (const auto* text = std::get_if<plots::Drawing::Text>(&mark);
+            text && text->lettering.anchor == "end" && text->text.find("worse") == std::string::npos)
+            names.push_back(text->text);
+    EXPECT_THAT(names, ElementsAre("reach at 5 lx on a target, own lane", "largest illuminance on the mirror left of a car", "15 m ahead"));
+}
+
 } // namespace
 } // namespace fernlicht

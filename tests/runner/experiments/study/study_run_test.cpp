@@ -96,7 +96,8 @@ TEST_F(StudyProgram, TellsReadingsThatItDoesNotKeepInMemory) {
 
 TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
     const std::string file = write_study_file(folder, xenon);
-    const Outcome run = run_program("study " + file + quick + "--out " + (folder / "out") + " --trace " + (folder / "out/trace.json"));
+    const Outcome run =
+        run_program("study " + file + quick + "--out " + (folder / "out") + " --figures paper --trace " + (folder / "out/trace.json"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
     const json events = json::parse(content_of(folder / "out/trace.json")).at("traceEvents");
     EXPECT_EQ(std::ranges::count_if(events, [](const json& event) { return event.at("name") == "cell"; }), 2);
@@ -130,6 +131,16 @@ TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
     EXPECT_THAT(content_of(folder / "out/study.tex"), HasSubstr("\\toprule"));
     EXPECT_THAT(content_of(folder / "out/study.md"),
                 testing::AllOf(testing::StartsWith("# Two cells\n\n## No limits were set\n\n"), HasSubstr("| new / old | straight-1 |")));
+    for (const char* const name : {"ranking_new-old", "reach-5lx-target_straight"}) {
+        const std::string paper = folder / (std::string("out/paper/") + name);
+        EXPECT_THAT(content_of(paper + ".pdf"), testing::StartsWith("%PDF-"));
+        EXPECT_THAT(content_of(paper + ".svg"), testing::AllOf(HasSubstr("<svg"), Not(HasSubstr("<text"))))
+            << "letters are glyphs of its own";
+        EXPECT_GT(std::filesystem::file_size(paper + ".csv"), 100U);
+        EXPECT_THAT(content_of(folder / "out/paper/figures.tex"), HasSubstr(std::string("mm]{") + name + ".pdf}"));
+    }
+    EXPECT_THAT(content_of(folder / "out/paper/figures.tex"), HasSubstr("Source: moments of the cells straight\\_old, straight\\_new"));
+    EXPECT_THAT(content_of(folder / "out/paper/tables.tex"), HasSubstr("\\toprule"));
     EXPECT_FALSE(std::filesystem::exists(folder / "out/INCOMPLETE"));
     if (run_shell("command -v chromium").exit_code != 0)
         GTEST_SKIP() << "no Chromium on this machine: the page is not opened";

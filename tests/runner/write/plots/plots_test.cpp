@@ -1,6 +1,7 @@
 #include "runner/write/plots/png.h"
 #include "runner/write/plots/svg.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -207,6 +208,23 @@ TEST(Svg, WhatWasNotMeasuredInterruptsTheLine) {
     for (std::size_t at = svg.find(stroke); at != std::string::npos; at = svg.find(stroke, at + 1))
         ++count;
     EXPECT_EQ(count, 3u); // two parts of the curve and its sample in the legend
+}
+
+TEST(Svg, PointsOnTheWayBetweenOthersAreLeftOut) {
+    Figure figure;
+    figure.title = "bent";
+    figure.x = {"x", "", 0.0, 200.0};
+    figure.y = {"y", "", 0.0, 100.0};
+    Series line{"way"};
+    for (int i = 0; i <= 200; ++i)
+        line.points.push_back({static_cast<double>(i), i < 100 ? 0.0 : static_cast<double>(i - 100)});
+    figure.series = {line};
+    const std::string svg = svg_of(figure);
+    const std::size_t at = svg.find("data-of=\"way\""), from = svg.rfind("d=\"", at);
+    const std::string path = svg.substr(from, svg.find('"', from + 3) - from);
+    EXPECT_LT(std::ranges::count(path, ','), 12) << path;
+    EXPECT_GE(std::ranges::count(path, ','), 3) << path;
+    EXPECT_THAT(svg, testing::HasSubstr("data-course=\"")) << "by which a page moves a line across it";
 }
 
 TEST(Svg, BecomesAPngOfItsSize) {

@@ -1,0 +1,144 @@
+#include "metrics/readings/quantities.h"
+#include "metrics/readings/reading_labels.h"
+#include "runner/experiments/run/run_document.h"
+#include "runner/files/clean_text.h"
+#include "runner/findings/figures.h"
+#include "scenarios/studies/study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+
+namespace fernlicht {
+namespace {
+
+constexpr std::size_t most_key_figures = 3;
+
+const Reading* whole_drive(const PlayedCell& played, const ReadingKey& key) {
+    const auto found =
+        std::ranges::find_if(played.readings, [&](const Reading& reading) { return reading.tick < 0 && reading.key == key; });
+    return found == played.readings.end() || !found->value.measured() ? nullptr : &*found;
+}
+
+/// Reach on the road, where nothing that decides was measured.
+const std::vector<std::string>& reach_otherwise() {
+    static const std::vector<std::string> names{"reach_*lx_target_own_m", "reach_1lx_road_own_m", "reach_*lx_road_own_m"};
+    return names;
+}
+
+/// Of what a lamp is bought for: first one of each quantity, then more, in the order in which studies decide.
+std::vector<ReadingKey> key_readings(const ComparedDrive& drive) {
+    std::vector<std::pair<std::size_t, ReadingKey>> all;
+    for (const Reading& reading : drive.lamp_sets.front()->readings) {
+        if (reading.tick >= 0)
+            continue;
+        auto place = place_among(reading.key, decides_by_default());
+        if (const auto otherwise = place ? std::nullopt : place_among(reading.key, reach_otherwise()))
+            place = decides_by_default().size() + *otherwise;
+        if (place &&
+            std::ranges::all_of(drive.lamp_sets, [&](const PlayedCell* played) { return whole_drive(*played, reading.key) != nullptr; }))
+            all.emplace_back(*place, reading.key);
+    }
+    std::ranges::sort(all);
+    std::vector<ReadingKey> chosen;
+    std::set<Quantity> seen;
+    for (const bool anew : {true, false})
+        for (const auto& [place, key] : all)
+            if (chosen.size() < most_key_figures && std::ranges::count(chosen, key) == 0 && (!anew || seen.insert(key.quantity).second))
+                chosen.push_back(key);
+    return chosen;
+}
+
+/// What 0.1 degrees of aim move it by, at most; of either lamp set.
+std::optional<double> by_aim_of(const Reading& a, const Reading& b) {
+    std::optional<double> most;
+    for (const Reading* const reading : {&a, &b})
+        for (const std::optional<double>& moved : {reading->sensitivity.aim_up, reading->sensitivity.aim_down})
+            if (moved)
+                most = std::max(most.value_or(0.0), std::abs(*moved));
+    return most;
+}
+
+std::string key_number(double value) {
+    return figure(value, std::abs(value) < 1e-6 ? 0 : std::clamp(2 - static_cast<int>(std::floor(std::log10(std::abs(value)))), 0, 5));
+}
+
+std::string worded(const Reading& reading) {
+    return with_bound(reading.value, key_number(*reading.value.figure())) + unit_suffix(reading.unit());
+}
+
+/// One reading of the lamp set that has the best of it, against the first one.
+struct KeyFigure {
+    const Reading *first = nullptr, *best = nullptr;
+    std::size_t lamp_set = 0;
+    Value change;
+    std::optional<double> by_aim;
+
+    KeyFigure(const ComparedDrive& drive, const ReadingKey& key) : first(whole_drive(*drive.lamp_sets.front(), key)) {
+        const double better = row_of(key.quantity).better == Better::lower ? -1.0 : 1.0;
+        for (std::size_t i = 1; i < drive.lamp_sets.size(); ++i)
+            if (const Reading* const other = whole_drive(*drive.lamp_sets[i], key);
+                !best || better * *other->value.figure() > better * *best->value.figure()) {
+                best = other;
+                lamp_set = i;
+            }
+        if (best)
+            change = difference(best->value, first->value, first->unit());
+        by_aim = by_aim_of(*first, best ? *best : *first);
+    }
+    std::string share() const {
+        const double old = first->value.number().value_or(0.0);
+        return change.number() && old != 0.0 ? fmt::format("{} %", signed_figure(100.0 * *change.number() / std::abs(old), 0)) : "";
+    }
+    std::string changed() const {
+        return change.measured() ? with_bound(change, (*change.figure() > 0.0 ? "+" : "") + key_number(*change.figure())) : "";
+    }
+};
+
+} // namespace
+
+Cards key_figures(const ComparedDrive& drive) {
+    Cards cards;
+    for (const ReadingKey& key : key_readings(drive)) {
+        const KeyFigure found(drive, key);
+        const std::string unit = unit_label(unit_of(key)),
+                          aim =
+                              found.by_aim ? fmt::format("±{}{} by 0.1° of aim", key_number(*found.by_aim), unit_suffix(unit_of(key))) : "";
+        if (!found.best) {
+            cards.push_back({reading_label(key), with_bound(found.first->value, key_number(*found.first->value.figure())), unit, "", aim,
+                             lamp_cell(drive, 0)});
+            continue;
+        }
+        const std::string from_to = fmt::format("{} {} → {} {}", short_text(drive.lamp_sets.front()->lamp_set, 24), worded(*found.first),
+                                                short_text(drive.lamp_sets[found.lamp_set]->lamp_set, 24), worded(*found.best));
+        cards.push_back({reading_label(key), found.changed().empty() ? "?" : found.changed(), unit,
+                         found.share().empty() ? "" : "(" + found.share() + ")", from_to + (aim.empty() ? "" : "; " + aim), Cell("")});
+    }
+    return cards;
+}
+
+std::string key_sentence(const ComparedDrive& drive) {
+    const std::vector<ReadingKey> keys = key_readings(drive);
+    if (keys.empty())
+        return "";
+    const KeyFigure found(drive, keys.front());
+    const std::string lamp = short_text(drive.lamp_sets[found.lamp_set]->lamp_set, 24),
+                      first = short_text(drive.lamp_sets.front()->lamp_set, 24);
+    if (!found.best)
+        return fmt::format("{}: {} {}", first, reading_label(keys.front()), worded(*found.first));
+    const Better better = row_of(keys.front().quantity).better;
+    const bool is_better = better != Better::neither && found.change.measured() && (found.change.low() > 0.0) == (better == Better::higher);
+    const bool within = found.change.measured() && found.by_aim && std::abs(*found.change.figure()) <= *found.by_aim;
+    if (!found.change.measured() || found.change.figure() == 0.0)
+        return fmt::format("{} and {}: {} {}", lamp, first, worded(*found.best), reading_label(keys.front()));
+    return fmt::format("{} is {} than {}{}: {} against {} ({}{}), {}", lamp,
+                       is_better                   ? "better"
+                       : better == Better::neither ? "other"
+                                                   : "worse",
+                       first, within ? ", by no more than 0.1° of aim," : "", worded(*found.best), worded(*found.first),
+                       found.changed() + unit_suffix(found.first->unit()), found.share().empty() ? "" : ", " + found.share(),
+                       reading_label(keys.front()));
+}
+
+} // namespace fernlicht
