@@ -25,9 +25,8 @@ using FilesRead = std::vector<FileRead>;
 std::string read_file(const std::filesystem::path& path, FilesRead& opened, std::size_t max_bytes = std::size_t{256} << 20,
                       bool may_be_empty = false);
 
-/// A file or folder of scenarios/library ("lamps/halogen-low.ies"), looked for upwards from the program and from the working folder;
-/// empty where neither has it.
-std::filesystem::path shipped_path(const std::filesystem::path& name);
+/// Throws InputError for a path with a drive letter ("C:\\lamps\\low.ies"), with the name that WSL2 has for it; `key` is the flag, if any.
+void refuse_windows_path(const std::filesystem::path& path, const std::string& key = {});
 
 /// 32 hexadecimal digits of xxHash's 128-bit hash.
 std::string content_hash(const void* data, std::size_t bytes);
