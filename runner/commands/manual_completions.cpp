@@ -1,6 +1,7 @@
 #include "runner/commands/manual.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <functional>
@@ -43,13 +44,13 @@ std::string with_before(std::string text, const std::string& escaped, const std:
 }
 
 /// In single quotes for bash and zsh; fish takes backslashes there.
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
     std::string out = "'";
     for (const char c : text)
         out += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return out + "'";
 }
-std::string quoted_for_fish(const std::string& text) { return "'" + with_before(text, "\\'", "\\") + "'"; }
+std::string in_quotes_for_fish(const std::string& text) { return "'" + with_before(text, "\\'", "\\") + "'"; }
 
 /// As the name of a shell's function: "_fernlicht_can_record".
 std::string function_name(const CLI::App& command) {
@@ -76,7 +77,7 @@ std::string zsh_flag(const CLI::Option& flag, const std::string& word) {
 std::string bash_completions(const CLI::App& program) {
     std::string below, flags, choices;
     each_command(program, [&](const CLI::App& command) {
-        const std::string name = quoted(full_name(command));
+        const std::string name = in_quotes(full_name(command));
         if (const std::vector<std::string> names = names_below(command); !names.empty())
             below += fmt::format("    {}) commands='{}' ;;\n", name, fmt::join(names, " "));
         std::vector<std::string> words;
@@ -85,8 +86,8 @@ std::string bash_completions(const CLI::App& program) {
             words.insert(words.end(), of_flag.begin(), of_flag.end());
             for (const std::string& word : of_flag)
                 if (takes_value(*flag))
-                    choices += fmt::format("    {}) values={} ;;\n", quoted(full_name(command) + " " + word),
-                                           values.empty() ? "files" : quoted(fmt::format("{}", fmt::join(values, " "))));
+                    choices += fmt::format("    {}) values={} ;;\n", in_quotes(full_name(command) + " " + word),
+                                           values.empty() ? "files" : in_quotes(fmt::format("{}", fmt::join(values, " "))));
         }
         flags += fmt::format("    {}) flags='{}' ;;\n", name, fmt::join(words, " "));
     });
@@ -136,14 +137,14 @@ std::string zsh_completions(const CLI::App& program) {
         std::string specs, called;
         for (const CLI::Option* flag : flags_of(command))
             for (const std::string& word : words_of(*flag))
-                specs += " \\\n        " + quoted(zsh_flag(*flag, word));
+                specs += " \\\n        " + in_quotes(zsh_flag(*flag, word));
         if (commands_below(command).empty()) {
             text += fmt::format("\n{}() {{\n    _arguments{} \\\n        '*:file:_files'\n}}\n", function_name(command), specs);
             return;
         }
         std::string list;
         for (const CLI::App* one : commands_below(command)) {
-            list += "\n        " + quoted(zsh_text(one->get_name()) + ":" + one->get_description());
+            list += "\n        " + in_quotes(zsh_text(one->get_name()) + ":" + one->get_description());
             called += fmt::format("        {}) {} ;;\n", one->get_name(), function_name(*one));
         }
         text += fmt::format(R"(
@@ -187,7 +188,7 @@ end
         const std::string name = full_name(command), words = name.substr(std::min(name.size(), program.get_name().size() + 1));
         for (const CLI::App* one : commands_below(command))
             text += fmt::format("complete -c fernlicht -f -n '__fernlicht_in --only {}' -a {} -d {}\n", words, one->get_name(),
-                                quoted_for_fish(one->get_description()));
+                                in_quotes_for_fish(one->get_description()));
         for (const CLI::Option* flag : flags_of(command)) {
             text += fmt::format("complete -c fernlicht -n '__fernlicht_in {}{}'", command.get_parent() ? "" : "--only ", words);
             for (const std::string& one : flag->get_snames())
@@ -198,7 +199,7 @@ end
                 text += fmt::format(" -x -a '{}'", fmt::join(choices, " "));
             else if (takes_value(*flag))
                 text += " -r";
-            text += " -d " + quoted_for_fish(flag->get_description()) + "\n";
+            text += " -d " + in_quotes_for_fish(flag->get_description()) + "\n";
         }
     });
     return text;

@@ -160,7 +160,7 @@ std::string full_name(const CLI::App& command) {
     return command.get_parent() ? full_name(*command.get_parent()) + " " + command.get_name() : command.get_name();
 }
 
-bool takes_value(const CLI::Option& flag) { return flag.get_type_size() != 0; }
+bool takes_value(const CLI::Option& flag) { return flag.get_items_expected_max() > 0; }
 
 std::vector<std::string> choices_of(const CLI::Option& option) {
     std::string words = option.get_option_text();

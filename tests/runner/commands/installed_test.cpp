@@ -105,7 +105,7 @@ TEST(NamedDrives, AreOursWhereThereIsNoSuchFile) {
     EXPECT_EQ(record.exit_code, 0) << record.output;
     EXPECT_EQ(record.output, printed("can record " + library_file("drives/s-bend-can.yaml")));
     EXPECT_THAT(run_program("study standard --list", here).output, HasSubstr("straight"));
-    EXPECT_THAT(run_program("run straigt", here).output, HasSubstr("(nearest: 'straight')"));
+    EXPECT_THAT(run_program("run countri", here).output, HasSubstr("(nearest: 'country')"));
     std::ofstream(folder / "straight") << "nonsense: 1\n";
     EXPECT_THAT(run_program("run straight", here).output, HasSubstr("straight:1:1: nonsense"));
 }
