@@ -4,7 +4,7 @@ include(GNUInstallDirs)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # `all` has the tests, too; what is installed comes with the target `fernlicht`
 set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(manual ${CMAKE_BINARY_DIR}/generated/manual)
-set(parts lib/fernlicht)
+set(parts lib/fernlicht/modules) # two levels down: from files of lib/NAME CPack concludes that the package has libraries for others
 
 install(TARGETS fernlicht RUNTIME DESTINATION bin COMPONENT program)
 install(TARGETS fernlicht-svg fernlicht-ipopt fernlicht-zip LIBRARY DESTINATION ${parts} COMPONENT program)
@@ -35,18 +35,19 @@ set(package_of_openimageio fernlicht-openimageio)
 set(package_of_import fernlicht-import)
 set(package_of_docs fernlicht-doc)
 set(about_program "night drives played offscreen, headlamps measured
- fernlicht plays scripted night drives through an offscreen renderer and
- measures what the headlamps do: how far and how wide the road is lit, what
- dazzles others, and which differences are real. It reads photometric files,
- OpenDRIVE roads and OpenSCENARIO storyboards, and needs no GPU.")
+fernlicht plays scripted night drives through an offscreen renderer and
+measures what the headlamps do: how far and how wide the road is lit, what
+dazzles others, and which differences are real. It reads photometric files,
+OpenDRIVE roads and OpenSCENARIO storyboards, and needs no GPU.")
 set(about_openimageio "pictures of more formats for fernlicht
- The part of fernlicht that reads pictures by OpenImageIO, so that they can be
- compared. Pictures in PNG, JPEG and OpenEXR are read without it.")
+The part of fernlicht that reads pictures by OpenImageIO, so that they can be
+compared. Pictures in PNG, JPEG and OpenEXR are read without it.")
 set(about_import "OpenFlight databases for fernlicht
- The part of fernlicht that reads OpenFlight by OpenSceneGraph: it belongs to
- the command fernlicht import.")
+The part of fernlicht that reads OpenFlight by OpenSceneGraph: it belongs to
+the command fernlicht import.")
 set(about_docs "documentation of fernlicht
- The pages that explain files, commands, readings and methods of fernlicht.")
+The pages that explain files, commands, readings and methods of fernlicht,
+ordered by role and by task, with its changes and its architecture.")
 set(needs_openimageio "fernlicht (= ${PROJECT_VERSION})")
 set(needs_import "fernlicht (= ${PROJECT_VERSION})")
 # Mesa and fonts are opened by name, so no tool sees them. OSMesa is the second backend, and Debian 13 has none.
@@ -69,7 +70,7 @@ file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/debian/copyright @ONLY CONTENT "Format
 Upstream-Name: fernlicht
 
 Files: *
-Copyright: fernlicht contributors
+Copyright: 2026 fernlicht contributors
 License: Apache-2.0
  On Debian systems the text of the Apache License, version 2.0, is in
  /usr/share/common-licenses/Apache-2.0.

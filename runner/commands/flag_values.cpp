@@ -48,7 +48,7 @@ std::int64_t utc_offset_of(const std::string& text) {
 } // namespace
 
 std::filesystem::path result_folder(const std::string& out, const std::string& name) {
-    refuse_windows_path(out, "--out");
+    refuse_windows_path(out, {{}, 0, 0, "--out"});
     return out.empty() ? default_output_folder(name, utc_now()) : std::filesystem::path(out);
 }
 

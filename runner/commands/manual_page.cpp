@@ -33,7 +33,7 @@ drives, lamps, roads, studies, ratings; where the program is installed elsewhere
 .I ../share/fernlicht
 from its folder
 .TP
-.I /usr/lib/fernlicht
+.I /usr/lib/fernlicht/modules
 libraries that few commands open
 .SH EXIT STATUS
 .TP

@@ -62,18 +62,18 @@ std::size_t utf8_length(const unsigned char* p, std::size_t left) {
     return 0;
 }
 
-void refuse_windows_path(const std::filesystem::path& path, const std::string& key) {
-    static const std::regex drive_letter(R"((?:^|/)([A-Za-z]):[\\/](.*))"); // after a slash, where it was taken for a relative path
+void refuse_windows_path(const std::filesystem::path& path, const InputError::Where& where) {
+    static const std::regex drive_letter(R"((?:^|/)(([A-Za-z]):[\\/](.*)))");
     const std::string text = path.string();
     std::smatch part;
-    if (!std::regex_search(text, part, drive_letter))
+    std::error_code ignored;
+    if (!std::regex_search(text, part, drive_letter) || std::filesystem::exists(path, ignored))
         return;
-    std::string below = part[2];
+    std::string below = part[3];
     std::ranges::replace(below, '\\', '/');
-    throw InputError({key.empty() ? path : std::filesystem::path(), 0, 0, key},
-                     key.empty() ? "is a path of Windows" : "found '" + printable(text, 400) + "', a path of Windows",
-                     fmt::format("a path of Linux; WSL2 has this as /mnt/{}/{}",
-                                 static_cast<char>(text[static_cast<std::size_t>(part.position(1))] | 0x20), printable(below, 400)));
+    const auto letter = static_cast<char>(part[2].str()[0] | 0x20); // a small one
+    throw InputError(where, "found '" + printable(part[1], 400) + "', a path of Windows",
+                     fmt::format("one of Linux; WSL2 has this as /mnt/{}/{}", letter, printable(below, 400)));
 }
 
 std::string content_hash(const void* data, std::size_t bytes) {
@@ -85,7 +85,7 @@ std::string read_file(const std::filesystem::path& path, FilesRead& opened, std:
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0) {
         const int error = errno;
-        refuse_windows_path(path);
+        refuse_windows_path(path, {});
         throw InputError({path, 0, 0, {}}, "cannot be read: " + reason(error), "a file");
     }
     if (!S_ISREG(status.st_mode))

@@ -14,7 +14,7 @@ std::filesystem::path program_folder() {
 std::filesystem::path program_part(const std::string& name) {
     std::error_code ignored;
     const std::filesystem::path folder = program_folder();
-    return std::filesystem::exists(folder / name, ignored) ? folder / name : folder.parent_path() / "lib/fernlicht" / name;
+    return std::filesystem::exists(folder / name, ignored) ? folder / name : folder.parent_path() / "lib/fernlicht/modules" / name;
 }
 
 void* module_function(const std::string& module, const char* function) {

@@ -9,8 +9,8 @@ namespace fernlicht {
 /// The program's folder, links followed.
 std::filesystem::path program_folder();
 
-/// Where a part of the program lies: beside it, as it was built, or in ../lib/fernlicht, as it is installed. Where it is in neither, the
-/// latter.
+/// Where a part of the program lies: beside it, as it was built, or in ../lib/fernlicht/modules, as it is installed. Where it is in
+/// neither, the latter.
 std::filesystem::path program_part(const std::string& name);
 
 /// A function of a shared library of ours, by its C name. The library is opened when it is first asked for, and stays. Throws DeviceError

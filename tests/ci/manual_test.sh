@@ -13,7 +13,7 @@ failures=0
 fail() { echo "$*"; ((++failures)); }
 
 # below COMMAND...: the commands that --help lists.
-below() { "$program" "$@" --help | awk '/^Subcommands:/ { list = 1; next } list && NF { print $1 }'; }
+below() { "$program" "$@" --help | awk '/^Subcommands:/ { list = 1; next } list && /^  [a-z]/ { print $1 }'; }
 # flags COMMAND...: the long flags that --help lists.
 flags() { "$program" "$@" --help | grep --only-matching --extended-regexp '^ +(-[a-z],)?--[a-z0-9-]+' | sed 's/.*--/--/' | sort; }
 
@@ -31,6 +31,7 @@ for command in $(below); do
     done
     grep --quiet "fernlicht\\\\-$command (1)" man/fernlicht.1 || fail "fernlicht.1 does not list $command"
 done
+grep --quiet '^\\fB\\-\\-quiet\\fR$' man/fernlicht-run.1 || fail "fernlicht-run.1: --quiet takes no value"
 for page in man/*.1; do
     if command -v man >/dev/null; then
         said=$(LC_ALL=C.UTF-8 MANROFFSEQ='' MANWIDTH=80 man --warnings -E UTF-8 -l -Tutf8 -Z "$page" 2>&1 >/dev/null)
@@ -55,7 +56,7 @@ everywhere() {
     expect "$1" 'fernlicht can ' 'convert cut decode merge record'
     expect "$1" 'fernlicht can record --forc' '--force'
     expect "$1" 'fernlicht run --log-level e' 'error'
-    expect "$1" 'fernlicht man' ''
+    expect "$1" 'fernlicht completio' '' # hidden
 }
 touch ownfile
 

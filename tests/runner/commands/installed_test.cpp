@@ -24,7 +24,7 @@ class Installed : public testing::Test {
     void SetUp() override {
         std::string name = "/tmp/fernlicht-prefix-XXXXXX";
         prefix_ = ::mkdtemp(name.data());
-        for (const char* folder : {"bin", "lib/fernlicht", "share/fernlicht"})
+        for (const char* folder : {"bin", "lib/fernlicht/modules", "share/fernlicht"})
             fs::create_directories(prefix_ / folder);
         fs::copy_file(FERNLICHT_BINARY, prefix_ / "bin/fernlicht");
     }
@@ -89,8 +89,8 @@ TEST_F(Installed, PartsLieInLibOfItsPrefixAlsoWhenCalledByALink) {
     const std::string plot = "lamp --model halogen-low --force --picture " + at("beam.png");
     const Outcome missing = run(plot);
     EXPECT_EQ(missing.exit_code, 3);
-    EXPECT_THAT(missing.output, HasSubstr(at("lib/fernlicht/fernlicht-svg.so") + " is not installed"));
-    fs::copy_file(fs::path(FERNLICHT_BINARY).parent_path() / "fernlicht-svg.so", prefix_ / "lib/fernlicht/fernlicht-svg.so");
+    EXPECT_THAT(missing.output, HasSubstr(at("lib/fernlicht/modules/fernlicht-svg.so") + " is not installed"));
+    fs::copy_file(fs::path(FERNLICHT_BINARY).parent_path() / "fernlicht-svg.so", prefix_ / "lib/fernlicht/modules/fernlicht-svg.so");
     EXPECT_EQ(run(plot).exit_code, 0);
     EXPECT_GT(fs::file_size(prefix_ / "beam.png"), 1000U);
     fs::create_symlink(prefix_ / "bin/fernlicht", prefix_ / "linked");
@@ -113,11 +113,13 @@ TEST(NamedDrives, AreOursWhereThereIsNoSuchFile) {
 TEST(WindowsPaths, AreRefusedWithTheirNameUnderWsl) {
     const TemporaryFolder folder;
     const std::string here = "cd '" + folder.path().string() + "' &&";
-    EXPECT_THAT(run_program(R"(lamp 'C:\My lamps\low.ies')", here).output,
-                HasSubstr("is a path of Windows, expected a path of Linux; WSL2 has this as /mnt/c/My lamps/low.ies"));
+    EXPECT_THAT(
+        run_program(R"(lamp 'C:\My lamps\low.ies')", here).output,
+        HasSubstr("found 'C:\\My lamps\\low.ies', a path of Windows, expected one of Linux; WSL2 has this as /mnt/c/My lamps/low.ies"));
     EXPECT_THAT(run_program("lamp d:/low.ies", here).output, HasSubstr("WSL2 has this as /mnt/d/low.ies"));
     std::ofstream(folder / "drive.yaml") << "fernlicht: 1\nroad: 'C:\\roads\\bend.xodr'\n";
-    EXPECT_THAT(run_program("run drive.yaml", here).output, HasSubstr("WSL2 has this as /mnt/c/roads/bend.xodr"));
+    EXPECT_THAT(run_program("run drive.yaml", here).output,
+                AllOf(HasSubstr("drive.yaml:2:7: road: found"), HasSubstr("WSL2 has this as /mnt/c/roads/bend.xodr")));
     EXPECT_THAT(run_program(R"(run straight --out 'C:\out')", here).output, HasSubstr("--out: found 'C:\\out', a path of Windows"));
     EXPECT_THAT(run_program("lamp low:/ies", here).output, Not(HasSubstr("Windows")));
 }
