@@ -58,7 +58,7 @@ int accuracy(const AccuracyFlags& flags, const std::vector<std::string>& command
     request.sweep.shadow_maps = sizes_of("--shadow-maps", flags.shadow_maps, 8192);
     request.sweep.beams = beams_of(flags.beams);
     for (const std::filesystem::path& file : flags.drives)
-        request.drives.push_back(read_drive(file));
+        request.drives.push_back(read_drive(named_file("drive", file, "DRIVE")));
     refuse_equal_names(request.drives);
     request.backend = flags.backend;
     request.folder = result_folder(flags.out, "accuracy");

@@ -69,7 +69,7 @@ AliasingRequest request_of(const AliasingFlags& flags) {
         throw InputError({{}, 0, 0, "--moment"}, "found --frames too", "one of the two");
     if (!flags.frames.empty())
         request.frames = two_numbers("--frames", flags.frames, ':', false, "FIRST:LAST, e.g. 60:75");
-    request.drive = read_drive(flags.drive, edits);
+    request.drive = read_drive(named_file("drive", flags.drive, "DRIVE"), edits);
     request.beams = beams_of(flags.beams);
     if (request.beams.empty()) {
         request.beams.push_back(request.drive.beams);

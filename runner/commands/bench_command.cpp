@@ -4,7 +4,6 @@
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/bench/bench_run.h"
 #include "runner/write/document.h"
-#include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
 
 #include <CLI/CLI.hpp>
@@ -14,11 +13,9 @@
 namespace fernlicht {
 namespace {
 
-constexpr const char* default_drive = "scenarios/library/drives/bench.yaml";
-
 /// The flags as typed.
 struct BenchFlags {
-    std::filesystem::path drive = default_drive;
+    std::filesystem::path drive = "bench";
     std::string lamp_set, resolution, backend = "auto", out;
     const OutputFormat* tables = nullptr;
     std::vector<std::string> techniques;
@@ -36,10 +33,7 @@ int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
     if (!flags.resolution.empty())
         edits.resolution = resolution_of(flags.resolution);
     BenchRequest request;
-    if (flags.drive == default_drive && !std::filesystem::exists(flags.drive))
-        throw InputError({{}, 0, 0, "DRIVE"}, "found no " + flags.drive.string() + " from here",
-                         "to be run from the repository's root, or a drive file");
-    request.drive = read_drive(flags.drive, edits);
+    request.drive = read_drive(named_file("drive", flags.drive, "DRIVE"), edits);
     request.lamp_set = flags.lamp_set;
     request.techniques = items_of("--techniques", flags.techniques);
     request.moments = flags.count;

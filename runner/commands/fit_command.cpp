@@ -28,7 +28,7 @@ FitRequest request_of(const FitFlags& flags) {
     if (!flags.road.empty())
         edits.road = flags.road;
     request.hold = items_of("--hold", flags.hold);
-    request.drive = read_drive(flags.drive, edits);
+    request.drive = read_drive(named_file("drive", flags.drive, "DRIVE"), edits);
     request.lamp_set = flags.lamp_set;
     request.points = flags.points;
     request.folder = result_folder(flags.out, request.drive.name + "-fit");

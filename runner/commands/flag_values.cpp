@@ -8,6 +8,8 @@
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/lamps/grid_recipe.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
+#include "scenarios/yaml/library_file.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -46,7 +48,15 @@ std::int64_t utc_offset_of(const std::string& text) {
 } // namespace
 
 std::filesystem::path result_folder(const std::string& out, const std::string& name) {
+    refuse_windows_path(out, {{}, 0, 0, "--out"});
     return out.empty() ? default_output_folder(name, utc_now()) : std::filesystem::path(out);
+}
+
+std::filesystem::path named_file(const std::string& kind, const std::filesystem::path& typed, const char* key) {
+    std::error_code ignored;
+    const bool is_path =
+        typed.has_parent_path() || typed.has_extension() || typed.empty() || std::filesystem::is_regular_file(typed, ignored);
+    return is_path ? typed : library_file(kind, typed.string(), "", {{}, 0, 0, key});
 }
 
 void refuse_existing(const char* flag, const std::filesystem::path& path, bool force) {

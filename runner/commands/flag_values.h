@@ -42,6 +42,10 @@ std::vector<std::optional<BeamTexels>> beams_of(const std::vector<std::string>& 
 /// The folder of --out; for "" a new one, named after what is played and the time.
 std::filesystem::path result_folder(const std::string& out, const std::string& name);
 
+/// A drive or study as typed: a path as it is; a bare word without a file of this name is one of ours ("country"). Throws InputError naming
+/// the positional `key` for a word that is neither.
+std::filesystem::path named_file(const std::string& kind, const std::filesystem::path& typed, const char* key);
+
 /// Throws InputError naming the flag where there is a file of this name and `force` does not say to replace it.
 void refuse_existing(const char* flag, const std::filesystem::path& path, bool force);
 

@@ -3,6 +3,7 @@
 #include "runner/commands/flag_values.h"
 #include "runner/commands/model_command.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/program_module.h"
 
 #include <CLI/CLI.hpp>
 #include <csignal>
@@ -18,11 +19,6 @@ namespace {
 
 constexpr rlim_t max_memory_bytes = rlim_t{4} << 30;
 constexpr unsigned max_seconds = 300;
-
-std::filesystem::path beside_this_program() {
-    std::error_code error;
-    return std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "fernlicht-import";
-}
 
 /// What the program wrote to one of its channels, as long as it lives.
 std::string all_from(int descriptor) {
@@ -85,9 +81,10 @@ int import_command(const ImportRequest& request) {
     if (request.out.extension() != ".glb")
         throw InputError({{}, 0, 0, "OUT"}, "found '" + printable(request.out.string()) + "'", "a name that ends in .glb");
     refuse_existing("OUT", request.out, request.force);
-    const std::filesystem::path program = request.program.empty() ? beside_this_program() : request.program;
+    const std::filesystem::path program = request.program.empty() ? program_part("fernlicht-import") : request.program;
     if (!std::filesystem::exists(program, error))
-        throw DeviceError("there is no " + program.string() + ": it is built where OpenSceneGraph (libopenscenegraph-dev) is installed");
+        throw DeviceError("there is no " + program.string() +
+                          ": it is built where OpenSceneGraph (libopenscenegraph-dev) is installed, and packaged as fernlicht-import");
     const Ended ended = run(program, request.file, request.out, request.forward);
     if (WIFSIGNALED(ended.status))
         throw InputError({request.file, 0, 0, {}},

@@ -36,7 +36,7 @@ int tell_importance(const ImportanceFlags& flags, const std::vector<std::string>
         edits.lamp_recipe = flags.recipe;
         if (!flags.road.empty())
             edits.road = flags.road;
-        request.drive = read_drive(flags.drive, edits);
+        request.drive = read_drive(named_file("drive", flags.drive, "DRIVE"), edits);
     } else
         request.row = {read_rating(library_file("rating", flags.rating, "", {{}, 0, 0, "--rating"})), flags.row, flags.photometer,
                        flags.drive};

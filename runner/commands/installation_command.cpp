@@ -41,7 +41,7 @@ int tell_installation(const InstallationFlags& flags) {
     InstallationRequest request;
     for (const std::string& load : flags.loads)
         request.loads.push_back(load_of(load));
-    request.drive = read_drive(flags.drive, edits);
+    request.drive = read_drive(named_file("drive", flags.drive, "DRIVE"), edits);
     request.lamp_set = flags.lamp_set;
     const InstallationFound found = run_installation(request);
     fmt::print("{}", flags.json ? installation_json(found) : document_text(document(found)));

@@ -39,7 +39,7 @@ Drive drive_of(const LiveFlags& flags) {
         if (!edits.can_start_ns)
             refuse_flag("--can-start", flags.start, "a stamp of the recording, e.g. 1436509052.249713");
     }
-    Drive drive = read_drive(flags.drive, edits);
+    Drive drive = read_drive(named_file("drive", flags.drive, "DRIVE"), edits);
     if (flags.duration_s > 0.0)
         drive.duration_s = flags.duration_s;
     return drive;

@@ -45,7 +45,7 @@ int tell_masks(const MasksFlags& flags, const std::vector<std::string>& command)
     if (!flags.lamps.empty())
         edits.lamp_sets = flags.lamps;
     request.margins_deg = margins_of(flags.margins);
-    request.drive = read_drive(flags.drive, edits);
+    request.drive = read_drive(named_file("drive", flags.drive, "DRIVE"), edits);
     request.limits = read_rating(library_file("rating", flags.limits, "", {{}, 0, 0, "--limits"}));
     request.against = flags.against;
     request.folder = result_folder(flags.out, request.drive.name + "-masks");

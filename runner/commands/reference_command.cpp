@@ -107,7 +107,7 @@ int draw_reference(const ReferenceFlags& flags, const std::vector<std::string>& 
         throw InputError({{}, 0, 0, "--resume"}, "found no --out", "the folder of the reference that was interrupted");
     ReferenceRequest request;
     request.settings = settings_of(flags);
-    request.drive = read_drive(flags.drive, edits_of(flags));
+    request.drive = read_drive(named_file("drive", flags.drive, "DRIVE"), edits_of(flags));
     request.settings.lamp_radius_m = flags.lamp_radius_m.value_or(lamp_disc_radius_m(request.drive));
     request.lamp_set = flags.lamp_set;
     request.view = flags.view;

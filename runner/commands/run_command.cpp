@@ -125,7 +125,7 @@ int run(const RunFlags& flags, const std::vector<std::string>& command) {
     const DriveEdits edits = edits_of(flags);
     std::vector<Drive> drives;
     for (const std::filesystem::path& file : flags.drives)
-        drives.push_back(read_drive(file, edits));
+        drives.push_back(read_drive(named_file("drive", file, "DRIVE"), edits));
     refuse_equal_names(drives);
     options.folder = result_folder(flags.out, drives.front().name);
     TraceFile trace(flags.trace, "fernlicht run " + drives.front().name, options.folder);
@@ -147,7 +147,8 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     const auto flags = std::make_shared<RunFlags>();
     CLI::App* sub = app.add_subcommand("run", "play drives, measure, and write a report");
     sub->add_option("DRIVE", flags->drives,
-                    "drive files (YAML), or storyboards (OpenSCENARIO, .xosc): played with halogen low beams on all cars")
+                    "drive files (YAML), names of ours such as first-light, or storyboards (OpenSCENARIO, .xosc): played with halogen low "
+                    "beams on all cars")
         ->required();
     sub->add_option("--lamp", flags->lamps,
                     "[SIDE=]FILE: use this lamp file for all low beams, or for the lamps whose name contains SIDE (left, right, high)")

@@ -7,6 +7,7 @@
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
+#include "scenarios/values/library_folders.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -17,15 +18,13 @@
 namespace fernlicht {
 namespace {
 
-constexpr const char* default_lamp = "scenarios/library/lamps/xenon-low.ies";
-
 /// The flags as typed.
 struct ShadowsFlags {
     std::vector<std::filesystem::path> drives;
     std::string lamp_set, backend = "auto", out, texels = "1024x512", resolution = "512x384";
     const OutputFormat* tables = nullptr;
     std::vector<std::string> methods, scenes{"*"};
-    std::filesystem::path lamp = default_lamp, recipe;
+    std::filesystem::path lamp, recipe;
     double lamp_radius_m = ShadowSettings{}.lamp_radius_m, floor_lx = shadow_floor_lx, vertical_fov_deg = degrees(View{}.vertical_fov_rad);
     int moments = 3, rounds = 7;
     std::uint64_t seed = 1;
@@ -84,13 +83,10 @@ int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) 
     request.scenes = items_of("--scenes", flags.scenes);
     if (request.scenes.size() > 1 && std::ranges::count(request.scenes, "none") > 0)
         refuse_flag("--scenes", fmt::format("{}", fmt::join(request.scenes, ",")), "none alone, or names of scenes");
-    if (request.scenes.front() != "none" && flags.lamp == default_lamp && !std::filesystem::exists(flags.lamp))
-        throw InputError({{}, 0, 0, "--lamp"}, fmt::format("found no {} from here", default_lamp),
-                         "to be run from the repository's root, or --lamp FILE, the beam of the hard scenes, or --scenes none");
-    request.lamp = flags.lamp;
+    request.lamp = flags.lamp.empty() && request.scenes.front() != "none" ? shipped_file("lamps/xenon-low.ies", "--lamp") : flags.lamp;
     request.recipe = flags.recipe;
     for (const std::filesystem::path& file : flags.drives)
-        request.drives.push_back(read_drive(file));
+        request.drives.push_back(read_drive(named_file("drive", file, "DRIVE")));
     refuse_equal_names(request.drives);
     request.lamp_set = flags.lamp_set;
     request.moments = flags.moments;
@@ -125,8 +121,7 @@ void add_shadows_command(CLI::App& app, const std::vector<std::string>& command,
         ->default_str("");
     sub->add_option("--map-texels", flags->texels, "WIDTHxHEIGHT of each map")->capture_default_str();
     sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drives (default: the first of each)");
-    sub->add_option("--lamp", flags->lamp, "lamp file for the hard scenes (default: one in the repository, found from its root)")
-        ->capture_default_str();
+    sub->add_option("--lamp", flags->lamp, "lamp file for the hard scenes (default: our lamps/xenon-low.ies)");
     add_recipe_flag(*sub, flags->recipe);
     sub->add_option("--lamp-radius", flags->lamp_radius_m, "radius in m of lamps as discs, for soft shadows; 0: do not measure them")
         ->capture_default_str();

@@ -217,7 +217,7 @@ void annotate_study(const StudyResult& result) {
 
 int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     refuse_contradictions(flags);
-    const Study study = read_study(flags.file);
+    const Study study = read_study(named_file("study", flags.file, "FILE"));
     if (flags.list) {
         refuse_unaimable(study);
         refuse_unknown_readings(study);
@@ -310,7 +310,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
 void add_study_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<StudyFlags>();
     CLI::App* sub = app.add_subcommand("study", "play lamps x drives x techniques x conditions, and report what differs beyond noise");
-    sub->add_option("FILE", flags->file, "study file (YAML)")->required();
+    sub->add_option("FILE", flags->file, "study file (YAML), or the name of one of ours such as standard")->required();
     sub->add_option("--out", flags->out, "new or empty folder for the report");
     sub->add_flag("--resume", flags->resume,
                   "continue in the --out folder of this study: keep finished cells, play the others, write the report again");

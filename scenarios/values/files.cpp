@@ -2,12 +2,14 @@
 
 #include "scenarios/values/errors.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fmt/format.h>
 #include <memory>
+#include <regex>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -60,18 +62,18 @@ std::size_t utf8_length(const unsigned char* p, std::size_t left) {
     return 0;
 }
 
-std::filesystem::path shipped_path(const std::filesystem::path& name) {
+void refuse_windows_path(const std::filesystem::path& path, const InputError::Where& where) {
+    static const std::regex drive_letter(R"((?:^|/)(([A-Za-z]):[\\/](.*)))");
+    const std::string text = path.string();
+    std::smatch part;
     std::error_code ignored;
-    for (std::filesystem::path folder :
-         {std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path(), std::filesystem::current_path(ignored)})
-        for (; !folder.empty(); folder = folder.parent_path()) {
-            std::filesystem::path found = folder / "scenarios/library" / name;
-            if (std::filesystem::exists(found, ignored))
-                return found;
-            if (folder == folder.parent_path())
-                break;
-        }
-    return {};
+    if (!std::regex_search(text, part, drive_letter) || std::filesystem::exists(path, ignored))
+        return;
+    std::string below = part[3];
+    std::ranges::replace(below, '\\', '/');
+    const auto letter = static_cast<char>(part[2].str()[0] | 0x20); // a small one
+    throw InputError(where, "found '" + printable(part[1], 400) + "', a path of Windows",
+                     fmt::format("one of Linux; WSL2 has this as /mnt/{}/{}", letter, printable(below, 400)));
 }
 
 std::string content_hash(const void* data, std::size_t bytes) {
@@ -81,8 +83,11 @@ std::string content_hash(const void* data, std::size_t bytes) {
 
 std::string read_file(const std::filesystem::path& path, FilesRead& opened, std::size_t max_bytes, bool may_be_empty) {
     struct stat status {};
-    if (::stat(path.c_str(), &status) != 0)
-        throw InputError({path, 0, 0, {}}, "cannot be read: " + reason(errno), "a file");
+    if (::stat(path.c_str(), &status) != 0) {
+        const int error = errno;
+        refuse_windows_path(path, {});
+        throw InputError({path, 0, 0, {}}, "cannot be read: " + reason(error), "a file");
+    }
     if (!S_ISREG(status.st_mode))
         throw InputError({path, 0, 0, {}}, S_ISDIR(status.st_mode) ? "is a folder" : "is not a regular file", "a file");
     if (static_cast<std::size_t>(status.st_size) > max_bytes)

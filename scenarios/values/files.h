@@ -2,6 +2,8 @@
 // What is UTF-8, what is UTF-16, and what is neither.
 #pragma once
 
+#include "scenarios/values/errors.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -25,9 +27,9 @@ using FilesRead = std::vector<FileRead>;
 std::string read_file(const std::filesystem::path& path, FilesRead& opened, std::size_t max_bytes = std::size_t{256} << 20,
                       bool may_be_empty = false);
 
-/// A file or folder of scenarios/library ("lamps/halogen-low.ies"), looked for upwards from the program and from the working folder;
-/// empty where neither has it.
-std::filesystem::path shipped_path(const std::filesystem::path& name);
+/// Throws InputError at `where` for a path that is not there and has a drive letter ("C:\lamps\low.ies"), also as part of one that was
+/// taken for relative; says under which name WSL2 has it.
+void refuse_windows_path(const std::filesystem::path& path, const InputError::Where& where);
 
 /// 32 hexadecimal digits of xxHash's 128-bit hash.
 std::string content_hash(const void* data, std::size_t bytes);

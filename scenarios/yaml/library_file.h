@@ -1,4 +1,4 @@
-// YAML files that are named by their path, or by a name of ours in scenarios/library.
+// YAML files that are named by their path, or by a name of ours (scenarios/values/library_folders.h).
 #pragma once
 
 #include "scenarios/values/errors.h"
@@ -9,7 +9,7 @@
 
 namespace fernlicht {
 
-/// Names of those in scenarios/library/KINDs ("recipe": recipes), in order.
+/// Names of those of a kind ("recipe": recipes/), of all folders of the library, in order.
 std::vector<std::string> library_names(const std::string& kind);
 
 /// `given` as a path from `folder`, or else such a name. Absolute and normal. Throws InputError at `where`.

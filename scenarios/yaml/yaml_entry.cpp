@@ -1,6 +1,7 @@
 #include "scenarios/yaml/yaml_entry.h"
 
 #include "scenarios/values/errors.h"
+#include "scenarios/values/files.h"
 #include "scenarios/yaml/old_names.h"
 
 #include <algorithm>
@@ -139,6 +140,7 @@ std::size_t YamlEntry::choice(std::span<const std::string_view> choices) const {
 
 std::filesystem::path YamlEntry::path() const {
     const std::filesystem::path given = text();
+    refuse_windows_path(given, {*file_, value_->line, value_->column, key_path_});
     return std::filesystem::absolute(file_->parent_path() / given).lexically_normal();
 }
 

@@ -23,7 +23,7 @@ int record_drive(const RecordFlags& flags) {
     const std::int64_t start_ns = nanoseconds_of("--start", flags.start);
     DriveEdits edits;
     edits.can_log = std::filesystem::path(); // by its script
-    Stage stage(read_drive(flags.drive, edits));
+    Stage stage(read_drive(named_file("drive", flags.drive, "DRIVE"), edits));
     std::vector<std::string> notes;
     std::vector<CanFrame> frames =
         recorded_inputs(stage.drive, stage.route, lamp_set_of(stage.drive, flags.lamp_set), stage.drive.opened, notes);

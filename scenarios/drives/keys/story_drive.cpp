@@ -3,6 +3,7 @@
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
+#include "scenarios/values/library_folders.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -31,7 +32,8 @@ std::string quoted_text(const std::string& text) {
 fs::path shipped_lamp(const fs::path& storyboard) {
     if (fs::path lamp = shipped_path("lamps/halogen-low.ies"); !lamp.empty())
         return lamp;
-    throw InputError({storyboard, 0, 0, {}}, "no drive says which lamps the cars have, and scenarios/library is not above the program",
+    throw InputError({storyboard, 0, 0, {}},
+                     "no drive says which lamps the cars have, and there is no lamps/halogen-low.ies in " + library_places(),
                      "a drive file with `storyboard:` and lamps");
 }
 
