@@ -50,6 +50,7 @@ std::vector<std::pair<std::string, std::string>> input_hashes(const Drive& drive
 
 std::string text_hashed_before(Drive drive) {
     drive.title.clear();
+    drive.display.white = {}; // no picture was adapted to one
     drive.limits.clear();
     drive.road_file = "road";
     int used = 0;
