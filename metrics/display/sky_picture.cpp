@@ -1,6 +1,7 @@
 #include "metrics/display/sky_picture.h"
 
 #include "scenarios/drives/play/camera.h"
+#include "scenarios/values/pose.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,7 @@ Image<glm::vec3> with_night_sky(const Frame& frame, const Moment& moment, const 
         return light;
     const Camera camera = camera_of(moment, view);
     const SkyMoon moon{daylight.moon.towards(), daylight.moon.illuminance_lx};
+    const glm::vec3 even_sky(static_cast<float>(daylight.horizontal_illuminance_lx / pi)); // behind the frame, as renderers put it there
     const double pixel_rad = 2.0 * camera.half_extent.y / view.height_px, disc_cdm2 = moon_disc_cdm2(moon);
     tbb::parallel_for(0, light.height(), [&](int y) {
         for (int x = 0; x < light.width(); ++x) {
@@ -33,7 +35,7 @@ Image<glm::vec3> with_night_sky(const Frame& frame, const Moment& moment, const 
                 const double from_centre = std::atan2(glm::length(glm::cross(towards, moon.towards)), glm::dot(towards, moon.towards));
                 cdm2 += disc_cdm2 * std::clamp((moon_radius_rad - from_centre) / pixel_rad + 0.5, 0.0, 1.0);
             }
-            light.at(x, y) = glm::vec3(static_cast<float>(cdm2));
+            light.at(x, y) = light.at(x, y) - even_sky + glm::vec3(static_cast<float>(cdm2)); // lamps before it stay
         }
     });
     return light;

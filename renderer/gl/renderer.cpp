@@ -104,7 +104,8 @@ std::shared_ptr<gl::Targets> Renderer::State::targets_for(const View& view, cons
 Work Renderer::State::shoot(const Moment& moment, const View& view, const FrameOutputs& outputs, PassClock& clock,
                             void (gl::Lighting::*take)(const gl::Shot&), Work work) {
     const double sky_luminance = moment.daylight.horizontal_illuminance_lx / pi;
-    const glm::dvec3 sky = settings.white.value_or(glm::dmat3(1.0)) * glm::dvec3(1.0);
+    const bool ours = technique.kind == TechniqueKind::ours; // what was published knows no colours of lamps, and so no white but D65
+    const glm::dvec3 sky = (ours ? settings.white.value_or(glm::dmat3(1.0)) : glm::dmat3(1.0)) * glm::dvec3(1.0);
     const double sky_share = toned(settings.tone_mapper, sky_luminance) / glm::dot(glm::dvec3(0.2126, 0.7152, 0.0722), sky);
     glm::vec3 shown_sky;
     for (int i = 0; i < 3; ++i)

@@ -10,7 +10,6 @@
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
@@ -92,17 +91,17 @@ FilmRequest request_of(const FilmFlags& flags) {
 }
 
 /// Before anything is drawn: nobody waits for a film that cannot be written.
-void check_film(const FilmFlags& flags) {
-    const bool pictures = film_kind(flags.film) == FilmKind::png;
-    const std::filesystem::path first = pictures ? numbered_file(flags.film, std::max(0, tick_range(flags.frames).first)) : flags.film;
-    refuse_existing("--film", first, flags.force);
-    if (std::error_code ignored; !std::filesystem::exists(first, ignored))
-        refuse_unwritable("--film", first, {});
+void check_film(const FilmFlags& flags, const TickRange& frames) {
+    std::filesystem::path file = flags.film;
+    if (film_kind(flags.film) == FilmKind::png)
+        file = numbered_file_there(flags.film, frames.first, frames.last).value_or(numbered_file(flags.film, frames.first));
+    refuse_existing("--film", file, flags.force);
+    refuse_unwritable("--film", file, {}, flags.force);
 }
 
 int film(const FilmFlags& flags) {
     FilmRequest request = request_of(flags);
-    check_film(flags);
+    check_film(flags, request.frames);
     for (const std::filesystem::path& file : flags.drives)
         request.drives.push_back(read_drive(file, film_edits(flags)));
     std::optional<FilmFile> file;

@@ -3,8 +3,10 @@
 #include "runner/files/picture_file.h"
 #include "scenarios/values/errors.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <fmt/format.h>
 #include <spawn.h>
 #include <string>
@@ -60,6 +62,22 @@ std::filesystem::path numbered_file(const std::filesystem::path& pattern, int nu
     return pattern.parent_path() / name;
 }
 
+std::optional<std::filesystem::path> numbered_file_there(const std::filesystem::path& pattern, int first, int last) {
+    const std::size_t at = pattern.filename().string().find(number_form);
+    const std::filesystem::path folder = pattern.parent_path().empty() ? "." : pattern.parent_path();
+    std::optional<int> least;
+    std::error_code error;
+    for (std::filesystem::directory_iterator there(folder, error), end; !error && there != end; there.increment(error)) {
+        const std::string name = there->path().filename().string();
+        int number = -1;
+        if (name.size() > at)
+            std::from_chars(name.data() + at, name.data() + name.size(), number);
+        if (number >= first && number <= last && numbered_file(pattern, number).filename() == name)
+            least = std::min(number, least.value_or(number));
+    }
+    return least ? std::optional(numbered_file(pattern, *least)) : std::nullopt;
+}
+
 FilmFile::FilmFile(std::filesystem::path file, int width_px, int height_px, FrameRate rate)
     : file_(std::move(file)), kind_(film_kind(file_)) {
     if (kind_ == FilmKind::png)
@@ -108,19 +126,19 @@ void FilmFile::start(int width_px, int height_px, FrameRate rate) {
 }
 
 FilmFile::~FilmFile() {
-    if (ffmpeg_ >= 0) {
-        wait();
+    wait();
+    if (!part_.empty()) {
         std::error_code ignored;
         std::filesystem::remove(part_, ignored);
     }
-    if (frames_ >= 0)
-        ::close(frames_);
     if (said_)
         std::fclose(said_);
 }
 
-/// Tells it that there are no more frames; gives the status that it ended with.
+/// Tells it that there are no more frames; gives the status that it ended with, 0 where none runs.
 int FilmFile::wait() {
+    if (ffmpeg_ < 0)
+        return 0;
     ::close(std::exchange(frames_, -1));
     int status = 0;
     while (::waitpid(ffmpeg_, &status, 0) < 0 && errno == EINTR)
@@ -149,6 +167,8 @@ void FilmFile::add(const Image<Rgb8>& picture, int number) {
         write_png(picture, numbered_file(file_, number));
         return;
     }
+    if (ffmpeg_ < 0)
+        return; // it failed before, and that was thrown
     const char* bytes = reinterpret_cast<const char*>(picture.data());
     std::size_t left = picture.size() * sizeof(Rgb8);
     while (left > 0) {
@@ -163,8 +183,8 @@ void FilmFile::add(const Image<Rgb8>& picture, int number) {
 }
 
 void FilmFile::finish() {
-    if (kind_ == FilmKind::png)
-        return;
+    if (ffmpeg_ < 0)
+        return; // pictures; or it failed before, and that was thrown
     const int status = wait();
     if (status != 0)
         fail(status);
@@ -172,6 +192,7 @@ void FilmFile::finish() {
     std::filesystem::rename(part_, file_, error);
     if (error)
         throw DeviceError(fmt::format("{}: cannot be written: {}", printable(file_.string(), 400), error.message()));
+    part_.clear();
 }
 
 } // namespace fernlicht

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 namespace fernlicht {
 
@@ -26,6 +27,9 @@ FilmKind film_kind(const std::filesystem::path& file);
 /// "frames/000012.png" for "frames/%06d.png"
 std::filesystem::path numbered_file(const std::filesystem::path& pattern, int number);
 
+/// The first of these pictures that is there already; nullopt: none is.
+std::optional<std::filesystem::path> numbered_file_there(const std::filesystem::path& pattern, int first, int last);
+
 /// A film while it is written. ffmpeg is a program beside ours, not a library in it: who films nothing neither installs it nor waits for
 /// it. A video gets its name in finish(): before, and after an error, there is none. Of one rate and size the same frames give the same
 /// bytes.
@@ -37,7 +41,8 @@ class FilmFile {
     FilmFile(const FilmFile&) = delete;
     FilmFile& operator=(const FilmFile&) = delete;
 
-    /// Numbers name PNGs; in a video frames follow one another from 0 s on. Throws DeviceError with ffmpeg's own words.
+    /// Numbers name PNGs; in a video frames follow one another from 0 s on. Throws DeviceError with ffmpeg's own words; after that nothing
+    /// is written any more.
     void add(const Image<Rgb8>& picture, int number);
     /// Throws DeviceError.
     void finish();

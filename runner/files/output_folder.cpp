@@ -103,12 +103,12 @@ void OutputFolder::finish() {
         throw DeviceError(printable((folder_ / mark_name).string(), 400) + ": cannot be removed: " + error.message());
 }
 
-void refuse_unwritable(const char* flag, const fs::path& given, const fs::path& made) {
+void refuse_unwritable(const char* flag, const fs::path& given, const fs::path& made, bool replaces) {
     const fs::path file = fs::absolute(given).lexically_normal(), run = made.empty() ? made : fs::absolute(made).lexically_normal();
     const auto refuse = [&](const std::string& found, const char* expected) { throw InputError({{}, 0, 0, flag}, found, expected); };
     std::error_code ignored;
-    if (fs::exists(fs::symlink_status(file, ignored)))
-        refuse(printable(given.string(), 400) + " is there already", "a new file");
+    if (fs::exists(fs::symlink_status(file, ignored)) && !(replaces && fs::is_regular_file(file, ignored)))
+        refuse(printable(given.string(), 400) + (replaces ? " is no file" : " is there already"), "a new file");
     if (!file.has_filename() || file == run)
         refuse(printable(given.string(), 400) + " is a folder", "a new file");
     const fs::path folder = file.parent_path();

@@ -33,8 +33,9 @@ class OutputFolder {
 };
 
 /// So that nothing is made or lost for a file that cannot be written in the end: throws InputError naming the flag unless `file` is new, in
-/// a folder that can be written to, or in `folder`, which the run will make ("": it makes none).
-void refuse_unwritable(const char* flag, const std::filesystem::path& file, const std::filesystem::path& folder);
+/// a folder that can be written to, or in `folder`, which the run will make ("": it makes none). With `replaces` it may be a file that is
+/// there.
+void refuse_unwritable(const char* flag, const std::filesystem::path& file, const std::filesystem::path& folder, bool replaces = false);
 
 /// True for a folder whose run did not end.
 bool is_marked_incomplete(const std::filesystem::path& folder);

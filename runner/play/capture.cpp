@@ -92,28 +92,32 @@ bool is_captured(const Capture& capture, int tick, double step_s) {
     return index(tick) > index(tick - 1);
 }
 
+std::string frame_stem(const std::string& set, const View& view, int tick) {
+    return fmt::format("frames/{}/{}-{:06}", file_name_of(set), file_name_of(view.name), tick);
+}
+
 StoredFrame store_frame(Writers& writers, const std::filesystem::path& folder, const std::string& set, const Capture& capture, Frame frame,
                         const Moment& moment, const View& view, const WritePicture& write_picture) {
-    const std::filesystem::path place = std::filesystem::path("frames") / file_name_of(set);
-    const std::string stem = fmt::format("{}-{:06}", file_name_of(view.name), moment.tick);
+    const std::string stem = frame_stem(set, view, moment.tick);
+    const std::filesystem::path place = (folder / stem).parent_path();
     StoredFrame stored{moment.tick, moment.time_s, view.name, {}, {}};
     const bool png = capture.png && !frame.colour.empty(), exr = capture.exr && has_linear_picture(frame);
     if (!png && !exr)
         return stored; // and no folder for nothing
     std::error_code error;
-    std::filesystem::create_directories(folder / place, error);
+    std::filesystem::create_directories(place, error);
     if (error)
-        throw DeviceError((folder / place).string() + ": cannot be made: " + error.message());
+        throw DeviceError(place.string() + ": cannot be made: " + error.message());
     const auto shared = std::make_shared<const Frame>(std::move(frame));
     if (png) {
-        stored.png = (place / (stem + ".png")).generic_string();
+        stored.png = stem + ".png";
         writers.submit([shared, view, write_picture, path = folder / stored.png] {
             const TraceSpan span("write PNG", "write");
             write_picture(*shared, view, path);
         });
     }
     if (exr) {
-        stored.exr = (place / (stem + ".exr")).generic_string();
+        stored.exr = stem + ".exr";
         writers.submit([shared, moment, view, path = folder / stored.exr] {
             const TraceSpan span("write EXR", "write");
             write_exr(*shared, moment, view, path);

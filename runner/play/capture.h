@@ -43,6 +43,9 @@ class Writers {
 /// True for the ticks that are stored: the first at or after each multiple of 1 / per_second.
 bool is_captured(const Capture& capture, int tick, double step_s);
 
+/// Where a frame is stored, without its file's end: "frames/SET/VIEW-000012".
+std::string frame_stem(const std::string& set, const View& view, int tick);
+
 /// Queues the files of one captured frame under `folder`/frames/`set`/ and returns their paths relative to `folder`; "" for a file that
 /// the frame has no picture for.
 StoredFrame store_frame(Writers& writers, const std::filesystem::path& folder, const std::string& set, const Capture& capture, Frame frame,

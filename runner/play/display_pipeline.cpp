@@ -4,6 +4,7 @@
 #include "metrics/display/display_colour.h"
 #include "metrics/display/night_vision.h"
 #include "metrics/display/scatter.h"
+#include "metrics/display/sky_picture.h"
 #include "renderer/technique.h"
 #include "scenarios/drives/drive.h"
 #include "scenarios/values/files.h"
@@ -68,6 +69,24 @@ ShownPicture show(const Image<glm::vec3>& light, double vertical_fov_rad, const 
     shown.bits = profile.bits;
     stage("tone mapper and display", [&] { shown.codes = display_picture(profile, mapper, seen, light_adaptation(display.white)); });
     return shown;
+}
+
+namespace {
+
+/// By lamp set, view and moment, which the picture's file is named by.
+std::uint64_t noise_seed(std::uint64_t drive, const std::filesystem::path& picture) {
+    const std::string name = picture.parent_path().filename().string() + "/" + picture.filename().string();
+    return drive ^ std::stoull(content_hash(name.data(), name.size()).substr(0, 16), nullptr, 16);
+}
+
+} // namespace
+
+ShownPicture show_frame(const Frame& frame, const std::optional<Moment>& moment, const View& view, const DisplaySettings& display,
+                        const ToneMapper& mapper, std::uint64_t drive_seed, const std::filesystem::path& picture) {
+    const std::uint64_t seed = noise_seed(drive_seed, picture);
+    if (display.sky && moment)
+        return show(with_night_sky(frame, *moment, view, *display.sky), view.vertical_fov_rad, display, mapper, seed);
+    return show(frame.light, view.vertical_fov_rad, display, mapper, seed);
 }
 
 bool is_shown_after_drawing(const DisplaySettings& display, const ToneMapper& mapper) {

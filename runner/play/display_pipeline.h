@@ -5,11 +5,14 @@
 
 #include "scenarios/display/display_profile.h"
 #include "scenarios/display/tone_mapper.h"
+#include "scenarios/drives/play/frame.h"
 #include "scenarios/drives/shadow_settings.h"
 #include "scenarios/values/image.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +31,11 @@ struct ShownPicture {
 /// profile: sRGB. `seed`: of a camera's noise.
 ShownPicture show(const Image<glm::vec3>& light, double vertical_fov_rad, const DisplaySettings& display, const ToneMapper& mapper,
                   std::uint64_t seed = 0);
+
+/// A frame of a drive that was drawn with coloured light: `show`, with the night's sky behind it. `moment`: the frame's; with a sky alone
+/// it is looked at. `picture`: PNG that the frame is stored as (frame_stem); by its name and `drive_seed` each has noise of its own.
+ShownPicture show_frame(const Frame& frame, const std::optional<Moment>& moment, const View& view, const DisplaySettings& display,
+                        const ToneMapper& mapper, std::uint64_t drive_seed, const std::filesystem::path& picture);
 
 /// Whether pictures are made of coloured light by `show`, and not by the drawing itself, which clips each channel and has no curves.
 bool is_shown_after_drawing(const DisplaySettings& display, const ToneMapper& mapper);

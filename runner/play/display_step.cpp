@@ -1,23 +1,12 @@
 #include "runner/play/display_step.h"
 
 #include "metrics/display/display_colour.h"
-#include "metrics/display/sky_picture.h"
 #include "runner/files/picture_file.h"
 #include "runner/play/display_pipeline.h"
-#include "scenarios/values/files.h"
 
 #include <algorithm>
 
 namespace fernlicht {
-namespace {
-
-/// Each picture of a drive has noise of its own: by lamp set, view and moment, which its file is named by.
-std::uint64_t seed_of(std::uint64_t drive, const std::filesystem::path& picture) {
-    const std::string name = picture.parent_path().filename().string() + "/" + picture.filename().string();
-    return drive ^ std::stoull(content_hash(name.data(), name.size()).substr(0, 16), nullptr, 16);
-}
-
-} // namespace
 
 DisplayStep::DisplayStep(const Drive& drive)
     : drive_(drive), after_drawing_(is_shown_after_drawing(drive.display, drive.tone_mapper)), written_(std::make_shared<Written>()) {
@@ -62,13 +51,13 @@ WritePicture DisplayStep::writer(const Moment& moment) const {
     if (!after_drawing_)
         return [tags](const Frame& frame, const View&, const std::filesystem::path& path) { write_png(frame.colour, tags, path); };
     return [tags, mapper = mapper(), display = drive_.display, written = written_, seed = drive_.seed,
-            moment](const Frame& frame, const View& view, const std::filesystem::path& path) {
+            lit_sky = drive_.display.sky ? std::optional(moment) : std::nullopt](const Frame& frame, const View& view,
+                                                                                 const std::filesystem::path& path) {
         if (frame.light.empty()) {
             write_png(frame.colour, {shown_by({}, mapper), ""}, path);
             return;
         }
-        const Image<glm::vec3> light = display.sky ? with_night_sky(frame, moment, view, *display.sky) : frame.light;
-        const ShownPicture shown = show(light, view.vertical_fov_rad, display, mapper, seed_of(seed, path));
+        const ShownPicture shown = show_frame(frame, lit_sky, view, display, mapper, seed, path);
         PictureTags own = tags;
         own.shown_by = shown_by(display, mapper);
         write_png(shown.codes, shown.bits, own, path);

@@ -24,6 +24,13 @@ double adaptation_degree(double adapting_cdm2) { return dark_surround * (1.0 - s
 
 glm::dvec3 xyz_of(const glm::dvec2& c) { return {c.x / c.y, 1.0, (1.0 - c.x - c.y) / c.y}; }
 
+bool can_adapt_to(const glm::dvec2& c) {
+    if (!(c.y > 0.0))
+        return false;
+    const glm::dvec3 receptors = receptors_of_xyz() * xyz_of(c);
+    return receptors.x > 0.0 && receptors.y > 0.0 && receptors.z > 0.0;
+}
+
 glm::dvec2 chromaticity_of(const glm::dvec3& xyz) { return glm::dvec2(xyz.x, xyz.y) / (xyz.x + xyz.y + xyz.z); }
 
 glm::dmat3 cat16(const glm::dvec3& white, const glm::dvec3& reference, double degree) {

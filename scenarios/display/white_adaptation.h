@@ -27,6 +27,8 @@ double adaptation_degree(double adapting_cdm2);
 
 /// XYZ with Y = 1 of a chromaticity, y > 0.
 glm::dvec3 xyz_of(const glm::dvec2& chromaticity);
+/// Whether light of a chromaticity reaches each of CAT16's three kinds of receptors: cat16 divides by what they get of white.
+bool can_adapt_to(const glm::dvec2& chromaticity);
 /// x, y of XYZ.
 glm::dvec2 chromaticity_of(const glm::dvec3& xyz);
 

@@ -2,6 +2,7 @@
 
 #include "runner/findings/extent_keys.h"
 #include "runner/findings/figures.h"
+#include "runner/play/capture.h"
 #include "runner/play/display_pipeline.h"
 #include "runner/play/extent_fold.h"
 #include "runner/play/lux_map.h"
@@ -9,6 +10,7 @@
 #include "runner/play/progress.h"
 #include "runner/play/shadows/choose_shadows.h"
 #include "runner/play/stage.h"
+#include "scenarios/drives/edits/adapting_white.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/camera.h"
 #include "scenarios/values/errors.h"
@@ -99,6 +101,8 @@ struct DrawnPanel {
     Frame frame;
     LuxMap map;
     std::optional<ExtentDrawing> extent;
+    std::string picture;          ///< what a run would store it as
+    std::optional<Moment> moment; ///< where its sky is lit
 };
 
 std::string shown_name(const Drive& drive) { return drive.title.empty() ? drive.name : drive.title; }
@@ -165,7 +169,10 @@ DrawnPanel drawn(FilmedDrive& filmed, const FilmedPanel& panel, const FilmPanelB
     const Drive& drive = filmed.stage().drive;
     Renderer& renderer = filmed.renderer();
     const Moment moment = filmed.moment_of(frame, *panel.lamp_set);
-    DrawnPanel out{&filmed, panel.title, moment.speed_mps, view_in(boxes, drive, request.vertical_fov_rad), {}, {}, {}, {}};
+    DrawnPanel out{&filmed, panel.title, moment.speed_mps, view_in(boxes, drive, request.vertical_fov_rad), {}, {}, {}, {}, {}, {}};
+    out.picture = frame_stem(drive.name + "-" + panel.lamp_set->name, out.view, moment.tick) + ".png";
+    if (drive.display.sky)
+        out.moment = moment;
     out.camera = camera_of(moment, out.view);
     FrameOutputs outputs{.colour = true};
     outputs.illuminance = outputs.depth = outputs.ids = overlays.isolux;
@@ -237,11 +244,37 @@ FilmPanelMoment told(DrawnPanel& drawn, const FilmOverlays& overlays) {
         return moment;
     }
     const Drive& drive = filmed.stage().drive;
-    const ShownPicture shown = show(drawn.frame.light, drawn.view.vertical_fov_rad, drive.display, drive.tone_mapper);
+    const ShownPicture shown =
+        show_frame(drawn.frame, drawn.moment, drawn.view, drive.display, drive.tone_mapper, drive.seed, drawn.picture);
     moment.picture = mapped(shown.codes, [](const glm::u16vec3& code) {
         return Rgb8{static_cast<std::uint8_t>(code.r), static_cast<std::uint8_t>(code.g), static_cast<std::uint8_t>(code.b)};
     });
     return moment;
+}
+
+/// Where drives leave it open the eye of all panels is adapted to one white: under the first drive's sky, and of the lamps of each drive
+/// alike, as who compares them is adapted to none.
+void share_white(const std::vector<Drive>& asked, std::deque<Stage>& stages) {
+    if (stages.size() < 2)
+        return;
+    glm::dvec3 lamps(0.0);
+    double shining = 0.0;
+    for (const Stage& stage : stages)
+        if (const std::optional<glm::dvec3> white = white_of_lamps(stage.drive)) {
+            lamps += *white;
+            shining += 1.0;
+        }
+    Drive all = stages.front().drive;
+    all.display.white = {};
+    close_white(all, shining > 0.0 ? std::optional(lamps / shining) : std::nullopt);
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+        const WhiteAdaptation& given = asked[i].display.white;
+        WhiteAdaptation& white = stages[i].drive.display.white;
+        if (!given.chromaticity)
+            white.chromaticity = all.display.white.chromaticity;
+        if (!given.degree && white.adapts()) // published techniques never do
+            white.degree = all.display.white.degree;
+    }
 }
 
 /// All that can be refused before a device is opened.
@@ -251,6 +284,7 @@ void read_stages(const FilmRequest& request, std::deque<Stage>& stages) {
         if (driver_view(stages.back().drive) == nullptr)
             throw InputError({drive.file, 0, 0, "views"}, "found only maps", "a driver's view");
     }
+    share_white(request.drives, stages);
 }
 
 int frames_of(const std::deque<Stage>& stages) {

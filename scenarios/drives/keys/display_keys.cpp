@@ -1,6 +1,7 @@
 #include "scenarios/drives/keys/drive_keys.h"
 
 #include "scenarios/display/tone_mapper.h"
+#include "scenarios/display/white_adaptation.h"
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/fields/schema.h"
@@ -117,17 +118,20 @@ const Fields<CameraSettings>& recording_camera_fields() {
     return fields;
 }
 
-/// A camera has neither lens and retina nor a tone mapper of its own choice, and its codes are for sRGB.
-void refuse_beside_camera(const YamlMap& keys, const DisplaySettings& display) {
+/// A camera has neither lens and retina nor a tone mapper of its own choice, and its codes are for sRGB. Resolved drives write the usual
+/// tone mapper, which may stand beside it; `tone_mapper` is read before `display`.
+void refuse_beside_camera(const YamlMap& keys, const Drive& drive) {
+    const DisplaySettings& display = drive.display;
     const auto eye = keys.find("eye");
     if (!display.camera || !eye)
         return;
-    const char* const beside = display.profile           ? "profile"
-                               : display.veil            ? "eye.veil"
-                               : display.night_colours   ? "eye.colours"
-                               : display.night_sharpness ? "eye.sharpness"
-                               : display.adaptation      ? "adaptation"
-                                                         : nullptr;
+    const char* const beside = display.profile                        ? "profile"
+                               : display.veil                         ? "eye.veil"
+                               : display.night_colours                ? "eye.colours"
+                               : display.night_sharpness              ? "eye.sharpness"
+                               : display.adaptation                   ? "adaptation"
+                               : !(drive.tone_mapper == ToneMapper{}) ? "tone_mapper"
+                                                                      : nullptr;
     if (beside != nullptr)
         eye->refuse(fmt::format("a camera beside {}", beside), "one of the two: a camera stands in the place of eye and display");
 }
@@ -153,6 +157,9 @@ void read_chromaticity(const YamlEntry& entry, WhiteAdaptation& white) {
     const std::vector<double> xy = entry.numbers(2, 2, 0.0, 1.0);
     if (!(xy[1] >= least_y && xy[0] + xy[1] <= 1.0))
         entry.refuse(fmt::format("the chromaticity {}, {}", xy[0], xy[1]), "x and y of a light, CIE 1931: y from 0.01, x + y up to 1");
+    if (!can_adapt_to({xy[0], xy[1]}))
+        entry.refuse(fmt::format("the chromaticity {}, {}", xy[0], xy[1]),
+                     "x and y of a light that all three receptors of CAT16 answer to");
     white.chromaticity = {xy[0], xy[1]};
 }
 
@@ -264,7 +271,7 @@ void read_display(const YamlEntry& given, Drive& drive) {
     if (const auto profile = keys.find("profile"))
         read_profile(*profile);
     read_group(display_fields(), keys, &drive.display);
-    refuse_beside_camera(keys, drive.display);
+    refuse_beside_camera(keys, drive);
 }
 
 } // namespace fernlicht

@@ -479,14 +479,14 @@ TEST(DisplayRun, RefusalsAreASentence) {
         {"tone_mapper: {s: fit}", "tone_mapper.s: found 'fit', expected a number from 1 to 1e+06, or, "
                                   "with `kind: rational`, `fitted`"},
         {"tone_mapper: {l_max_cdm2: none}", "tone_mapper.l_max_cdm2: found 'none'"},
-        {"tone_mapper: {l_max_cdm2: none}", "`all`"},
-        {"tone_mapper: {l_max_cdm2: none}", "`surfaces`"},
+        {"tone_mapper: {l_max_cdm2: none}", "`all` (the brightest of the drive) or `surfaces`"},
         {"tone_mapper: {l_max_cdm2: [1]}", "`surfaces`"},
         {"display: " + (folder / "black.yaml"), "peak_cdm2: a peak of 120 cd/m2 with black_cdm2: 120, expected more than black_cdm2"},
         {"display: nowhere.yaml", "nowhere.yaml"},
         {"display: {eye: {veil: true, camera: true}}", "display.eye: a camera beside eye.veil, expected one of the two"},
         {"display: {eye: {white: {xy: [0.9, 0.3]}}}", "display.eye.white.xy: the chromaticity 0.9, 0.3, expected x and y of a light"},
-        {"display: {eye: {age: 3}}", "display.eye"},
+        {"display: {eye: {white: {xy: [0.7, 0.05]}}}", "the chromaticity 0.7, 0.05, expected x and y of a light that all three receptors"},
+        {"display: {eye: {camera: true}}\ntone_mapper: linear", "display.eye: a camera beside tone_mapper"},
         {"display: {windscreen: {haze: 0.5}}", "0.3"},
         {"tone_mapper: {kind: histogram, curve: [[0, -1], [1, -2]]}", "rise"}};
     for (const auto& [lines, sentence] : refusals) {

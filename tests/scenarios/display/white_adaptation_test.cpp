@@ -39,6 +39,14 @@ TEST(WhiteAdaptation, WhitesMeetAtDegreeOneAndNothingMovesAtZero) {
     EXPECT_NEAR((cat16(warm_white, d65_white, 0.66) * warm_white).y, 100.0, 1.0e-10); // white keeps its luminance by any degree
 }
 
+/// Of the purple the middle receptors get -0.25 14 + 1.204 + 0.046 5 < 0; of the deepest red of the spectrum they still get something.
+TEST(WhiteAdaptation, NoEyeAdaptsToLightThatAReceptorGetsLessThanNothingOf) {
+    EXPECT_FALSE(can_adapt_to({0.7, 0.05}));
+    EXPECT_FALSE(can_adapt_to({0.3, 0.0}));
+    for (const glm::dvec2& light : {glm::dvec2(0.3127, 0.329), glm::dvec2(0.7347, 0.2653), glm::dvec2(0.15, 0.06)})
+        EXPECT_TRUE(can_adapt_to(light)) << light.x << ", " << light.y;
+}
+
 // D = 0.8 (1 - exp(-(L_A + 42) / 92) / 3.6), by hand: exp(-42/92) = 0.633484, exp(-43/92) = 0.626635, exp(-(64 + 42)/92) = 0.315953.
 TEST(WhiteAdaptation, DegreeIsThatOfADarkSurround) {
     EXPECT_NEAR(adaptation_degree(0.0), 0.8 * (1.0 - 0.633484 / 3.6), 1.0e-6);

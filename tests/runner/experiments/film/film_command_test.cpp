@@ -94,6 +94,55 @@ TEST(FilmCommand, PanelsStandWhereTheArrangementHasThem) {
     }
 }
 
+/// The filmed drive, with other lines for its lamp sets and more at its end.
+std::string drive_beside(const TemporaryFolder& folder, const std::string& name, const std::string& lamp_sets, const std::string& more) {
+    const std::string moved = std::regex_replace(content_of(filmed_drive), std::regex("[.][.]/"), library_file(""));
+    const std::string with_lamps = std::regex_replace(moved, std::regex("  halogen:.*\n  xenon:.*\n"), lamp_sets);
+    EXPECT_NE(with_lamps, moved);
+    std::ofstream(folder / (name + ".yaml")) << with_lamps << more;
+    return folder / (name + ".yaml");
+}
+
+std::string lamp_set_line(const std::string& name, const std::string& source, const std::string& file) {
+    return fmt::format("  {}: {{source: {}, file: {}}}\n", name, source, library_file("lamps/" + file));
+}
+
+void film_drives(const TemporaryFolder& folder, const std::string& name, const std::string& drives) {
+    printed(fmt::format("film {} --film '{}' --backend software --quiet --frames 2:2 --resolution {}x{}", drives,
+                        folder / (name + "-%06d.png"), film_width, film_height));
+}
+
+/// Each drive alone would be adapted to its own lamps; beside one another they are shown by one white, in any order.
+TEST(FilmCommand, DrivesThatDifferInLampsAreShownByOneWhite) {
+    const TemporaryFolder folder;
+    const std::string warm = drive_beside(folder, "warm", lamp_set_line("own", "filament", "halogen-low.ies"), ""),
+                      cold = drive_beside(folder, "cold", lamp_set_line("own", "arc", "xenon-low.ies"), "");
+    film_drives(folder, "one", warm + " " + cold);
+    film_drives(folder, "other", cold + " " + warm);
+    const FilmLayout two = film_layout(FilmArrangement::automatic, 2, film_width, film_height, {});
+    const Image<Rgb8> one = frame_of(folder, "one", 2), other = frame_of(folder, "other", 2);
+    const PixelBox &left = two.panels[0].picture, &right = two.panels[1].picture;
+    EXPECT_EQ(box_of(one, left), box_of(other, right));
+    EXPECT_EQ(box_of(one, right), box_of(other, left));
+    EXPECT_NE(box_of(one, left), box_of(one, right));
+}
+
+/// As in a run, the sky is lit, and noise differs between lamp sets that give the same light.
+TEST(FilmCommand, ShowsSkyAndNoiseAsARunDoes) {
+    const TemporaryFolder folder;
+    const std::string same = lamp_set_line("a", "arc", "xenon-low.ies") + lamp_set_line("b", "arc", "xenon-low.ies");
+    film_drives(folder, "dark", drive_beside(folder, "dark", same, ""));
+    film_drives(folder, "sky", drive_beside(folder, "sky", same, "display: {sky: {zenith_cdm2: 1}}\n"));
+    film_drives(folder, "camera", drive_beside(folder, "camera", same, "display: {eye: {camera: {iso: 6400}}}\n"));
+    const FilmLayout two = film_layout(FilmArrangement::automatic, 2, film_width, film_height, {});
+    const PixelBox &left = two.panels[0].picture, &right = two.panels[1].picture;
+    const int x = left.x + left.width / 2, y = left.y + left.height / 8;
+    const Image<Rgb8> dark = frame_of(folder, "dark", 2), camera = frame_of(folder, "camera", 2);
+    EXPECT_GT(frame_of(folder, "sky", 2).at(x, y).g, dark.at(x, y).g + 60);
+    EXPECT_EQ(box_of(dark, left), box_of(dark, right));
+    EXPECT_NE(box_of(camera, left), box_of(camera, right));
+}
+
 TEST(FilmCommand, VideosHoldEachFrameAtItsTime) {
     if (!has_ffmpeg())
         GTEST_SKIP() << "ffmpeg is not installed";
@@ -158,6 +207,11 @@ TEST(FilmCommand, RefusesInOneSentence) {
     std::ofstream(film) << "mine";
     refused(film, "", 2, "is there already");
     EXPECT_EQ(content_of(film), "mine");
+    std::ofstream(folder / "film-000003.png") << "mine";
+    refused(pictures, "", 2, "film-000003.png is there already");
+    std::filesystem::create_directory(folder / "folder.webm");
+    refused(folder / "folder.webm", "--force", 2, "folder.webm is no file");
+    refused(folder / "nowhere/film.webm", "--force", 2, "there is no folder");
 }
 
 TEST(FilmCommand, InterruptedItKeepsWhatWasFilmed) {
@@ -186,6 +240,17 @@ TEST(FilmFile, TellsWhatTheEncoderSays) {
     EXPECT_THAT(run.output, HasSubstr("ffmpeg cannot encode it: no room is left"));
     EXPECT_FALSE(std::filesystem::exists(folder / "film.mp4.part"));
     EXPECT_FALSE(std::filesystem::exists(folder / "film.mp4"));
+}
+
+TEST(FilmFile, LeavesNoPartWhereTheFilmCannotGetItsName) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "ffmpeg")
+        << "#!/bin/sh\nfor last; do :; done\ncat >/dev/null\npart=\"${last#file:}\"\n: >\"$part\"\nmkdir \"${part%.part}\"\n";
+    std::filesystem::permissions(folder / "ffmpeg", std::filesystem::perms::owner_all);
+    const Outcome run = run_program(film_line(folder / "film.mp4", ""), "PATH=" + folder.path().string() + ":$PATH");
+    EXPECT_EQ(run.exit_code, 3);
+    EXPECT_THAT(run.output, HasSubstr("cannot be written"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "film.mp4.part"));
 }
 
 } // namespace
