@@ -1,7 +1,6 @@
 #include "metrics/display/sky_picture.h"
 
 #include "scenarios/drives/play/camera.h"
-#include "scenarios/values/pose.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +22,7 @@ Image<glm::vec3> with_night_sky(const Frame& frame, const Moment& moment, const 
         return light;
     const Camera camera = camera_of(moment, view);
     const SkyMoon moon{daylight.moon.towards(), daylight.moon.illuminance_lx};
-    const glm::vec3 even_sky(static_cast<float>(daylight.horizontal_illuminance_lx / pi)); // behind the frame, as renderers put it there
+    const glm::vec3 even_sky(static_cast<float>(sky_luminance_cdm2(daylight))); // as renderers clear their picture
     const double pixel_rad = 2.0 * camera.half_extent.y / view.height_px, disc_cdm2 = moon_disc_cdm2(moon);
     tbb::parallel_for(0, light.height(), [&](int y) {
         for (int x = 0; x < light.width(); ++x) {
