@@ -5,6 +5,8 @@
 #include "runner/play/display_pipeline.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 
 namespace fernlicht {
 

@@ -1,4 +1,5 @@
 // What the published techniques differ in, count and show: misprints, passes, textures, signs that glow, what is made once.
+#include "scenarios/display/white_adaptation.h"
 #include "tests/renderer/published_scene.h"
 
 #include <functional>
@@ -224,6 +225,21 @@ TEST_F(PublishedTest, NothingCompilesOrIsMadeAfterPreparing) {
         EXPECT_EQ(r.pruned().at(0), (PrunedFeature{"1 of 2 lamps", "switched off"}));
         EXPECT_EQ(r.compiled_programs(), compiled) << row.name;
     }
+}
+
+/// They know no colours of lamps: whatever light the eye is adapted to, their sky is grey.
+TEST_F(PublishedTest, SkyIsGreyForAnyEye) {
+    const Moment moment = two_lamps(moonless_lx);
+    const Scene scene = ground_and_board(moment.ego, 4);
+    RendererSettings settings;
+    settings.technique = "full";
+    settings.white = light_adaptation({0.66, glm::dvec2(0.4234, 0.3990)});
+    Renderer r(device_, scene, settings);
+    const Frame frame = r.draw(moment, view_towards(0.0, 60.0), {.colour = true, .ids = true});
+    ASSERT_EQ(frame.ids.at(48, 32), 0U);
+    const Rgb8 sky = frame.colour.at(48, 32);
+    EXPECT_GT(sky.r, 50);
+    EXPECT_EQ(sky, (Rgb8{sky.r, sky.r, sky.r}));
 }
 
 TEST_F(PublishedTest, BakedLightIsMadeAnewForMovedLampsAndNotForAMovedCar) {

@@ -29,8 +29,8 @@ TEST(SkyPicture, LampsBeforeTheSkyKeepTheirLight) {
     const auto sky_at = [&](int x, int y) { return night_sky_cdm2(sky, {}, pixel_ray(camera, view, x + 0.5, y + 0.5).direction); };
     ASSERT_GT(sky_at(4, 1), 0.0);
     for (int i = 0; i < 3; ++i) {
-        EXPECT_NEAR(lit.at(4, 1)[i], lamp[i] + sky_at(4, 1), 1.0e-5) << i;
-        EXPECT_NEAR(lit.at(6, 1)[i], sky_at(6, 1), 1.0e-7) << i;
+        EXPECT_NEAR(static_cast<double>(lit.at(4, 1)[i]), static_cast<double>(lamp[i]) + sky_at(4, 1), 1.0e-5) << i;
+        EXPECT_NEAR(static_cast<double>(lit.at(6, 1)[i]), sky_at(6, 1), 1.0e-7) << i;
         EXPECT_EQ(lit.at(2, 1)[i], wall[i]) << i;
     }
 }
