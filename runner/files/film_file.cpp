@@ -3,7 +3,6 @@
 #include "runner/files/picture_file.h"
 #include "scenarios/values/errors.h"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -65,17 +64,17 @@ std::filesystem::path numbered_file(const std::filesystem::path& pattern, int nu
 std::optional<std::filesystem::path> numbered_file_there(const std::filesystem::path& pattern, int first, int last) {
     const std::size_t at = pattern.filename().string().find(number_form);
     const std::filesystem::path folder = pattern.parent_path().empty() ? "." : pattern.parent_path();
-    std::optional<int> least;
+    int least = -1;
     std::error_code error;
     for (std::filesystem::directory_iterator there(folder, error), end; !error && there != end; there.increment(error)) {
         const std::string name = there->path().filename().string();
         int number = -1;
         if (name.size() > at)
             std::from_chars(name.data() + at, name.data() + name.size(), number);
-        if (number >= first && number <= last && numbered_file(pattern, number).filename() == name)
-            least = std::min(number, least.value_or(number));
+        if (number >= first && number <= last && (least < 0 || number < least) && numbered_file(pattern, number).filename() == name)
+            least = number;
     }
-    return least ? std::optional(numbered_file(pattern, *least)) : std::nullopt;
+    return least >= 0 ? std::optional(numbered_file(pattern, least)) : std::nullopt;
 }
 
 FilmFile::FilmFile(std::filesystem::path file, int width_px, int height_px, FrameRate rate)
