@@ -28,7 +28,8 @@ std::vector<Shape> shapes(std::uint64_t seed, Detail detail) {
             {"fence", dressed_fence(9.0, 1.0, 0.3), {-4.5, -0.05, -0.3}, {4.5, 0.05, 1.0}},
             {"field fence", dressed_field_fence(3.0), {-1.5, -0.05, -0.4}, {1.5, 0.075, 1.15}},
             {"rail", dressed_guard_rail(4.0, 0.08, 0.31, true), {-2, -0.04, 0}, {2, 0.04, 0.31}},
-            {"rail", dressed_guard_rail(4.0, 0.08, 0.31, false), {-2, -0.04, 0}, {2, 0.04, 0.31}}};
+            {"rail", dressed_guard_rail(4.0, 0.08, 0.31, false), {-2, -0.04, 0}, {2, 0.04, 0.31}},
+            {"low house", dressed_house({8.0, 6.0, 1.5 + lowest_house_m, 1.5, true}, dice, detail), {-4, -3, 0}, {4, 3, 6}}};
 }
 
 std::vector<std::array<SoupVertex, 3>> all_triangles(const DressedObject& object) {
@@ -135,6 +136,20 @@ TEST(DressedShapes, FarOnesKeepTheirErrorBound) {
             EXPECT_LE(worst_m, bound_m) << near[i].name << ", seed " << seed;
         }
     }
+}
+
+TEST(DressedShapes, HousesTooLowForARoofStayBoxes) {
+    RoadObject house;
+    house.type = "building";
+    house.length_m = 8.0;
+    house.width_m = 6.0;
+    house.height_m = 4.6;
+    EXPECT_TRUE(is_dressed(house));
+    house.height_m = 4.2;
+    EXPECT_FALSE(is_dressed(house));
+    house.height_m = 5.7;
+    house.z_offset_m = -1.5; // sunk: 4.2 m above the ground
+    EXPECT_FALSE(is_dressed(house));
 }
 
 double luminance(const glm::vec3& c) { return glm::dot(glm::dvec3(c), glm::dvec3(0.2126, 0.7152, 0.0722)); }
