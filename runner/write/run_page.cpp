@@ -128,7 +128,8 @@ data views_at(const ComparedDrive& drive, const PicturedMoment& moment, const st
 data codes_part(const std::vector<const Image<std::uint8_t>*>& codes, const ComparedDrive& drive) {
     data part;
     if (codes.empty() || std::ranges::any_of(codes, [&](const auto* one) {
-            return !one || one->width() < 1 || one->height() < 1 || one->width() != codes[0]->width() || one->height() != codes[0]->height();
+            return !one || one->width() < 1 || one->height() < 1 || one->width() != codes[0]->width() ||
+                   one->height() != codes[0]->height();
         }))
         return part;
     std::string names;

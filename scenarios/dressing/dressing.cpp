@@ -32,8 +32,7 @@ std::optional<DressedKind> dressed_kind(const RoadObject& o) {
         return DressedKind::bush;
     if (o.outline_m.size() > 1 || o.radius_m > 0.0 || o.pitch_rad != 0.0 || o.roll_rad != 0.0)
         return std::nullopt;
-    if (type == "building" && std::min({o.length_m, o.width_m, o.height_m}) >= smallest_house_m &&
-        o.height_m - sunk_m(o) >= lowest_house_m)
+    if (type == "building" && std::min({o.length_m, o.width_m, o.height_m}) >= smallest_house_m && o.height_m - sunk_m(o) >= lowest_house_m)
         return DressedKind::house;
     if (type == "barrier" && o.width_m <= 0.2 && o.height_m >= 0.2 && o.height_m <= 0.4 && o.z_offset_m > 0.2 && o.length_m > 0.5)
         return DressedKind::barrier;
@@ -101,8 +100,8 @@ class Occupied {
     void add(const glm::dvec3& place_m, double reach_m) { cells_[cell(place_m, 0, 0)].emplace_back(place_m.x, place_m.y, reach_m); }
     /// A rectangle around a pose as places of squares, no side longer than `most_m`.
     void add_pieces(const Pose& pose, double length_m, double width_m, double most_m) {
-        const int columns = std::max(1, static_cast<int>(std::ceil(length_m / most_m))),
-                  rows = std::max(1, static_cast<int>(std::ceil(width_m / most_m)));
+        const auto pieces = [most_m](double side_m) { return static_cast<int>(std::clamp(std::ceil(side_m / most_m), 1.0, 1000.0)); };
+        const int columns = pieces(length_m), rows = pieces(width_m);
         const double reach_m = 0.5 * std::hypot(length_m / columns, width_m / rows);
         for (int column = 0; column < columns; ++column)
             for (int row = 0; row < rows; ++row)
@@ -161,7 +160,10 @@ class Dresser {
             objects_.add(foot.position_m, room);
         else
             objects_.add_pieces(foot, length, width, widest_m);
-        footprints_.add_pieces(foot, length, width, 1.0);
+        if (dressed_kind(object) == DressedKind::tree)
+            footprints_.add(foot.position_m, 0.4); // its trunk: there is room under the crown
+        else
+            footprints_.add_pieces(foot, length, width, 1.0);
     }
 
     Dice dice(const Road& road, const RoadObject& object) const {

@@ -86,9 +86,9 @@ class SegmentCells {
     using Cell = std::pair<long, long>;
     static constexpr double cell_m = 16.0, margin_m = 0.001; ///< the margin for rounding
     template <class Take> static bool any_cell(const glm::dvec3& low, const glm::dvec3& high, const Take& take) {
-        const auto index = [](double at_m) { return std::lround(std::floor(at_m / cell_m)); };
-        for (long x = index(low.x - margin_m); x <= index(high.x + margin_m); ++x)
-            for (long y = index(low.y - margin_m); y <= index(high.y + margin_m); ++y)
+        const auto cell_at = [](double at_m) { return std::lround(std::floor(at_m / cell_m)); };
+        for (long x = cell_at(low.x - margin_m); x <= cell_at(high.x + margin_m); ++x)
+            for (long y = cell_at(low.y - margin_m); y <= cell_at(high.y + margin_m); ++y)
                 if (take(Cell(x, y)))
                     return true;
         return false;

@@ -158,7 +158,9 @@ std::string where_words(const StudyResult& result, const std::vector<const Chang
     if (real.empty())
         return text;
     const auto [least, most] = std::ranges::minmax_element(real, {}, [](const Change* change) { return change->least(); });
-    const auto told = [&](const Change& change) { return fmt::format("{} ({})", place_name(result, change.tested), signed_words(change, !best_is_tested)); };
+    const auto told = [&](const Change& change) {
+        return fmt::format("{} ({})", place_name(result, change.tested), signed_words(change, !best_is_tested));
+    };
     text += fmt::format(", most on {}", told(**most));
     return (*most)->least() > (*least)->least() ? text + fmt::format(", least on {}", told(**least)) : text;
 }
@@ -179,10 +181,10 @@ Answer answer_of(const StudyResult& result, const Groups& groups, const ReadingK
     for (const std::vector<std::size_t>& group : groups)
         drives.insert(result.cells[group.front()].cell.drive);
     const char* const places = drives.size() == groups.size() ? (groups.size() == 1 ? "route" : "routes") : "places";
-    const std::string over = groups.size() == 1 ? fmt::format("{}; on {}", reading_label(key), place_name(result, groups.front().front()))
-                                                : fmt::format("{}, median over {}{} {}", reading_label(key),
-                                                              ranked_places < groups.size() ? fmt::format("{} of ", ranked_places) : "",
-                                                              groups.size(), places);
+    const std::string over =
+        groups.size() == 1 ? fmt::format("{}; on {}", reading_label(key), place_name(result, groups.front().front()))
+                           : fmt::format("{}, median over {}{} {}", reading_label(key),
+                                         ranked_places < groups.size() ? fmt::format("{} of ", ranked_places) : "", groups.size(), places);
     bool forward = true;
     std::vector<const Change*> changes = changes_of_lamps(result, best, worst, key);
     if (changes.empty()) {
@@ -207,8 +209,8 @@ Answer answer_of(const StudyResult& result, const Groups& groups, const ReadingK
     if (better == 0 && worse == 0)
         heading = fmt::format("{} and {} do not differ by more than aim and noise: {}", best_name, worst_name, figures);
     else if (better == 0)
-        heading = fmt::format("{} is worse than {} on {} of {} {}, better on none: {}", best_name, worst_name, worse, changes.size(), places,
-                              figures);
+        heading = fmt::format("{} is worse than {} on {} of {} {}, better on none: {}", best_name, worst_name, worse, changes.size(),
+                              places, figures);
     else if (worse > 0)
         heading = fmt::format("{} is better than {} on {} of {} {}, worse on {}: {}", best_name, worst_name, better, changes.size(), places,
                               worse, figures);

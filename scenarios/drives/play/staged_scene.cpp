@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <iterator>
 #include <limits>
 

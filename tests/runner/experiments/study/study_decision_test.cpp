@@ -221,7 +221,11 @@ TEST(Answer, HeadlineSaysNoMoreThanTheRoutes) {
     EXPECT_EQ(FirstScreen(worse).section.title,
               "new is worse than old on 1 of 2 routes, better on none: 56.5 m against 50.0 m (+6.50 m, +13 %)");
     MadeStudy mixed;
-    mixed.on(0, reach, 40.0, 80.0).on(1, reach, 41.0, 60.0, 30.0).on(2, reach, 50.0, 48.0).on(3, reach, 56.0, 54.0).on(4, reach, 57.0, 55.0);
+    mixed.on(0, reach, 40.0, 80.0)
+        .on(1, reach, 41.0, 60.0, 30.0)
+        .on(2, reach, 50.0, 48.0)
+        .on(3, reach, 56.0, 54.0)
+        .on(4, reach, 57.0, 55.0);
     EXPECT_EQ(FirstScreen(mixed).section.title,
               "new is better than old on 1 of 5 routes, worse on 3: 55.0 m against 50.0 m (+5.00 m, +10 %)");
 }
