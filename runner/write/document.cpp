@@ -7,7 +7,6 @@
 #include "runner/write/plots/svg.h"
 #include "scenarios/values/files.h"
 
-#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 namespace fernlicht {

@@ -25,9 +25,9 @@ namespace fernlicht {
 namespace {
 
 /// Next to a value, towards 0, or -0: handed over in its place, it tells a command that was left alone from one that was written.
-double marked(double value) { return value == 0.0 ? -0.0 : std::nextafter(value, 0.0); }
+double marked_command(double value) { return value == 0.0 ? -0.0 : std::nextafter(value, 0.0); }
 bool is_left_alone(double value, double given) {
-    const double mark = marked(given);
+    const double mark = marked_command(given);
     return value == mark && std::signbit(value) == std::signbit(mark);
 }
 
@@ -208,8 +208,8 @@ void ControlPlugin::step(SignalTable& table, std::vector<std::vector<double>>& a
         if (!p.may_move[i])
             continue;
         for (double* const value : {&commands[i].swivel_rad, &commands[i].pitch_rad, &commands[i].level})
-            *value = marked(*value);
-        std::ranges::transform(segments[i], segments[i].begin(), marked);
+            *value = marked_command(*value);
+        std::ranges::transform(segments[i], segments[i].begin(), marked_command);
     }
     int answer = 0;
     std::string wrong;
