@@ -245,6 +245,33 @@ TEST(Dressing, StandsBesideWhatVehiclesUse) {
     EXPECT_EQ(cars, 10U);
 }
 
+TEST(Dressing, NobodyStandsInALongObjectOrAJunction) {
+    RoadNetwork network = opendrive_text::library_road("village.xodr");
+    const Route route(network, {});
+    Road& road = network.roads.front(); // straight, along x from 0 to 385 m
+    const auto people_on_its_left = [&] {
+        std::size_t count = 0;
+        const Scene scene = dressed(network, route, 1);
+        for (const Mesh& mesh : scene.meshes) {
+            EXPECT_FALSE(mesh.name.starts_with("pedestrian, road 1") && !mesh.name.starts_with("pedestrian, road 1 ")) << mesh.name;
+            if (mesh.name.starts_with("pedestrian, road 1 ") && mesh.origin_m.y > 0.0 && mesh.origin_m.x > 45.0 && mesh.origin_m.x < 335.0)
+                ++count;
+        }
+        return count;
+    };
+    EXPECT_GT(people_on_its_left(), 2U);
+    RoadObject wall;
+    wall.type = "wall";
+    wall.s_m = 190.0;
+    const LaneSection& section = section_at(road, wall.s_m);
+    wall.t_m = lane_edges(road, section, section.lanes.front().id, wall.s_m).outer_t_m - 1.0;
+    wall.length_m = 300.0;
+    wall.width_m = 10.0;
+    wall.height_m = 2.0;
+    road.objects.push_back(wall);
+    EXPECT_EQ(people_on_its_left(), 0U);
+}
+
 TEST(Dressing, CarsOfThreeShapesFillTheirBoxes) {
     for (std::uint32_t draw = 0; draw < 3; ++draw) {
         const BodySize size{{4.4, 1.8, 1.3}, -0.88, glm::vec3(0.3F), true, draw};
