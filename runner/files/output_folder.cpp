@@ -133,4 +133,12 @@ std::string file_name_of(const std::string& text) {
     return name.empty() ? "_" : name;
 }
 
+std::string FileNames::of(const std::string& text) {
+    const std::string plain = file_name_of(text);
+    std::string name = plain;
+    for (int i = 2; !given_.insert(name).second; ++i)
+        name = plain + "-" + std::to_string(i);
+    return name;
+}
+
 } // namespace fernlicht

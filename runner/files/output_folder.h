@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 
 namespace fernlicht {
@@ -42,5 +43,14 @@ bool is_marked_incomplete(const std::filesystem::path& folder);
 
 /// A file or folder name made of letters, digits, '-', '_' and '.', from any text.
 std::string file_name_of(const std::string& text);
+
+/// Names of the files of one folder: file_name_of(), with "-2", "-3" ... where that leaves of several texts the same.
+class FileNames {
+  public:
+    std::string of(const std::string& text);
+
+  private:
+    std::set<std::string> given_;
+};
 
 } // namespace fernlicht

@@ -7,8 +7,6 @@
 #include "runner/write/plots/svg.h"
 #include "scenarios/values/files.h"
 
-#include <fmt/format.h>
-#include <map>
 #include <oneapi/tbb/parallel_for.h>
 
 namespace fernlicht {
@@ -26,12 +24,9 @@ std::string place_of(const Plot& plot) { return plot.name.find('/') == std::stri
 
 void write_tables(const Document& document, const std::filesystem::path& folder, const OutputFormat& format) {
     make_folder(folder / "tables");
-    std::map<std::string, int> alike; // what is left of long names and odd letters
+    FileNames names;
     const auto write = [&](const Table& table) {
-        std::string name = file_name_of(table.name);
-        if (const int before = alike[name]++; before > 0)
-            name += fmt::format("-{}", before + 1);
-        write_file(folder / "tables" / (name + format.extension), format.of_table(table));
+        write_file(folder / "tables" / (names.of(table.name) + format.extension), format.of_table(table));
     };
     for (const Section& section : document.sections)
         for (const DocumentPart& block : section.blocks)

@@ -17,17 +17,19 @@ void write_paper(const std::vector<PaperFigure>& figures, const Document& tables
     constexpr double points_per_mm = 72.0 / 25.4;
     make_folder(folder);
     std::string tex = "% \\usepackage{graphicx}\n";
+    FileNames names;
     for (const PaperFigure& figure : figures) {
+        const std::string name = names.of(figure.name);
         const std::string svg = std::visit([](const auto& one) { return plots::svg_of(one); }, figure.figure);
         for (const bool as_pdf : {true, false}) {
             std::string printed;
             print(svg, points_per_mm * figure.width_mm, as_pdf, printed);
-            write_file(folder / (figure.name + (as_pdf ? ".pdf" : ".svg")), printed);
+            write_file(folder / (name + (as_pdf ? ".pdf" : ".svg")), printed);
         }
-        write_file(folder / (figure.name + ".csv"), table_csv(figure.data));
+        write_file(folder / (name + ".csv"), table_csv(figure.data));
         tex += fmt::format("\\begin{{figure}}\n\\centering\n\\includegraphics[width={:g}mm]{{{}.pdf}}\n\\caption{{{}}}\n\\label{{fig:{}}}\n"
                            "\\end{{figure}}\n",
-                           figure.width_mm, figure.name, latex_text(figure.caption), figure.name);
+                           figure.width_mm, name, latex_text(figure.caption), name);
     }
     write_file(folder / "figures.tex", tex);
     write_file(folder / "tables.tex", document_latex(tables));

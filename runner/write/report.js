@@ -82,7 +82,7 @@ for (const viewer of document.querySelectorAll('.viewer')) {
     const rows = new Uint8Array(await new Response(stream).arrayBuffer());
     return { width, height: rows.length / (3 * width + 1), at: (x, y, channel) => rows[y * (3 * width + 1) + 1 + 3 * x + channel] };
   };
-  const words = (code) => code === 0 ? '< 0.05 lx' : code === 255 ? '> 500 lx' : `${Number((0.05 * 10000 ** ((code - 1) / 253)).toPrecision(3))} lx`;
+  const words = (code) => code === 0 ? '' : code === 1 ? '< 0.05 lx' : code === 255 ? '> 500 lx' : `${Number((0.05 * 10000 ** ((code - 2) / 252)).toPrecision(3))} lx`;
   const decoded = new Map();
   // x and y from 0 to 1 within what the codes show.
   const read = async (holder, x, y) => {
@@ -90,7 +90,8 @@ for (const viewer of document.querySelectorAll('.viewer')) {
     if (!decoded.has(holder)) decoded.set(holder, pixels(holder.dataset.codes));
     const image = await decoded.get(holder);
     const names = holder.dataset.names.split('|');
-    lux.textContent = names.map((name, i) => `${name} ${words(image.at(Math.floor(x * image.width), Math.floor(y * image.height), i))}`).join(' · ');
+    lux.textContent = names.map((name, i) => [name, words(image.at(Math.floor(x * image.width), Math.floor(y * image.height), i))])
+      .filter(([, said]) => said).map((told) => told.join(' ')).join(' · ');
   };
   for (const holder of viewer.querySelectorAll('[data-codes]')) {
     const svg = holder.querySelector(':scope > svg');

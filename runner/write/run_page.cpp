@@ -124,11 +124,12 @@ data views_at(const ComparedDrive& drive, const PicturedMoment& moment, const st
     return rows;
 }
 
-/// The lux codes of up to three lamp sets, for what is shown under the pointer; nothing where one of the first two has none.
+/// The lux codes of up to three lamp sets, for what is shown under the pointer; nothing where one of them has none.
 data codes_part(const std::vector<const Image<std::uint8_t>*>& codes, const ComparedDrive& drive) {
     data part;
     if (codes.empty() || std::ranges::any_of(codes, [&](const auto* one) {
-            return !one || one->width() != codes[0]->width() || one->height() != codes[0]->height();
+            return !one || one->width() < 1 || one->height() < 1 || one->width() != codes[0]->width() ||
+                   one->height() != codes[0]->height();
         }))
         return part;
     std::string names;
@@ -150,7 +151,7 @@ data pair_at(const ComparedDrive& drive, const PicturedMoment& moment, const std
     for (std::size_t i = 0; i < shown; ++i) {
         const auto& all = drive.lamp_sets[i]->lux_views;
         const auto found = std::ranges::find_if(all, [&](const LuxView& one) { return one.tick == moment.tick && one.view == view; });
-        codes.push_back(found == all.end() ? nullptr : &found->codes);
+        codes.push_back(found == all.end() || found->codes.width() < 1 || found->codes.height() < 1 ? nullptr : &found->codes);
     }
     data part = codes_part(codes, drive);
     data under = picture_of(drive, 0, moment, view, folder, budget_bytes);

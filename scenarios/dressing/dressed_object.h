@@ -19,11 +19,12 @@ struct DressedObject {
 /// What the plain object's box leaves: length along x and width along y, both about the middle, height from the foot.
 struct HouseSize {
     double length_m = 12.0, width_m = 10.0, height_m = 7.0;
-    double ground_m = 0.0; ///< of the ground above the foot
+    double ground_m = 0.0; ///< of the ground above the foot, at least lowest_house_m below height_m
     bool road_left = true; ///< the front looks to +y
 };
 
 inline constexpr double smallest_house_m = 4.0;   ///< length, width and height; smaller boxes stay boxes
+inline constexpr double lowest_house_m = 4.5;     ///< above the ground: a storey, a roof and its chimney
 inline constexpr double far_house_error_m = 0.14; ///< reveals, sills and plinth
 inline constexpr double far_tree_error = 0.35;    ///< of the crown's radius: sprigs, and lumps that are cut coarser
 

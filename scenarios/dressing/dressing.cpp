@@ -20,17 +20,19 @@ namespace {
 
 enum class DressedKind { house, tree, bush, barrier, car, van, truck, bus };
 
+/// Of the ground above its foot.
+double sunk_m(const RoadObject& house) { return std::clamp(-house.z_offset_m, 0.0, 1.5); }
+
 std::optional<DressedKind> dressed_kind(const RoadObject& o) {
-    std::string type = o.type, name = o.name;
-    for (std::string* text : {&type, &name})
-        std::ranges::transform(*text, text->begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    std::string type = o.type;
+    std::ranges::transform(type, type.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     if (type == "tree" || (type == "vegetation" && o.height_m > 3.0))
         return DressedKind::tree;
     if (type == "vegetation" || type == "bush")
         return DressedKind::bush;
     if (o.outline_m.size() > 1 || o.radius_m > 0.0 || o.pitch_rad != 0.0 || o.roll_rad != 0.0)
         return std::nullopt;
-    if (type == "building" && std::min({o.length_m, o.width_m, o.height_m}) >= smallest_house_m)
+    if (type == "building" && std::min({o.length_m, o.width_m, o.height_m}) >= smallest_house_m && o.height_m - sunk_m(o) >= lowest_house_m)
         return DressedKind::house;
     if (type == "barrier" && o.width_m <= 0.2 && o.height_m >= 0.2 && o.height_m <= 0.4 && o.z_offset_m > 0.2 && o.length_m > 0.5)
         return DressedKind::barrier;
@@ -90,12 +92,21 @@ class Nearness {
     std::vector<glm::dvec3> places_;
 };
 
-constexpr double widest_m = 10.0; ///< of what an object reaches
+constexpr double widest_m = 10.0; ///< of one place of an object, and of what it reaches
 
 /// Where objects stand, in cells.
 class Occupied {
   public:
     void add(const glm::dvec3& place_m, double reach_m) { cells_[cell(place_m, 0, 0)].emplace_back(place_m.x, place_m.y, reach_m); }
+    /// A rectangle around a pose as places of squares, no side longer than `most_m`.
+    void add_pieces(const Pose& pose, double length_m, double width_m, double most_m) {
+        const auto pieces = [most_m](double side_m) { return static_cast<int>(std::clamp(std::ceil(side_m / most_m), 1.0, 1000.0)); };
+        const int columns = pieces(length_m), rows = pieces(width_m);
+        const double reach_m = 0.5 * std::hypot(length_m / columns, width_m / rows);
+        for (int column = 0; column < columns; ++column)
+            for (int row = 0; row < rows; ++row)
+                add(to_parent(pose, {((column + 0.5) / columns - 0.5) * length_m, ((row + 0.5) / rows - 0.5) * width_m, 0.0}), reach_m);
+    }
     /// `room_m` up to 6 m.
     bool none_within(const glm::dvec3& place_m, double room_m) const {
         for (long x = -1; x <= 1; ++x)
@@ -121,8 +132,8 @@ class Dresser {
           first_(add_dressing_materials(scene, settings.textures, settings.seed)) {
         for (const Road& road : network.roads)
             for (const RoadObject& object : road.objects)
-                if (const double room = std::max(object.radius_m, 0.5 * std::hypot(object.length_m, object.width_m)); object.height_m > 0.3)
-                    objects_.add(surface_pose(network, road, object.s_m, object.t_m).position_m, std::min(room, widest_m));
+                if (object.height_m > 0.3)
+                    occupy(road, object);
     }
 
     void dress(const Road& road) {
@@ -141,6 +152,19 @@ class Dresser {
   private:
     static constexpr long stretch_m = 60;
     static constexpr double far_from_route_m = 300.0; ///< beyond it verges stay bare
+
+    void occupy(const Road& road, const RoadObject& object) {
+        const double length = std::max(object.length_m, 2.0 * object.radius_m), width = std::max(object.width_m, 2.0 * object.radius_m);
+        const Pose foot = standing(network_, road, object);
+        if (const double room = std::max(object.radius_m, 0.5 * std::hypot(object.length_m, object.width_m)); room <= widest_m)
+            objects_.add(foot.position_m, room);
+        else
+            objects_.add_pieces(foot, length, width, widest_m);
+        if (dressed_kind(object) == DressedKind::tree)
+            footprints_.add(foot.position_m, 0.4); // its trunk: there is room under the crown
+        else
+            footprints_.add_pieces(foot, length, width, 1.0);
+    }
 
     Dice dice(const Road& road, const RoadObject& object) const {
         return {settings_.seed, fmt::format("{} {} {:.3f} {:.3f}", road.id, object.id, object.s_m, object.t_m)};
@@ -205,7 +229,7 @@ class Dresser {
         if (turned)
             pose.axes = foot.axes * axes_from_angles(0.5 * pi, 0.0, 0.0);
         const HouseSize size{std::max(object.length_m, object.width_m), std::min(object.length_m, object.width_m), object.height_m,
-                             std::clamp(-object.z_offset_m, 0.0, 1.5), turned ? to_road.x < 0.0 : to_road.y > 0.0};
+                             sunk_m(object), turned ? to_road.x < 0.0 : to_road.y > 0.0};
         add(dressed_house(size, drawn, detail(foot, far_house_error_m)), pose, name);
         add_garden(road, object, drawn, name);
     }
@@ -230,6 +254,12 @@ class Dresser {
         if (length < 3.0 || row.s_m - 0.5 * length < 0.0 || row.s_m + 0.5 * length > road.length_m)
             return;
         const Pose pose = standing(network_, road, row);
+        if (route_.nearest_m(pose.position_m) > far_from_route_m)
+            return;
+        const int steps = 1 + static_cast<int>(length);
+        for (int i = 0; i <= steps; ++i)
+            if (!is_clear(road, to_parent(pose, {(static_cast<double>(i) / steps - 0.5) * length, 0.0, 0.0}), 0))
+                return;
         if (kind < 0.45)
             add(dressed_hedge(length, drawn.between(0.6, 0.9), drawn.between(0.9, 1.5), 0.4, drawn), pose, "hedge of " + name);
         else
@@ -275,6 +305,8 @@ class Dresser {
 
     /// One every 30 to 70 m on each sidewalk, walking one way or the other, an arm's length from its outer edge.
     void add_people(const Road& road) {
+        if (road.junction != "-1")
+            return;
         for (const bool left : {true, false}) {
             Dice drawn(settings_.seed, fmt::format("people, road {} {}", road.id, left ? "left" : "right"));
             for (double s = drawn.between(10.0, 40.0); s < road.length_m - 5.0; s += drawn.between(30.0, 70.0)) {
@@ -294,7 +326,10 @@ class Dresser {
                 place.z_offset_m = edge_height_m(road, s, left);
                 place.heading_rad = back ? pi : 0.0;
                 const BodySize size{{0.5, 0.55, height}, -0.25, glm::vec3(static_cast<float>(tone)), true, draw};
-                add_body(pedestrian_body(size), standing(network_, road, place), fmt::format("pedestrian, road {} s {:.0f}", road.id, s));
+                const Pose pose = standing(network_, road, place);
+                if (route_.nearest_m(pose.position_m) > far_from_route_m || !is_clear(road, pose.position_m, lane.id))
+                    continue;
+                add_body(pedestrian_body(size), pose, fmt::format("pedestrian, road {} s {:.0f}", road.id, s));
             }
         }
     }
@@ -311,6 +346,12 @@ class Dresser {
     bool is_free(const Road& road, const glm::dvec3& place_m, double room_m) const {
         const std::optional<RoadPlace> on = finder_.find(glm::dvec2(place_m));
         return on && on->lane == 0 && &network_.roads[on->road] == &road && objects_.none_within(place_m, room_m);
+    }
+
+    /// Whether this lane of this road is there (0: beside all), and no object within 0.45 m of its footprint.
+    bool is_clear(const Road& road, const glm::dvec3& place_m, int lane) const {
+        const std::optional<RoadPlace> on = finder_.find(glm::dvec2(place_m));
+        return on && on->lane == lane && &network_.roads[on->road] == &road && footprints_.none_within(place_m, 0.45);
     }
 
     /// Grass up to the height of the road's edge, and farther out bushes and a field's fence; nothing of it beside sidewalks.
@@ -361,7 +402,7 @@ class Dresser {
     DressingSettings settings_;
     Nearness route_;
     RoadFinder finder_;
-    Occupied objects_;
+    Occupied objects_, footprints_; ///< roughly, with what sways about them; in pieces of a metre
     std::uint32_t first_;
 };
 

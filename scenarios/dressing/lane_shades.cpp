@@ -4,7 +4,10 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace fernlicht {
 namespace {
@@ -53,6 +56,46 @@ bool meets_mesh(const Segment& s, const Mesh& mesh) {
     return false;
 }
 
+/// Segments by the cells that they cross in plan.
+class SegmentCells {
+  public:
+    explicit SegmentCells(const std::vector<Segment>& segments) {
+        for (const Segment& s : segments) {
+            const int pieces = 1 + static_cast<int>(std::hypot(s.way_m.x, s.way_m.y) / cell_m);
+            for (int i = 0; i < pieces; ++i) {
+                const glm::dvec3 a = s.from_m + s.way_m * (static_cast<double>(i) / pieces),
+                                 b = s.from_m + s.way_m * (static_cast<double>(i + 1) / pieces);
+                any_cell(glm::min(a, b), glm::max(a, b), [&](const Cell& cell) {
+                    std::vector<const Segment*>& there = cells_[cell];
+                    if (there.empty() || there.back() != &s)
+                        there.push_back(&s);
+                    return false;
+                });
+            }
+        }
+    }
+    /// Whether `meets` holds of any segment in the cells of a box; it may be asked twice of one.
+    template <class Meets> bool any_near(const glm::dvec3& low, const glm::dvec3& high, const Meets& meets) const {
+        return any_cell(low, high, [&](const Cell& cell) {
+            const auto there = cells_.find(cell);
+            return there != cells_.end() && std::ranges::any_of(there->second, [&](const Segment* s) { return meets(*s); });
+        });
+    }
+
+  private:
+    using Cell = std::pair<long, long>;
+    static constexpr double cell_m = 16.0, margin_m = 0.001; ///< the margin for rounding
+    template <class Take> static bool any_cell(const glm::dvec3& low, const glm::dvec3& high, const Take& take) {
+        const auto cell_at = [](double at_m) { return std::lround(std::floor(at_m / cell_m)); };
+        for (long x = cell_at(low.x - margin_m); x <= cell_at(high.x + margin_m); ++x)
+            for (long y = cell_at(low.y - margin_m); y <= cell_at(high.y + margin_m); ++y)
+                if (take(Cell(x, y)))
+                    return true;
+        return false;
+    }
+    std::map<Cell, std::vector<const Segment*>> cells_;
+};
+
 } // namespace
 
 std::vector<std::string> shades_of_lane(const Scene& scene, const Route& route) {
@@ -66,16 +109,17 @@ std::vector<std::string> shades_of_lane(const Scene& scene, const Route& route) 
                     segments.push_back({from, route.pose(at + ahead, left).position_m - from});
                 }
     }
+    const SegmentCells near(segments);
     std::vector<std::string> names;
     for (const Mesh& mesh : scene.meshes) {
-        if (!mesh.casts || mesh.body >= 0 || std::ranges::find(names, mesh.name) != names.end())
+        if (!mesh.casts || mesh.body >= 0 || mesh.vertices.empty() || std::ranges::find(names, mesh.name) != names.end())
             continue;
         glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
         for (const Vertex& v : mesh.vertices) {
             low = glm::min(low, mesh.origin_m + glm::dvec3(v.position_m));
             high = glm::max(high, mesh.origin_m + glm::dvec3(v.position_m));
         }
-        if (std::ranges::any_of(segments, [&](const Segment& s) { return meets_box(s, low, high) && meets_mesh(s, mesh); }))
+        if (near.any_near(low, high, [&](const Segment& s) { return meets_box(s, low, high) && meets_mesh(s, mesh); }))
             names.push_back(mesh.name);
     }
     return names;

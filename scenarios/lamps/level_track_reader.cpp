@@ -125,7 +125,22 @@ std::optional<ShownLevels> read_shown_levels(const std::filesystem::path& path, 
         return std::nullopt;
     const std::vector<std::string_view> head = cells_of(line, ',');
     const auto first = static_cast<std::size_t>(std::ranges::find(head, "level_1") - head.begin());
-    std::set<std::string> lamps;
+    std::set<std::string> lamps; // before any row is judged: it may be another lamp's
+    LineReader named = lines;
+    while (named.next(line)) {
+        if (trimmed(line).empty())
+            continue;
+        const std::vector<std::string_view> cells = cells_of(line, ',');
+        if (cells.size() < 7)
+            throw InputError({path, named.number(), 0, {}}, fmt::format("found {} cells", cells.size()), "a line of a run's levels");
+        lamps.emplace(cells[1]);
+    }
+    const std::string all = fmt::format("{}", fmt::join(lamps, ", "));
+    if (name.empty() ? lamps.size() > 1 : !lamps.contains(name))
+        throw InputError({path, 0, 0, "--levels-lamp"},
+                         name.empty() ? fmt::format("levels of {}", printable(all, 200))
+                                      : fmt::format("no levels of '{}'", printable(name)),
+                         name.empty() ? "--levels-lamp with one of them" : "one of " + printable(all, 200));
     std::optional<ShownLevels> shown;
     double first_s = latest_s;
     while (lines.next(line)) {
@@ -133,10 +148,7 @@ std::optional<ShownLevels> read_shown_levels(const std::filesystem::path& path, 
             continue;
         const std::vector<std::string_view> cells = cells_of(line, ',');
         const InputError::Where at{path, lines.number(), 0, {}};
-        if (cells.size() < 7)
-            throw InputError(at, fmt::format("found {} cells", cells.size()), "a line of a run's levels");
         const std::string of(cells[1]);
-        lamps.insert(of);
         const double at_s = finite_number(cells[0], at);
         if ((!name.empty() && of != name) || at_s > time_s) {
             first_s = std::min(first_s, at_s);
@@ -152,12 +164,6 @@ std::optional<ShownLevels> read_shown_levels(const std::filesystem::path& path, 
         for (std::size_t i = 0; i < lamp.count(); ++i)
             shown->pixels.push_back(level_in(finite_number(cells[first + i], at), at));
     }
-    const std::string all = fmt::format("{}", fmt::join(lamps, ", "));
-    if (name.empty() ? lamps.size() > 1 : !lamps.contains(name))
-        throw InputError({path, 0, 0, "--levels-lamp"},
-                         name.empty() ? fmt::format("levels of {}", printable(all, 200))
-                                      : fmt::format("no levels of '{}'", printable(name)),
-                         name.empty() ? "--levels-lamp with one of them" : "one of " + printable(all, 200));
     if (!shown)
         throw InputError({path, 0, 0, {}}, fmt::format("no levels at {:g} s or before", time_s),
                          fmt::format("a time from {:g} s on", first_s));

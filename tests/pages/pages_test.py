@@ -161,8 +161,8 @@ def run_reads_lux(browser, page):
         pixel = rows[int(share_y * len(rows))][3 * int(share_x * len(rows[0]) / 3):]
         for lamp, found in enumerate(re.findall(r"(< 0\.05|[\d.]+) lx", text)):
             code = pixel[lamp]
-            expected = 0.05 * 10000 ** ((code - 1) / 253)
-            check(found == "< 0.05" if code == 0 else abs(float(found) / expected - 1) < 0.01, f"{text} at {share_x}, {share_y}: code {code}")
+            expected = 0.05 * 10000 ** ((code - 2) / 252)
+            check(found == "< 0.05" if code == 1 else abs(float(found) / expected - 1) < 0.01, f"{text} at {share_x}, {share_y}: code {code}")
         check(" lx" in text, "something is read")
     browser.run("document.querySelector('.moment:not([hidden]) .stack').focus()")
     before = browser.run("document.querySelector('.moment-label').textContent")

@@ -128,14 +128,16 @@ std::string key_sentence(const ComparedDrive& drive) {
     if (!found.best)
         return fmt::format("{}: {} {}", first, reading_label(keys.front()), worded(*found.first));
     const Better better = row_of(keys.front().quantity).better;
-    const bool is_better = better != Better::neither && found.change.measured() && (found.change.low() > 0.0) == (better == Better::higher);
+    const bool is_more = found.change.low() > 0.0, is_less = found.change.high() < 0.0; // neither: a bound leaves it open
     const bool within = found.change.measured() && found.by_aim && std::abs(*found.change.figure()) <= *found.by_aim;
-    if (!found.change.measured() || found.change.figure() == 0.0)
-        return fmt::format("{} and {}: {} {}", lamp, first, worded(*found.best), reading_label(keys.front()));
+    if (!is_more && !is_less) {
+        const std::string now = worded(*found.best), before = worded(*found.first);
+        return fmt::format("{} and {}: {}{} {}", lamp, first, now, now == before ? "" : " and " + before, reading_label(keys.front()));
+    }
     return fmt::format("{} is {} than {}{}: {} against {} ({}{}), {}", lamp,
-                       is_better                   ? "better"
-                       : better == Better::neither ? "other"
-                                                   : "worse",
+                       better == Better::neither               ? "other"
+                       : is_more == (better == Better::higher) ? "better"
+                                                               : "worse",
                        first, within ? ", by no more than 0.1° of aim," : "", worded(*found.best), worded(*found.first),
                        found.changed() + unit_suffix(found.first->unit()), found.share().empty() ? "" : ", " + found.share(),
                        reading_label(keys.front()));

@@ -28,9 +28,11 @@ std::string value_words(const Value& value, const ReadingKey& key) {
     return value.measured() ? with_bound(value, short_figure(*value.figure())) + unit_suffix(unit_of(key)) : "not measured";
 }
 
-std::string signed_words(const Change& change) {
-    const double found = change.change().figure().value_or(0.0);
-    return with_bound(change.change(), (found > 0.0 ? "+" : "") + short_figure(found)) + unit_suffix(change.unit());
+/// `backward`: of the lamp that it is compared against.
+std::string signed_words(const Change& change, bool backward) {
+    const Value told = backward ? difference(0.0, change.change(), unit_of(change.reading)) : change.change();
+    const double found = told.figure().value_or(0.0);
+    return with_bound(told, (found > 0.0 ? "+" : "") + short_figure(found)) + unit_suffix(change.unit());
 }
 
 std::string capital(std::string words) {
@@ -103,22 +105,28 @@ PlaceMatrix matrix_of(const StudyResult& result, const Groups& groups, const Rea
     return matrix;
 }
 
-/// Each lamp's median over the places that all of them were played in, best first.
-std::vector<std::pair<std::size_t, Value>> lamps_ranked(const StudyResult& result, const Groups& groups, const ReadingKey& key) {
+struct Ranking {
+    std::vector<std::pair<std::size_t, Value>> lamps; ///< each one's median, best first
+    std::size_t places = 0;                           ///< of these: where all of them were played and measured
+};
+
+Ranking lamps_ranked(const StudyResult& result, const Groups& groups, const ReadingKey& key) {
     std::vector<CensoredSamples> samples(result.study.lamps.size());
-    std::size_t whole = 0;
+    std::size_t whole = 0, places = 0;
     for (const std::vector<std::size_t>& group : groups)
         whole = std::max(whole, group.size());
     for (const std::vector<std::size_t>& group : groups)
-        if (group.size() == whole && std::ranges::all_of(group, [&](std::size_t i) { return read_by(result.cells[i], key).measured(); }))
+        if (group.size() == whole && std::ranges::all_of(group, [&](std::size_t i) { return read_by(result.cells[i], key).measured(); })) {
+            ++places;
             for (const std::size_t i : group)
                 samples[result.cells[i].cell.lamp].add(read_by(result.cells[i], key));
+        }
     std::vector<std::pair<std::size_t, Value>> lamps;
     for (std::size_t i = 0; i < samples.size(); ++i)
         if (const Value median = samples[i].quantile(0.5); median.measured())
             lamps.emplace_back(i, median);
     std::ranges::stable_sort(lamps, std::greater{}, [&](const auto& lamp) { return better_is(key) * lamp.second.figure().value_or(0.0); });
-    return lamps;
+    return {std::move(lamps), places};
 }
 
 /// What a lamp changes against another, place by place; none where the study does not compare the two this way round.
@@ -150,7 +158,9 @@ std::string where_words(const StudyResult& result, const std::vector<const Chang
     if (real.empty())
         return text;
     const auto [least, most] = std::ranges::minmax_element(real, {}, [](const Change* change) { return change->least(); });
-    const auto told = [&](const Change& change) { return fmt::format("{} ({})", place_name(result, change.tested), signed_words(change)); };
+    const auto told = [&](const Change& change) {
+        return fmt::format("{} ({})", place_name(result, change.tested), signed_words(change, !best_is_tested));
+    };
     text += fmt::format(", most on {}", told(**most));
     return (*most)->least() > (*least)->least() ? text + fmt::format(", least on {}", told(**least)) : text;
 }
@@ -161,7 +171,7 @@ struct Answer {
 };
 
 Answer answer_of(const StudyResult& result, const Groups& groups, const ReadingKey& key) {
-    const std::vector<std::pair<std::size_t, Value>> lamps = lamps_ranked(result, groups, key);
+    const auto [lamps, ranked_places] = lamps_ranked(result, groups, key);
     if (lamps.size() < 2 || better_is(key) == 0.0)
         return {};
     const auto& [best, best_value] = lamps.front();
@@ -171,8 +181,10 @@ Answer answer_of(const StudyResult& result, const Groups& groups, const ReadingK
     for (const std::vector<std::size_t>& group : groups)
         drives.insert(result.cells[group.front()].cell.drive);
     const char* const places = drives.size() == groups.size() ? (groups.size() == 1 ? "route" : "routes") : "places";
-    const std::string over = groups.size() == 1 ? fmt::format("{}; on {}", reading_label(key), place_name(result, groups.front().front()))
-                                                : fmt::format("{}, median over {} {}", reading_label(key), groups.size(), places);
+    const std::string over =
+        groups.size() == 1 ? fmt::format("{}; on {}", reading_label(key), place_name(result, groups.front().front()))
+                           : fmt::format("{}, median over {}{} {}", reading_label(key),
+                                         ranked_places < groups.size() ? fmt::format("{} of ", ranked_places) : "", groups.size(), places);
     bool forward = true;
     std::vector<const Change*> changes = changes_of_lamps(result, best, worst, key);
     if (changes.empty()) {
@@ -192,9 +204,16 @@ Answer answer_of(const StudyResult& result, const Groups& groups, const ReadingK
                 capital(over) + ". The study does not compare these two, so noise and aim are not told."};
     const auto better = std::ranges::count_if(
         changes, [&](const Change* change) { return real_gain(*change) != 0.0 && (real_gain(*change) > 0.0) == forward; });
+    const auto worse = std::ranges::count(changes, ChangeKind::real, &Change::kind) - better;
     std::string heading;
-    if (better == 0)
+    if (better == 0 && worse == 0)
         heading = fmt::format("{} and {} do not differ by more than aim and noise: {}", best_name, worst_name, figures);
+    else if (better == 0)
+        heading = fmt::format("{} is worse than {} on {} of {} {}, better on none: {}", best_name, worst_name, worse, changes.size(),
+                              places, figures);
+    else if (worse > 0)
+        heading = fmt::format("{} is better than {} on {} of {} {}, worse on {}: {}", best_name, worst_name, better, changes.size(), places,
+                              worse, figures);
     else if (lamps.size() > 2)
         heading = fmt::format("{} is best, {} worst: {}", best_name, worst_name, figures);
     else
@@ -280,10 +299,8 @@ Section answer_section(const StudyResult& result, const std::vector<Decision>& d
         }
     for (const Decision& decision : decisions) { // what speaks against it belongs beside it
         std::string text = decision_count(result, decision) + ".";
-        for (const std::string& part : decision_parts(result, decision))
-            if (part.starts_with("Worse by") || part.starts_with("Better in some") || part.starts_with("Both beams") ||
-                part.starts_with("As mounted"))
-                text += " " + part + ".";
+        for (const std::string& part : decision_parts(result, decision, DecisionParts::doubts))
+            text += " " + part + ".";
         section.blocks.emplace_back(std::move(text));
     }
     return section;

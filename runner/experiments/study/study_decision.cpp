@@ -200,17 +200,20 @@ std::vector<Decision> decide(const StudyResult& result) {
     return decisions;
 }
 
-std::vector<std::string> decision_parts(const StudyResult& result, const Decision& decision) {
+std::vector<std::string> decision_parts(const StudyResult& result, const Decision& decision, DecisionParts which) {
+    const bool all = which == DecisionParts::all;
     std::vector<std::string> parts;
     for (const auto& [outcome, words] : {std::pair(DecisionOutcome::better, "Better by"),
                                          {DecisionOutcome::worse, "Worse by"},
                                          {DecisionOutcome::mixed, "Better in some places and worse in others by"},
                                          {DecisionOutcome::changed, "Changed, neither for better nor for worse:"}})
-        parts.push_back(listed(result, decision, outcome, words));
-    parts.push_back(undecided(result, decision));
-    if (const std::size_t within = decision.count(DecisionOutcome::within_aim))
+        if (all || outcome == DecisionOutcome::worse || outcome == DecisionOutcome::mixed)
+            parts.push_back(listed(result, decision, outcome, words));
+    if (all)
+        parts.push_back(undecided(result, decision));
+    if (const std::size_t within = all ? decision.count(DecisionOutcome::within_aim) : 0)
         parts.push_back(fmt::format("{} changed by less than 0.1° of aim would do: {}", counted(within, "reading"), within_aim(decision)));
-    if (const std::size_t same = decision.count(DecisionOutcome::same))
+    if (const std::size_t same = all ? decision.count(DecisionOutcome::same) : 0)
         parts.push_back(fmt::format("{} without a difference", counted(same, "reading")));
     if (decision.aim_alone)
         parts.emplace_back("Both beams differ by their aim alone: it is the aim, not the lamp");

@@ -42,7 +42,9 @@ struct Decision {
 std::vector<Decision> decide(const StudyResult& result);
 
 /// "Better by ...", "Worse by ...", "Undecided: ... because ...": what there is of these, without full stops.
-std::vector<std::string> decision_parts(const StudyResult& result, const Decision& decision);
+/// `doubts`: those alone that speak against the lamp or the comparison.
+enum class DecisionParts { all, doubts };
+std::vector<std::string> decision_parts(const StudyResult& result, const Decision& decision, DecisionParts which = DecisionParts::all);
 /// "xenon against halogen: better by .... Worse by .... Undecided: ... because ...."
 std::string decision_sentence(const StudyResult& result, const Decision& decision);
 /// "xenon is better in 9, worse in 4 of 22 deciding readings".

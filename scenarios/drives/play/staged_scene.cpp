@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <iterator>
 #include <limits>
 
@@ -35,11 +37,13 @@ void dress(Scene& scene, Drive& drive, const RoadNetwork& network, const Route& 
     dressing.materials.swap(scene.materials);
     dressing.textures.swap(scene.textures);
     add_dressing(dressing, network, route, {.textures = drive.textured, .seed = drive.seed, .pixel_rad = smallest_pixel_rad(drive.views)});
-    std::string names;
-    for (const std::string& name : shades_of_lane(dressing, route))
-        names += (names.empty() ? "" : ", ") + name;
+    constexpr std::size_t most_told = 40;
+    std::vector<std::string> names = shades_of_lane(dressing, route);
+    const std::size_t more = names.size() > most_told ? names.size() - most_told : 0;
+    names.resize(names.size() - more);
     if (!names.empty())
-        drive.notes.push_back("dressed objects that shade the own lane somewhere on the route: " + names);
+        drive.notes.push_back(fmt::format("dressed objects that shade the own lane somewhere on the route: {}{}", fmt::join(names, ", "),
+                                          more > 0 ? fmt::format(" and {} more", more) : ""));
     scene.materials.swap(dressing.materials);
     scene.textures.swap(dressing.textures);
     std::ranges::move(dressing.meshes, std::back_inserter(scene.meshes));

@@ -348,6 +348,7 @@ TEST_F(LampCommand, LooksAtAPixelLampAtATime) {
     request.file = folder_ / "many.yaml";
     EXPECT_THAT(refusal(request), HasSubstr("levels-drive-set.csv:2: found 4 of 4 levels, expected 202, as the lamp has"));
     request.levels_lamp.clear();
+    EXPECT_THAT(refusal(request), HasSubstr("--levels-lamp with one of them")) << "not the first lamp's count";
     request.levels_s.reset();
     EXPECT_THAT(refusal(request), HasSubstr("--levels FILE and --at S, both or neither"));
     request = shipped("halogen-low");

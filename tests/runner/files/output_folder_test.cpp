@@ -146,5 +146,14 @@ TEST_F(OutputFolderTest, FullDiskKeepsWhatWasDone) {
         EXPECT_EQ(entry.path().string().find(".part-"), std::string::npos) << entry.path();
 }
 
+TEST(FileNames, AreNoneTwice) {
+    FileNames names;
+    EXPECT_EQ(names.of("a/b"), "a_b");
+    EXPECT_EQ(names.of("a_b-2"), "a_b-2");
+    EXPECT_EQ(names.of("a b"), "a_b-3") << "a_b-2 is given";
+    EXPECT_EQ(names.of(std::string(90, 'x')), std::string(80, 'x'));
+    EXPECT_EQ(names.of(std::string(91, 'x')), std::string(80, 'x') + "-2");
+}
+
 } // namespace
 } // namespace fernlicht

@@ -59,9 +59,9 @@ TEST(LuxCodes, AreWithinTwoPerCent) {
         worst = std::max(worst, std::abs(lux_of(lux_code(lx)) / lx - 1.0));
     EXPECT_LT(worst, 0.02);
     EXPECT_GT(worst, 0.015) << "else this looks at too few";
-    EXPECT_EQ(lux_code(0.0499), 0);
+    EXPECT_EQ(lux_code(0.0499), 1);
     EXPECT_EQ(lux_code(std::numeric_limits<double>::quiet_NaN()), 0);
-    EXPECT_EQ(lux_code(0.05), 1);
+    EXPECT_EQ(lux_code(0.05), 2);
     EXPECT_EQ(lux_code(500.0), 254);
     EXPECT_EQ(lux_code(501.0), 255);
 }
@@ -74,6 +74,11 @@ TEST(LuxCodes, AreOfTheMiddlesOfBlocks) {
     EXPECT_EQ(codes.height(), 5);
     EXPECT_EQ(codes.at(0, 0), lux_code(100.0));
     EXPECT_EQ(codes.at(1, 0), lux_code(1.0));
+    const Image<std::uint8_t> flat = lux_codes(Image<float>(1024, 3, 1.0F), 256); // blocks of 4 are higher than it
+    EXPECT_EQ(flat.width(), 256);
+    EXPECT_EQ(flat.height(), 1);
+    EXPECT_EQ(flat.at(255, 0), lux_code(1.0));
+    EXPECT_NE(embedded_codes({&flat}), "");
 }
 
 } // namespace

@@ -28,7 +28,8 @@ std::vector<Shape> shapes(std::uint64_t seed, Detail detail) {
             {"fence", dressed_fence(9.0, 1.0, 0.3), {-4.5, -0.05, -0.3}, {4.5, 0.05, 1.0}},
             {"field fence", dressed_field_fence(3.0), {-1.5, -0.05, -0.4}, {1.5, 0.075, 1.15}},
             {"rail", dressed_guard_rail(4.0, 0.08, 0.31, true), {-2, -0.04, 0}, {2, 0.04, 0.31}},
-            {"rail", dressed_guard_rail(4.0, 0.08, 0.31, false), {-2, -0.04, 0}, {2, 0.04, 0.31}}};
+            {"rail", dressed_guard_rail(4.0, 0.08, 0.31, false), {-2, -0.04, 0}, {2, 0.04, 0.31}},
+            {"low house", dressed_house({8.0, 6.0, 1.5 + lowest_house_m, 1.5, true}, dice, detail), {-4, -3, 0}, {4, 3, 6}}};
 }
 
 std::vector<std::array<SoupVertex, 3>> all_triangles(const DressedObject& object) {
@@ -137,6 +138,20 @@ TEST(DressedShapes, FarOnesKeepTheirErrorBound) {
     }
 }
 
+TEST(DressedShapes, HousesTooLowForARoofStayBoxes) {
+    RoadObject house;
+    house.type = "building";
+    house.length_m = 8.0;
+    house.width_m = 6.0;
+    house.height_m = 4.6;
+    EXPECT_TRUE(is_dressed(house));
+    house.height_m = 4.2;
+    EXPECT_FALSE(is_dressed(house));
+    house.height_m = 5.7;
+    house.z_offset_m = -1.5; // sunk: 4.2 m above the ground
+    EXPECT_FALSE(is_dressed(house));
+}
+
 double luminance(const glm::vec3& c) { return glm::dot(glm::dvec3(c), glm::dvec3(0.2126, 0.7152, 0.0722)); }
 
 TEST(DressingMaterials, ReflectNoMoreThanAllAndKeepTheirMeansUnderPictures) {
@@ -228,6 +243,33 @@ TEST(Dressing, StandsBesideWhatVehiclesUse) {
     EXPECT_GE(people, 8U);
     EXPECT_GE(houses, 20U);
     EXPECT_EQ(cars, 10U);
+}
+
+TEST(Dressing, NobodyStandsInALongObjectOrAJunction) {
+    RoadNetwork network = opendrive_text::library_road("village.xodr");
+    const Route route(network, {});
+    Road& road = network.roads.front(); // straight, along x from 0 to 385 m
+    const auto people_on_its_left = [&] {
+        std::size_t count = 0;
+        const Scene scene = dressed(network, route, 1);
+        for (const Mesh& mesh : scene.meshes) {
+            EXPECT_FALSE(mesh.name.starts_with("pedestrian, road 1") && !mesh.name.starts_with("pedestrian, road 1 ")) << mesh.name;
+            if (mesh.name.starts_with("pedestrian, road 1 ") && mesh.origin_m.y > 0.0 && mesh.origin_m.x > 45.0 && mesh.origin_m.x < 335.0)
+                ++count;
+        }
+        return count;
+    };
+    EXPECT_GT(people_on_its_left(), 2U);
+    RoadObject wall;
+    wall.type = "wall";
+    wall.s_m = 190.0;
+    const LaneSection& section = section_at(road, wall.s_m);
+    wall.t_m = lane_edges(road, section, section.lanes.front().id, wall.s_m).outer_t_m - 1.0;
+    wall.length_m = 300.0;
+    wall.width_m = 10.0;
+    wall.height_m = 2.0;
+    road.objects.push_back(wall);
+    EXPECT_EQ(people_on_its_left(), 0U);
 }
 
 TEST(Dressing, CarsOfThreeShapesFillTheirBoxes) {

@@ -1,4 +1,5 @@
 // Figures of the page, by what stands on their axes.
+#include "runner/experiments/run/run_document.h"
 #include "runner/experiments/run/run_plots.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/write/plots/svg.h"
@@ -125,6 +126,22 @@ TEST(PagePlots, ASwayingCarSpreadsItsLight) {
                                        {1, "moments below [%]"},
                                        {2, "Light in the eyes of oncoming driver opposite"}})
         EXPECT_THAT(plots::svg_of(figures[static_cast<std::size_t>(figure)]), HasSubstr(part));
+}
+
+TEST(KeySentence, SaysBetterOrWorseOnlyOfWhatBoundsLeave) {
+    const auto sentence = [](const Value& first, const Value& other) {
+        PlayedCell a, b;
+        a.lamp_set = "A";
+        b.lamp_set = "B";
+        const ReadingKey key = key_of("reach_5lx_target_own_m").value();
+        a.readings = {{.key = key, .value = first}};
+        b.readings = {{.key = key, .value = other}};
+        return key_sentence(ComparedDrive{"drive", {&a, &b}});
+    };
+    EXPECT_THAT(sentence(Value::at_least(150.0), 160.0), testing::StartsWith("B and A: 160 m and > 150 m reach"));
+    EXPECT_THAT(sentence(150.0, 160.0), testing::StartsWith("B is better than A: 160 m against 150 m"));
+    EXPECT_THAT(sentence(Value::at_least(150.0), 140.0), testing::StartsWith("B is worse than A: 140 m against > 150 m"));
+    EXPECT_THAT(sentence(150.0, 150.0), testing::StartsWith("B and A: 150 m reach"));
 }
 
 } // namespace

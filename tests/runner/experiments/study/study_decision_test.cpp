@@ -205,7 +205,7 @@ TEST(Answer, LessGlareIsBetterAndWithinAimNobodyWins) {
     dim.result.study.decide = {glare};
     dim.on(0, glare, 1.2, 1.0).on(1, glare, 1.0, 1.1);
     const FirstScreen mixed(dim);
-    EXPECT_EQ(mixed.section.title, "new is better than old: 1.05 lx against 1.10 lx (−0.0500 lx, −5 %)");
+    EXPECT_EQ(mixed.section.title, "new is better than old on 1 of 2 routes, worse on 1: 1.05 lx against 1.10 lx (−0.0500 lx, −5 %)");
     EXPECT_THAT(mixed.where(), HasSubstr("better on 1 of 2 routes, worse on 1, most on drive-0 (−0.200 lx)"));
     EXPECT_GT(mixed.entry(0, 1).shade, 0.0);
     EXPECT_LT(mixed.entry(1, 1).shade, 0.0);
@@ -213,6 +213,35 @@ TEST(Answer, LessGlareIsBetterAndWithinAimNobodyWins) {
     alike.on(0, reach, 40.0, 41.0, 3.0);
     EXPECT_EQ(FirstScreen(alike).section.title,
               "new and old do not differ by more than aim and noise: 41.0 m against 40.0 m (+1.00 m, +2 %)");
+}
+
+TEST(Answer, HeadlineSaysNoMoreThanTheRoutes) {
+    MadeStudy worse; // the median gains by what aim would do as well
+    worse.on(0, reach, 40.0, 55.0, 20.0).on(1, reach, 60.0, 58.0, 0.5);
+    EXPECT_EQ(FirstScreen(worse).section.title,
+              "new is worse than old on 1 of 2 routes, better on none: 56.5 m against 50.0 m (+6.50 m, +13 %)");
+    MadeStudy mixed;
+    mixed.on(0, reach, 40.0, 80.0)
+        .on(1, reach, 41.0, 60.0, 30.0)
+        .on(2, reach, 50.0, 48.0)
+        .on(3, reach, 56.0, 54.0)
+        .on(4, reach, 57.0, 55.0);
+    EXPECT_EQ(FirstScreen(mixed).section.title,
+              "new is better than old on 1 of 5 routes, worse on 3: 55.0 m against 50.0 m (+5.00 m, +10 %)");
+}
+
+TEST(Answer, OfTheLampComparedAgainstSignsAreItsOwn) {
+    MadeStudy study;
+    study.on(0, reach, 52.0, 40.0).on(1, reach, 60.0, 52.0).on(2, reach, Value::at_least(200.0), 50.0);
+    const FirstScreen screen(study);
+    EXPECT_EQ(screen.section.title, "old is better than new: 60.0 m against 50.0 m (+10.0 m, +20 %)");
+    EXPECT_THAT(screen.where(), HasSubstr("better on 3 of 3 routes, most on drive-2 (> +150 m), least on drive-1 (+8.00 m)"));
+}
+
+TEST(Answer, MedianCountsTheRoutesThatItIsOver) {
+    MadeStudy study;
+    study.on(0, reach, 40.0, 50.0).on(1, reach, 42.0, Value::not_measured("off the road"));
+    EXPECT_THAT(FirstScreen(study).where(), HasSubstr("median over 1 of 2 routes"));
 }
 
 TEST(Answer, RanksWhatDecidesWithIntervals) {
