@@ -68,9 +68,7 @@ typedef struct fernlicht_control_input {
     const double* signal_values;
 } fernlicht_control_input;
 
-/* One per lamp, filled with what the laws before decided; change what you mean to. Lamps that may not be moved are not read back.
- * Before the first command that could be used, what is filled in is nearer to 0 by one rounding, and 0 is -0: so a command is told from
- * none. */
+/* One per lamp, filled with what the laws before decided; change what you mean to. Lamps that may not be moved are not read back. */
 typedef struct fernlicht_lamp_command {
     double swivel_rad; /* -1.6 .. 1.6; the actuator has limits of its own */
     double pitch_rad;  /* -0.3 .. 0.3 */

@@ -22,17 +22,6 @@
 
 namespace fernlicht {
 
-namespace {
-
-/// Next to a value, towards 0, or -0: handed over in its place, it tells a command that was left alone from one that was written.
-double marked_command(double value) { return value == 0.0 ? -0.0 : std::nextafter(value, 0.0); }
-bool is_left_alone(double value, double given) {
-    const double mark = marked_command(given);
-    return value == mark && std::signbit(value) == std::signbit(mark);
-}
-
-} // namespace
-
 struct ControlPlugin::Parts {
     PluginParameters parameters;
     std::vector<ControlledLamp> lamps;
@@ -44,7 +33,7 @@ struct ControlPlugin::Parts {
     void* state = nullptr;
     bool failed = false; ///< it must not be called any more
     std::uint64_t every = 1, ticks = 0, calls = 0, over_budget = 0, left_out = 0, calls_with_some_left_out = 0;
-    bool any_used = false;      ///< a command that was written, and in its range
+    bool any_used = false;      ///< a command that changed something
     std::string first_left_out; ///< "lamp.left.swivel_command_rad 2.5 at 0.02 s, which goes from -1.6 to 1.6"
     double slowest_s = 0.0, last_s = 0.0;
     /// Its last commands, that hold between calls.
@@ -203,14 +192,6 @@ void ControlPlugin::step(SignalTable& table, std::vector<std::vector<double>>& a
     in.signal_values = values.data();
     fernlicht_control_output out{sizeof(fernlicht_control_output), commands.size(), commands.data()};
     const std::vector<fernlicht_lamp_command> before = commands;
-    const bool marks = !p.any_used;
-    for (std::size_t i = 0; marks && i < commands.size(); ++i) {
-        if (!p.may_move[i])
-            continue;
-        for (double* const value : {&commands[i].swivel_rad, &commands[i].pitch_rad, &commands[i].level})
-            *value = marked_command(*value);
-        std::ranges::transform(segments[i], segments[i].begin(), marked_command);
-    }
     int answer = 0;
     std::string wrong;
     p.call(fmt::format("{} of '{}' at {:g} s", p.fmu ? "a step" : "step()", p.name, in.time_s),
@@ -225,11 +206,8 @@ void ControlPlugin::step(SignalTable& table, std::vector<std::vector<double>>& a
     const bool first = p.commands.empty();
     const std::uint64_t left_out_before = p.left_out;
     const auto take = [&](double& value, double given, double held, const auto& name, double least, double greatest) {
-        const bool alone = marks && is_left_alone(value, given);
-        if (alone)
-            value = given;
         if (value >= least && value <= greatest) {
-            p.any_used = p.any_used || !alone;
+            p.any_used = p.any_used || value != given;
             return;
         }
         if (p.left_out++ == 0)

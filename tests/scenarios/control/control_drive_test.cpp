@@ -270,9 +270,6 @@ TEST(Plugin, CommandsThatAreNoneAreLeftOut) {
     EXPECT_FALSE(odd.unusable);
     EXPECT_FALSE(run(with(compiled_plugin("once", "if (in->time_s == 0) out->lamps[0].swivel_rad = NAN;"))).unusable)
         << "it asked for nothing else";
-    const ControlRun on = run(with(compiled_plugin("on", "out->lamps[0].level = 1; out->lamps[0].swivel_rad = NAN;")));
-    EXPECT_FALSE(on.unusable) << "a level of 1 is a command, though it was 1 before";
-    EXPECT_EQ(on.level(0, 1.95), 1.0);
     const ControlRun never = run(with(compiled_plugin("never", "out->lamps[0].level = 7;")));
     ASSERT_TRUE(never.unusable);
     EXPECT_THAT(never.unusable->what(),
