@@ -20,5 +20,6 @@ judged page.md 'The beem reci_eves light.' 'reci_eves ==> receives'
 judged source.cpp '// The len_ght of a lane.' 'len_ght ==> length'
 judged page.md 'The center of the beam.' 'center ==> centre'
 judged page.md 'Cutoff of the low beam.' 'Cutoff ==> Cut-off'
+judged source.cpp '<<<<_<<< HEAD' 'left by a merge'
 judged page.css 'text { color: grey; }'
 ((failures == 0))
