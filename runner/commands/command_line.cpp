@@ -78,7 +78,8 @@ void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>&
     for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
         called = command->check_name(word) ? command : called;
         known = known || called;
-        commands += (commands.empty() ? "" : ", ") + command->get_name();
+        if (!command->get_group().empty()) // else hidden
+            commands += (commands.empty() ? "" : ", ") + command->get_name();
     }
     if (const std::string old = known ? "" : fernlicht::old_word_in({line[0], word}); !old.empty())
         throw fernlicht::InputError({}, old);
