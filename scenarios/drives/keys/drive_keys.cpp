@@ -248,7 +248,7 @@ const Fields<Drive>& drive_fields() {
                 },
                 [](const Drive& drive) {
                     static constexpr const char* words[]{"none", "plain", "dressed"};
-                    return std::string(words[static_cast<std::size_t>(drive.dressing)]);
+                    return std::string(drive.dressing == Dressing::plain ? "" : words[static_cast<std::size_t>(drive.dressing)]);
                 },
                 R"({"enum": ["none", "plain", "dressed"]})", "how the road's objects look: left out, plain shapes, or houses, trees and cars"),
             own<Drive>(
