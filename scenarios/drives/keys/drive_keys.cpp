@@ -250,7 +250,7 @@ const Fields<Drive>& drive_fields() {
                     static constexpr const char* words[]{"none", "plain", "dressed"};
                     return std::string(drive.dressing == Dressing::plain ? "" : words[static_cast<std::size_t>(drive.dressing)]);
                 },
-                R"({"enum": ["none", "plain", "dressed"]})", "how the road's objects look: left out, plain shapes, or houses, trees and cars"),
+                R"({"enum": ["none", "plain", "dressed"]})", "how the road's objects look: left out, plain shapes, or houses, trees and cars (default: plain)"),
             own<Drive>(
                 "seed", 41, [](const YamlEntry& entry, Drive& drive) { drive.seed = entry.count(); },
                 [](const Drive& drive) { return fmt::format("{}", drive.seed); }, R"({"type": "integer", "minimum": 0})",
