@@ -60,7 +60,7 @@ void read_resolved(const fs::path& folder, RunDrive& drive) {
 RunDrive read_drive_of(const fs::path& folder, const PlayedCell& played, const CsvFile& moments,
                        const std::map<std::string, std::string>& hashes) {
     RunDrive drive;
-    static_cast<PlayedResult&>(drive) = played_result(played, moments, "");
+    static_cast<PlayedResult&>(drive) = played_result(played, moments, "", decides_by_default());
     drive.folder = folder;
     drive.technique = played.technique;
     drive.hashes = hashes;
