@@ -5,6 +5,7 @@
 #include "runner/files/output_folder.h"
 #include "runner/play/capture.h"
 #include "scenarios/drives/keys/drive_keys.h"
+#include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
