@@ -117,13 +117,18 @@ void read_buffers(GltfFile& file) {
     for (const GltfEntry& buffer : file.root().list("buffers")) {
         const std::size_t length = buffer.require("byteLength").whole(std::size_t{1} << 31);
         const auto uri = buffer.find("uri");
-        if (!uri && index > 0)
+        const auto stand_in = buffer.extension("EXT_meshopt_compression");
+        ++index;
+        if (!uri && stand_in && stand_in->flag_or("fallback", false)) { // what its views hold is compressed elsewhere
+            file.buffers.emplace_back();
+            continue;
+        }
+        if (!uri && index > 1)
             buffer.refuse("has no uri", "one: only the first buffer can be the .glb's own");
         std::string bytes = uri ? file.at_uri(*uri) : std::move(file.binary);
         if (bytes.size() < length)
             buffer.refuse(fmt::format("{} bytes where byteLength says {}", bytes.size(), length), "all of them");
         file.buffers.push_back(std::move(bytes));
-        ++index;
     }
 }
 
