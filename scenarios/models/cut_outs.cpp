@@ -11,7 +11,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t max_pieces = 500'000, max_tables = 512;
+constexpr std::size_t max_pieces = 200'000, max_tables = 512;
 constexpr double finest_m = 0.02;
 constexpr int deepest = 6;
 constexpr double farthest_texel = 1e8;

@@ -3,6 +3,7 @@
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -117,9 +118,12 @@ void read_buffers(GltfFile& file) {
     for (const GltfEntry& buffer : file.root().list("buffers")) {
         const std::size_t length = buffer.require("byteLength").whole(std::size_t{1} << 31);
         const auto uri = buffer.find("uri");
-        const auto stand_in = buffer.extension("EXT_meshopt_compression");
         ++index;
-        if (!uri && stand_in && stand_in->flag_or("fallback", false)) { // what its views hold is compressed elsewhere
+        const bool stands_in = std::ranges::any_of(std::array{"EXT_meshopt_compression", "KHR_meshopt_compression"}, [&](const char* name) {
+            const auto extension = buffer.extension(name);
+            return extension && extension->flag_or("fallback", false);
+        });
+        if (!uri && stands_in) { // what its views hold is compressed elsewhere
             file.buffers.emplace_back();
             continue;
         }

@@ -14,6 +14,8 @@
 namespace fernlicht {
 namespace {
 
+using Json = nlohmann::json;
+
 constexpr std::size_t max_pictures = 256, max_picture_pixels = std::size_t{4096} * 4096, max_pixels = 16 * max_picture_pixels;
 
 float share(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
@@ -237,13 +239,13 @@ const std::map<std::size_t, const char*>& GltfMaterials::data_pictures() {
         data_pictures_.emplace();
         const GltfEntry root = file_.root();
         const auto take = [&](const GltfEntry& of, const char* key, const char* what) {
-            const auto info = of.find(key);
-            if (!info)
+            const Json::json_pointer way(std::string("/") + key + "/index"); // of pictures that are left out nothing is refused
+            if (!of.value().contains(way) || !of.value()[way].is_number_unsigned())
                 return;
-            const std::size_t textures = root.list_size("textures");
-            const GltfEntry texture = root.at("textures", info->require("index").index(textures, "textures"));
-            if (const auto source = texture.find("source"))
-                data_pictures_->emplace(source->index(root.list_size("images"), "images"), what);
+            const auto index = of.value()[way].get<std::size_t>();
+            const auto source = index < root.list_size("textures") ? root.at("textures", index).find("source") : std::nullopt;
+            if (source && source->value().is_number_unsigned())
+                data_pictures_->emplace(source->value().get<std::size_t>(), what);
         };
         for (const GltfEntry& material : root.list("materials")) {
             take(material, "normalTexture", "directions of a surface");
