@@ -17,7 +17,7 @@ struct ModelRequest {
     double distance_m = 25.0;      ///< from the lamps to the model's nearest point, >= 1
     double yaw_deg = 0.0;          ///< of the model: 0 drives away from us, 180 comes towards us
     double scale = 1.0;
-    std::string lamp = "halogen-low"; ///< one of our lamp models, on both sides
+    std::string lamp = "halogen-low"; ///< two_lamps.h
     std::string technique = "photometric", backend = "auto";
     int width_px = 960, height_px = 540;
     bool json = false, force = false;

@@ -17,8 +17,6 @@ constexpr double darkest = 0.02;
 constexpr double brightest_cdm2 = 1000.0;
 constexpr std::size_t named_at_most = 6;
 
-double luminance(const glm::dvec3& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
-
 glm::dvec3 mean_texel(const SurfaceTexture& texture) {
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i + 3 < texture.rgba.size(); i += 4)
@@ -28,9 +26,11 @@ glm::dvec3 mean_texel(const SurfaceTexture& texture) {
 
 } // namespace
 
+double luminance_of(const glm::dvec3& rgb) { return 0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b; }
+
 double mean_reflectance(const Model& model, const Material& material) {
     const glm::dvec3 own(material.albedo);
-    return luminance(material.texture < 0 ? own : own * mean_texel(model.textures[static_cast<std::size_t>(material.texture)]));
+    return luminance_of(material.texture < 0 ? own : own * mean_texel(model.textures[static_cast<std::size_t>(material.texture)]));
 }
 
 double returned_share(const Material& m) {
@@ -42,7 +42,7 @@ void add_doubts(Model& model) {
     for (std::uint32_t i = 0; i < model.materials.size(); ++i) {
         const Material& m = model.materials[i];
         const auto doubt = [&](std::string text) { model.doubts.push_back({i, std::move(text)}); };
-        const double diffuse = mean_reflectance(model, m), returned = returned_share(m), emitted = luminance(glm::dvec3(m.emission_cdm2));
+        const double diffuse = mean_reflectance(model, m), returned = returned_share(m), emitted = luminance_of(glm::dvec3(m.emission_cdm2));
         if (diffuse > lightest)
             doubt(fmt::format("reflects {:.2f}: white paint has 0.85", diffuse));
         else if (diffuse + returned > 1.0)

@@ -5,6 +5,9 @@
 
 namespace fernlicht {
 
+/// Y of linear sRGB.
+double luminance_of(const glm::dvec3& rgb);
+
 /// Mean luminance reflectance of the material under white light, 0..1, with its picture.
 double mean_reflectance(const Model& model, const Material& material);
 
