@@ -19,17 +19,16 @@ enum ExitCode { within_limits = 0, limits_exceeded = 1, users_input = 2, device 
 
 /// As --help lists them.
 fernlicht::AddCommand* const commands[] = {
-    fernlicht::add_run_command,       fernlicht::add_live_command,         fernlicht::add_film_command,
-    fernlicht::add_study_command,     fernlicht::add_bench_command,        fernlicht::add_compare_command,
-    fernlicht::add_fit_command,       fernlicht::add_importance_command,   fernlicht::add_masks_command,
-    fernlicht::add_rate_command,      fernlicht::add_installation_command, fernlicht::add_improve_command,
-    fernlicht::add_accuracy_command,  fernlicht::add_aliasing_command,     fernlicht::add_shadows_command,
-    fernlicht::add_reference_command, fernlicht::add_list_commands,        fernlicht::add_can_command,
-    fernlicht::add_lamp_command,      fernlicht::add_model_command,        fernlicht::add_town_command,
-    fernlicht::add_import_command,    fernlicht::add_storyboard_command,   fernlicht::add_doctor_command,
-    fernlicht::add_stability_command, fernlicht::add_accept_command,       fernlicht::add_baselines_command,
-    fernlicht::add_store_command,     fernlicht::add_history_command,      fernlicht::add_migrate_command,
-    fernlicht::add_manual_commands};
+    fernlicht::add_run_command,        fernlicht::add_live_command,         fernlicht::add_film_command,
+    fernlicht::add_study_command,      fernlicht::add_bench_command,        fernlicht::add_compare_command,
+    fernlicht::add_fit_command,        fernlicht::add_importance_command,   fernlicht::add_masks_command,
+    fernlicht::add_rate_command,       fernlicht::add_installation_command, fernlicht::add_improve_command,
+    fernlicht::add_accuracy_command,   fernlicht::add_aliasing_command,     fernlicht::add_shadows_command,
+    fernlicht::add_reference_command,  fernlicht::add_list_commands,        fernlicht::add_can_command,
+    fernlicht::add_lamp_command,       fernlicht::add_model_command,        fernlicht::add_import_command,
+    fernlicht::add_storyboard_command, fernlicht::add_doctor_command,       fernlicht::add_stability_command,
+    fernlicht::add_accept_command,     fernlicht::add_baselines_command,    fernlicht::add_store_command,
+    fernlicht::add_history_command,    fernlicht::add_migrate_command,      fernlicht::add_manual_commands};
 
 int complain(ExitCode code, const std::exception& error) {
     fernlicht::tell_end(error, code);

@@ -38,7 +38,6 @@ AddCommand add_list_commands;        // list the ways to light a scene, what is 
 AddCommand add_can_command;          // small tools for logs and frames of a CAN bus (runner/commands/can)
 AddCommand add_lamp_command;         // what a lamp file holds; scaled, mirrored, summed, converted, held against a regulation
 AddCommand add_model_command;        // what a model file holds, as text, JSON or picture
-AddCommand add_town_command;         // a model of streets at night, from a car in it
 AddCommand add_import_command;       // old databases once into a format that is read everywhere
 AddCommand add_storyboard_command;   // plays OpenSCENARIO files without drawing
 AddCommand add_doctor_command;       // what this machine can draw with

@@ -237,6 +237,7 @@ void add_model_command(CLI::App& app, const std::vector<std::string>&, std::func
     command->add_flag("--json", request->json, "print JSON");
     command->add_flag("--force", request->force, "let --picture and --write replace an existing file");
     command->callback([request, &chosen] { chosen = [request] { return model_command(*request); }; });
+    add_town_command(app, chosen);
 }
 
 } // namespace fernlicht

@@ -4,8 +4,13 @@
 #include "scenarios/models/model.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace fernlicht {
 
@@ -31,6 +36,9 @@ std::string model_json(const Model& model, double scale);
 
 /// All that the request asks for; text or JSON goes to standard output. Returns 0. Throws InputError, DeviceError.
 int model_command(const ModelRequest& request);
+
+/// Adds `fernlicht town`, as add_model_command() does for `fernlicht model`, which calls it.
+void add_town_command(CLI::App& app, std::function<int()>& chosen);
 
 struct ImportRequest {
     std::filesystem::path file, out;

@@ -1,5 +1,5 @@
-#include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/model_command.h"
 #include "runner/experiments/town/town.h"
 #include "runner/files/picture_file.h"
 #include "runner/findings/lux_figure.h"
@@ -61,7 +61,7 @@ int tell_town(const TownFlags& flags) {
 
 } // namespace
 
-void add_town_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
+void add_town_command(CLI::App& app, std::function<int()>& chosen) {
     const auto flags = std::make_shared<TownFlags>();
     CLI::App* sub = app.add_subcommand("town", "a car with two lamps at night in a model of streets, which needs no road");
     sub->add_option("MODEL", flags->model, "glTF: .gltf or .glb")->required();

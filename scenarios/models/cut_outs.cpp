@@ -43,7 +43,7 @@ class Opacity {
         sums[static_cast<std::size_t>((y + 1) * (width_ + 1) + x + 1)] = value + at(sums, x, y + 1) + at(sums, x + 1, y) - at(sums, x, y);
     }
     /// From the corner of the picture to a corner of any of its repetitions.
-    double upto(const Sums& sums, long x, long y) const {
+    double sum_to(const Sums& sums, long x, long y) const {
         const auto floor = [](long a, long b) { return a / b - (a % b < 0 ? 1 : 0); };
         const long across = floor(x, width_), up = floor(y, height_), rx = x - across * width_, ry = y - up * height_;
         const auto columns = static_cast<double>(across), rows = static_cast<double>(up);
@@ -54,7 +54,7 @@ class Opacity {
     double share(const Sums& sums, const glm::dvec2& low, const glm::dvec2& high) const {
         const long x0 = std::lround(std::floor(low.x)), y0 = std::lround(std::floor(low.y));
         const long x1 = std::max(std::lround(std::ceil(high.x)), x0 + 1), y1 = std::max(std::lround(std::ceil(high.y)), y0 + 1);
-        return (upto(sums, x1, y1) - upto(sums, x0, y1) - upto(sums, x1, y0) + upto(sums, x0, y0)) /
+        return (sum_to(sums, x1, y1) - sum_to(sums, x0, y1) - sum_to(sums, x1, y0) + sum_to(sums, x0, y0)) /
                (static_cast<double>(x1 - x0) * static_cast<double>(y1 - y0));
     }
 

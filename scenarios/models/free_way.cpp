@@ -13,10 +13,10 @@ namespace fernlicht {
 namespace {
 
 constexpr double least_cell_m = 0.5, largest_scene_m = 4000.0, most_cells = 2000.0;
-constexpr double faces_up = 0.7, low_m = 0.3, high_m = 2.2, step_m = 1.0, kerb_m = 0.25, half_width_m = 1.25, farthest_m = 200.0;
+constexpr double faces_up = 0.7, low_m = 0.3, high_m = 2.2, kerb_m = 0.2, half_width_m = 1.25, farthest_m = 200.0;
 constexpr double behind_m = 1.0, wheelbase_m = 2.7;
 constexpr int headings = 24;
-constexpr std::size_t most_places = 20'000;
+constexpr std::size_t most_places = 8'000;
 
 /// visit(corners, material) of each triangle of meshes that stand in the world.
 template <class Visit> void each_triangle(const Scene& scene, Visit visit) {
@@ -140,13 +140,13 @@ bool SceneGround::is_free(double x_m, double y_m) const {
 double SceneGround::free_way_m(double x_m, double y_m, double yaw_rad) const {
     const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
     std::optional<double> before;
-    for (double ahead = -behind_m; ahead <= farthest_m; ahead += step_m) {
-        for (const double left : {-half_width_m, 0.0, half_width_m})
+    for (double ahead = -behind_m; ahead <= farthest_m; ahead += cell_m_) {
+        for (double left = -half_width_m; left <= half_width_m; left += cell_m_)
             if (!is_free(x_m + ahead * c - left * s, y_m + ahead * s + left * c))
-                return std::max(ahead - step_m, 0.0);
+                return std::max(ahead - cell_m_, 0.0);
         const std::optional<double> here = height_m(x_m + ahead * c, y_m + ahead * s);
         if (before && std::abs(*here - *before) > kerb_m)
-            return std::max(ahead - step_m, 0.0);
+            return std::max(ahead - cell_m_, 0.0);
         before = here;
     }
     return farthest_m;

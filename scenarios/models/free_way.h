@@ -19,7 +19,7 @@ class SceneGround {
     bool is_free(double x_m, double y_m) const;
 
     /// Where a car whose rear axle stands there, looking along `yaw_rad`, comes before something 2.5 m wide meets what stands on the
-    /// ground, its edge or a step of a quarter of a metre; 0 to 200 m.
+    /// ground, its edge or a step of 0.2 m; 0 to 200 m.
     double free_way_m(double x_m, double y_m, double yaw_rad) const;
     /// The rear axle on the ground, wheels 2.7 m apart: its height and pitch. nullopt without ground.
     std::optional<Pose> car_at(double x_m, double y_m, double yaw_rad) const;
