@@ -11,7 +11,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t max_pieces = 200'000, max_tables = 512;
+constexpr std::size_t max_pieces = 500'000, max_tables = 512;
 constexpr double finest_m = 0.02;
 constexpr int deepest = 6;
 constexpr double farthest_texel = 1e8;
@@ -123,10 +123,10 @@ class Cutting {
     std::vector<Corners>& kept_;
 };
 
-/// So deep that all together stay below so many pieces, where each triangle falls into half as many as it can.
+/// So deep that all together stay below so many pieces, where each part becomes two.
 int depth_of(std::size_t triangles, std::size_t pieces) {
     int depth = 0;
-    for (std::size_t all = 2 * triangles; depth < deepest && all <= pieces; all *= 4)
+    for (std::size_t all = 8 * triangles; depth < deepest && all <= pieces; all *= 4)
         ++depth;
     return depth;
 }

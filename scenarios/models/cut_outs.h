@@ -15,7 +15,7 @@ class CutOuts {
     };
     void add(const Cut& cut) { cuts_.push_back(cut); }
 
-    /// Cuts them, into pieces down to 2 cm or a texel; all of them into some two hundred thousand more at most. Whether anything was cut
+    /// Cuts them, into pieces down to 2 cm or a texel; all of them into half a million more at most. Whether anything was cut
     /// away.
     bool apply(TriangleSoup& soup, const std::vector<SurfaceTexture>& textures);
 
