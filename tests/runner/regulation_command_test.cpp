@@ -107,8 +107,8 @@ TEST(RegulationCommand, TwoFilesAreHalfTheirSumWhereTheTableSaysSo) {
     const std::string table = "--regulation r123-c --aim as-is --json";
     const json one = rows(lamp("halogen-low") + table);
     const std::string halogen = "'" + library_file("lamps/halogen-low.ies") + "' ";
-    const json same = rows("lamp --add " + halogen + halogen + table);
-    const json both = rows(lamp("halogen-low") + "--add '" + library_file("lamps/xenon-low.ies") + "' " + table);
+    const json same = rows("lamp --other-side " + halogen + halogen + table);
+    const json both = rows(lamp("halogen-low") + "--other-side '" + library_file("lamps/xenon-low.ies") + "' " + table);
     const json other = rows(lamp("xenon-low") + table);
     const auto found = [](const json& all, const std::string& id) {
         for (const json& row : all)

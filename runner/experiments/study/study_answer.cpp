@@ -244,12 +244,12 @@ std::optional<double> gain_among(const StudyResult& result, const std::vector<st
 
 std::optional<plots::DotPlot> ranking_of(const StudyResult& result, const Decision& decision) {
     const StudyComparison& pair = result.study.comparisons[decision.comparison];
-    plots::DotPlot dots{.title =
-                            fmt::format("What decides, ranked: {} against {}", short_text(pair.tested, 24), short_text(pair.against, 24)),
-                        .subtitle = "dot: median change; line: ± calculation, noise and 0.1° of aim; ticks: routes; hollow: within",
-                        .left = "worse",
-                        .right = "better",
-                        .unit = "%"};
+    plots::DotPlot dots{
+        .title = fmt::format("What decides, ranked: {} against {}", short_text(pair.tested, 24), short_text(pair.against, 24)),
+        .subtitle = "dot: median change; line: ± calculation, noise and 0.1° of aim; ticks: routes; hollow: change within the line",
+        .left = "worse",
+        .right = "better",
+        .unit = "%"};
     for (const DecidedReading& decided : decision.readings) {
         const Change& change = result.changes[decided.told];
         const double better = better_is(decided.reading);

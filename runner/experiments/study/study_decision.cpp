@@ -212,7 +212,8 @@ std::vector<std::string> decision_parts(const StudyResult& result, const Decisio
     if (all)
         parts.push_back(undecided(result, decision));
     if (const std::size_t within = all ? decision.count(DecisionOutcome::within_aim) : 0)
-        parts.push_back(fmt::format("{} changed by less than 0.1° of aim would do: {}", counted(within, "reading"), within_aim(decision)));
+        parts.push_back(
+            fmt::format("{} changed by no more than 0.1° of aim accounts for: {}", counted(within, "reading"), within_aim(decision)));
     if (const std::size_t same = all ? decision.count(DecisionOutcome::same) : 0)
         parts.push_back(fmt::format("{} without a difference", counted(same, "reading")));
     if (decision.aim_alone)

@@ -97,8 +97,9 @@ TEST(Decision, TheSentenceNamesWhereMostChangedAndWhatIsWithinAim) {
     study.on(0, glare, 1.0, 1.1, 0.12).on(0, neutral, 2.0, 2.1, 0.2);
     const std::string sentence = decision_sentence(study.result, study.decided().front());
     EXPECT_THAT(sentence, HasSubstr("own lane +4.00 m (+6.7 %), most on drive-1."));
-    EXPECT_THAT(sentence, HasSubstr("2 readings changed by less than 0.1° of aim would do: largest illuminance on the mirror left of a car "
-                                    "15 m ahead; foreground: mean light on the road from 5 to 15 m, own lane."));
+    EXPECT_THAT(sentence,
+                HasSubstr("2 readings changed by no more than 0.1° of aim accounts for: largest illuminance on the mirror left of a car "
+                          "15 m ahead; foreground: mean light on the road from 5 to 15 m, own lane."));
 }
 
 TEST(Decision, WarningsOfTheAimStandOnTheFirstScreen) {
