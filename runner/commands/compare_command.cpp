@@ -155,7 +155,7 @@ int compare_two_lamps(const CompareFlags& flags, const std::vector<std::string>&
     return lamps.passed() ? 0 : 1;
 }
 
-/// What a path is, by what lies there. Beam textures are pictures, too: --lamps says that they are meant as lamps.
+/// What a path is, by what lies there. Beam textures are pictures, too: --as-lamps says that they are meant as lamps.
 ComparedKind kind_of(const std::filesystem::path& path, bool lamps) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored))
@@ -177,7 +177,7 @@ void refuse_foreign_flags(const CompareFlags& flags, ComparedKind kind) {
         refuse(!flags.regulation.empty(), "--regulation", "two lamps");
         refuse(!flags.noise.empty(), "--noise", "two lamps");
         refuse(!flags.recipe.empty(), "--recipe", "two lamps");
-        refuse(flags.lamps, "--lamps", "two lamps");
+        refuse(flags.lamps, "--as-lamps", "two lamps");
         return;
     }
     refuse(!flags.strictness.empty(), "--strictness", "two pictures or two runs");
@@ -189,8 +189,9 @@ int compare(const CompareFlags& flags, const std::vector<std::string>& command) 
     const ComparedKind first = kind_of(flags.reference, flags.lamps), second = kind_of(flags.tested, flags.lamps);
     if (first != second)
         throw InputError({flags.tested, 0, 0, {}}, fmt::format("is {}", name_of(second)),
-                         fmt::format("{} as A is", first == ComparedKind::lamps ? "a lamp file (--lamps takes pictures for beam textures)"
-                                                                                : name_of(first)));
+                         fmt::format("{} as A is", first == ComparedKind::lamps
+                                                       ? "a lamp file (--as-lamps takes pictures for beam textures)"
+                                                       : name_of(first)));
     refuse_foreign_flags(flags, first);
     if (first == ComparedKind::runs)
         return compare_two_runs(flags, command);
@@ -220,7 +221,7 @@ void add_compare_command(CLI::App& app, const std::vector<std::string>& command,
     add_shared(*sub, "--regulation", flags->regulation);
     add_shared(*sub, "--noise", flags->noise);
     add_recipe_flag(*sub, flags->recipe);
-    sub->add_flag("--lamps", flags->lamps, "read pictures as beam textures");
+    sub->add_flag("--as-lamps", flags->lamps, "read pictures as beam textures");
     add_shared(*sub, "--json", flags->json);
     sub->footer("FLIP sees by --ppd or --vertical-fov. With --regulation, which two lamps may have, exit code 1 where B does not pass.");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return compare(*flags, command); }; });

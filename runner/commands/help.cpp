@@ -3,6 +3,7 @@
 #include "runner/commands/manual.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sstream>
@@ -13,13 +14,20 @@ namespace {
 
 constexpr std::size_t text_column = 30, last_column = 110;
 
+/// "1000000" for "1e+06".
+std::string plain_number(const std::string& text) {
+    const double number = std::stod(text);
+    return number == std::floor(number) && std::abs(number) < 1e16 ? fmt::format("{:.0f}", number) : text;
+}
+
 /// Of a checked number: "1 to 1000"; else "".
 std::string range_of(const CLI::Option& option) {
     const std::string type = option.get_type_name();
     const std::size_t begin = type.find(" in ["), middle = type.find(" - ", begin), end = type.find(']', middle);
     if (begin == std::string::npos || middle == std::string::npos || end == std::string::npos)
         return "";
-    return fmt::format("{} to {}", type.substr(begin + 5, middle - begin - 5), type.substr(middle + 3, end - middle - 3));
+    return fmt::format("{} to {}", plain_number(type.substr(begin + 5, middle - begin - 5)),
+                       plain_number(type.substr(middle + 3, end - middle - 3)));
 }
 
 bool is_whole(const CLI::Option& option) { return option.get_type_name().starts_with("INT") || option.get_type_name().starts_with("UINT"); }

@@ -3,6 +3,7 @@
 #include "runner/commands/help.h"
 #include "runner/commands/manual.h"
 #include "runner/commands/old_flags.h"
+#include "runner/findings/figures.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -101,8 +102,7 @@ InputError in_our_words(const CLI::ParseError& error, const CLI::App& program, c
         return InputError({{}, 0, 0, key_of(*option)}, "found a value with it", "none");
     if (kind == "ArgumentMismatch")
         return InputError({{}, 0, 0, key_of(*option)},
-                          given.empty() ? "found nothing behind it" : fmt::format("found {} values", given.size()),
-                          expected_value(*option));
+                          given.empty() ? "found nothing behind it" : "found " + counted(given.size(), "value"), expected_value(*option));
     return InputError({{}, 0, 0, key_of(*option)}, fmt::format("found '{}'", printable(fmt::format("{}", fmt::join(given, " ")))),
                       expected_value(*option));
 }

@@ -6,6 +6,7 @@
 #include "tests/runner/program.h"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 namespace fernlicht {
 namespace {
@@ -72,6 +73,14 @@ TEST_F(HistoryCommand, FromTheFirstNightToTheCause) {
     EXPECT_THAT(printed("history explain 2026-01-02" + flag_), HasSubstr("Nothing changed"));
     EXPECT_THAT(printed("history trend 'reach_5lx*' --only straight_xenon" + flag_),
                 AllOf(HasSubstr("2026-01-01  2026-01-02"), HasSubstr("inputs: lamp xenon-low.ies")));
+    const nlohmann::json nights = nlohmann::json::parse(printed("history show --json" + flag_)),
+                         third = nlohmann::json::parse(printed("history show 3 --json" + flag_)),
+                         explained = nlohmann::json::parse(printed("history explain --json" + flag_));
+    EXPECT_EQ(nights.at(0).at("note"), "as bought");
+    EXPECT_EQ(nights.at(2).at("readings"), 24);
+    EXPECT_EQ(third.at("cells").size(), 6U);
+    EXPECT_EQ(third.at("cells").at(0).at("readings").size(), 4U);
+    EXPECT_THAT(explained.dump(), HasSubstr("xenon-low.ies"));
     EXPECT_EQ(run_program("history explain --fail-on-change" + flag_).exit_code, 1);
     printed("history accept last" + flag_);
     EXPECT_THAT(printed("history explain" + flag_), AllOf(HasSubstr("1 change since"), HasSubstr("This night is accepted itself")));

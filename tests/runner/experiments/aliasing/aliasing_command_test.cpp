@@ -248,7 +248,7 @@ TEST(AliasingCommand, RefusesFramesThatAreNoSequence) {
                         {ours + rate + " --frames 1000:1020", "has no frame 1009"},
                         {ours + rate + " --supersampled " + (folder / "png"), "expected 4, 6, 8 ... or 16 times"},
                         {ours + rate + " " + library_file("drives/straight.yaml"), "DRIVE: found --sequence too"},
-                        {ours + rate + " --samples 4", "--sequence excludes --samples"},
+                        {ours + rate + " --samples 4", "--sequence: found beside --samples, expected one of them"},
                         {"--quiet", "DRIVE: is missing"}});
 }
 

@@ -182,7 +182,7 @@ TEST(ShadowsCommand, RefusesWhatIsNotThere) {
 TEST(ShadowsCommand, WritesWhatThereIsWhenInterrupted) {
     const TemporaryFolder folder;
     const Outcome run = run_interrupted("shadows --rounds 100000 --lamp-radius 0 --resolution 96x72 --scene-lamp " +
-                                            library_file("lamps/xenon-low.ies") + " --scenes 'post-*' --out " + (folder / "out"),
+                                            library_file("lamps/xenon-low.ies") + " --scenes 'post-*' --log-json --out " + (folder / "out"),
                                         "steps");
     EXPECT_EQ(run.exit_code, 1) << run.output;
     EXPECT_THAT(run.output, HasSubstr("incomplete: interrupted by the user"));
