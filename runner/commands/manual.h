@@ -15,7 +15,6 @@ namespace fernlicht {
 std::vector<const CLI::App*> commands_below(const CLI::App& command);
 /// Its words from the program down: "fernlicht can record".
 std::string full_name(const CLI::App& command);
-bool takes_value(const CLI::Option& flag);
 /// The words that it takes, where they are listed ("as-is|auto"); else none.
 std::vector<std::string> choices_of(const CLI::Option& option);
 

@@ -5,6 +5,7 @@
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/town/two_lamps.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/files/json_text.h"
 #include "runner/files/picture_file.h"
 #include "scenarios/models/material_doubts.h"
@@ -203,8 +204,10 @@ std::string model_json(const Model& model, double scale) {
 }
 
 int model_command(const ModelRequest& request) {
-    refuse_existing("--picture", request.picture, request.force);
-    refuse_existing("--write", request.write, request.force);
+    check_target("--picture", request.picture, request.force);
+    check_target("--write", request.write, request.force);
+    if ((request.picture == "-") + (request.write == "-") + request.json > 1 && (request.picture == "-" || request.write == "-"))
+        throw InputError({{}, 0, 0, request.write == "-" ? "--write" : "--picture"}, "found standard output twice", "one thing to print");
     if (!request.write.empty() && !request.file.empty())
         throw InputError({{}, 0, 0, "--write"}, "found it beside a file", "--body KIND");
     const Model model = model_of(request);
@@ -212,30 +215,38 @@ int model_command(const ModelRequest& request) {
         write_file(request.write, glb_of(model));
     if (!request.picture.empty())
         write_model_picture(model, request);
-    fmt::print("{}", request.json ? model_json(model, request.scale) : model_text(model, request.scale));
+    if (request.picture != "-" && request.write != "-")
+        fmt::print("{}", request.json ? model_json(model, request.scale) : model_text(model, request.scale));
     return 0;
 }
 
 void add_model_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto request = std::make_shared<ModelRequest>();
     CLI::App* command = app.add_subcommand("model", "describe a model; render it at night in our lamps");
-    command->add_option("FILE", request->file, "glTF: .gltf or .glb");
-    command->add_option("--body", request->body, "built-in body instead of a file: car, van, truck, bus, motorcycle, bicycle, pedestrian");
-    command->add_option("--picture", request->picture, "write a PNG of the model on a level road, lit by two lamps, seen by the driver");
-    command->add_option("--write", request->write, "write the body as a .glb");
+    command->add_option("FILE", request->file, "glTF (.gltf, .glb), or - for a .glb on standard input");
+    command
+        ->add_option("--body", request->body, "built-in body in place of a file: car, van, truck, bus, motorcycle, bicycle or pedestrian")
+        ->option_text("NAME");
+    add_shared(*command, "--picture", request->picture);
+    command->add_option("--write", request->write, "new file for the body, NAME.glb, or - for standard output")->option_text("FILE");
     command->add_option("--distance", request->distance_m, "metres from the lamps to the model")
+        ->option_text("M")
         ->check(CLI::Range(1.0, 300.0))
         ->capture_default_str();
     command->add_option("--yaw", request->yaw_deg, "turn the model left, in degrees: 0 drives away, 180 comes towards you")
+        ->option_text("DEG")
         ->check(CLI::Range(-360.0, 360.0))
         ->capture_default_str();
-    command->add_option("--scale", request->scale, "metres per unit of the file")->check(CLI::Range(1.0e-4, 1.0e4))->capture_default_str();
-    command->add_option("--lamp", request->lamp, "a lamp's file for both sides, or halogen-low, halogen-high, xenon-low, xenon-high")
+    command->add_option("--metres-per-unit", request->scale, "size of the file's unit")
+        ->option_text("M")
+        ->check(CLI::Range(1.0e-4, 1.0e4))
         ->capture_default_str();
-    command->add_option("--technique", request->technique, "technique to light it with")->capture_default_str();
-    command->add_option("--backend", request->backend, backend_names)->capture_default_str();
-    command->add_flag("--json", request->json, "print JSON");
-    command->add_flag("--force", request->force, "let --picture and --write replace an existing file");
+    add_shared(*command, "--low-beams", request->lamp)->capture_default_str();
+    add_shared(*command, "--technique", request->technique)->capture_default_str();
+    add_shared(*command, "--backend", request->backend)->capture_default_str();
+    add_shared(*command, "--json", request->json);
+    add_shared(*command, "--force", request->force);
+    command->footer("The picture is a PNG: the model on a level road, lit by two lamps, seen by the driver.");
     command->callback([request, &chosen] { chosen = [request] { return model_command(*request); }; });
     add_town_command(app, chosen);
 }

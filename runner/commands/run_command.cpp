@@ -4,6 +4,7 @@
 #include "renderer/technique.h"
 #include "runner/commands/flag_values.h"
 #include "runner/commands/run_files.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/run/run_drives.h"
 #include "runner/files/log.h"
 #include "runner/files/trace_file.h"
@@ -95,8 +96,6 @@ void print_verdicts(const Report& report, const std::vector<Drive>& drives) {
         fmt::print("{}", verdict_line(verdict, "known failures: "));
         annotate_red(verdict, "known failures: ", {});
     }
-    for (const std::string& warning : report.warnings)
-        fmt::print("warning: {}\n", warning);
     const VerdictCounts counts = count_verdicts(report);
     if (counts.all() == 0)
         return;
@@ -131,9 +130,11 @@ int run(const RunFlags& flags, const std::vector<std::string>& command) {
     TraceFile trace(flags.trace, "fernlicht run " + drives.front().name, options.folder);
     const Report report = run_drives(drives, options);
     const VerdictKind verdict = overall(report);
+    for (const std::string& warning : report.warnings)
+        tell(LogLevel::warning, warning);
     print_verdicts(report, drives);
     if (!report.complete) {
-        fmt::print("incomplete: {}\n", report.interrupted);
+        tell(LogLevel::warning, "incomplete: " + report.interrupted);
         annotate({}, "incomplete", report.interrupted);
     }
     fmt::print("{}\n", (options.folder / "report.html").string());
@@ -146,46 +147,37 @@ int run(const RunFlags& flags, const std::vector<std::string>& command) {
 void add_run_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<RunFlags>();
     CLI::App* sub = app.add_subcommand("run", "play drives, measure, and write a report");
-    sub->add_option("DRIVE", flags->drives,
-                    "drive files (YAML), names of ours such as first-light, or storyboards (OpenSCENARIO, .xosc): played with halogen low "
-                    "beams on all cars")
-        ->required();
-    sub->add_option("--lamp", flags->lamps,
-                    "[SIDE=]FILE: use this lamp file for all low beams, or for the lamps whose name contains SIDE (left, right, high)")
-        ->allow_extra_args(false);
+    add_shared(*sub, "DRIVES", flags->drives)->required();
+    add_shared(*sub, "--lamp", flags->lamps);
     add_recipe_flag(*sub, flags->recipe);
-    sub->add_option("--aim", flags->aim,
-                    "in place of the drive's aim of low and high beams: as-is, or auto, which turns each until its cut-off lies 1 % down")
-        ->option_text("as-is|auto");
-    sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's");
-    sub->add_option("--road-folder", flags->road_folders, "also look here for the road of a drive's storyboard")->allow_extra_args(false);
-    sub->add_flag("--lenient", flags->lenient, "skip what is unsupported in a storyboard, with a note for each");
-    sub->add_option("--ego", flags->ego, "the storyboard's entity that is the own car");
-    sub->add_option("--replay", flags->replay, "drive-log-DRIVE.csv of a run: replay its poses and lamps");
-    sub->add_option("--can-log", flags->can_log,
-                    "candump log with the signals of the drive's `can`; none: use the drive's own speed and signals");
-    sub->add_option("--can-start", flags->can_start, "timestamp in the log, in s, that is the drive's 0 s (default: its first frame's)");
-    sub->add_option("--can-channel", flags->can_channel, "use only frames of this channel");
-    sub->add_option("--technique", flags->technique, "technique to light the scene with; `fernlicht techniques` lists them");
-    sub->add_option_function<std::string>(
-        "--shadows", [flags](const std::string& method) { flags->shadows = method; }, // a function: it hears of an empty text, too
-        "shadow method; `fernlicht techniques` lists them");
-    sub->add_option("--dressing", flags->dressing, "how what stands beside the road looks: none, plain or dressed");
-    sub->add_option("--backend", flags->options.backend, backend_names);
+    add_shared(*sub, "--aim", flags->aim);
+    add_shared(*sub, "--road", flags->road);
+    add_shared(*sub, "--road-folder", flags->road_folders);
+    add_shared(*sub, "--lenient", flags->lenient);
+    sub->add_option("--ego", flags->ego, "entity of the storyboard that is the own car")->option_text("NAME");
+    sub->add_option("--replay", flags->replay, "drive-log-DRIVE.csv of a run: take its poses and lamps again")->option_text("FILE");
+    add_shared(*sub, "--can-log", flags->can_log);
+    add_shared(*sub, "--can-start", flags->can_start)->default_str("that of the log's first frame");
+    sub->add_option("--can-channel", flags->can_channel, "take frames of this channel alone")->option_text("NAME");
+    add_shared(*sub, "--technique", flags->technique);
+    add_shared_taken(*sub, "--shadows", [flags](const std::string& method) { flags->shadows = method; }); // hears of an empty text, too
+    sub->add_option("--dressing", flags->dressing, "how what stands beside the road looks")->option_text("none|plain|dressed");
+    add_shared(*sub, "--backend", flags->options.backend);
     add_light_pass_flag(*sub, flags->options.light_pass);
-    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
-    sub->add_option("--frames", flags->frames, "FIRST:LAST: play these moments only, counted from 0");
-    sub->add_option("--capture", flags->capture, "all: store every moment");
+    add_shared(*sub, "--resolution", flags->resolution);
+    add_shared(*sub, "--frames", flags->frames);
+    sub->add_option("--capture", flags->capture, "store every moment")->option_text("all");
     add_judging_flags(*sub, flags->judging);
-    sub->add_flag("--strict", flags->options.strict, strict_text);
-    sub->add_option("--out", flags->out, "new or empty folder for the report");
+    add_shared(*sub, "--strict", flags->options.strict);
+    add_shared(*sub, "--out", flags->out);
     add_tables_flag(*sub, flags->tables);
-    add_trace_flag(*sub, flags->trace);
-    sub->add_flag("--profile", flags->options.profile, "time each pass (slows rendering)");
+    add_shared(*sub, "--trace", flags->trace);
+    sub->add_flag("--profile", flags->options.profile, "time each pass, which slows rendering");
     sub->add_flag("--contact-sheet", flags->options.contact_sheet,
                   "add a sheet of one moment in every technique, tone mapper and shadow method");
-    sub->add_flag("--no-accuracy", flags->no_accuracy, "do not compare moments with the reference");
-    sub->add_flag("--quiet", flags->options.quiet, "show no progress");
+    add_shared(*sub, "--no-accuracy", flags->no_accuracy);
+    add_shared(*sub, "--quiet", flags->options.quiet);
+    sub->footer("All cars of a storyboard have halogen low beams. `--can-log none` plays a drive by its own script.");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return run(*flags, command); }; });
 }
 

@@ -3,6 +3,7 @@
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
 #include "runner/commands/run_files.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/history/history_document.h"
 #include "runner/experiments/history/night_of_study.h"
 #include "runner/experiments/history/tell_apart_by_playing.h"
@@ -217,7 +218,9 @@ void annotate_study(const StudyResult& result) {
 
 int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     refuse_contradictions(flags);
-    const Study study = read_study(named_file("study", flags.file, "FILE"));
+    if (flags.file == "-")
+        refuse_flag("STUDY", "-", "a file: processes of their own read it to play its cells");
+    const Study study = read_study(named_file("study", flags.file, "STUDY"));
     if (flags.list) {
         refuse_unaimable(study);
         refuse_unknown_readings(study);
@@ -310,45 +313,54 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
 void add_study_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<StudyFlags>();
     CLI::App* sub = app.add_subcommand("study", "play lamps x drives x techniques x conditions, and report what differs beyond noise");
-    sub->add_option("FILE", flags->file, "study file (YAML), or the name of one of ours such as standard")->required();
-    sub->add_option("--out", flags->out, "new or empty folder for the report");
-    sub->add_flag("--resume", flags->resume,
-                  "continue in the --out folder of this study: keep finished cells, play the others, write the report again");
-    sub->add_option("--backend", flags->backend, backend_names);
-    sub->add_option("--frames", flags->frames, "FIRST:LAST: play these moments of each drive only, counted from 0");
+    add_shared(*sub, "STUDY", flags->file)->required();
+    add_shared(*sub, "--out", flags->out);
+    add_shared(*sub, "--resume", flags->resume);
+    add_shared(*sub, "--backend", flags->backend);
+    add_shared(*sub, "--frames", flags->frames);
     add_judging_flags(*sub, flags->judging);
-    sub->add_flag("--strict", flags->strict, strict_text);
-    sub->add_flag("--no-accuracy", flags->no_accuracy, "do not compare moments of each cell with the reference");
-    sub->add_option("--only", flags->only, "comma-separated names of cells, * and ? allowed: 'straight*,*xenon'")->allow_extra_args(false);
-    add_trace_flag(*sub, flags->trace);
+    add_shared(*sub, "--strict", flags->strict);
+    add_shared(*sub, "--no-accuracy", flags->no_accuracy);
+    add_shared(*sub, "--only", flags->only);
+    add_shared(*sub, "--trace", flags->trace);
     sub->add_option("--figures", flags->figures,
-                    "paper: figures at column width as PDF and SVG, captions, data and LaTeX tables in DIR/paper")
-        ->check(CLI::IsMember({"paper"}));
-    sub->add_flag("--list", flags->list, "list the cells and play none");
-    sub->add_option("--store", flags->store, "folder where played cells are kept (default: $XDG_CACHE_HOME/fernlicht/store)");
-    sub->add_option("--jobs", flags->jobs, "cells to play at a time (default: one per core; with a GPU at most 4)")
-        ->check(CLI::Range(1, 1024));
+                    "write figures at column width as PDF and SVG, captions, data and LaTeX tables into the folder paper, too")
+        ->check(CLI::IsMember({"paper"}))
+        ->option_text("paper");
+    add_shared(*sub, "--list", flags->list);
+    add_shared(*sub, "--store", flags->store);
+    sub->add_option("--jobs", flags->jobs, "cells to play at a time")
+        ->check(CLI::Range(1, 1024))
+        ->default_str("one per core; with a GPU at most 4");
     sub->add_flag("--timed", flags->timed, "play cells one after another by themselves and take times; take none from the store");
-    sub->add_option("--cell-minutes", flags->cell_minutes, "stop a cell that takes longer (default: the study's resources)")
-        ->check(CLI::Range(0.001, 1e5));
+    sub->add_option("--cell-minutes", flags->cell_minutes, "stop a cell that takes longer")
+        ->check(CLI::Range(0.001, 1e5))
+        ->default_str("the study's `resources`");
     sub->add_option("--cell-memory-mib", flags->cell_memory_mib, "memory that a cell may take; 0: no limit")->check(CLI::Range(0.0, 1e7));
-    sub->add_option("--cell-cores", flags->cell_cores, "cores for each cell (default: 1; all with --jobs 1)")->check(CLI::Range(1, 1024));
-    sub->add_option("--executor", flags->executor, "local, or slurm: play cells as job arrays of a cluster")
-        ->check(CLI::IsMember({"local", "slurm"}));
-    sub->add_option("--partition", flags->partition, "partition of the cluster to submit to");
-    sub->add_option("--gpus", flags->gpus, "of the cluster for each cell, as --gres has it: gpu:1");
-    sub->add_option("--history", flags->history,
-                    "lead with what changed since the last accepted night of this history, and add tonight to it");
-    sub->add_flag("--fail-on-change", flags->fails_on_change,
-                  "with --history: exit code 1 where anything changed since that night, or cannot be compared with it");
+    sub->add_option("--cell-cores", flags->cell_cores, "cores for each cell")
+        ->check(CLI::Range(1, 1024))
+        ->default_str("1; all with --jobs 1");
+    sub->add_option("--executor", flags->executor, "where to play: here, or as job arrays of a cluster")
+        ->check(CLI::IsMember({"local", "slurm"}))
+        ->capture_default_str();
+    sub->add_option("--partition", flags->partition, "partition of the cluster to submit to")->option_text("NAME");
+    sub->add_option("--gpus", flags->gpus, "GPUs of the cluster for each cell, as --gres has it: gpu:1")->option_text("GRES");
+    add_shared(*sub, "--history", flags->history);
+    add_shared(*sub, "--fail-on-change", flags->fails_on_change);
     sub->add_flag("--explain", flags->explain, "say why each cell must be played that the store lacks, and play none");
     sub->add_flag("--plan", flags->plan, "print a command for each cell that the store lacks, a line of JSON each, and play none");
-    sub->add_option("--per", flags->per, "cells for each command of --plan, and for each task of a cluster (default: 1)")
-        ->check(CLI::Range(1, 100'000));
+    sub->add_option("--per", flags->per, "cells for each command of --plan, and for each task of a cluster")
+        ->check(CLI::Range(1, 100'000))
+        ->capture_default_str();
     sub->add_flag("--play", flags->play, "play into the store what it lacks, in this process, and write no report");
-    sub->add_option("--expect", flags->expect, "with --play: CELL=KEY, a cell and the key that --plan gave it")->allow_extra_args(false);
+    sub->add_option("--expect", flags->expect, "with --play: a cell and the key that --plan gave it")
+        ->option_text("CELL=KEY")
+        ->allow_extra_args(false);
     sub->add_flag("--collect", flags->collect, "write the report of what lies in the store, and play none");
-    sub->add_flag("--quiet", flags->quiet, "show no progress");
+    add_shared(*sub, "--quiet", flags->quiet);
+    sub->footer(
+        "With --history the report leads with what changed since the last accepted night, and tonight is added. docs/studies.md tells "
+        "more.");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return study(*flags, command); }; });
 }
 

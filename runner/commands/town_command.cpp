@@ -1,5 +1,6 @@
 #include "runner/commands/flag_values.h"
 #include "runner/commands/model_command.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/town/town.h"
 #include "runner/files/picture_file.h"
 #include "runner/findings/lux_figure.h"
@@ -71,15 +72,15 @@ void add_town_command(CLI::App& app, std::function<int()>& chosen) {
         ->expected(2);
     sub->add_option("--heading", flags->heading_deg, "where the car looks, in degrees to the left of x; else along the longest free way")
         ->check(CLI::Range(-360.0, 360.0));
-    sub->add_option("--lamp", flags->request.lamp, "a lamp's file for both sides, or halogen-low, halogen-high, xenon-low, xenon-high")
-        ->capture_default_str();
+    add_shared(*sub, "--low-beams", flags->request.lamp)->capture_default_str();
     sub->add_option("--yaw", flags->yaw_deg, "turn the model left, in degrees")->check(CLI::Range(-360.0, 360.0))->capture_default_str();
-    sub->add_option("--scale", flags->request.scale, "metres per unit of the file")
+    sub->add_option("--metres-per-unit", flags->request.scale, "size of the file's unit")
+        ->option_text("M")
         ->check(CLI::Range(1.0e-4, 1.0e4))
         ->capture_default_str();
-    sub->add_option("--technique", flags->request.technique, "technique to light it with")->capture_default_str();
-    sub->add_option("--backend", flags->request.backend, backend_names)->capture_default_str();
-    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    add_shared(*sub, "--technique", flags->request.technique)->capture_default_str();
+    add_shared(*sub, "--backend", flags->request.backend)->capture_default_str();
+    add_shared(*sub, "--out", flags->out);
     sub->footer("docs/models.md tells more.");
     sub->callback([flags, &chosen] { chosen = [flags] { return tell_town(*flags); }; });
 }

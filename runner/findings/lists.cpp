@@ -73,6 +73,20 @@ Document readings_document() {
     return {"Readings", {{"", {std::move(all)}}}};
 }
 
+std::string readings_json() {
+    Json all = Json::array();
+    for (const QuantityRow& row : quantities())
+        all.push_back({{"names", forms_in_words(row)},
+                       {"unit", row.unit},
+                       {"better", row.better == Better::higher  ? Json("higher")
+                                  : row.better == Better::lower ? Json("lower")
+                                                                : Json(nullptr)},
+                       {"meaning", row.meaning},
+                       {"equation", row.equation},
+                       {"source", row.source}});
+    return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 Document signals_document() {
     Table all{
         .name = "signals", .caption = "", .columns = columns_of("signal`|unit<|least|greatest|written by<|from bus<|meaning<"), .rows = {}};

@@ -16,6 +16,7 @@ Document techniques_document(std::span<const Technique> rows, ShadowMethods shad
 std::string techniques_json(std::span<const Technique> rows, ShadowMethods shadows);
 /// The table of docs/readings.md.
 Document readings_document();
+std::string readings_json();
 Document signals_document();
 std::string signals_json();
 

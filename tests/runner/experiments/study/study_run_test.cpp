@@ -413,7 +413,7 @@ TEST_F(StudyProgram, AFinishedStudyIsReportedAgainFromItsCells) {
     const std::string page = content_of(folder / "out/report.html");
     EXPECT_THAT(page, HasSubstr("No limits were set"));
     EXPECT_THAT(page, HasSubstr("6 of 100 moments of each drive were asked for (--frames 0:5)"));
-    EXPECT_THAT(content_of(folder / "out/cells/straight_old/report.html"), HasSubstr("6 of 100 moments were to be played"));
+    EXPECT_THAT(content_of(folder / "out/cells/straight_old/report.html"), HasSubstr("6 of 100 moments, as --frames asks"));
     const std::string first = content_of(folder / "out/study.csv"),
                       cell = without_command(content_of(folder / "out/cells/straight_old/report.json"));
     const Outcome again = run_program("study " + (folder / "study.yaml") + quick + out + " --resume");
