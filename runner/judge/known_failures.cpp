@@ -2,7 +2,7 @@
 
 #include "scenarios/values/errors.h"
 #include "scenarios/values/glob.h"
-#include "scenarios/yaml/refusals.h"
+#include "scenarios/values/refusals.h"
 #include "scenarios/yaml/yaml_entry.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Display profiles in YAML.
 #include "scenarios/display/display_profile.h"
 
-#include "scenarios/yaml/refusals.h"
+#include "scenarios/values/refusals.h"
 #include "scenarios/yaml/yaml_entry.h"
 #include "scenarios/yaml/yaml_tree.h"
 

@@ -1,6 +1,6 @@
 #include "scenarios/fields/read_fields.h"
 
-#include "scenarios/yaml/refusals.h"
+#include "scenarios/values/refusals.h"
 
 #include <cmath>
 #include <cstring>

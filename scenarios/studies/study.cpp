@@ -7,7 +7,7 @@
 #include "scenarios/studies/axes_on_drive.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/glob.h"
-#include "scenarios/yaml/refusals.h"
+#include "scenarios/values/refusals.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
 #include "scenarios/values/library_folders.h"
+#include "scenarios/values/refusals.h"
 #include "scenarios/yaml/old_names.h"
-#include "scenarios/yaml/refusals.h"
 
 #include <algorithm>
 #include <charconv>

@@ -3,7 +3,7 @@
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
 #include "scenarios/values/pose.h"
-#include "scenarios/yaml/refusals.h"
+#include "scenarios/values/refusals.h"
 
 #include <cmath>
 #include <fmt/format.h>

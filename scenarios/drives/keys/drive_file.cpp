@@ -11,8 +11,8 @@
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/fields/write_fields.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/refusals.h"
 #include "scenarios/values/version.h"
-#include "scenarios/yaml/refusals.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "scenarios/drives/keys/lamp_keys.h"
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/values/errors.h"
-#include "scenarios/yaml/refusals.h"
+#include "scenarios/values/refusals.h"
 
 #include <algorithm>
 #include <fmt/format.h>

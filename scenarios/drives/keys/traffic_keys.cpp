@@ -3,7 +3,7 @@
 #include "scenarios/drives/keys/lamp_keys.h"
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/models/model.h"
-#include "scenarios/yaml/refusals.h"
+#include "scenarios/values/refusals.h"
 #include "scenarios/yaml/yaml_tree.h"
 
 #include <algorithm>

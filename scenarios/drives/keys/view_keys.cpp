@@ -4,7 +4,7 @@
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/field_bits.h"
 #include "scenarios/fields/read_fields.h"
-#include "scenarios/yaml/refusals.h"
+#include "scenarios/values/refusals.h"
 
 #include <algorithm>
 #include <cmath>

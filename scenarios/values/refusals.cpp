@@ -1,4 +1,4 @@
-#include "scenarios/yaml/refusals.h"
+#include "scenarios/values/refusals.h"
 
 #include <algorithm>
 #include <set>
