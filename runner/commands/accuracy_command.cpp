@@ -4,6 +4,7 @@
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/accuracy/studies/studies.h"
 #include "runner/experiments/run/run_drives.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -70,7 +71,7 @@ int accuracy(const AccuracyFlags& flags, const std::vector<std::string>& command
         write_document(document(result), result, request.folder, "accuracy", flags.tables);
     };
     const AccuracyResult result = run_accuracy(request);
-    fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "accuracy.html").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), page_link(request.folder / "accuracy.html"));
     if (!result.interrupted.empty())
         fmt::print("incomplete: {}\n", result.interrupted);
     for (const std::string& missing : result.missing)

@@ -3,6 +3,7 @@
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
 #include "runner/experiments/aliasing/aliasing_run.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -144,7 +145,7 @@ int aliasing(const AliasingFlags& flags, const std::vector<std::string>& command
                          "a drive file, or --sequence with a folder of frames");
     std::filesystem::path folder;
     const AliasingResult result = run(flags, command, folder);
-    fmt::print("{}\n{}\n", document_text(document(result)), (folder / "aliasing.html").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), page_link(folder / "aliasing.html"));
     if (!result.interrupted.empty())
         fmt::print("incomplete: {}\n", result.interrupted);
     const bool measured =

@@ -2,6 +2,7 @@
 
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/watch.h"
 #include "runner/experiments/compare/lamps/lamp_description.h"
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/json_text.h"
@@ -280,6 +281,24 @@ int lamp_command(const LampRequest& request) {
     return 0;
 }
 
+namespace {
+
+int lamp_turn(LampRequest request, WatchTurn& turn) {
+    if (request.watch) {
+        for (const std::filesystem::path* const file :
+             {&request.file, &request.against, &request.levels, &request.reading.recipe, &request.aim_by})
+            turn.reads(*file);
+        for (const auto* const files : {&request.add, &request.subtract})
+            for (const std::filesystem::path& file : *files)
+                turn.reads(file);
+        turn.reads(lamp_of(request).opened);
+        request.force = request.force || turn.is_again(); // its own files
+    }
+    return lamp_command(request);
+}
+
+} // namespace
+
 void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto request = std::make_shared<LampRequest>();
     CLI::App* command = app.add_subcommand("lamp", "describe a lamp file; scale, mirror, add, convert or plot it");
@@ -321,7 +340,10 @@ void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::funct
     add_check_options(*command, *request);
     add_regulation_options(*command, *request);
     command->footer("Changes are applied in this order: levels, scale, mirror, add, subtract.");
-    command->callback([request, &chosen] { chosen = [request] { return lamp_command(*request); }; });
+    add_watch_flag(*command, request->watch);
+    command->callback([request, &chosen] {
+        chosen = [request] { return watched(request->watch, [&](WatchTurn& turn) { return lamp_turn(*request, turn); }); };
+    });
 }
 
 } // namespace fernlicht

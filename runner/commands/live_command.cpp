@@ -5,6 +5,7 @@
 #include "runner/commands/run_files.h"
 #include "runner/experiments/live/live_run.h"
 #include "runner/files/output_folder.h"
+#include "runner/files/page_link.h"
 #include "runner/findings/run_context.h"
 #include "scenarios/drives/keys/bus_keys.h"
 #include "scenarios/values/errors.h"
@@ -96,7 +97,7 @@ int live(const LiveFlags& flags, const std::vector<std::string>& command) {
         fmt::print("warning: {}\n", warning);
     if (!report.complete)
         fmt::print("incomplete: {}\n", report.interrupted);
-    fmt::print("{}\n", (options.folder / "report.html").string());
+    fmt::print("{}\n", page_link(options.folder / "report.html"));
     return !report.complete ? interrupted_code : flags.lossless && lost(*report.live) ? 1 : 0;
 }
 
