@@ -4,6 +4,7 @@
 #include "runner/experiments/regulation/regulation_result.h"
 #include "runner/write/plots/svg.h"
 #include "scenarios/lamps/lamp_file.h"
+#include "scenarios/lamps/pixel_lamp.h"
 
 #include <optional>
 #include <string>
