@@ -1,5 +1,6 @@
 // The command line: options end here; below are plain values.
 #include "runner/commands/commands.h"
+#include "runner/commands/exit_codes.h"
 #include "runner/commands/old_flags.h"
 #include "runner/files/log.h"
 #include "scenarios/values/errors.h"
@@ -15,8 +16,6 @@
 
 namespace {
 
-enum ExitCode { within_limits = 0, limits_exceeded = 1, users_input = 2, device = 3, ours = 4 };
-
 /// As --help lists them.
 fernlicht::AddCommand* const commands[] = {
     fernlicht::add_run_command,        fernlicht::add_live_command,         fernlicht::add_film_command,
@@ -28,11 +27,14 @@ fernlicht::AddCommand* const commands[] = {
     fernlicht::add_lamp_command,       fernlicht::add_model_command,        fernlicht::add_import_command,
     fernlicht::add_storyboard_command, fernlicht::add_doctor_command,       fernlicht::add_stability_command,
     fernlicht::add_accept_command,     fernlicht::add_baselines_command,    fernlicht::add_store_command,
-    fernlicht::add_history_command,    fernlicht::add_migrate_command,      fernlicht::add_manual_commands};
+    fernlicht::add_history_command,    fernlicht::add_migrate_command,      fernlicht::add_docs_command,
+    fernlicht::add_manual_commands};
 
-int complain(ExitCode code, const std::exception& error) {
-    fernlicht::tell_end(error, code);
-    return code;
+using enum fernlicht::ExitCode;
+
+int complain(fernlicht::ExitCode code, const std::exception& error) {
+    fernlicht::tell_end(error, static_cast<int>(code));
+    return static_cast<int>(code);
 }
 
 /// Of every command, and of the commands below it: how it says what it says while it works.
@@ -123,7 +125,7 @@ int fernlicht::command_line(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) { // --help, --version
             app.exit(error);
-            return within_limits;
+            return static_cast<int>(within_limits);
         }
         const bool is_flag = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
         if (const std::string old = is_flag ? fernlicht::old_word_in(command) : ""; !old.empty())
@@ -133,7 +135,7 @@ int fernlicht::command_line(int argc, char** argv) {
             return complain(users_input, fernlicht::InputError({{}, 0, 0, flag}, again, "it once"));
         complain(users_input, error);
         tell(LogLevel::info, "Run with --help for more information.");
-        return users_input;
+        return static_cast<int>(users_input);
     } catch (const fernlicht::InputError& error) {
         return complain(users_input, error);
     } catch (const fernlicht::DeviceError& error) {
