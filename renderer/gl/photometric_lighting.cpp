@@ -29,8 +29,6 @@ bool has_weather(const Moment& moment) {
     return moment.daylight.direct() != nullptr || moment.weather.extinction_per_m > 0.0 || moment.weather.wetness > 0.0;
 }
 
-bool fog_before_sky(const Shot& shot) { return shot.moment.weather.extinction_per_m > 0.0 && !shot.camera.is_map && shot.outputs.seen(); }
-
 void set_weather_uniforms(const GladGLContext& gl, const Program& program, const Shot& shot) {
     const Weather& weather = shot.moment.weather;
     const auto extinction = static_cast<float>(weather.extinction_per_m);
@@ -50,6 +48,8 @@ void set_weather_uniforms(const GladGLContext& gl, const Program& program, const
 }
 
 } // namespace
+
+bool fog_before_sky(const Shot& shot) { return shot.moment.weather.extinction_per_m > 0.0 && !shot.camera.is_map && shot.outputs.seen(); }
 
 PhotometricLighting::PhotometricLighting(Context& context, const Scene& scene, const RendererSettings& settings, bool pruned)
     : context_(context), settings_(settings), pruned_(pruned),
