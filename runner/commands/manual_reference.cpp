@@ -46,7 +46,7 @@ Document commands_document(const CLI::App& program) {
     each(program, [&](const CLI::App& command) {
         std::string usage;
         for (const CLI::Option* option : command.get_options([](const CLI::Option* one) { return one->get_positional(); }))
-            usage += fmt::format(option->get_required() ? " {}" : " [{}]", value_name(*option));
+            usage += option->get_required() ? " " + value_name(*option) : " [" + value_name(*option) + "]";
         Section& section = document.sections.emplace_back(Section{full_name(command), {}, command.get_parent()->get_parent() ? 3 : 2});
         section.blocks.emplace_back(fmt::format("{}{}: {}", full_name(command), usage, command.get_description()));
         if (!command.get_footer().empty())

@@ -1,6 +1,7 @@
 #include "runner/findings/key_reference.h"
 
 #include "scenarios/drives/keys/drive_keys.h"
+#include "scenarios/fields/field.h"
 #include "scenarios/fields/schema.h"
 #include "scenarios/lamps/grid_recipe.h"
 #include "scenarios/lamps/pixel_lamp_file.h"
@@ -48,8 +49,8 @@ std::string text_of(const KeyLine& line) {
         parts.push_back(link_to("keys", line.below));
     if (!is_word && !usual_text(line).empty())
         parts.push_back(usual_text(line));
-    return fmt::format("{}{}{}{}: {}", names_text(line), parts.empty() ? "" : " (", fmt::join(parts, ", "), parts.empty() ? "" : ")",
-                       line.meaning);
+    return fmt::format("{}{}{}{}{}{}", names_text(line), parts.empty() ? "" : " (", fmt::join(parts, ", "), parts.empty() ? "" : ")",
+                       line.meaning.empty() ? "" : ": ", line.meaning);
 }
 
 bool same_but_default(KeyLine a, const KeyLine& b) {
@@ -58,7 +59,7 @@ bool same_but_default(KeyLine a, const KeyLine& b) {
     return a == b;
 }
 
-/// Of lists with the same lines one stays, a group's that has a name before others, and links lead to it.
+/// Of lists with the same lines one stays, a group's that has a name or else that of the shortest path, and links lead to it.
 void keep_one_of_each(std::vector<KeyList>& lists) {
     for (bool changed = true; changed;) {
         changed = false;
@@ -66,7 +67,8 @@ void keep_one_of_each(std::vector<KeyList>& lists) {
             for (std::size_t j = i + 1; j < lists.size() && !changed; ++j) {
                 if (lists[i].lines != lists[j].lines)
                     continue;
-                const std::size_t gone = lists[j].stands_for_several && !lists[i].stands_for_several ? i : j;
+                const auto rank = [&lists](std::size_t at) { return std::pair(!lists[at].stands_for_several, lists[at].path.size()); };
+                const std::size_t gone = rank(j) < rank(i) ? i : j;
                 const std::string from = lists[gone].path, to = lists[gone == i ? j : i].path;
                 lists.erase(lists.begin() + static_cast<std::ptrdiff_t>(gone));
                 for (KeyList& list : lists)
@@ -91,7 +93,7 @@ std::pair<Told, std::size_t> told_by(const KeyList& list, const std::string& pat
     std::size_t spared = 0;
     for (const KeyLine& line : list.lines) {
         const auto there = std::ranges::find_if(full, [&](const KeyLine* one) { return same_but_default(*one, line); });
-        if (there == full.end()) {
+        if (line.names.empty() || there == full.end()) {
             told.own.push_back(&line);
             continue;
         }
@@ -115,11 +117,12 @@ std::pair<Told, std::size_t> told_by(const KeyList& list, const std::string& pat
 
 std::vector<Section> key_sections(std::vector<KeyList> lists) {
     keep_one_of_each(lists);
-    // Groups with names stand in full, so that others lead to them.
+    // Groups with names stand in full, the longest before others, so that all lead to them.
     std::vector<std::size_t> order(lists.size());
     for (std::size_t i = 0; i < order.size(); ++i)
         order[i] = i;
-    std::ranges::stable_partition(order, [&](std::size_t i) { return lists[i].stands_for_several; });
+    std::ranges::stable_sort(order, {},
+                             [&](std::size_t i) { return lists[i].stands_for_several ? -static_cast<int>(lists[i].lines.size()) : 0; });
     std::vector<Told> told(lists.size());
     std::vector<std::size_t> before;
     constexpr std::size_t worth_a_look_elsewhere = 15; // words

@@ -11,10 +11,9 @@ namespace {
 
 /// "1e6" for 1e+06.
 std::string number_text(double value) {
-    std::string text = fmt::format("{:.5g}", value);
-    if (const std::size_t at = text.find('e'); at != std::string::npos)
-        text.erase(at + (text[at + 1] == '-' ? 2 : 1), text.substr(at + 1).find_first_not_of("+-0"));
-    return text;
+    const std::string text = fmt::format("{:.5g}", value);
+    const std::size_t at = text.find('e');
+    return at == std::string::npos ? text : fmt::format("{}e{}", text.substr(0, at), std::stoi(text.substr(at + 1)));
 }
 
 std::string range_text(const FieldRule& rule) {
@@ -140,13 +139,13 @@ void add_lists(std::vector<KeyList>& lists, const std::string& path, const Group
 
 void add_lists_below(std::vector<KeyList>& lists, const std::string& path, const Group& group, const void* usual) {
     for (const Field& field : group.fields) {
-        const bool has_own = field.group && field.group->definition.empty() && (has_keys_below(field) || field.kind == FieldKind::inlined);
-        if (!has_own)
+        const bool is_inlined = field.kind == FieldKind::inlined && !field.is_form;
+        if (!field.group || !field.group->definition.empty() || !(is_inlined || has_keys_below(field)))
             continue;
-        const bool is_one = field.kind == FieldKind::group || field.kind == FieldKind::inlined;
+        const bool is_one = field.kind == FieldKind::group || is_inlined;
         const void* inner = is_one && usual && !field.is_form ? field.member.look(const_cast<void*>(usual)) : nullptr;
         inner = inner ? inner : field.group->usual.get();
-        if (field.kind == FieldKind::inlined)
+        if (is_inlined)
             add_lists_below(lists, path, *field.group, inner);
         else
             add_lists(lists, path_below(path, field), *field.group, inner);
