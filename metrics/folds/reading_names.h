@@ -7,7 +7,7 @@
 namespace fernlicht {
 
 /// Before anything is drawn: throws InputError for a probe, sensor, eye, mirror or target whose readings would have another's name, and
-/// for a limit on a reading that no run can have (docs/reference/quantities.md has the names). `others`: readings beside extents, times and probes.
+/// for a limit on a reading that no run can have (docs/readings.md has the names). `others`: readings beside extents, times and probes.
 void check_names(const Drive& drive, const Readings& others = {});
 
 } // namespace fernlicht

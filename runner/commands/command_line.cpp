@@ -27,8 +27,7 @@ fernlicht::AddCommand* const commands[] = {
     fernlicht::add_lamp_command,       fernlicht::add_model_command,        fernlicht::add_import_command,
     fernlicht::add_storyboard_command, fernlicht::add_doctor_command,       fernlicht::add_stability_command,
     fernlicht::add_accept_command,     fernlicht::add_baselines_command,    fernlicht::add_store_command,
-    fernlicht::add_history_command,    fernlicht::add_migrate_command,      fernlicht::add_docs_command,
-    fernlicht::add_manual_commands};
+    fernlicht::add_history_command,    fernlicht::add_migrate_command,      fernlicht::add_manual_commands};
 
 using enum fernlicht::ExitCode;
 

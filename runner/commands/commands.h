@@ -47,7 +47,6 @@ AddCommand add_baselines_command;    // lists, shows, compares and removes what 
 AddCommand add_store_command;        // lists, verifies and prunes the cells that studies keep
 AddCommand add_history_command;      // what nights of a study read, over months: what changed, when and why
 AddCommand add_migrate_command;      // files of version 0.1 with the names of today
-AddCommand add_docs_command;         // the reference of docs/reference, out of what the program knows
 AddCommand add_manual_commands;      // hidden: man pages and completions of shells, out of this table
 
 } // namespace fernlicht

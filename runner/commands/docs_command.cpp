@@ -1,6 +1,4 @@
 // The reference as pages, out of what the program knows.
-#include "runner/commands/commands.h"
-
 #include "runner/commands/manual.h"
 #include "runner/experiments/regulation/regulation_result.h"
 #include "runner/files/durable_files.h"
@@ -15,7 +13,7 @@
 
 namespace fernlicht {
 
-void add_docs_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
+void add_docs_command(CLI::App& app, std::function<int()>& chosen) {
     const auto folder = std::make_shared<std::filesystem::path>();
     CLI::App* sub = app.add_subcommand("docs", "write the reference as Markdown: commands, keys, quantities, techniques, regulations");
     sub->add_option("DIR", *folder, "folder for the pages; those that are there are replaced")->required();

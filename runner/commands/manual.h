@@ -3,6 +3,7 @@
 
 #include "runner/findings/document.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ std::string man_page(const CLI::App& command);
 /// The same as a document; what every command takes stands once.
 Document commands_document(const CLI::App& program);
 Document exit_codes_document();
+
+/// `fernlicht docs`, which writes these and what else the program knows.
+void add_docs_command(CLI::App& app, std::function<int()>& chosen);
 
 std::string bash_completions(const CLI::App& program);
 std::string zsh_completions(const CLI::App& program);

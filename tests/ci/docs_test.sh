@@ -56,6 +56,19 @@ drives: [b.yaml]
 ```yaml
 key: of something
 ```
+
+```python
+not to run
+```
+
+```python run
+import os
+assert os.path.exists("out/two")
+```
+
+```python run
+import no_such_module
+```
 END
 
 # run EXIT [OPTION...]: the program says so much, and ends so.
@@ -76,6 +89,8 @@ says '^passed   docs/page\.md:31  '
 says '^skipped  docs/page\.md:35  .*no no-such-program$'
 if /usr/bin/python3 -c 'import jsonschema, yaml' 2>/dev/null; then says '^passed   docs/page\.md:39  '; fi
 [[ ! -s $tree/out ]] || { echo "written into the tree"; ((++failures)); }
+says '^passed   docs/page\.md:53  '
+says '^skipped  docs/page\.md:58  .*no_such_module'
 run 0 --quick
 says '^skipped  docs/page\.md:31  .*slow$'
 
@@ -91,6 +106,7 @@ planted 's/^cd out/cd outside/' '^FAILED   docs/page\.md:7  exit 1 '
 planted 's/ exit=1//' '^FAILED   docs/page\.md:26  exit 1  .*fernlicht run$'
 planted 's/^cd out/cd out; sleep 30/' '^FAILED   docs/page\.md:7  over 2\.0 s '
 planted 's/^cd out/exit 0/' '^FAILED   docs/page\.md:8  (not reached|the shell ended)'
+planted 's/assert os/assert not os/' '^FAILED   docs/page\.md:53  exit 1 '
 planted 's/sh slow/sh fast/' "^FAILED   docs/page\.md:30  .*unknown word 'fast'"
 if /usr/bin/python3 -c 'import jsonschema, yaml' 2>/dev/null; then planted 's/low: a.ies/lower: a.ies/' '^FAILED   docs/page\.md:39  .*lower'; fi
 ((failures == 0))

@@ -101,7 +101,7 @@ planted() {
 planted CONTRIBUTING.md 's#(docs/glossary.md)#(docs/glossaries.md)#' 'docs/glossaries.md leads nowhere'
 planted CONTRIBUTING.md 's/#adding-things/#adding/' 'no such heading'
 planted README.md 's#src="docs/images/film-country#src="docs/images/film-coast#' 'film-coast.webp leads nowhere'
-planted runner/findings/summary.h 's#docs/reference/quantities.md#docs/reference/quantity.md#' 'docs/reference/quantity.md is nowhere'
+planted runner/findings/summary.h 's#docs/readings.md#docs/reading.md#' 'docs/reading.md is nowhere'
 planted CONTRIBUTING.md 's/EvennessOfOneLampAlone/EvennessOfLamps/' 'there is no test Seeing.EvennessOfLamps'
 planted CITATION.cff '/^title/d' 'a part is missing'
 planted CITATION.cff 's/^version: .*/version: 0.0.9/' 'another version'

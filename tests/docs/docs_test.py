@@ -5,8 +5,8 @@ Blocks of a page marked ```sh run in order in a folder that looks like a clone, 
   slow      minutes: left out by --quick
   exit=1    commands may exit by 1, too: a limit is exceeded, or something not measured
   needs=X   skipped where there is no program X
-```yaml blocks that begin with fernlicht or fernlicht_...: are files, checked by the schema of their kind. ```python blocks are run where the
-modules that they import are installed. What has another mark, or none, is not run. Each command is a line of LOG: page:line, exit code, seconds, command."""
+```python run blocks run after those above them, where the modules that they import are installed. ```yaml blocks that begin with fernlicht or
+fernlicht_...: are files, checked by the schema of their kind. What has another mark, or none, is not run. Each command is a line of LOG: page:line, exit code, seconds, command."""
 import argparse, concurrent.futures, importlib.util, json, os, pathlib, re, selectors, shutil, signal, subprocess, sys, tempfile, time
 
 KINDS = {"fernlicht": "drive", "fernlicht_study": "study", "fernlicht_rating": "rating", "fernlicht_recipe": "recipe", "fernlicht_pixel_lamp": "pixel-lamp"}
@@ -123,8 +123,8 @@ def test_page(root, build, page, quick, limit_s, logs):
     def tell(verdict, line, what, result="-", seconds=0.0):
         told.append((verdict, f"{verdict:<8} {name}:{line}  {result}  {seconds:.1f} s  {what}"))
 
-    found = list(blocks(page.read_text()))
-    if not any(mark in ("sh", "python", "yaml") for _, mark, _, _ in found):
+    found = [block for block in blocks(page.read_text()) if block[1] in ("sh", "yaml") or (block[1] == "python" and "run" in block[2])]
+    if not found:
         return told
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
@@ -137,16 +137,14 @@ def test_page(root, build, page, quick, limit_s, logs):
                 if wrong is not None:
                     tell("FAILED" if wrong else "passed", line, wrong or lines[0])
                 continue
-            if mark not in ("sh", "python"):
-                continue
-            unknown = [word for word in words if not re.fullmatch(r"slow|exit=\d+|needs=\S+", word)]
+            unknown = [word for word in words if word != "run" and not re.fullmatch(r"slow|exit=\d+|needs=\S+", word)]
             needed = [word[6:] for word in words if word.startswith("needs=") and not shutil.which(word[6:])]
             module = missing_module(lines) if mark == "python" else None
             if unknown:
                 tell("FAILED", line - 1, f"unknown word '{unknown[0]}' behind the mark")
                 continue
             if needed or module or ("slow" in words and quick):
-                tell("skipped", line, f"no {needed[0]}" if needed else f"no Python module {module}" if module else "slow")
+                tell("skipped", line, f"no {needed[0]}" if needed else f"no module {module} of Python" if module else "slow")
                 continue
             if mark == "python":
                 (folder / "block.py").write_text("\n".join(lines))
