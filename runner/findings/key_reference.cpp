@@ -2,7 +2,6 @@
 
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/fields/field.h"
-#include "scenarios/fields/schema.h"
 #include "scenarios/lamps/grid_recipe.h"
 #include "scenarios/lamps/pixel_lamp_file.h"
 #include "scenarios/ratings/rating.h"

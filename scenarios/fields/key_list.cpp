@@ -160,4 +160,15 @@ std::vector<KeyList> key_lists(const std::string& path, const Group& group, cons
     return lists;
 }
 
+std::map<std::string_view, const Group*> definitions(const Group& group) {
+    std::map<std::string_view, const Group*> found;
+    for (const Field& field : group.fields)
+        if (field.group) {
+            if (!field.group->definition.empty())
+                found.emplace(field.group->definition, field.group.get());
+            found.merge(definitions(*field.group));
+        }
+    return found;
+}
+
 } // namespace fernlicht

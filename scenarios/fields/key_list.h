@@ -4,6 +4,8 @@
 
 #include "scenarios/fields/group.h"
 
+#include <map>
+
 namespace fernlicht {
 
 struct KeyLine {
@@ -26,5 +28,8 @@ struct KeyList {
 
 /// Keys of a struct, then of the structs within. `usual` is where defaults come from.
 std::vector<KeyList> key_lists(const std::string& path, const Group& group, const void* usual);
+
+/// Groups within that stand in several places, by name.
+std::map<std::string_view, const Group*> definitions(const Group& group);
 
 } // namespace fernlicht

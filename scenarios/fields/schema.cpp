@@ -183,15 +183,4 @@ std::string schema_of(const Field& field) {
     return json.dump(2);
 }
 
-std::map<std::string_view, const Group*> definitions(const Group& group) {
-    std::map<std::string_view, const Group*> found;
-    for (const Field& field : group.fields)
-        if (field.group) {
-            if (!field.group->definition.empty())
-                found.emplace(field.group->definition, field.group.get());
-            found.merge(definitions(*field.group));
-        }
-    return found;
-}
-
 } // namespace fernlicht

@@ -3,8 +3,6 @@
 
 #include "scenarios/fields/group.h"
 
-#include <map>
-
 namespace fernlicht {
 
 std::string schema_of(const Group& group);
@@ -14,8 +12,5 @@ std::string schema_as_heard(Group group, const void* whole);
 /// `scratch` is a struct that may be changed.
 std::string schemas_by_word(const Group& group, void* scratch);
 std::string schema_of(const Field& field); ///< of its value
-
-/// Groups within that stand in several places, by name.
-std::map<std::string_view, const Group*> definitions(const Group& group);
 
 } // namespace fernlicht

@@ -2,6 +2,7 @@
 // (ci/write-reference), and the test fails once more.
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/fields/field.h"
+#include "scenarios/fields/key_list.h"
 #include "scenarios/fields/schema.h"
 #include "scenarios/lamps/grid_recipe.h"
 #include "scenarios/lamps/pixel_lamp_file.h"
