@@ -1,6 +1,7 @@
 // The command line: options end here; below are plain values.
 #include "runner/commands/commands.h"
 #include "runner/commands/help.h"
+#include "runner/commands/exit_codes.h"
 #include "runner/commands/old_flags.h"
 #include "runner/commands/parse_errors.h"
 #include "runner/files/log.h"
@@ -17,8 +18,6 @@
 
 namespace {
 
-enum ExitCode { within_limits = 0, limits_exceeded = 1, users_input = 2, device = 3, ours = 4 };
-
 /// As --help lists them.
 fernlicht::AddCommand* const commands[] = {
     fernlicht::add_new_command,        fernlicht::add_check_command,        fernlicht::add_open_command,
@@ -33,9 +32,11 @@ fernlicht::AddCommand* const commands[] = {
     fernlicht::add_accept_command,     fernlicht::add_baselines_command,    fernlicht::add_store_command,
     fernlicht::add_history_command,    fernlicht::add_migrate_command,      fernlicht::add_manual_commands};
 
-int complain(ExitCode code, const std::exception& error) {
-    fernlicht::tell_end(error, code);
-    return code;
+using enum fernlicht::ExitCode;
+
+int complain(fernlicht::ExitCode code, const std::exception& error) {
+    fernlicht::tell_end(error, static_cast<int>(code));
+    return static_cast<int>(code);
 }
 
 /// Of every command, and of the commands below it: how it says what it says while it works.
@@ -120,7 +121,7 @@ int fernlicht::command_line(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) { // --help, --version
             app.exit(error);
-            return within_limits;
+            return static_cast<int>(within_limits);
         }
         return complain(users_input, in_our_words(error, app, command));
     } catch (const fernlicht::InputError& error) {

@@ -1,6 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "renderer/device.h"
+#include "runner/commands/exit_codes.h"
 #include "runner/commands/flag_values.h"
 #include "runner/commands/run_files.h"
 #include "runner/commands/shared_flags.h"
@@ -19,8 +20,6 @@
 
 namespace fernlicht {
 namespace {
-
-constexpr int interrupted_code = 130; ///< as a shell has it for what SIGINT ended
 
 /// The flags as typed.
 struct LiveFlags {
@@ -100,7 +99,7 @@ int live(const LiveFlags& flags, const std::vector<std::string>& command) {
     if (!report.complete)
         tell(LogLevel::warning, "incomplete: " + report.interrupted);
     fmt::print("{}\n", page_link(options.folder / "report.html"));
-    return !report.complete ? interrupted_code : flags.lossless && lost(*report.live) ? 1 : 0;
+    return !report.complete ? static_cast<int>(ExitCode::interrupted) : flags.lossless && lost(*report.live) ? 1 : 0;
 }
 
 } // namespace

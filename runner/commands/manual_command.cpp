@@ -42,6 +42,7 @@ int man(const CLI::App& program, const ManFlags& flags) {
 } // namespace
 
 void add_manual_commands(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
+    add_docs_command(app, chosen);
     const auto flags = std::make_shared<ManFlags>();
     CLI::App* sub = app.add_subcommand("man", "print a man page: man -l <(fernlicht man run)")->group("");
     CLI::Option* const command = sub->add_option("COMMAND", flags->command, "whose page")->default_str("the program's");

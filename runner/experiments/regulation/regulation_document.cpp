@@ -274,6 +274,25 @@ Document regulation_list() {
     return document;
 }
 
+Document regulation_reference() {
+    Document document{
+        "Regulations",
+        {{"",
+          {"For `--regulation`; [regulations.md](../regulations.md) says how lamps are held against these tables. In brackets: rows "
+           "in the text, and the rule of aim."}}}};
+    for (const Regulation& r : listed_regulations()) {
+        const std::string known = in_words(r.sureness);
+        if (document.sections.back().title != r.edition)
+            document.sections.push_back(
+                {r.edition, {"Source: " + r.source + ". Known by " + known + ", but where it is said.", Listing{}}});
+        const bool as_above = std::get<std::string>(document.sections.back().blocks.front()).find("Known by " + known) != std::string::npos;
+        std::get<Listing>(document.sections.back().blocks.back())
+            .items.emplace_back(fmt::format("`{}` ({}, {}): {}{}", r.id, r.rows.empty() ? "-" : fmt::format("{}", r.rows.size()),
+                                            name_of(r.aim), r.title, as_above ? "" : "; " + known));
+    }
+    return document;
+}
+
 plots::Figure cut_off_figure(const CutOffFound& measured) {
     const auto& [lamp, options, mirrored, c, elbow] = measured;
     const double sign = mirrored ? -1.0 : 1.0;
