@@ -55,7 +55,7 @@ TEST(WeatherGlare, ASmoothFilmShowsTheMirrorImageTimesFresnel) {
     const double share = fresnel(incidence);
     EXPECT_NEAR(share, 0.80, 0.01);
     const auto patches = [&](const Weather& weather, double roughness, CandelaTable table = tests::even_table(1000.0)) {
-        return lamps_in_road(with_weather(weather, std::move(table)).lamps, weather, level, eye, roughness);
+        return lamps_in_road(with_weather(weather, std::move(table)).lamps, weather, level, eye, Pavement::standard, roughness);
     };
     const Weather wet{.wetness = 1.0};
     EXPECT_NEAR(sum_lx(patches(wet, 1e-4)), share * 1000.0 / (way * way), 2e-3 * share * 1000.0 / (way * way));
@@ -92,7 +92,8 @@ TEST(WeatherGlare, ARoughFilmGivesWhatTheRoadsLuminanceAddsUpTo) {
                     wet_light(glm::dvec3(0.0), {0.0, 0.0, 1.0}, glm::normalize(to_lamp), glm::normalize(to_eye), e_perp);
                 truth += film.x * to_eye.z / std::sqrt(r2) / r2 * step * step;
             }
-        const double by_road = sum_lx(lamps_in_road(lamps, wet, level, eye)), smooth = sum_lx(lamps_in_road(lamps, wet, level, eye, 1e-3));
+        const double by_road = sum_lx(lamps_in_road(lamps, wet, level, eye)),
+                     smooth = sum_lx(lamps_in_road(lamps, wet, level, eye, Pavement::standard, 1e-3));
         EXPECT_NEAR(by_road, truth, 0.03 * truth) << cut_off;
         EXPECT_GT(smooth, 5.0 * by_road) << "standing water glares far more";
         RecordProperty(cut_off > 0.0 ? "beam_smooth_times_rough" : "even_smooth_times_rough", static_cast<int>(smooth / by_road));
