@@ -4,6 +4,7 @@
 #include "runner/experiments/regulation/regulation_result.h"
 #include "runner/write/plots/svg.h"
 #include "scenarios/lamps/lamp_file.h"
+#include "scenarios/lamps/pixel_lamp.h"
 
 #include <optional>
 #include <string>
@@ -52,7 +53,7 @@ struct LampRequest {
     bool left_hand_traffic = false, no_re_aim = false;
     AdaptiveRequest adaptive; ///< of --regulation fmvss108-adb
     bool cut_off = false;
-    bool check = false, strict = false;
+    bool check = false, strict = false, watch = false;
     std::string function;                             ///< of --check; empty: recognised
     std::optional<double> voltage_v;                  ///< of --check; nullopt: not stated
     SharpnessRule sharpness = SharpnessRule::maximum; ///< of --cut-off
