@@ -167,13 +167,14 @@ void add_lamp(Light& sum, const PassPicture& picture, const PassLamp& lamp, cons
                     sum.returned += l;
             }
             if (seen && s.glossy) {
-                const Floats l = e_perp * s.gloss *
-                                 photometry::facet_mirrored(n, vec3(none, none, none) - v * inverse_d, towards_eye(picture, p), s.roughness,
-                                                            photometry::facet_index);
+                const vec3 to_lamp = vec3(none, none, none) - v * inverse_d;
+                const Floats mirrored =
+                    photometry::facet_mirrored(n, to_lamp, towards_eye(picture, p), s.roughness, photometry::facet_index);
+                const Floats l = select(lit && s.gloss > none, e_perp * s.gloss * mirrored, none);
                 if (picture.colour_of_all == nullptr)
-                    sum.mirrored_coloured = sum.mirrored_coloured + colour * select(lit, l, none);
+                    sum.mirrored_coloured = sum.mirrored_coloured + colour * l;
                 else
-                    sum.mirrored += select(lit, l, none);
+                    sum.mirrored += l;
             }
         }
     }
