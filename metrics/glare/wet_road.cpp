@@ -19,10 +19,10 @@ constexpr std::size_t checked_together = 6; // neighbouring patches whose middle
 static_assert(streak_patches % checked_together == 0);
 
 /// What mirrors: GGX facets over a share of the road.
-struct Mirror {
+struct FacetFilm {
     double share, roughness, index;
 };
-Mirror mirror_of(const Weather& weather, Pavement pavement, double roughness) {
+FacetFilm film_of(const Weather& weather, Pavement pavement, double roughness) {
     if (weather.wetness > 0.0)
         return {weather.wetness, roughness, photometry::water_index};
     const Facets facets = facets_of(pavement_material(pavement));
@@ -57,17 +57,17 @@ Streak streak_of(const RoadPlane& plane, const glm::dvec3& lamp_m, const glm::dv
 /// slopes are tangents of even angles, as GGX spreads them; at grazing angles that makes the integrand smooth, and it is the same integral
 /// at all others.
 SeenLamp patch_of(const LitLamp& lamp, const Weather& weather, const RoadPlane& plane, const Streak& streak, const glm::dvec3& point_m,
-                  const Mirror& mirror, std::size_t k) {
+                  const FacetFilm& film, std::size_t k) {
     constexpr double step = pi / static_cast<double>(streak_patches), side_step = pi / across_streak;
-    const double a = step * (static_cast<double>(k) + 0.5) - 0.5 * pi, tilt = mirror.roughness * std::tan(a);
+    const double a = step * (static_cast<double>(k) + 0.5) - 0.5 * pi, tilt = film.roughness * std::tan(a);
     const double h1 = streak.lamp_up_m, h2 = streak.point_up_m, b = 2.0 * tilt * streak.length_m + h1 + h2;
     const double x = 2.0 * h1 * streak.length_m / (b + std::sqrt(b * b - 8.0 * tilt * h1 * streak.length_m)), z = streak.length_m - x;
     SeenLamp patch{lamp.name, streak.foot_m + x * streak.along, 0.0, 0.0};
     patch.distance_m = glm::distance(patch.position_m, point_m);
     if (!(x > 0.0 && z > 0.0))
         return patch;
-    const double dx = 2.0 / (h1 / (x * x) + h2 / (z * z)) * mirror.roughness / (std::cos(a) * std::cos(a)) * step;
-    const double root = std::hypot(mirror.roughness, tilt), metres = (h1 / x + h2 / z) / (1.0 / x + 1.0 / z) * root;
+    const double dx = 2.0 / (h1 / (x * x) + h2 / (z * z)) * film.roughness / (std::cos(a) * std::cos(a)) * step;
+    const double root = std::hypot(film.roughness, tilt), metres = (h1 / x + h2 / z) / (1.0 / x + 1.0 / z) * root;
     for (int i = 0; i < across_streak; ++i) {
         const double c = side_step * (i + 0.5) - 0.5 * pi;
         const glm::dvec3 at_m = patch.position_m + metres * std::tan(c) * streak.left;
@@ -76,11 +76,11 @@ SeenLamp patch_of(const LitLamp& lamp, const Weather& weather, const RoadPlane& 
         if (!(cd > 0.0))
             continue;
         const double luminance = photometry::facing_illuminance(cd, to_lamp) *
-                                 photometry::facet_mirrored(plane.up, to_lamp / from_m, to_point / to_m, mirror.roughness, mirror.index);
+                                 photometry::facet_mirrored(plane.up, to_lamp / from_m, to_point / to_m, film.roughness, film.index);
         patch.facing_lx += luminance * (h2 / to_m) / (to_m * to_m) * dx * metres / (std::cos(c) * std::cos(c)) * side_step *
                            air_transmittance(weather, from_m + to_m);
     }
-    patch.facing_lx *= mirror.share;
+    patch.facing_lx *= film.share;
     return patch;
 }
 
@@ -109,7 +109,7 @@ RoadPlane road_plane(const Pose& from, const Pose& to) {
     return {from.position_m, glm::normalize(mean - glm::dot(mean, along) * along), std::abs(slope(from) - slope(to))};
 }
 
-bool mirrors(const Weather& weather, Pavement pavement) { return mirror_of(weather, pavement, wet_roughness).share > 0.0; }
+bool mirrors(const Weather& weather, Pavement pavement) { return film_of(weather, pavement, wet_roughness).share > 0.0; }
 
 std::string why_no_mirror(const Weather& weather, const RoadPlane& plane) {
     return weather.wetness > 0.0 && plane.bend_rad > max_mirror_bend_rad
@@ -121,14 +121,14 @@ std::string why_no_mirror(const Weather& weather, const RoadPlane& plane) {
 std::vector<SeenLamp> lamps_in_road(const std::vector<LitLamp>& lamps, const Weather& weather, const RoadPlane& plane,
                                     const glm::dvec3& point_m, Pavement pavement, double roughness) {
     std::vector<SeenLamp> patches;
-    const Mirror mirror = mirror_of(weather, pavement, roughness);
-    if (!(mirror.share > 0.0))
+    const FacetFilm film = film_of(weather, pavement, roughness);
+    if (!(film.share > 0.0))
         return patches;
     for (const LitLamp& lamp : lamps) {
         const Streak streak = streak_of(plane, lamp.pose.position_m, point_m);
         for (std::size_t k = 0; k < streak_patches; ++k)
             patches.push_back(streak.lit && lamp.intensity_factor > 0.0
-                                  ? patch_of(lamp, weather, plane, streak, point_m, mirror, k)
+                                  ? patch_of(lamp, weather, plane, streak, point_m, film, k)
                                   : SeenLamp{lamp.name, lamp.pose.position_m, 0.0, glm::distance(lamp.pose.position_m, point_m)});
     }
     return patches;

@@ -1,6 +1,8 @@
 // Glossy pavements and wet beads, rendered: every way to light a road gives what the equations say. Dry and wet, in lamps, sky and sun.
 #include "tests/renderer/reference/rooms.h"
 
+#include "renderer/reference/sampling.h"
+#include "renderer/reference/scattering.h"
 #include "renderer/twin.h"
 #include "scenarios/light/light.h"
 #include "scenarios/photometry.h"
@@ -12,6 +14,10 @@
 
 namespace fernlicht {
 namespace {
+
+ReferenceSettings by(Integrator integrator, double target_error = 0.005) {
+    return {.integrator = integrator, .footprint = Footprint::centre, .target_error = target_error, .max_samples = 1 << 14};
+}
 
 std::shared_ptr<const LampFile> beam() {
     return tests::file_of(tests::table_of(tests::steps(-40.0, 40.0, 0.5), tests::steps(-20.0, 20.0, 0.25),
@@ -141,7 +147,7 @@ TEST(RoadSurfaceReference, DirectLightIsTheTwins) {
     const View view = camera({1.3, 0.35, 1.2}, 0, -2, 12, 10, 8);
     for (const double wetness : {0.0, 0.4, 1.0}) {
         const Moment moment = night(wetness, 2.0, true);
-        ReferenceSettings settings = by(Integrator::direct, 0.01, Footprint::centre);
+        ReferenceSettings settings = by(Integrator::direct);
         settings.shadows = false;
         const ReferenceImage image = Reference(scene).render(moment, view, everything, settings);
         const Twin twin(scene, false);
@@ -195,7 +201,7 @@ TEST(RoadSurfaceReference, PathsSeeAShiningWallInADryGlossyRoad) {
     const glm::dvec3 towards = at - eye;
     const View view =
         camera(eye, degrees(std::atan2(towards.y, towards.x)), degrees(std::atan2(towards.z, std::hypot(towards.x, towards.y))), 1, 1);
-    const ReferenceImage image = Reference(scene).render({}, view, everything, by(Integrator::path, 0.003, Footprint::centre));
+    const ReferenceImage image = Reference(scene).render({}, view, everything, by(Integrator::path, 0.003));
     EXPECT_LT(image.luminance_cdm2.standard_error.at(0, 0), 0.01 * truth);
     expect_estimate(image.luminance_cdm2, truth, 1e-5);
 }

@@ -99,7 +99,7 @@ TEST(RoadSurface, PavementsMirrorAsTheirTablesSay) {
 /// Light from a direction that leaves into the hemisphere, without retroreflection: midpoints, dense about the mirror's direction and
 /// grazing.
 double leaving(const Material& material, const glm::dvec3& to_light) {
-    const int rings = 400, turns = 400;
+    const int rings = 200, turns = 200;
     double sum = 0.0;
     for (int i = 0; i < rings; ++i) {
         const double x = (i + 0.5) / rings, z = x * x, dz = 2.0 * x / rings, across = std::sqrt(1.0 - z * z);
@@ -113,12 +113,15 @@ double leaving(const Material& material, const glm::dvec3& to_light) {
 }
 
 TEST(RoadSurface, NoMoreLightLeavesThanArrives) {
-    for (const RTable& table : tables)
-        for (const double raised_deg : {0.2, 1.24, 5.0, 20.0, 60.0, 89.0}) {
-            const double share = leaving(pavement_material(table.pavement), direction(raised_deg, 0.0));
-            EXPECT_LT(share, 0.75) << static_cast<int>(table.pavement) << ' ' << raised_deg;
-            EXPECT_GT(share, 0.08) << static_cast<int>(table.pavement) << ' ' << raised_deg;
+    const double at_1_24_deg[]{0.147, 0.169, 0.242}; // by another integration, in the order of the tables
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+        const Material& material = pavement_material(tables.at(k).pavement);
+        EXPECT_NEAR(leaving(material, direction(1.24, 0.0)), at_1_24_deg[k], 0.002) << material.name;
+        for (const double raised_deg : {0.2, 5.0, 20.0, 60.0, 89.0}) {
+            EXPECT_LT(leaving(material, direction(raised_deg, 0.0)), 0.25) << material.name << ' ' << raised_deg;
+            EXPECT_GT(leaving(material, direction(raised_deg, 0.0)), 0.06) << material.name << ' ' << raised_deg;
         }
+    }
     // The facets alone mirror less of the light that comes down than glass does at a blow: 4 %, and some is shadowed.
     Material facets = pavement_material(Pavement::asphalt_worn);
     facets.albedo = glm::vec3(0.0F);
