@@ -111,7 +111,7 @@ Drive read_all(const YamlMap& keys, const YamlMap& of_car, const std::filesystem
     each([&] { drive.views = read_views(keys, drive.opened); });
     drive.extent = ExtentParameters{};
     read({"capture", "tone_mapper", "display", "technique", "scenery", "measure", "limits", "shadows", "beams", "textures", "dressing",
-          "seed"});
+          "road_surface", "seed"});
     each.end();
     return drive;
 }

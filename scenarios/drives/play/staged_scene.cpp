@@ -52,7 +52,7 @@ void dress(Scene& scene, Drive& drive, const RoadNetwork& network, const Route& 
 } // namespace
 
 Scene staged_scene(Drive& drive, const RoadNetwork& network, const Route& route) {
-    RoadMeshOptions options{.textures = drive.textured, .seed = drive.seed};
+    RoadMeshOptions options{.textures = drive.textured, .seed = drive.seed, .surface = drive.road_surface};
     if (drive.dressing != Dressing::plain)
         options.leave_out = [&](const RoadObject& object) { return drive.dressing == Dressing::none || is_dressed(object); };
     Scene scene = build_scene(network, options);
