@@ -213,10 +213,12 @@ void Dresser::add_sign(const Road& road, const RoadSignal& signal) {
                  height = given_or(signal.height_m, signal.dynamic ? 0.9 : 0.6);
     const double bottom = given_or(signal.z_offset_m, 2.0), depth = signal.dynamic ? 0.2 : 0.03;
     constexpr double post_m = 0.038, below_m = 0.7; // the post's radius, and how far it reaches into the ground beside the road
-    const SignLook look{width, height, signal.country, signal.type, signal.subtype, signal.value, signal.text};
+    const auto face = settings_.faces.find({road.id, signal.id});
     TriangleSoup soup;
     append_placed(soup,
-                  signal.dynamic ? dressed_traffic_light(width, height) : dressed_sign(look, {settings_.seed, road.id + " " + signal.id}),
+                  signal.dynamic ? dressed_traffic_light(width, height)
+                                 : dressed_sign(width, height, face == settings_.faces.end() ? SignalFace{} : face->second,
+                                                {settings_.seed, road.id + " " + signal.id}),
                   {{post_m + depth, 0.0, bottom + 0.5 * height}, glm::dmat3(1.0)});
     const int lane = lane_at(road, signal.s_m, signal.t_m);
     const Lane* under = lane == 0 ? nullptr : lane_of(section_at(road, signal.s_m), lane);

@@ -4,6 +4,7 @@
 #include "scenarios/roads/mesh/road_mesh.h"
 #include "scenarios/roads/road_network.h"
 #include "scenarios/roads/route.h"
+#include "scenarios/roads/signal_faces.h"
 #include "scenarios/values/scene.h"
 
 namespace fernlicht {
@@ -14,6 +15,7 @@ struct DressingSettings {
     /// The smallest angle of a pixel in any view. Where the route comes no nearer than an error over it, the coarser level of detail
     /// stands: its silhouette is within a pixel of the finer one's from everywhere on the route.
     double pixel_rad = 0.7e-3;
+    std::map<std::pair<std::string, std::string>, SignalFace> faces = {}; ///< of signals; those that are not here are white
 };
 
 /// Whether add_dressing() builds this object: buildings, trees and bushes, crash barriers, and cars, vans, trucks and buses that stand as

@@ -181,7 +181,7 @@ void warning(TriangleSoup& soup, double size_m, std::string_view type, std::stri
 }
 
 /// The number of a speed limit: its value, or a subtype that is one; 274-62 alone is none.
-std::string limit_of(const SignLook& look) {
+std::string limit_of(const SignalFace& look) {
     const double value = std::strtod(look.value.c_str(), nullptr), subtype = std::strtod(look.subtype.c_str(), nullptr);
     const double limit = value >= 5.0 ? value : subtype >= 5.0 && std::fmod(subtype, 10.0) == 0.0 ? subtype : 0.0;
     return limit >= 5.0 && limit <= 130.0 ? std::to_string(static_cast<int>(limit)) : "";
@@ -190,9 +190,9 @@ std::string limit_of(const SignLook& look) {
 } // namespace
 
 /// Numbers: catalogue of German signs (VzKat). What it does not have, and what other countries have, keeps a white face with an edge.
-TriangleSoup dressed_sign(const SignLook& look, Dice dice) {
+TriangleSoup dressed_sign(double w, double h, const SignalFace& look, Dice dice) {
     TriangleSoup soup;
-    const double w = look.width_m, h = look.height_m, smaller = std::min(w, h);
+    const double smaller = std::min(w, h);
     const std::string& type = look.type;
     const bool known = look.country.empty() || look.country == "DE" || look.country == "DEU" || look.country == "Germany";
     const int number = known ? std::atoi(type.c_str()) : 0;

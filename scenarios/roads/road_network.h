@@ -98,8 +98,7 @@ struct RoadObject {
 };
 
 struct RoadSignal {
-    std::string id, name, text;
-    std::string country, type, subtype, value; ///< of a country's catalogue of signs, as the file has them
+    std::string id;
     double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0, heading_offset_rad = 0.0;
     double width_m = 0.0, height_m = 0.0; ///< 0: by type, else 0.6
     bool facing_forward = true;           ///< orientation "+": valid for traffic in +s, so its face looks towards -s

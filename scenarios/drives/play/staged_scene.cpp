@@ -33,7 +33,11 @@ double smallest_pixel_rad(const std::vector<View>& views) {
 /// With a note of what shades the own lane.
 void dress(Scene& scene, Drive& drive, const RoadNetwork& network, const Route& route) {
     const std::size_t before = scene.meshes.size();
-    add_dressing(scene, network, route, {.textures = drive.textured, .seed = drive.seed, .pixel_rad = smallest_pixel_rad(drive.views)});
+    add_dressing(scene, network, route,
+                 {.textures = drive.textured,
+                  .seed = drive.seed,
+                  .pixel_rad = smallest_pixel_rad(drive.views),
+                  .faces = read_signal_faces(drive.road_file)});
     constexpr std::size_t most_told = 40;
     std::vector<std::string> names = shades_of_lane(scene, route, before);
     const std::size_t more = names.size() > most_told ? names.size() - most_told : 0;

@@ -162,9 +162,7 @@ void read_objects(XmlFile& xml, pugi::xml_node road_node, Road& road) {
 void read_signals(XmlFile& xml, pugi::xml_node road_node, Road& road) {
     for (const pugi::xml_node node : road_node.child("signals").children("signal")) {
         RoadSignal signal;
-        signal.id = xml.text(node, "id"), signal.name = xml.text(node, "name", ""), signal.text = xml.text(node, "text", "");
-        signal.country = xml.text(node, "country", ""), signal.type = xml.text(node, "type", "");
-        signal.subtype = xml.text(node, "subtype", ""), signal.value = xml.text(node, "value", "");
+        signal.id = xml.text(node, "id");
         signal.s_m = xml.number(node, "s"), signal.t_m = xml.number(node, "t");
         signal.z_offset_m = xml.number(node, "zOffset", 0.0);
         signal.heading_offset_rad = xml.number(node, "hOffset", 0.0);
