@@ -1,5 +1,6 @@
 #include "scenarios/drives/keys/drive_keys.h"
 
+#include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/keys/lamp_keys.h"
 #include "scenarios/values/errors.h"
 
