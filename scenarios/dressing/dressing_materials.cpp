@@ -155,7 +155,7 @@ const std::array<DressedStuff, index_of(Stuff::count)> dressed_stuff{{
     {Stuff::dry_leaves, "dry leaves", {0.145F, 0.120F, 0.045F}, layer_of(StuffPicture::leaves)},
     {Stuff::needles, "needles", {0.038F, 0.056F, 0.030F}, layer_of(StuffPicture::leaves)},
     {Stuff::hedge, "hedge", {0.064F, 0.089F, 0.036F}, layer_of(StuffPicture::leaves)},
-    {Stuff::grass, "tall grass", {0.125F, 0.125F, 0.060F}},
+    {Stuff::grass, "tall grass", {0.125F, 0.125F, 0.060F}, -1, SurfaceKind::object, 0.022F, {0.95F, 1.0F, 0.45F}},
     {Stuff::zinc, "zinc", {0.30F, 0.30F, 0.30F}},
     {Stuff::blind, "blind", {0.40F, 0.39F, 0.36F}},
     {Stuff::net, "curtain", {0.20F, 0.20F, 0.19F}},
@@ -203,7 +203,7 @@ constexpr std::uint64_t golden_ratio = 0x9E3779B97F4A7C15ULL;
 std::vector<Material> dressing_materials() {
     std::vector<Material> all;
     for (const DressedStuff& row : dressed_stuff) {
-        const bool ground = is_ground(row.kind);
+        const bool ground = is_ground(row.kind) || row.stuff == Stuff::grass;
         all.push_back({.name = row.name,
                        .kind = row.kind,
                        .albedo = row.reflectance,

@@ -229,8 +229,9 @@ class HouseBuilder {
         for (std::size_t i = 0; i < 4; ++i) {
             const std::size_t k = (i + 1) % 4;
             const glm::dvec2 &a = outer[k], &b = outer[i];
-            quad({glm::dvec3(b, 0.0), glm::dvec3(a, 0.0), glm::dvec3(a, top), glm::dvec3(b, top)}, Stuff::plinth);
-            quad({glm::dvec3(b, top), glm::dvec3(a, top), glm::dvec3(inner[k], top), glm::dvec3(inner[i], top)}, Stuff::plinth);
+            const double lower = top - plinth_proud_m; // a chamfer leads rain off
+            quad({glm::dvec3(b, 0.0), glm::dvec3(a, 0.0), glm::dvec3(a, lower), glm::dvec3(b, lower)}, Stuff::plinth);
+            quad({glm::dvec3(b, lower), glm::dvec3(a, lower), glm::dvec3(inner[k], top), glm::dvec3(inner[i], top)}, Stuff::plinth);
         }
     }
 

@@ -232,22 +232,18 @@ DressedObject dressed_bush(double height_m, double radius_m, Dice dice) {
 
 DressedObject dressed_tuft(double height_m, Dice dice) {
     DressedObject out;
-    for (int i = 0; i < 5; ++i) {
+    for (int i = 0; i < 6; ++i) {
         // Blades bend towards one way along x or the other: who drives along it sees their faces.
         const double angle = dice.between(-1.1, 1.1) + (dice.share() < 0.5 ? pi : 0.0), lean = dice.between(0.1, 0.7) * height_m;
-        const glm::dvec3 forward(std::cos(angle), std::sin(angle), 0.0), across(-forward.y, forward.x, 0.0);
+        const glm::dvec3 forward(std::cos(angle), std::sin(angle), 0.0),
+            across = dice.between(0.008, 0.020) * glm::dvec3(-forward.y, forward.x, 0.0);
         const glm::dvec3 foot(0.3 * (dice.share() - 0.5), 0.3 * (dice.share() - 0.5), 0.0),
             tip = foot + lean * forward + glm::dvec3(0, 0, height_m * dice.between(0.5, 1.0));
-        const double half = dice.between(0.010, 0.022);
-        for (const double side : {1.0, -1.0}) {
-            const std::size_t before = out.low.vertices.size();
-            out.low.add({foot - half * side * across + 0.002 * side * forward, foot + half * side * across + 0.002 * side * forward,
-                         tip + 0.002 * side * forward},
-                        index_of(Stuff::grass));
-            // Leaves let through about as much as they throw back: neither side is dark, the lower end least lit.
-            for (std::size_t k = before; k < out.low.vertices.size(); ++k)
-                out.low.vertices[k].normal = glm::normalize(side * forward + (k == before + 2 ? 0.5 : 0.9) * glm::dvec3(0, 0, 1));
-        }
+        // Its normal is the meadow's: with both of its sides it returns light as that does, and the ground before it does not shade it.
+        const std::size_t before = out.low.vertices.size();
+        out.low.add({foot + across, foot - across, tip}, index_of(Stuff::grass));
+        for (std::size_t k = before; k < out.low.vertices.size(); ++k)
+            out.low.vertices[k].normal = {0.0, 0.0, 1.0};
     }
     return out;
 }
