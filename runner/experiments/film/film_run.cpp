@@ -281,9 +281,15 @@ void share_white(const std::vector<Drive>& asked, std::deque<Stage>& stages) {
 /// All that can be refused before a device is opened.
 void read_stages(const FilmRequest& request, std::deque<Stage>& stages) {
     for (const Drive& drive : request.drives) {
-        stages.emplace_back(as_filmed(drive, request));
-        if (driver_view(stages.back().drive) == nullptr)
+        const View* view = driver_view(drive);
+        if (view == nullptr)
             throw InputError({drive.file, 0, 0, "views"}, "found only maps", "a driver's view");
+        Drive filmed = as_filmed(drive, request);
+        View finest = at_size(*view, request.width_px, request.height_px); // levels of detail are chosen for it, too
+        finest.vertical_fov_rad = request.vertical_fov_rad.value_or(finest.vertical_fov_rad);
+        filmed.views.push_back(finest);
+        stages.emplace_back(std::move(filmed));
+        stages.back().drive.views.pop_back();
     }
     share_white(request.drives, stages);
 }
