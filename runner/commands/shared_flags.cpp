@@ -69,7 +69,7 @@ constexpr SharedFlag flags[] = {
     {"--dry-run", "", "only say what would be removed"},
     // Where it goes
     {"--out", "FOLDER", "new or empty folder for the results"},
-    {"-o,--out", "FILE", "new file for what is printed, or - for standard output"},
+    {"-o,--out", "FILE", "new file to write, or - for standard output"},
     {"--picture", "FILE", "new file for a picture, or - for standard output"},
     {"--force", "", "replace files that are there"},
     {"--resume", "", "go on with what was interrupted in the folder of --out"},
