@@ -54,7 +54,7 @@ struct LampRequest {
     bool left_hand_traffic = false, no_re_aim = false;
     AdaptiveRequest adaptive; ///< of --regulation fmvss108-adb
     bool cut_off = false;
-    bool check = false, strict = false;
+    bool check = false, strict = false, watch = false;
     std::string function;                             ///< of --check; empty: recognised
     std::optional<double> voltage_v;                  ///< of --check; nullopt: not stated
     SharpnessRule sharpness = SharpnessRule::maximum; ///< of --cut-off

@@ -131,7 +131,7 @@ TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
     EXPECT_THAT(content_of(folder / "out/study.tex"), HasSubstr("\\toprule"));
     EXPECT_THAT(content_of(folder / "out/study.md"),
                 testing::AllOf(testing::StartsWith("# Two cells\n\n## No limits were set\n\n"), HasSubstr("| new / old | straight-1 |")));
-    for (const char* const name : {"ranking_new-old", "reach-5lx-target_straight"}) {
+    for (const char* const name : {"ranking_new-old", "reach_5lx_target_own_m_straight"}) {
         const std::string paper = folder / (std::string("out/paper/") + name);
         EXPECT_THAT(content_of(paper + ".pdf"), testing::StartsWith("%PDF-"));
         EXPECT_THAT(content_of(paper + ".svg"), testing::AllOf(HasSubstr("<svg"), Not(HasSubstr("<text"))))
