@@ -6,6 +6,7 @@
 #include "runner/experiments/accuracy/studies/studies.h"
 #include "runner/experiments/run/run_drives.h"
 #include "runner/files/log.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -72,7 +73,7 @@ int accuracy(const AccuracyFlags& flags, const std::vector<std::string>& command
         write_document(document(result), result, request.folder, "accuracy", flags.tables);
     };
     const AccuracyResult result = run_accuracy(request);
-    fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "accuracy.html").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), page_link(request.folder / "accuracy.html"));
     if (!result.interrupted.empty())
         tell(LogLevel::warning, "incomplete: " + result.interrupted);
     for (const std::string& missing : result.missing)

@@ -5,6 +5,7 @@
 #include "runner/commands/shared_flags.h"
 #include "runner/experiments/aliasing/aliasing_run.h"
 #include "runner/files/log.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -146,7 +147,7 @@ int aliasing(const AliasingFlags& flags, const std::vector<std::string>& command
                          "a drive file, or --sequence with a folder of frames");
     std::filesystem::path folder;
     const AliasingResult result = run(flags, command, folder);
-    fmt::print("{}\n{}\n", document_text(document(result)), (folder / "aliasing.html").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), page_link(folder / "aliasing.html"));
     if (!result.interrupted.empty())
         tell(LogLevel::warning, "incomplete: " + result.interrupted);
     const bool measured =

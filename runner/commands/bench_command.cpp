@@ -4,6 +4,7 @@
 #include "runner/commands/flag_values.h"
 #include "runner/commands/shared_flags.h"
 #include "runner/experiments/bench/bench_run.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/files.h"
 
@@ -52,7 +53,7 @@ int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
     };
     request.write_plot = [&](const Plot& plot) { write_plot(plot, request.folder / plot.name); };
     const BenchResult result = run_bench(request);
-    fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "bench.html").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), page_link(request.folder / "bench.html"));
     return result.interrupted.empty() ? 0 : 1;
 }
 

@@ -21,6 +21,7 @@ enum ExitCode { within_limits = 0, limits_exceeded = 1, users_input = 2, device 
 
 /// As --help lists them.
 fernlicht::AddCommand* const commands[] = {
+    fernlicht::add_new_command,        fernlicht::add_check_command,        fernlicht::add_open_command,
     fernlicht::add_run_command,        fernlicht::add_live_command,         fernlicht::add_film_command,
     fernlicht::add_study_command,      fernlicht::add_bench_command,        fernlicht::add_compare_command,
     fernlicht::add_fit_command,        fernlicht::add_importance_command,   fernlicht::add_masks_command,

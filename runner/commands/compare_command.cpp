@@ -9,6 +9,7 @@
 #include "runner/experiments/compare/runs/run_comparison.h"
 #include "runner/files/log.h"
 #include "runner/files/output_folder.h"
+#include "runner/files/page_link.h"
 #include "runner/findings/library_versions.h"
 #include "runner/findings/run_context.h"
 #include "runner/write/document.h"
@@ -76,7 +77,7 @@ class Results {
         }
         fmt::print("{}", flags_.json ? json : document_text(told));
         if (folder_ && !flags_.json)
-            fmt::print("\n{}\n", (folder() / "report.html").string());
+            fmt::print("\n{}\n", page_link(folder() / "report.html"));
     }
 
   private:

@@ -3,6 +3,7 @@
 #include "runner/commands/flag_values.h"
 #include "runner/commands/shared_flags.h"
 #include "runner/experiments/fit/fit_run.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/files.h"
 
@@ -46,7 +47,7 @@ int fit_points(const FitFlags& flags, const std::vector<std::string>& command) {
         write_document(document(result), result, request.folder, "report", flags.tables);
     };
     const FitResult result = run_fit(request);
-    fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "report.html").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), page_link(request.folder / "report.html"));
     return good(result) ? 0 : 1;
 }
 

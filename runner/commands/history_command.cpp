@@ -8,6 +8,7 @@
 #include "runner/files/log.h"
 #include "runner/files/output_folder.h"
 #include "runner/files/value_json.h"
+#include "runner/files/page_link.h"
 #include "runner/findings/figures.h"
 #include "runner/findings/library_versions.h"
 #include "runner/findings/run_context.h"
@@ -249,7 +250,7 @@ int tell(const HistoryFlags& flags, const Document& told, const HistoryFindings&
     }
     fmt::print("{}", document_text(told));
     if (!flags.out.empty())
-        fmt::print("\n{}\n", (std::filesystem::path(flags.out) / "report.html").string());
+        fmt::print("\n{}\n", page_link(std::filesystem::path(flags.out) / "report.html"));
     return 0;
 }
 

@@ -3,6 +3,7 @@
 #include "runner/commands/flag_values.h"
 #include "runner/commands/shared_flags.h"
 #include "runner/experiments/importance/importance_run.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/files.h"
 #include "scenarios/yaml/library_file.h"
@@ -56,7 +57,7 @@ int tell_importance(const ImportanceFlags& flags, const std::vector<std::string>
         write_document(document(result), result, request.folder, "report", flags.tables);
     };
     const ImportanceResult result = run_importance(request);
-    fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "report.html").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), page_link(request.folder / "report.html"));
     return result.value.number() && agrees(result) ? 0 : 1;
 }
 

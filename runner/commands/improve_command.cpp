@@ -4,6 +4,7 @@
 #include "runner/commands/shared_flags.h"
 #include "runner/experiments/improve/improve_run.h"
 #include "runner/experiments/study/study_run.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -98,7 +99,7 @@ int tell_improvement(const ImproveFlags& flags, const std::vector<std::string>& 
     };
     const ImproveResult result = run_improve(request);
     fmt::print("{}\n{}\n{}\n", document_text(document(result)), (request.folder / result.written).string(),
-               (request.folder / "report.html").string());
+               page_link(request.folder / "report.html"));
     return improved(result) ? 0 : 1;
 }
 

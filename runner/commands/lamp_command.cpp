@@ -3,6 +3,7 @@
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
 #include "runner/commands/shared_flags.h"
+#include "runner/commands/watch.h"
 #include "runner/experiments/compare/lamps/lamp_description.h"
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/json_text.h"
@@ -295,6 +296,24 @@ int lamp_command(const LampRequest& request) {
     return 0;
 }
 
+namespace {
+
+int lamp_turn(LampRequest request, WatchTurn& turn) {
+    if (request.watch) {
+        for (const std::filesystem::path* const file :
+             {&request.file, &request.against, &request.levels, &request.reading.recipe, &request.aim_by})
+            turn.reads(*file);
+        for (const auto* const files : {&request.add, &request.subtract})
+            for (const std::filesystem::path& file : *files)
+                turn.reads(file);
+        turn.reads(lamp_of(request).opened);
+        request.force = request.force || turn.is_again(); // its own files
+    }
+    return lamp_command(request);
+}
+
+} // namespace
+
 void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto request = std::make_shared<LampRequest>();
     CLI::App* command = app.add_subcommand("lamp", "describe a lamp file; scale, mirror, add, convert or plot it");
@@ -351,7 +370,10 @@ void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::funct
         "The picture, .svg or .png, is the isocandela diagram; "
         "with --against the difference, with --cut-off its scans and the elbow. What goes to standard output takes the place of the "
         "description.");
-    command->callback([request, &chosen] { chosen = [request] { return lamp_command(*request); }; });
+    add_watch_flag(*command, request->watch);
+    command->callback([request, &chosen] {
+        chosen = [request] { return watched(request->watch, [&](WatchTurn& turn) { return lamp_turn(*request, turn); }); };
+    });
 }
 
 } // namespace fernlicht

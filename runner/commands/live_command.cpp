@@ -7,6 +7,7 @@
 #include "runner/experiments/live/live_run.h"
 #include "runner/files/log.h"
 #include "runner/files/output_folder.h"
+#include "runner/files/page_link.h"
 #include "runner/findings/run_context.h"
 #include "scenarios/drives/keys/bus_keys.h"
 #include "scenarios/values/errors.h"
@@ -98,7 +99,7 @@ int live(const LiveFlags& flags, const std::vector<std::string>& command) {
         tell(LogLevel::warning, warning);
     if (!report.complete)
         tell(LogLevel::warning, "incomplete: " + report.interrupted);
-    fmt::print("{}\n", (options.folder / "report.html").string());
+    fmt::print("{}\n", page_link(options.folder / "report.html"));
     return !report.complete ? interrupted_code : flags.lossless && lost(*report.live) ? 1 : 0;
 }
 

@@ -3,6 +3,7 @@
 #include "runner/commands/flag_values.h"
 #include "runner/commands/shared_flags.h"
 #include "runner/experiments/masks/masks_run.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -58,7 +59,7 @@ int tell_masks(const MasksFlags& flags, const std::vector<std::string>& command)
         write_document(document(found), found, request.folder, "report", flags.tables);
     };
     const MasksFound found = run_masks(request);
-    fmt::print("{}\n{}\n", document_text(document(found)), (request.folder / "report.html").string());
+    fmt::print("{}\n{}\n", document_text(document(found)), page_link(request.folder / "report.html"));
     return 0;
 }
 

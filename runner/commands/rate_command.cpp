@@ -3,6 +3,7 @@
 #include "runner/commands/flag_values.h"
 #include "runner/commands/shared_flags.h"
 #include "runner/experiments/rating/rating_run.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/files.h"
 #include "scenarios/yaml/library_file.h"
@@ -36,7 +37,7 @@ int tell_rating(const RateFlags& flags, const std::vector<std::string>& command)
         write_document(document(found), found, request.folder, "report", flags.tables);
     };
     const RatingFound found = run_rating(request);
-    fmt::print("{}\n{}\n", document_text(document(found)), (request.folder / "report.html").string());
+    fmt::print("{}\n{}\n", document_text(document(found)), page_link(request.folder / "report.html"));
     return all_within(found) ? 0 : 1;
 }
 

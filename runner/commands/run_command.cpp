@@ -5,12 +5,16 @@
 #include "runner/commands/flag_values.h"
 #include "runner/commands/run_files.h"
 #include "runner/commands/shared_flags.h"
+#include "runner/commands/watch.h"
 #include "runner/experiments/run/run_drives.h"
 #include "runner/files/log.h"
+#include "runner/files/page_link.h"
 #include "runner/files/trace_file.h"
 #include "runner/judge/verdict_line.h"
 #include "runner/write/document.h"
+#include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/glob.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -33,7 +37,7 @@ struct RunFlags {
     std::vector<std::string> road_folders;
     std::string replay, ego, can_start, can_channel;
     std::optional<std::string> can_log, shadows, aim;
-    bool lenient = false, no_accuracy = false;
+    bool lenient = false, no_accuracy = false, watch = false;
 };
 
 DriveEdits edits_of(const RunFlags& flags) {
@@ -113,31 +117,58 @@ void print_verdicts(const Report& report, const std::vector<Drive>& drives) {
     fmt::print("{}\n", line);
 }
 
-int run(const RunFlags& flags, const std::vector<std::string>& command) {
+/// What whoever changes a lamp looks at: readings that decide, and those that have limits.
+std::vector<std::pair<std::string, std::string>> figures_of(const Report& report) {
+    std::vector<std::pair<std::string, std::string>> figures;
+    for (const PlayedCell& played : report.played)
+        for (const Reading& reading : played.readings) {
+            const std::string name = reading.name();
+            const auto fits = [&](const std::string& pattern) { return matches(pattern, name); };
+            const auto is_limit = [&](const Verdict& verdict) { return verdict.name == name; };
+            if (!std::ranges::any_of(decides_by_default(), fits) && std::ranges::none_of(played.verdicts, is_limit))
+                continue;
+            const std::optional<double> figure = reading.value.figure();
+            figures.emplace_back(fmt::format("{}, {}: {}", played.drive, played.lamp_set, name),
+                                 figure ? with_bound(reading.value, fmt::format("{:.4g} {}", *figure, reading.unit())) : "not measured");
+        }
+    return figures;
+}
+
+int run(const RunFlags& flags, const std::vector<std::string>& command, WatchTurn& turn) {
     RunOptions options = flags.options;
     options.ticks = tick_range(flags.frames);
     options.accuracy = !flags.no_accuracy;
     options.known = take(flags.judging, options);
-    options.write = [&](const Report& report, const std::filesystem::path& folder) { write_report(report, folder, flags.tables); };
+    options.write = [&](const Report& report, const std::filesystem::path& folder) {
+        write_report(report, folder, flags.tables);
+        turn.page_written();
+    };
     options.write_plot = [&options](const Plot& plot) { write_plot(plot, options.folder / plot.name); };
     options.command = command;
     const DriveEdits edits = edits_of(flags);
     std::vector<Drive> drives;
-    for (const std::filesystem::path& file : flags.drives)
-        drives.push_back(read_drive(named_file("drive", file, "DRIVE"), edits));
+    for (const std::filesystem::path& named : flags.drives) {
+        const std::filesystem::path file = named_file("drive", named, "DRIVE");
+        turn.reads(file);
+        drives.push_back(read_drive(file, edits));
+        turn.reads(drives.back().opened);
+        turn.reads(drives.back().road_file);
+    }
     refuse_equal_names(drives);
-    options.folder = result_folder(flags.out, drives.front().name);
+    options.folder = turn.folder(result_folder(flags.out, drives.front().name));
     TraceFile trace(flags.trace, "fernlicht run " + drives.front().name, options.folder);
     const Report report = run_drives(drives, options);
     const VerdictKind verdict = overall(report);
     for (const std::string& warning : report.warnings)
         tell(LogLevel::warning, warning);
+    turn.reads(report.context.inputs);
+    turn.tell_figures(figures_of(report));
     print_verdicts(report, drives);
     if (!report.complete) {
         tell(LogLevel::warning, "incomplete: " + report.interrupted);
         annotate({}, "incomplete", report.interrupted);
     }
-    fmt::print("{}\n", (options.folder / "report.html").string());
+    fmt::print("{}\n", page_link(turn.page()));
     trace.finish();
     return report.complete && verdict == VerdictKind::pass ? 0 : 1;
 }
@@ -178,7 +209,14 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     add_shared(*sub, "--no-accuracy", flags->no_accuracy);
     add_shared(*sub, "--quiet", flags->options.quiet);
     sub->footer("All cars of a storyboard have halogen low beams. `--can-log none` plays a drive by its own script.");
-    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return run(*flags, command); }; });
+    add_watch_flag(*sub, flags->watch);
+    sub->callback([flags, command, &chosen] {
+        chosen = [flags, command] {
+            if (flags->watch && !flags->trace.empty())
+                throw InputError({{}, 0, 0, "--watch"}, "found together with --trace", "one of them");
+            return watched(flags->watch, [&](WatchTurn& turn) { return run(*flags, command, turn); });
+        };
+    });
 }
 
 } // namespace fernlicht

@@ -6,6 +6,7 @@
 #include "runner/experiments/run/run_drives.h"
 #include "runner/experiments/shadows/shadow_study.h"
 #include "runner/files/log.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -104,7 +105,7 @@ int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) 
     };
     const ShadowResult result = run_shadow_study(request);
     fmt::print("{}\n{}\n", flags.printed ? flags.printed->of_document(shadow_paper(result)) : document_text(document(result)),
-               (request.folder / "shadows.html").string());
+               page_link(request.folder / "shadows.html"));
     if (!result.interrupted.empty())
         tell(LogLevel::warning, "incomplete: " + result.interrupted);
     for (const std::string& missing : result.missing)

@@ -4,12 +4,14 @@
 #include "runner/commands/flag_values.h"
 #include "runner/commands/run_files.h"
 #include "runner/commands/shared_flags.h"
+#include "runner/commands/watch.h"
 #include "runner/experiments/history/history_document.h"
 #include "runner/experiments/history/night_of_study.h"
 #include "runner/experiments/history/tell_apart_by_playing.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/experiments/study/study_run.h"
 #include "runner/files/log.h"
+#include "runner/files/page_link.h"
 #include "runner/files/trace_file.h"
 #include "runner/findings/run_context.h"
 #include "runner/judge/verdict_line.h"
@@ -24,6 +26,7 @@
 #include <fmt/ranges.h>
 #include <memory>
 #include <oneapi/tbb/parallel_invoke.h>
+#include <set>
 #include <unistd.h>
 
 namespace fernlicht {
@@ -42,7 +45,7 @@ struct StudyFlags {
     std::optional<double> cell_minutes, cell_memory_mib;
     std::optional<int> cell_cores;
     std::string executor = "local", partition, gpus;
-    bool timed = false, fails_on_change = false, explain = false, plan = false, play = false, collect = false;
+    bool timed = false, fails_on_change = false, explain = false, plan = false, play = false, collect = false, watch = false;
 };
 
 int list_cells(const std::vector<StudyCell>& cells) {
@@ -184,9 +187,31 @@ void refuse_contradictions(const StudyFlags& flags) {
     if (!flags.out.empty() && ways > 0 && !flags.collect)
         throw InputError({{}, 0, 0, "--out"}, "found beside --list, --explain, --plan or --play, which write no report",
                          "it without these");
+    if (flags.watch && (ways > 0 || flags.timed || flags.resume || slurm || !flags.history.empty() || !flags.trace.empty()))
+        throw InputError(
+            {{}, 0, 0, "--watch"},
+            "found beside --list, --explain, --plan, --play, --collect, --timed, --resume, --executor slurm, --history or --trace",
+            "it without these");
     if (flags.timed && (ways > 0 || flags.jobs > 1))
         throw InputError({{}, 0, 0, "--timed"}, "found beside what plays several cells at a time or none",
                          "--timed by itself: cells are played one after another");
+}
+
+/// What is waited for with --watch: its drives, and lamps as each drive has them.
+void read_by(const Study& study, WatchTurn& turn) {
+    turn.reads(study.opened);
+    for (const std::filesystem::path& drive : study.drives)
+        turn.reads(drive);
+    for (const StudyLamp& lamp : study.lamps)
+        for (const std::filesystem::path* const file : {&lamp.left, &lamp.right, &lamp.high, &lamp.recipe})
+            turn.reads(*file);
+    std::set<std::pair<std::size_t, std::size_t>> seen;
+    for (const StudyCell& cell : cells_of(study))
+        if (seen.emplace(cell.drive, cell.lamp).second) {
+            const Drive drive = cell_drive(study, cell);
+            turn.reads(drive.opened);
+            turn.reads(drive.road_file);
+        }
 }
 
 /// What a store takes out of its folder must not be a report.
@@ -216,11 +241,15 @@ void annotate_study(const StudyResult& result) {
         annotate({result.study.file, 0, 0, {}}, "incomplete", result.interrupted);
 }
 
-int study(const StudyFlags& flags, const std::vector<std::string>& command) {
+int study(const StudyFlags& flags, const std::vector<std::string>& command, WatchTurn& turn) {
     refuse_contradictions(flags);
     if (flags.file == "-")
         refuse_flag("STUDY", "-", "a file: processes of their own read it to play its cells");
-    const Study study = read_study(named_file("study", flags.file, "STUDY"));
+    const std::filesystem::path file = named_file("study", flags.file, "STUDY");
+    turn.reads(file);
+    const Study study = read_study(file);
+    if (flags.watch)
+        read_by(study, turn);
     if (flags.list) {
         refuse_unaimable(study);
         refuse_unknown_readings(study);
@@ -232,7 +261,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     if (flags.resume && flags.out.empty())
         throw InputError({{}, 0, 0, "--resume"}, "found no --out beside it", "the folder to go on in");
     StudyOptions options;
-    options.folder = result_folder(flags.out, study.name);
+    options.folder = turn.folder(result_folder(flags.out, study.name));
     options.store = flags.store.empty() && (!flags.timed || !flags.history.empty()) ? default_store() : std::filesystem::path(flags.store);
     refuse_store(options.folder, options.store);
     options.timed = flags.timed;
@@ -275,6 +304,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
                  std::get<std::string>(changes_section(*findings).blocks.front()),
                  shell_quoted({command.front(), "history", "explain", "--study", result.study.name, "--history", flags.history})});
         write_study(result, options.folder, findings, flags.figures == "paper");
+        turn.page_written();
         if (findings)
             try_history([&] { remember(flags, result, options, *findings); });
     };
@@ -300,7 +330,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     Document summary = study_summary(result);
     if (findings)
         summary.sections.insert(summary.sections.begin(), changes_section(*findings));
-    fmt::print("{}{}\n{}\n", document_text(summary), result.played_by, (options.folder / "report.html").string());
+    fmt::print("{}{}\n{}\n", document_text(summary), result.played_by, page_link(turn.page()));
     annotate_study(result);
     trace.finish();
     if (!no_history.empty())
@@ -361,7 +391,10 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->footer(
         "With --history the report leads with what changed since the last accepted night, and tonight is added. docs/studies.md tells "
         "more.");
-    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return study(*flags, command); }; });
+    add_watch_flag(*sub, flags->watch);
+    sub->callback([flags, command, &chosen] {
+        chosen = [flags, command] { return watched(flags->watch, [&](WatchTurn& turn) { return study(*flags, command, turn); }); };
+    });
 }
 
 } // namespace fernlicht
