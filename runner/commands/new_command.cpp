@@ -1,6 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/findings/run_context.h"
 #include "scenarios/lamps/lamp_file.h"
 #include "scenarios/values/library_folders.h"
@@ -119,13 +120,13 @@ void add_new_command(CLI::App& app, const std::vector<std::string>&, std::functi
     const auto add = [&](const char* name, const char* text, const std::function<const Starter&(const NewFlags&)>& choose) {
         const auto flags = std::make_shared<NewFlags>();
         CLI::App* const one = sub->add_subcommand(name, text);
-        one->add_option("NAME", flags->name, fmt::format("name of the file (default: {})", name));
-        one->add_flag("--force", flags->force, "replace a file of that name");
+        one->add_option("NAME", flags->name, "name of the file")->default_str(name);
+        add_shared(*one, "--force", flags->force);
         one->callback([flags, choose, name, &chosen] { chosen = [flags, choose, name] { return begin(choose(*flags), *flags, name); }; });
         return std::pair(one, flags);
     };
     const auto [lamp, flags] = add("lamp", "a low beam as a table (.csv) or in IES (.ies), or a pixel lamp (.yaml)", lamp_starter);
-    lamp->add_option("--kind", flags->kind, "table (default), ies or pixels; else what the name ends in says it");
+    lamp->add_option("--kind", flags->kind, "what to write")->option_text("table|ies|pixels")->default_str("as the name ends, else table");
     add("drive", "a drive of six seconds in two lamps", [](const NewFlags&) -> const Starter& { return drive; });
     add("study", "two lamps on two roads, compared", [](const NewFlags&) -> const Starter& { return study; });
 }

@@ -64,11 +64,12 @@ TEST(FilmCommand, SameFramesTwiceWithEverythingOverThem) {
 TEST(FilmCommand, PanelsStandWhereTheArrangementHasThem) {
     const TemporaryFolder folder;
     film_frames(folder, "beside", "--frames 2:2");
-    film_frames(folder, "swapped", "--frames 2:2 --side-by-side --lamp-set xenon,halogen");
-    film_frames(folder, "grid", "--frames 2:2 --grid --lamp-set xenon --lamp-set halogen,xenon");
+    film_frames(folder, "swapped", "--frames 2:2 --side-by-side --lamp-sets xenon,halogen");
+    std::ofstream(folder / "again.yaml") << std::regex_replace(content_of(filmed_drive), std::regex("[.][.]/"), library_file(""));
+    film_frames(folder, "grid", "--frames 2:2 --grid --lamp-sets xenon,halogen " + (folder / "again.yaml"));
     film_frames(folder, "wipe", "--frames 2:2 --wipe");
-    film_frames(folder, "halogen", "--frames 2:2 --lamp-set halogen");
-    film_frames(folder, "xenon", "--frames 2:2 --lamp-set xenon");
+    film_frames(folder, "halogen", "--frames 2:2 --lamp-sets halogen");
+    film_frames(folder, "xenon", "--frames 2:2 --lamp-sets xenon");
     const Image<Rgb8> beside = frame_of(folder, "beside", 2), swapped = frame_of(folder, "swapped", 2);
     const FilmLayout two = film_layout(FilmArrangement::side_by_side, 2, film_width, film_height, {});
     const PixelBox &left = two.panels[0].picture, &right = two.panels[1].picture;
@@ -76,10 +77,10 @@ TEST(FilmCommand, PanelsStandWhereTheArrangementHasThem) {
     EXPECT_EQ(box_of(beside, right), box_of(swapped, left));
     EXPECT_NE(box_of(beside, left), box_of(beside, right));
     const Image<Rgb8> grid = frame_of(folder, "grid", 2);
-    const FilmLayout three = film_layout(FilmArrangement::grid, 3, film_width, film_height, {});
-    EXPECT_EQ(box_of(grid, three.panels[0].picture), box_of(grid, three.panels[2].picture));
-    EXPECT_NE(box_of(grid, three.panels[0].picture), box_of(grid, three.panels[1].picture));
-    EXPECT_GT(three.panels[2].picture.y, three.panels[1].picture.y);
+    const FilmLayout four = film_layout(FilmArrangement::grid, 4, film_width, film_height, {});
+    EXPECT_EQ(box_of(grid, four.panels[0].picture), box_of(grid, four.panels[2].picture));
+    EXPECT_NE(box_of(grid, four.panels[0].picture), box_of(grid, four.panels[1].picture));
+    EXPECT_GT(four.panels[2].picture.y, four.panels[1].picture.y);
 
     const Image<Rgb8> wipe = frame_of(folder, "wipe", 2);
     const FilmLayout one = film_layout(FilmArrangement::wipe, 2, film_width, film_height, {});
