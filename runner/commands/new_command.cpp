@@ -33,7 +33,7 @@ const std::vector<Starter>& lamps() {
          "a low beam as a table of candela, for a spreadsheet",
          {"lamp {} --check", "lamp {} --regulation r149-c", "run first-light --lamp {} --watch"}},
         {"ies", ".ies", "lamp.csv", "", "the same low beam in IES LM-63", {"lamp {} --check", "run first-light --lamp {} --watch"}},
-        {"pixels", ".yaml", "pixels.yaml", "pixel-lamp", "a pixel lamp on a low beam", {"lamp {}", "run first-light --lamp {} --watch"}},
+        {"pixels", ".yaml", "pixels.yaml", "pixel-lamp", "a pixel lamp for a high beam", {"lamp {}", "run first-light --lamp high={} --watch"}},
     };
     return all;
 }
@@ -70,10 +70,10 @@ const Starter& lamp_starter(const NewFlags& flags) {
 
 /// Where editors find the schema: as installed, or in the sources.
 std::string schema_line(std::string_view schema) {
+    std::error_code ignored;
     for (const fs::path& folder : library_folders())
         for (const fs::path& place : {folder / "schemas", folder.parent_path()})
-            if (const fs::path file = place / fmt::format("{}.schema.json", schema);
-                std::error_code() == std::error_code{} && fs::exists(file))
+            if (const fs::path file = place / fmt::format("{}.schema.json", schema); fs::exists(file, ignored))
                 return fmt::format("# yaml-language-server: $schema={}\n", file.string());
     return "";
 }
