@@ -61,4 +61,26 @@ DressedObject dressed_guard_rail(double length_m, double width_m, double height_
     return out;
 }
 
+DressedObject dressed_bollard(double height_m) {
+    DressedObject out;
+    constexpr int sides = 10;
+    constexpr double radius_m = 0.05;
+    const auto band = [&](double low, double high, double radius, Stuff stuff) {
+        for (int i = 0; i < sides; ++i) {
+            const auto at = [&](int k, double z) {
+                const double angle = 2.0 * pi * k / sides;
+                return glm::dvec3(radius * std::cos(angle), radius * std::sin(angle), z);
+            };
+            out.low.add({at(i, low), at(i + 1, low), at(i + 1, high)}, index_of(stuff));
+            out.low.add({at(i, low), at(i + 1, high), at(i, high)}, index_of(stuff));
+            if (high == height_m)
+                out.low.add({at(i, high), at(i + 1, high), {0.0, 0.0, high}}, index_of(stuff));
+        }
+    };
+    band(0.0, height_m, radius_m, Stuff::shutter);
+    band(0.75 * height_m, 0.87 * height_m, radius_m + 0.002, Stuff::sheet_white);
+    smooth(out.low, radians(50.0));
+    return out;
+}
+
 } // namespace fernlicht

@@ -98,7 +98,7 @@ const Fields<Route::Start>& start_fields() {
 }
 
 std::string name_from(const std::filesystem::path& path) {
-    std::string name = path.stem().string().substr(0, 64);
+    std::string name = path == "-" ? "stdin" : path.stem().string().substr(0, 64);
     for (char& c : name)
         if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_'))
             c = '-';

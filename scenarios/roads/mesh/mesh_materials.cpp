@@ -2,6 +2,7 @@
 
 #include "scenarios/photometry.h"
 #include "scenarios/roads/mesh/road_mesh.h"
+#include "scenarios/values/mixed_bits.h"
 
 #include <algorithm>
 #include <array>
@@ -344,15 +345,6 @@ void put_on(Material& material, const std::vector<SurfaceTexture>& textures, Roa
     material.retro_rl = static_cast<float>(static_cast<double>(material.retro_rl) * luminance(own) / luminance(wanted));
 }
 
-/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014).
-std::uint64_t mixed(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    return z ^ (z >> 31);
-}
-
-constexpr std::uint64_t golden = 0x9E3779B97F4A7C15ULL;
-
 /// Perlin's fade of 2002: first and second derivative are 0 at both ends.
 double fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
 
@@ -388,11 +380,11 @@ void add_road_textures(Scene& scene, std::uint64_t seed) {
     put(RoadMaterial::marking_yellow, RoadTexture::paint_wear, TextureMode::decal);
 }
 
-TilingNoise::TilingNoise(std::uint64_t seed, std::uint64_t stream) : key_(mixed(mixed(seed + golden) + stream * golden)) {}
+TilingNoise::TilingNoise(std::uint64_t seed, std::uint64_t stream) : key_(mixed(mixed(seed + mixing_step) + stream * mixing_step)) {}
 
 double TilingNoise::uniform(int x, int y) const {
     const std::uint64_t place = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32) | static_cast<std::uint32_t>(y);
-    return static_cast<double>(mixed(key_ ^ mixed(place + golden)) >> 11) * 0x1p-53;
+    return static_cast<double>(mixed(key_ ^ mixed(place + mixing_step)) >> 11) * 0x1p-53;
 }
 
 double TilingNoise::gradient(double u, double v, int cells) const {

@@ -46,7 +46,8 @@ Scene build_scene(const RoadNetwork& network, const RoadMeshOptions& options) {
             scene, network, plans[i], [&](const StripEnd& from, const StripEnd& to) { return junction_paint(footprints, i, from, to); });
         append_terrain(scene, plans[i], i, surface, footprints, options);
         append_objects(scene, network, plans[i], options);
-        append_signals(scene, network, plans[i]);
+        if (options.signals)
+            append_signals(scene, network, plans[i]);
     }
     return scene;
 }

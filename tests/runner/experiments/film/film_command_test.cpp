@@ -194,9 +194,12 @@ TEST(FilmCommand, RefusesInOneSentence) {
     refused(film, "", 3, "install Debian's package ffmpeg", "PATH=" + folder.path().string());
     refused(film, "--overlay lux,fog", 2, "found 'fog', expected some of lux, isolux, readings, speed");
     refused(film, "--rate 0", 2, "frames a second");
+    refused(film, "--rate abc", 2, "--rate: found 'abc', expected");
+    refused(film, "--lamp-sets xenon,halogen,xenon", 2, "--lamp-sets: found 'xenon twice', expected each lamp set once");
+    refused(folder / "nowhere/film.webm", "--technique magic", 2, "--technique: "); // inputs first
     refused(film, "--resolution 321x240", 2, "even numbers");
-    refused(film, "--lamp-set laser", 2, "one of halogen, xenon");
-    refused(film, "--wipe --lamp-set xenon", 2, "--wipe: found 1 panel");
+    refused(film, "--lamp-sets laser", 2, "one of halogen, xenon");
+    refused(film, "--wipe --lamp-sets xenon", 2, "--wipe: found 1 panel");
     refused(film, "--frames 100000:", 2, "frames of the film");
     refused(film, "--technique plain --overlay lux", 2, "does not compute an illuminance");
     const std::string other = folder / "other.yaml";
@@ -219,7 +222,7 @@ TEST(FilmCommand, InterruptedItKeepsWhatWasFilmed) {
         GTEST_SKIP() << "ffmpeg is not installed";
     const TemporaryFolder folder;
     const Outcome run = run_interrupted(
-        fmt::format("film {} --film {} --resolution 160x120 --backend software --frames 0:199", filmed_drive, folder / "film.mp4"),
+        fmt::format("film {} --film {} --resolution 160x120 --backend software --log-json --frames 0:199", filmed_drive, folder / "film.mp4"),
         "film of straight");
     EXPECT_EQ(run.exit_code, 1) << run.output;
     EXPECT_THAT(run.output, HasSubstr("incomplete: interrupted by the user"));
