@@ -95,6 +95,27 @@ TEST(FilmCommand, PanelsStandWhereTheArrangementHasThem) {
     }
 }
 
+/// A house 300 m beside the road, seen by day through 4 degrees: finer than the drive's own view shows it.
+TEST(FilmCommand, DressedSceneryIsAsFineAsTheFilmShowsIt) {
+    const TemporaryFolder folder;
+    const std::string object =
+        R"(<objects><object id="1" name="house" type="building" s="110" t="300" zOffset="0" hdg="0" length="12" width="10" height="7"/></objects></road>)";
+    std::ofstream(folder / "road.xodr") << std::regex_replace(content_of(library_file("roads/straight.xodr")), std::regex("</road>"),
+                                                              object);
+    const auto film_with = [&](const char* name, double fov_deg) {
+        std::ofstream(folder / (std::string(name) + ".yaml")) << fmt::format(
+            "fernlicht: 1\nroad: road.xodr\nroute: {{s_m: 110}}\nspeed_kmh: 36\nduration_s: 1\ndressing: dressed\n"
+            "daylight: {{name: day, date: 2026-06-18, time: 12:00, utc_offset_h: 2, latitude_deg: 48, longitude_deg: 11, sky: clear}}\n"
+            "lamp_sets: {{one: {{file: {}}}}}\nviews: {{driver: {{yaw_deg: 90, pitch_deg: 0.5, vertical_fov_deg: {}, resolution_px: [320, "
+            "240]}}}}\n",
+            library_file("lamps/xenon-low.ies"), fov_deg);
+        printed(fmt::format("film '{}' --film '{}' --backend software --quiet --resolution 320x240 --vertical-fov 4 --frames 0:0",
+                            folder / (std::string(name) + ".yaml"), folder / (std::string(name) + "-%06d.png")));
+        return frame_of(folder, name, 0);
+    };
+    EXPECT_EQ(film_with("coarse", 40.0), film_with("fine", 4.0));
+}
+
 /// The filmed drive, with other lines for its lamp sets and more at its end.
 std::string drive_beside(const TemporaryFolder& folder, const std::string& name, const std::string& lamp_sets, const std::string& more) {
     const std::string moved = std::regex_replace(content_of(filmed_drive), std::regex("[.][.]/"), library_file(""));
