@@ -8,7 +8,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* quickly = " --frames 0:0 --no-accuracy --backend software";
+constexpr const char* shortly = " --frames 0:0 --no-accuracy --backend software";
 
 TEST(New, WritesFilesThatPlayAsTheyStand) {
     const TemporaryFolder folder;
@@ -23,10 +23,10 @@ TEST(New, WritesFilesThatPlayAsTheyStand) {
     here("new lamp mine.ies");
     here("new lamp --kind pixels matrix");
     EXPECT_THAT(here("check --strict drive.yaml nights.yaml lamp.csv mine.ies matrix.yaml"), HasSubstr("5 files, 0 errors, 0 warnings"));
-    here(std::string("run drive.yaml --resolution 64x48 --out drive") + quickly);
-    here(std::string("study nights.yaml --out nights --store store") + quickly);
+    here(std::string("run drive.yaml --resolution 64x48 --out drive") + shortly);
+    here(std::string("study nights.yaml --out nights --store store") + shortly);
     for (const char* const lamp : {"lamp.csv", "mine.ies", "high=matrix.yaml"})
-        here(std::string("run first-light --resolution 64x48 --lamp ") + lamp + " --out " + lamp + "-run" + quickly);
+        here(std::string("run first-light --resolution 64x48 --lamp ") + lamp + " --out " + lamp + "-run" + shortly);
     for (const char* const lamp : {"lamp.csv", "mine.ies"})
         EXPECT_THAT(here(std::string("lamp --regulation r149-c ") + lamp), HasSubstr("75R")) << "it keeps the table of its class";
 }
