@@ -51,6 +51,7 @@ int tell_town(const TownFlags& flags) {
     const Model model = read_model(flags.model);
     const std::filesystem::path folder = result_folder(flags.out, model.name + "-night");
     const TownFound found = look_at_town(model, request);
+    std::filesystem::create_directories(folder);
     write_png(found.view, folder / "driver.png");
     const auto figure = lux_map_figure(found.map, fmt::format("{} in two lamps, {}", model.name, request.lamp));
     write_file(folder / "lux.png", plots::png_of_svg(plots::svg_of(*figure, 0)));

@@ -59,7 +59,8 @@ SceneGround::SceneGround(const Scene& scene) {
     low_y_m_ = middle.y - half.y;
     across_ = static_cast<int>(2.0 * half.x / cell_m_) + 1;
     along_ = static_cast<int>(2.0 * half.y / cell_m_) + 1;
-    cells_.assign(static_cast<std::size_t>(across_) * static_cast<std::size_t>(along_), {std::numeric_limits<float>::quiet_NaN()});
+    cells_.assign(static_cast<std::size_t>(across_) * static_cast<std::size_t>(along_),
+                  {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::quiet_NaN()});
     add_ground(scene);
     add_obstacles(scene);
 }
@@ -101,18 +102,23 @@ template <class Use> void SceneGround::each_point(const glm::dvec3 (&c)[3], Use 
 }
 
 void SceneGround::add_ground(const Scene& scene) {
-    bool any_road = false;
-    each_triangle(scene, [&](const glm::dvec3(&corners)[3], std::uint32_t material) {
-        if (slope(corners) < faces_up)
-            return;
-        const bool road = named_road(scene.materials[material].name);
-        any_road = any_road || road;
-        each_point(corners, [&](Cell& there, double z) {
-            if (!(static_cast<double>(there.height_m) <= z)) {
-                there.height_m = static_cast<float>(z);
-                there.road = road;
-            }
+    const auto each_upward = [&](auto use) {
+        each_triangle(scene, [&](const glm::dvec3(&corners)[3], std::uint32_t material) {
+            if (slope(corners) >= faces_up)
+                each_point(corners, [&](Cell& there, double z) { use(there, static_cast<float>(z), material); });
         });
+    };
+    each_upward([](Cell& there, float z, std::uint32_t) {
+        if (!(there.lowest_m <= z))
+            there.lowest_m = there.height_m = z;
+    });
+    bool any_road = false; // of what lies on the lowest, as a pavement does, the uppermost
+    each_upward([&](Cell& there, float z, std::uint32_t material) {
+        if (z >= there.height_m && z < there.lowest_m + static_cast<float>(low_m)) {
+            there.height_m = z;
+            there.road = named_road(scene.materials[material].name);
+            any_road = any_road || there.road;
+        }
     });
     for (Cell& there : cells_)
         there.road = there.road || !any_road;
@@ -188,12 +194,14 @@ std::optional<Pose> SceneGround::longest_free_way() const {
 
 void SceneGround::mark_ground(Scene& scene) const {
     std::map<std::uint32_t, std::uint32_t> as_ground; // a material's copy
-    for (Mesh& mesh : scene.meshes) {
-        std::vector<std::uint32_t> indices;
-        std::vector<Batch> batches;
-        for (const Batch& batch : mesh.batches)
-            for (const bool ground : {false, true}) {
-                const auto first = static_cast<std::uint32_t>(indices.size());
+    std::vector<Mesh> meshes;                         // maps show a mesh or do not
+    for (const Mesh& mesh : scene.meshes)
+        for (const bool ground : {false, true}) {
+            Mesh part = mesh;
+            part.indices.clear();
+            part.batches.clear();
+            for (const Batch& batch : mesh.batches) {
+                const auto first = static_cast<std::uint32_t>(part.indices.size());
                 for (std::uint32_t i = batch.first; i + 2 < batch.first + batch.count; i += 3) {
                     glm::dvec3 c[3];
                     for (std::uint32_t k = 0; k < 3; ++k)
@@ -201,9 +209,9 @@ void SceneGround::mark_ground(Scene& scene) const {
                     const glm::dvec3 middle = (c[0] + c[1] + c[2]) / 3.0;
                     const std::optional<double> below = height_m(middle.x, middle.y);
                     if ((slope(c) > faces_up && below && std::abs(middle.z - *below) < low_m) == ground)
-                        indices.insert(indices.end(), mesh.indices.begin() + i, mesh.indices.begin() + i + 3);
+                        part.indices.insert(part.indices.end(), mesh.indices.begin() + i, mesh.indices.begin() + i + 3);
                 }
-                if (indices.size() == first)
+                if (part.indices.size() == first)
                     continue;
                 std::uint32_t material = batch.material;
                 if (ground) {
@@ -214,11 +222,12 @@ void SceneGround::mark_ground(Scene& scene) const {
                     }
                     material = copy->second;
                 }
-                batches.push_back({material, first, static_cast<std::uint32_t>(indices.size()) - first});
+                part.batches.push_back({material, first, static_cast<std::uint32_t>(part.indices.size()) - first});
             }
-        mesh.indices = std::move(indices);
-        mesh.batches = std::move(batches);
-    }
+            if (!part.batches.empty())
+                meshes.push_back(std::move(part));
+        }
+    scene.meshes = std::move(meshes);
 }
 
 } // namespace fernlicht

@@ -7,8 +7,8 @@
 
 namespace fernlicht {
 
-/// The lowest surface that faces up, on a grid of half a metre or, where the scene is larger than 1 km, of a two-thousandth of it.
-/// Scenes beyond 4 km are taken as far as 2 km about their middle.
+/// The lowest surface that faces up, or what lies on it within 0.3 m, on a grid of half a metre or, where the scene is larger than 1 km, of
+/// a two-thousandth of it. Scenes beyond 4 km are taken as far as 2 km about their middle.
 class SceneGround {
   public:
     explicit SceneGround(const Scene& scene);
@@ -28,12 +28,12 @@ class SceneGround {
     /// lane or asphalt, on these alone. nullopt where no car can stand.
     std::optional<Pose> longest_free_way() const;
 
-    /// Makes what lies on the ground `terrain`, which stands in maps; the rest stays what it is.
+    /// Makes what lies on the ground `terrain`, which stands in maps, in meshes of its own; the rest stays what it is.
     void mark_ground(Scene& scene) const;
 
   private:
     struct Cell {
-        float height_m;
+        float height_m, lowest_m;
         bool blocked = false, road = false;
     };
     /// Into cells_; nullopt beside the grid.

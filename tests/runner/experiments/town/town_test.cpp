@@ -1,13 +1,11 @@
 #include "runner/experiments/town/town.h"
 
 #include "runner/experiments/town/two_lamps.h"
-#include "scenarios/lamps/candela_table.h"
+#include "scenarios/light/light.h"
 #include "scenarios/models/triangle_soup.h"
 #include "scenarios/values/errors.h"
 #include "tests/trial.h"
 
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -34,17 +32,8 @@ TownRequest small_request() {
     return request;
 }
 
-/// I cos / d^2 of both lamps on level ground, from the table.
-double lux_at(const glm::dvec3& point_m) {
-    double sum = 0.0;
-    for (const LitLamp& lamp : in_two_lamps("halogen-low", {}).lamps) {
-        const glm::dvec3 way = point_m - lamp.pose.position_m;
-        const double d = glm::length(way);
-        sum += intensity_cd(lamp.file->table, degrees(std::atan2(-way.y, way.x)), degrees(std::asin(way.z / d))) * lamp.intensity_factor *
-               -way.z / d / (d * d);
-    }
-    return sum;
-}
+/// Of both lamps on level ground, from the tables, without the renderer and without shadows.
+double lux_at(const glm::dvec3& point_m) { return surface_illuminance_lx(in_two_lamps("halogen-low", {}), point_m, {0.0, 0.0, 1.0}); }
 
 TEST(Town, LuxOnTheGroundIsThatOfTheLamps) {
     const TownFound found = look_at_town(town(), small_request());
