@@ -224,8 +224,8 @@ TrafficFold::TrafficFold(const Drive& drive, const Route& route) : drive_(drive)
 void TrafficFold::add(const Moment& moment) {
     const GlareParameters& parameters = *drive_.seeing.glare;
     const glm::dvec3 eye_m = to_parent(moment.ego, driver_eye_m(drive_));
-    std::vector<GlareSource> sources = traffic_glare(moment, eye_m, moment.ego.forward(), boxes_, drive_.road_surface.pavement);
-    const TrafficByRoad by_film = traffic_by_road(moment, eye_m, moment.ego.forward(), boxes_);
+    std::vector<GlareSource> sources = traffic_glare(moment, eye_m, moment.ego.forward(), boxes_);
+    const TrafficByRoad by_film = traffic_by_road(moment, eye_m, moment.ego.forward(), boxes_, drive_.road_surface.pavement);
     sources.insert(sources.end(), by_film.sources.begin(), by_film.sources.end());
     double facing = 0.0;
     for (const GlareSource& source : sources)

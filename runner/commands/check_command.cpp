@@ -1,5 +1,6 @@
 #include "runner/commands/commands.h"
 
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/check/check_files.h"
 #include "runner/files/json_text.h"
 #include "runner/files/log.h"
@@ -134,8 +135,8 @@ void add_check_command(CLI::App& app, const std::vector<std::string>&, std::func
     sub->add_option("FILE", flags->files,
                     "files of any kind that fernlicht reads, told by their content; folders with all such files in them; -: standard input")
         ->required();
-    sub->add_flag("--strict", flags->strict, "exit code 1 where there are warnings");
-    sub->add_flag("--json", flags->json, "print JSON");
+    sub->add_flag("--fail-on-warning", flags->strict, "exit with 1 where there are warnings");
+    add_shared(*sub, "--json", flags->json);
     sub->footer("A line for each problem: FILE:LINE:COLUMN: error: TEXT. Exit code 2 where there is an error.");
     sub->callback([flags, &chosen] { chosen = [flags] { return check(*flags); }; });
 }

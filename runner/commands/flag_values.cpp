@@ -230,7 +230,7 @@ std::optional<KnownFailures> take(const JudgingFlags& flags, RunOptions& options
 }
 
 void add_log_flags(CLI::App& command, LogFlags& flags) {
-    command.add_option("--stamps", flags.stamps, "what timestamps count from: absolute, zero (-tz) or delta (-td)")
+    command.add_option("--stamps", flags.stamps, "what timestamps count from, as with candump's -ta, -tz and -td")
         ->option_text("absolute|zero|delta")
         ->default_str("detected where possible");
     command.add_option("--start", flags.start, "time of the first frame in seconds, where timestamps are zero or delta")

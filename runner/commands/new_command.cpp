@@ -1,6 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/findings/run_context.h"
 #include "scenarios/lamps/lamp_file.h"
 #include "scenarios/values/library_folders.h"
@@ -32,18 +33,23 @@ const std::vector<Starter>& lamps() {
          "a low beam as a table of candela, for a spreadsheet",
          {"lamp {} --check", "lamp {} --regulation r149-c", "run first-light --lamp {} --watch"}},
         {"ies", ".ies", "lamp.csv", "", "the same low beam in IES LM-63", {"lamp {} --check", "run first-light --lamp {} --watch"}},
-        {"pixels", ".yaml", "pixels.yaml", "pixel-lamp", "a pixel lamp on a low beam", {"lamp {}", "run first-light --lamp {} --watch"}},
+        {"pixels",
+         ".yaml",
+         "pixels.yaml",
+         "pixel-lamp",
+         "a pixel lamp for a high beam",
+         {"lamp {}", "run first-light --lamp high={} --watch"}},
     };
     return all;
 }
 
-const Starter drive{"", ".yaml", "drive.yaml", "drive", "a drive of 6 s in two lamps", {"check {}", "run {}", "run {} --watch"}};
-const Starter study{"",
-                    ".yaml",
-                    "study.yaml",
-                    "study",
-                    "a study of two lamps on two roads",
-                    {"check {}", "study {} --frames 0:4 --no-accuracy", "study {}"}};
+const Starter drive_starter{"", ".yaml", "drive.yaml", "drive", "a drive of 6 s in two lamps", {"check {}", "run {}", "run {} --watch"}};
+const Starter study_starter{"",
+                            ".yaml",
+                            "study.yaml",
+                            "study",
+                            "a study of two lamps on two roads",
+                            {"check {}", "study {} --frames 0:4 --no-accuracy", "study {}"}};
 
 struct NewFlags {
     std::string name, kind;
@@ -69,10 +75,10 @@ const Starter& lamp_starter(const NewFlags& flags) {
 
 /// Where editors find the schema: as installed, or in the sources.
 std::string schema_line(std::string_view schema) {
+    std::error_code ignored;
     for (const fs::path& folder : library_folders())
         for (const fs::path& place : {folder / "schemas", folder.parent_path()})
-            if (const fs::path file = place / fmt::format("{}.schema.json", schema);
-                std::error_code() == std::error_code{} && fs::exists(file))
+            if (const fs::path file = place / fmt::format("{}.schema.json", schema); fs::exists(file, ignored))
                 return fmt::format("# yaml-language-server: $schema={}\n", file.string());
     return "";
 }
@@ -101,9 +107,9 @@ int begin(const Starter& starter, const NewFlags& flags, const char* usual_name)
     }
     if (std::error_code ignored; fs::is_directory(path, ignored))
         refuse_flag("NAME", path.string(), "the name of a file, not of a folder");
-    refuse_existing("NAME", path, flags.force);
     if (const fs::path folder = path.parent_path(); !folder.empty() && !fs::is_directory(folder))
         throw InputError({{}, 0, 0, "NAME"}, "there is no folder " + printable(folder.string(), 400), "a file in a folder that is there");
+    check_target("NAME", path, flags.force);
     write_new(starter, path);
     fmt::print("{}: {}. Next:\n", path.string(), starter.what);
     for (const char* const next : starter.next)
@@ -119,15 +125,15 @@ void add_new_command(CLI::App& app, const std::vector<std::string>&, std::functi
     const auto add = [&](const char* name, const char* text, const std::function<const Starter&(const NewFlags&)>& choose) {
         const auto flags = std::make_shared<NewFlags>();
         CLI::App* const one = sub->add_subcommand(name, text);
-        one->add_option("NAME", flags->name, fmt::format("name of the file (default: {})", name));
-        one->add_flag("--force", flags->force, "replace a file of that name");
+        one->add_option("NAME", flags->name, "name of the file")->default_str(name);
+        add_shared(*one, "--force", flags->force);
         one->callback([flags, choose, name, &chosen] { chosen = [flags, choose, name] { return begin(choose(*flags), *flags, name); }; });
         return std::pair(one, flags);
     };
     const auto [lamp, flags] = add("lamp", "a low beam as a table (.csv) or in IES (.ies), or a pixel lamp (.yaml)", lamp_starter);
-    lamp->add_option("--kind", flags->kind, "table (default), ies or pixels; else what the name ends in says it");
-    add("drive", "a drive of six seconds in two lamps", [](const NewFlags&) -> const Starter& { return drive; });
-    add("study", "two lamps on two roads, compared", [](const NewFlags&) -> const Starter& { return study; });
+    lamp->add_option("--kind", flags->kind, "what to write")->option_text("table|ies|pixels")->default_str("as the name ends, else table");
+    add("drive", "a drive of six seconds in two lamps", [](const NewFlags&) -> const Starter& { return drive_starter; });
+    add("study", "two lamps on two roads, compared", [](const NewFlags&) -> const Starter& { return study_starter; });
 }
 
 } // namespace fernlicht

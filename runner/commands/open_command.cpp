@@ -73,7 +73,7 @@ int open(const fs::path& given) {
 void add_open_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto given = std::make_shared<fs::path>();
     CLI::App* sub = app.add_subcommand("open", "show a report in the browser");
-    sub->add_option("RUN", *given, "folder of a run, study or comparison, or a page (default: what was written last below out/)");
+    sub->add_option("RUN", *given, "folder of a run, study or comparison, or a page")->default_str("what was written last below out/");
     sub->callback([given, &chosen] { chosen = [given] { return open(*given); }; });
 }
 

@@ -20,7 +20,7 @@ const CLI::App& called(const CLI::App& command) {
     return below.empty() ? command : called(*below.back());
 }
 
-std::vector<std::string> flags_of(const CLI::App& command) {
+std::vector<std::string> names_of_flags(const CLI::App& command) {
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options()) {
         for (const std::string& name : option->get_lnames())
@@ -33,8 +33,8 @@ std::vector<std::string> flags_of(const CLI::App& command) {
 
 InputError unknown_flag(const CLI::App& command, const std::string& typed) {
     const std::string flag = typed.substr(0, typed.find('='));
-    std::string near = nearest_name(flag, flags_of(command));
-    for (const std::string& name : flags_of(command)) // what was cut short
+    std::string near = nearest_name(flag, names_of_flags(command));
+    for (const std::string& name : names_of_flags(command)) // what was cut short
         if (near.empty() && flag.size() > 3 && name.starts_with(flag))
             near = name;
     return InputError({}, fmt::format("unknown flag {}{}", printable(flag),
@@ -70,10 +70,11 @@ InputError in_our_words(const CLI::ParseError& error, const CLI::App& program, c
             const std::string old = old_word_in(line);
             return old.empty() ? unknown_flag(command, word) : InputError({}, old);
         }
-    const std::string said = error.what(), kind = error.get_name();
-    if (kind == "ExtrasError" && !left.empty())
+    const std::string said = error.what();
+    const auto is = [&](CLI::ExitCodes code) { return error.get_exit_code() == static_cast<int>(code); };
+    if (is(CLI::ExitCodes::ExtrasError) && !left.empty())
         return InputError({}, fmt::format("found '{}' more than `{}` takes", printable(left.front()), full_name(command)), usage(command));
-    if (kind == "RequiredError" && said.find("ubcommand") != std::string::npos)
+    if (is(CLI::ExitCodes::RequiredError) && said.find("ubcommand") != std::string::npos)
         return about_commands(command);
     std::smatch part;
     static const std::regex two(R"((\S+) (requires|excludes) (\S+))"), many("(.*): At Most ([0-9]+) required but received ([0-9]+)"),
@@ -100,7 +101,7 @@ InputError in_our_words(const CLI::ParseError& error, const CLI::App& program, c
     const std::vector<std::string>& given = option->results();
     if (!takes_value(*option))
         return InputError({{}, 0, 0, key_of(*option)}, "found a value with it", "none");
-    if (kind == "ArgumentMismatch")
+    if (is(CLI::ExitCodes::ArgumentMismatch))
         return InputError({{}, 0, 0, key_of(*option)},
                           given.empty() ? "found nothing behind it" : "found " + counted(given.size(), "value"), expected_value(*option));
     return InputError({{}, 0, 0, key_of(*option)}, fmt::format("found '{}'", printable(fmt::format("{}", fmt::join(given, " ")))),

@@ -66,11 +66,11 @@ constexpr SharedFlag flags[] = {
     {"--store", "FOLDER", "folder of played cells (default: $XDG_CACHE_HOME/fernlicht/store)"},
     {"--history", "FILE", "file of the history of nights (docs/history.md)"},
     {"--fail-on-change", "", "exit with 1 where anything changed since the last accepted night, or cannot be compared with it"},
-    {"--note", "TEXT", "the reason, in one sentence"},
+    {"--note", "REASON", "the reason, in one sentence"},
     {"--dry-run", "", "only say what would be removed"},
     // Where it goes
     {"--out", "FOLDER", "new or empty folder for the results"},
-    {"-o,--out", "FILE", "new file for what is printed, or - for standard output"},
+    {"-o,--out", "FILE", "new file to write, or - for standard output"},
     {"--picture", "FILE", "new file for a picture, or - for standard output"},
     {"--force", "", "replace files that are there"},
     {"--resume", "", "go on with what was interrupted in the folder of --out"},

@@ -161,7 +161,7 @@ const std::array<DressedStuff, index_of(Stuff::count)> dressed_stuff{{
     {Stuff::blind, "blind", {0.40F, 0.39F, 0.36F}},
     {Stuff::net, "curtain", {0.20F, 0.20F, 0.19F}},
     {Stuff::sheet_white, "white sheeting", glm::vec3(0.40F), -1, SurfaceKind::board, 180.0F},
-    {Stuff::sheet_yellow, "yellow sheeting", {0.38F, 0.22F, 0.01F}, -1, SurfaceKind::board, 120.0F, {1.0F, 0.55F, 0.0F}},
+    {Stuff::sheet_yellow, "yellow sheeting", {0.36F, 0.24F, 0.005F}, -1, SurfaceKind::board, 120.0F, {1.0F, 0.68F, 0.0F}},
     {Stuff::sheet_red, "red sheeting", {0.18F, 0.015F, 0.015F}, -1, SurfaceKind::board, 25.0F, {1.0F, 0.0F, 0.0F}},
     {Stuff::sheet_blue, "blue sheeting", {0.005F, 0.03F, 0.20F}, -1, SurfaceKind::board, 14.0F, {0.0F, 0.15F, 1.0F}},
     {Stuff::sheet_black, "black film", glm::vec3(0.03F), -1, SurfaceKind::board},

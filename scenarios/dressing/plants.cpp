@@ -174,15 +174,15 @@ DressedObject dressed_tree(double height_m, double radius_m, Dice dice, Detail d
     // About as thick as the plain trunk, slightly bent; roots spread at its foot.
     const glm::dvec2 bend = 0.35 * foot_m * glm::dvec2(dice.between(-1, 1), dice.between(-1, 1));
     std::vector<TubeRing> trunk;
-    for (const double z_m : {0.0, 0.35, 0.6, 0.9, 1.4, 2.2, 3.2, 4.4})
-        if (z_m < free_m - 0.3 && (near || z_m == 0.0 || z_m == 1.4)) {
+    for (const double z_m : {0.0, 0.4, 0.7, 1.2, 2.4})
+        if (z_m < free_m - 0.3 && (near || z_m == 0.0 || z_m == 1.2)) {
             const double flare = std::exp(-std::max(0.0, z_m - 0.45) / 0.30), up = z_m / free_m;
             trunk.push_back({{glm::dvec2(std::sin(pi * up)) * bend, z_m},
                              std::min(foot_m * (0.94 - 0.14 * up + 0.5 * flare), radius_m),
                              0.10 + 0.25 * flare});
         }
     trunk.push_back({{0, 0, free_m}, 0.80 * foot_m, 0.10});
-    append_tube(out.low, trunk, near ? 15 : 6, Stuff::bark);
+    append_tube(out.low, trunk, near ? 10 : 6, Stuff::bark);
     const double lean_x = 0.1 * radius_m * dice.between(-1, 1), lean_y = 0.1 * radius_m * dice.between(-1, 1);
     const glm::dvec3 fork(0, 0, free_m), top(lean_x, lean_y, 0.8 * height_m);
     append_tube(out.high, {{fork, 0.80 * foot_m, 0.10}, {0.5 * (fork + top), 0.55 * foot_m}, {top, 0.2 * foot_m}}, near ? 7 : 5,
@@ -197,9 +197,9 @@ DressedObject dressed_tree(double height_m, double radius_m, Dice dice, Detail d
     const auto clump = [&](const glm::dvec3& centre, double size) {
         const glm::dvec3 radii(size * radius_m, size * radius_m, std::min(size * radius_m * 1.15, 0.22 * height_m));
         Dice own = dice.fork();
-        append_clump(out.high, centre, radii, bounds, near ? 2 : 1, leaves, own);
+        append_clump(out.high, centre, radii, bounds, near ? 1 : 0, leaves, own);
         if (near)
-            append_sprigs(out.high, 22, centre, radii, sprig_m, bounds, leaves, own);
+            append_sprigs(out.high, 14, centre, radii, sprig_m, bounds, leaves, own);
     };
     for (int i = 0; i < boughs; ++i) {
         const double angle = turn + 2.0 * pi * i / boughs + dice.between(-0.3, 0.3), up = dice.between(0.0, 1.0);
@@ -225,14 +225,14 @@ DressedObject dressed_bush(double height_m, double radius_m, Dice dice) {
         const glm::dvec3 centre(0.4 * radius_m * std::cos(angle), 0.4 * radius_m * std::sin(angle), height_m * dice.between(0.35, 0.5));
         const glm::dvec3 radii(0.6 * radius_m, 0.6 * radius_m, 0.55 * height_m);
         append_clump(out.low, centre, radii, bounds, 1, leaves, dice);
-        append_sprigs(out.low, 14, centre, radii, std::min(0.3, 0.3 * radius_m), bounds, leaves, dice);
+        append_sprigs(out.low, 8, centre, radii, std::min(0.35, 0.35 * radius_m), bounds, leaves, dice);
     }
     return out;
 }
 
 DressedObject dressed_tuft(double height_m, Dice dice) {
     DressedObject out;
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 5; ++i) {
         // Blades bend towards one way along x or the other: who drives along it sees their faces.
         const double angle = dice.between(-1.1, 1.1) + (dice.share() < 0.5 ? pi : 0.0), lean = dice.between(0.1, 0.7) * height_m;
         const glm::dvec3 forward(std::cos(angle), std::sin(angle), 0.0),

@@ -167,7 +167,7 @@ void Dresser::add_verge(const Road& road, bool left) {
         if (is_walked(outer_lane(road, 0.5 * (from + to), left)) || road.junction != "-1" ||
             route_.nearest_m(beside(road, 0.5 * (from + to), left, 0.0).position_m) > far_from_route_m)
             continue;
-        for (double s = from; s < to; s += here.between(0.1, 0.5)) {
+        for (double s = from; s < to; s += here.between(0.2, 0.8)) {
             const double share = here.share(), out = 0.7 + 6.3 * share * share; // denser towards the road
             const Pose pose = beside(road, s, left, out);
             const double most = ground_drop_m(out, ditch_of(road, left, s)) + 0.05;
@@ -175,7 +175,7 @@ void Dresser::add_verge(const Road& road, bool left) {
                 append_placed(grass, dressed_tuft(std::min(0.45, most) * here.between(0.7, 1.0), here.fork()).low, pose);
         }
         add_mesh(grass, {}, fmt::format("grass, road {} s {:.0f}-{:.0f}", road.id, from, to), true, false);
-        for (double s = from + here.between(0.0, 14.0); s < to; s += here.between(6.0, 24.0)) {
+        for (double s = from + here.between(0.0, 20.0); s < to; s += here.between(8.0, 32.0)) {
             const double radius = here.between(0.6, 1.5);
             const Pose pose = beside(road, s, left, here.between(9.5, 15.0));
             if (is_free(road, pose.position_m, radius))

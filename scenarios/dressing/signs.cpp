@@ -154,7 +154,7 @@ class SignPlate {
 /// A name of no place.
 std::string place_name(Dice& dice) {
     static constexpr std::array<const char*, 8> first{"ALT", "NEU", "OBER", "LINDEN", "STEIN", "BUCHEN", "HIRSCH", "MUEHL"};
-    static constexpr std::array<const char*, 6> second{"DORF", "HEIM", "BACH", "FELD", "BERG", "HAUSEN"};
+    static constexpr std::array<const char*, 6> second{"DORF", "HEIM", "BACH", "TAL", "BERG", "HAUSEN"};
     const char* const begin = first[dice.of(first.size())];
     return std::string(begin) + second[dice.of(second.size())];
 }

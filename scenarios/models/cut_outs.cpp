@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t max_pieces = 500'000, max_tables = 512;
 constexpr double finest_m = 0.02;
-constexpr int deepest = 6;
+constexpr int finest_cut = 6;
 constexpr double farthest_texel = 1e8;
 
 /// A picture's opacity, summed from its corner: means over any box of a picture that repeats, in eight look-ups.
@@ -126,7 +126,7 @@ class Cutting {
 /// So deep that all together stay below so many pieces, where each part becomes two.
 int depth_of(std::size_t triangles, std::size_t pieces) {
     int depth = 0;
-    for (std::size_t all = 8 * triangles; depth < deepest && all <= pieces; all *= 4)
+    for (std::size_t all = 8 * triangles; depth < finest_cut && all <= pieces; all *= 4)
         ++depth;
     return depth;
 }

@@ -16,7 +16,7 @@ not marked
 
 ```sh
 # a comment
-cd out
+mkdir out && cd out
 echo one \
     >two
 for i in 1 2; do
@@ -80,7 +80,7 @@ run() {
 }
 says() { grep --quiet --extended-regexp -e "$1" "$tree/log.txt" || { echo "not in the log: $1"; cat "$tree/log.txt"; ((++failures)); }; }
 run 0
-says '^passed   docs/page\.md:7  exit 0  [0-9.]+ s  cd out$'
+says '^passed   docs/page\.md:7  exit 0  [0-9.]+ s  mkdir out && cd out$'
 says '^passed   docs/page\.md:8  '
 says '^passed   docs/page\.md:10  .*for i in 1 2; do$'
 says '^passed   docs/page\.md:16  '
@@ -102,10 +102,10 @@ planted() {
     says "$2"
     cp "$tree/whole" "$tree/docs/page.md"
 }
-planted 's/^cd out/cd outside/' '^FAILED   docs/page\.md:7  exit 1 '
+planted 's/ cd out/ cd outside/' '^FAILED   docs/page\.md:7  exit 1 '
 planted 's/ exit=1//' '^FAILED   docs/page\.md:26  exit 1  .*fernlicht run$'
-planted 's/^cd out/cd out; sleep 30/' '^FAILED   docs/page\.md:7  over 2\.0 s '
-planted 's/^cd out/exit 0/' '^FAILED   docs/page\.md:8  (not reached|the shell ended)'
+planted 's/ cd out/ cd out; sleep 30/' '^FAILED   docs/page\.md:7  over 2\.0 s '
+planted 's/ cd out/ exit 0/' '^FAILED   docs/page\.md:8  (not reached|the shell ended)'
 planted 's/assert os/assert not os/' '^FAILED   docs/page\.md:53  exit 1 '
 planted 's/sh slow/sh fast/' "^FAILED   docs/page\.md:30  .*unknown word 'fast'"
 if /usr/bin/python3 -c 'import jsonschema, yaml' 2>/dev/null; then planted 's/low: a.ies/lower: a.ies/' '^FAILED   docs/page\.md:39  .*lower'; fi

@@ -46,22 +46,21 @@ def commands(first, lines):
 
 
 def clone(root, build, folder):
-    """A folder that looks like a clone after a build; what is written beside out/ would be seen in the tree itself."""
+    """A folder that looks like a clone after a build, without out/; what is written elsewhere would be seen in the tree itself."""
     for one in root.iterdir():
         if one.name not in ("build", "out", ".git"):
             (folder / one.name).symlink_to(one)
     (folder / "build").mkdir()
     (folder / "build/release").symlink_to(build)
-    (folder / "out").mkdir()
     (folder / "home").mkdir()
 
 
 def run_block(folder, environment, cases, limit_s, log_of):
     """Runs the commands of a block in one shell; yields line, command, exit code or what happened instead, seconds."""
-    script = "".join(f"__at={i}; echo begin {i} >&9\n{text}\necho end {i} $? >&9\n" for i, (_, text) in enumerate(cases))
     read, write = os.pipe()
+    script = "".join(f"echo begin {i} >&{write}\n{text}\necho end {i} $? >&{write}\n" for i, (_, text) in enumerate(cases))
     with open(log_of, "wb") as output:
-        shell = subprocess.Popen(["bash", "-c", f"exec 9>&{write} {write}>&-\n" + script], cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=output,
+        shell = subprocess.Popen(["bash", "-c", script], cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=output,
                                  stderr=subprocess.STDOUT, pass_fds=[write], start_new_session=True)
         os.close(write)
         selector, said, done, began, at = selectors.DefaultSelector(), b"", {}, time.monotonic(), 0
@@ -168,7 +167,7 @@ def main():
     arguments.add_argument("--quick", action="store_true", help="without blocks marked slow")
     arguments.add_argument("--limit", type=float, default=60, help="seconds for a command of a block that is not slow")
     arguments.add_argument("pages", nargs="*", type=pathlib.Path)
-    given = arguments.parse_args()
+    given = arguments.parse_intermixed_args()
     root, build = given.root.resolve(), given.build.resolve()
     pages = [page.resolve() for page in given.pages] or sorted(root.glob("*.md")) + sorted((root / "docs").rglob("*.md"))
     logs = given.log.resolve().parent / "output"

@@ -280,15 +280,16 @@ Document regulation_reference() {
         {{"",
           {"For `--regulation`; [regulations.md](../regulations.md) says how lamps are held against these tables. In brackets: rows "
            "in the text, and the rule of aim."}}}};
+    std::string known;
     for (const Regulation& r : listed_regulations()) {
-        const std::string known = in_words(r.sureness);
-        if (document.sections.back().title != r.edition)
-            document.sections.push_back(
-                {r.edition, {"Source: " + r.source + ". Known by " + known + ", but where it is said.", Listing{}}});
-        const bool as_above = std::get<std::string>(document.sections.back().blocks.front()).find("Known by " + known) != std::string::npos;
+        if (document.sections.back().title != r.edition) {
+            known = in_words(r.sureness);
+            document.sections.push_back({r.edition, {fmt::format("Source: {} ({}).", r.source, known), Listing{}}});
+        }
         std::get<Listing>(document.sections.back().blocks.back())
-            .items.emplace_back(fmt::format("`{}` ({}, {}): {}{}", r.id, r.rows.empty() ? "-" : fmt::format("{}", r.rows.size()),
-                                            name_of(r.aim), r.title, as_above ? "" : "; " + known));
+            .items.emplace_back(fmt::format("`{}` ({}{}): {}{}", r.id, r.rows.empty() ? "" : fmt::format("{}, ", r.rows.size()),
+                                            name_of(r.aim), r.title,
+                                            known == in_words(r.sureness) ? "" : std::string("; ") + in_words(r.sureness)));
     }
     return document;
 }

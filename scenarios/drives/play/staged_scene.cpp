@@ -43,7 +43,7 @@ void dress(Scene& scene, Drive& drive, const RoadNetwork& network, const Route& 
     const std::size_t more = names.size() > most_told ? names.size() - most_told : 0;
     names.resize(names.size() - more);
     if (!names.empty())
-        drive.notes.push_back(fmt::format("dressed objects that shade the own lane somewhere on the route: {}{}", fmt::join(names, ", "),
+        drive.notes.push_back(fmt::format("dressed objects that shade the own lane somewhere on the route: {}{}", fmt::join(names, "; "),
                                           more > 0 ? fmt::format(" and {} more", more) : ""));
 }
 

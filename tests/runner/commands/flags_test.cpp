@@ -186,7 +186,7 @@ TEST(StandardOutput, TakesWhatWouldBeAFile) {
     EXPECT_EQ(printed("lamp " + halogen + " --convert -"), content_of(folder / "x.ies"));
     EXPECT_THAT(printed("lamp " + halogen + " --picture -"), StartsWith("<svg"));
     EXPECT_THAT(printed("lamp " + halogen + " --picture - --json", 2), HasSubstr("one thing to print"));
-    for (const char* line : {"lamp --lamp-model xenon-low --convert /nowhere/x.ies", "lamp --lamp-model xenon-low --picture /proc/x.svg",
+    for (const char* line : {"lamp --lamp-model xenon-low --convert /nowhere/x.ies", "lamp --lamp-model xenon-low --picture /nowhere/x.svg",
                              "model --body car --write /nowhere/x.glb", "can cut - -o /nowhere/x.log </dev/null",
                              "stability --only table/poles --out /proc/x", "run first-light --out /proc/x/y --backend software"})
         EXPECT_EQ(run_program(line).exit_code, 2) << line << '\n' << run_program(line).output;

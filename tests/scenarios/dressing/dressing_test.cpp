@@ -356,10 +356,10 @@ TEST(Dressing, HousesKeepTheirDetailAsFarAsAPixelShowsIt) {
         add_dressing(scene, network, Route(network, {}), {.pixel_rad = pixel_rad});
         return triangles(scene, "house");
     };
-    const std::size_t near = detail(30.0, 0.7e-3);
-    EXPECT_LT(detail(300.0, 0.7e-3), near);
-    EXPECT_EQ(detail(180.0, 0.7e-3), near) << "0.14 m at 0.7 mrad: 200 m";
-    EXPECT_EQ(detail(300.0, 0.4e-3), near) << "a view of finer pixels";
+    constexpr double finest_rad = 1e-5;
+    EXPECT_LT(detail(300.0, 0.7e-3), detail(300.0, finest_rad)) << "0.14 m at 0.7 mrad: 200 m";
+    EXPECT_EQ(detail(180.0, 0.7e-3), detail(180.0, finest_rad));
+    EXPECT_EQ(detail(300.0, 0.4e-3), detail(300.0, finest_rad)) << "a view of finer pixels";
 }
 
 TEST(Dressing, GardensStandBetweenSidewalkAndHouseWhereThereIsRoom) {

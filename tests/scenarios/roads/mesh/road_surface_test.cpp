@@ -182,11 +182,11 @@ Road road_with_shoulder() {
     LaneSection section;
     section.end_m = 100.0;
     const auto lane = [](int id, const char* type, double width_m) {
-        Lane lane;
-        lane.id = id;
-        lane.type = type;
-        lane.widths.push_back({0.0, width_m, 0.0, 0.0, 0.0});
-        return lane;
+        Lane made;
+        made.id = id;
+        made.type = type;
+        made.widths.push_back({0.0, width_m, 0.0, 0.0, 0.0});
+        return made;
     };
     section.lanes = {lane(0, "none", 0.0), lane(-1, "driving", 3.5), lane(-2, "shoulder", 1.5)};
     road.sections.push_back(section);
