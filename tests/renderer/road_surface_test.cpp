@@ -59,7 +59,7 @@ class RoadSurfaceDrawn : public DeviceTest {
             *work = renderer.count(moment, ahead(), all_results);
         return renderer.draw(moment, ahead(), all_results);
     }
-    void expect_twin(const Frame& frame, const Moment& moment, const std::string& what) {
+    void expect_twin(const Frame& frame, const Moment& moment, const std::string& what, double share = 1e-3) {
         const Twin twin(scene_, false);
         int seen = 0;
         for (const auto& [x, y] : each_pixel(ahead())) {
@@ -67,7 +67,7 @@ class RoadSurfaceDrawn : public DeviceTest {
             if (truth.id == 0 || truth.id != frame.ids.at(x, y))
                 continue;
             ++seen;
-            EXPECT_NEAR(static_cast<double>(frame.luminance_cdm2.at(x, y)), truth.luminance_cdm2, 1e-3 * truth.luminance_cdm2 + 1e-9)
+            EXPECT_NEAR(static_cast<double>(frame.luminance_cdm2.at(x, y)), truth.luminance_cdm2, share * truth.luminance_cdm2 + 1e-9)
                 << what << ' ' << x << ' ' << y;
         }
         EXPECT_GT(seen, 400) << what;
@@ -91,7 +91,8 @@ TEST_F(RoadSurfaceDrawn, IsTheTwinsWetAndInTheSun) {
         Moment others = moment;
         others.other_lamps = {moment.lamps[1]};
         others.lamps.pop_back();
-        expect_twin(draw(others), others, "others' " + std::to_string(wetness));
+        // Beams of other vehicles are rendered from coarser tables (docs/traffic.md): 0.7 % here.
+        expect_twin(draw(others), others, "others' " + std::to_string(wetness), 0.02);
     }
 }
 
