@@ -167,7 +167,7 @@ void Dresser::add_verge(const Road& road, bool left) {
         if (is_walked(outer_lane(road, 0.5 * (from + to), left)) || road.junction != "-1" ||
             route_.nearest_m(beside(road, 0.5 * (from + to), left, 0.0).position_m) > far_from_route_m)
             continue;
-        for (double s = from; s < to; s += here.between(0.2, 0.8)) {
+        for (double s = from; s < to; s += here.between(0.6, 2.2)) {
             const double share = here.share(), out = 0.7 + 6.3 * share * share; // denser towards the road
             const Pose pose = beside(road, s, left, out);
             const double most = ground_drop_m(out, ditch_of(road, left, s)) + 0.05;
@@ -175,7 +175,7 @@ void Dresser::add_verge(const Road& road, bool left) {
                 append_placed(grass, dressed_tuft(std::min(0.45, most) * here.between(0.7, 1.0), here.fork()).low, pose);
         }
         add_mesh(grass, {}, fmt::format("grass, road {} s {:.0f}-{:.0f}", road.id, from, to), true, false);
-        for (double s = from + here.between(0.0, 20.0); s < to; s += here.between(8.0, 32.0)) {
+        for (double s = from + here.between(0.0, 30.0); s < to; s += here.between(12.0, 45.0)) {
             const double radius = here.between(0.6, 1.5);
             const Pose pose = beside(road, s, left, here.between(9.5, 15.0));
             if (is_free(road, pose.position_m, radius))
@@ -184,10 +184,10 @@ void Dresser::add_verge(const Road& road, bool left) {
         }
         TriangleSoup fence;
         bool open = fence_m > 0.0; // nothing stands in its way
-        for (double s = from + 1.5; open && s + 1.5 <= to; s += 3.0) {
-            const Pose a = beside(road, s - 1.5, left, fence_m), b = beside(road, s + 1.5, left, fence_m);
+        for (double s = from + 2.0; open && s + 2.0 <= to; s += 4.0) {
+            const Pose a = beside(road, s - 2.0, left, fence_m), b = beside(road, s + 2.0, left, fence_m);
             const glm::dvec3 way = b.position_m - a.position_m, middle = 0.5 * (a.position_m + b.position_m);
-            open = is_free(road, middle, 1.6);
+            open = is_free(road, middle, 2.1);
             append_placed(fence, dressed_field_fence(glm::length(way)).low,
                           {middle, axes_from_angles(std::atan2(way.y, way.x), std::atan2(way.z, std::hypot(way.x, way.y)), 0.0)});
         }

@@ -1,6 +1,7 @@
 #include "scenarios/dressing/dressing.h"
 
 #include "scenarios/dressing/dressed_object.h"
+#include "scenarios/drives/play/staged_scene.h"
 #include "scenarios/models/road_user_bodies.h"
 #include "scenarios/roads/mesh/mesh_materials.h"
 #include "scenarios/roads/mesh/road_mesh.h"
@@ -340,6 +341,37 @@ TEST(Dressing, CarsOfThreeShapesFillTheirBoxes) {
         EXPECT_LE(car.triangles(), 1500U) << draw;
         EXPECT_TRUE(std::ranges::any_of(car.materials, [](const Material& m) { return m.name == "headlamp" && m.retro_rl > 0.0F; }));
     }
+}
+
+TEST(Dressing, OfAMirroredDriveIsItsImage) {
+    const auto scene_of = [](bool in_mirror) {
+        Drive drive = read_drive(FERNLICHT_SOURCE_DIR "/scenarios/library/drives/s-bend.yaml");
+        RoadNetwork network = read_opendrive(drive.road_file);
+        Route::Start start = drive.start;
+        if (in_mirror) {
+            network = mirrored(std::move(network));
+            drive.mirrored_road = true;
+            start.lane = -start.lane;
+        }
+        return staged_scene(drive, network, Route(network, start, drive.via));
+    };
+    const Scene here = scene_of(false), there = scene_of(true);
+    EXPECT_EQ(here.materials, there.materials);
+    std::size_t compared = 0;
+    for (const Mesh& mesh : here.meshes) {
+        if (!mesh.name.starts_with("bush") && !mesh.name.starts_with("field fence") && !mesh.name.starts_with("grass") &&
+            !mesh.name.starts_with("patches"))
+            continue;
+        const auto image = std::ranges::find_if(there.meshes, [&](const Mesh& other) {
+            return other.name == mesh.name && other.origin_m == glm::dvec3(mesh.origin_m.x, -mesh.origin_m.y, mesh.origin_m.z);
+        });
+        ASSERT_NE(image, there.meshes.end()) << mesh.name;
+        ASSERT_EQ(image->vertices.size(), mesh.vertices.size());
+        for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+            ASSERT_EQ(image->vertices[i].position_m.y, -mesh.vertices[i].position_m.y) << mesh.name;
+        ++compared;
+    }
+    EXPECT_GT(compared, 100U);
 }
 
 TEST(Dressing, HousesKeepTheirDetailAsFarAsAPixelShowsIt) {
