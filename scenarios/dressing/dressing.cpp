@@ -237,8 +237,7 @@ void dress_ground(RoadMeshOptions& options, bool mirrored) {
     const auto stuff = [](Stuff which) { return index_of(RoadMaterial::count) + index_of(which); };
     options.signals = false;
     options.leave_out = is_dressed;
-    options.ground.ditch = [](const Road& road, bool left, double s_m) { return ditch_of(road, left, s_m); };
-    options.ground.material = [stuff, mirrored, seed = options.seed](const Road& road, bool left, double s_m, double out_m) {
+    options.ground = [stuff, mirrored, seed = options.seed](const Road& road, bool left, double s_m, double out_m) {
         if (is_walked(outer_lane(road, s_m, left)) || (out_m > 0.0 && out_m < 12.0))
             return stuff(Stuff::meadow);
         if (out_m == 0.0)

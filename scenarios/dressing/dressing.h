@@ -22,7 +22,7 @@ struct DressingSettings {
 /// boxes. Objects with an outline of their own are none of these.
 bool is_dressed(const RoadObject& object);
 
-/// Has build_scene() leave to add_dressing() what that builds, and lay gravel, meadows and fields beside roads, with ditches. The scene's
+/// Has build_scene() leave to add_dressing() what that builds, and lay gravel, meadows and fields beside roads. The scene's
 /// materials are then not complete before add_dressing(), which is to be called next. `mirrored`: of a network seen in a mirror.
 void dress_ground(RoadMeshOptions& options, bool mirrored = false);
 

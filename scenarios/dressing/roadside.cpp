@@ -26,17 +26,6 @@ double edge_height_m(const Road& road, double s_m, bool left) {
 
 bool is_walked(const Lane& lane) { return lane.type == "sidewalk" || lane.type == "walking"; }
 
-double ditch_of(const Road& road, bool left, double s_m) {
-    if (road.junction != "-1")
-        return 0.0;
-    constexpr double taper_m = 20.0;
-    double nearest_m = std::min(s_m, road.length_m - s_m); // to what has none
-    for (const LaneSection& section : road.sections)
-        if (const Lane& lane = left ? section.lanes.front() : section.lanes.back(); is_walked(lane) || lane.type == "curb")
-            nearest_m = std::min(nearest_m, std::max({section.s_m - s_m, s_m - section.end_m, 0.0}));
-    return std::clamp((nearest_m - 5.0) / taper_m, 0.0, 1.0);
-}
-
 /// A hedge or a fence along the road, half-way between sidewalk and front, where the house stands along the road and leaves 2.5 m.
 void Dresser::add_garden(const Road& road, const RoadObject& object, Dice drawn, const std::string& name) {
     const double kind = drawn.share();
@@ -139,8 +128,7 @@ void Dresser::add_bollards(const Road& road) {
 Pose Dresser::beside(const Road& road, double s_m, bool left, double out_m) const {
     const Pose edge = surface_pose(network_, road, s_m, outer_edge_m(road, s_m, left));
     const double yaw = std::atan2(edge.forward().y, edge.forward().x), side = left ? 1.0 : -1.0;
-    return {edge.position_m +
-                glm::dvec3(-std::sin(yaw) * side * out_m, std::cos(yaw) * side * out_m, -ground_drop_m(out_m, ditch_of(road, left, s_m))),
+    return {edge.position_m + glm::dvec3(-std::sin(yaw) * side * out_m, std::cos(yaw) * side * out_m, -ground_drop_m(out_m)),
             axes_from_angles(yaw, 0.0, 0.0)};
 }
 
@@ -170,7 +158,7 @@ void Dresser::add_verge(const Road& road, bool left) {
         for (double s = from; s < to; s += here.between(0.6, 2.2)) {
             const double share = here.share(), out = 0.7 + 6.3 * share * share; // denser towards the road
             const Pose pose = beside(road, s, left, out);
-            const double most = ground_drop_m(out, ditch_of(road, left, s)) + 0.05;
+            const double most = ground_drop_m(out) + 0.05;
             if (is_free(road, pose.position_m, 0.3))
                 append_placed(grass, dressed_tuft(std::min(0.45, most) * here.between(0.7, 1.0), here.fork()).low, pose);
         }
