@@ -122,7 +122,5 @@ double outer_edge_m(const Road& road, double s_m, bool left);
 /// Of the outermost lane above the road's surface: a sidewalk's.
 double edge_height_m(const Road& road, double s_m, bool left);
 bool is_walked(const Lane& lane);
-/// Depth of the ditch there, 0 to 1: beside what is no street and no junction.
-double ditch_of(const Road& road, bool left, double s_m);
 
 } // namespace fernlicht

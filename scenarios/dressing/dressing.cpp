@@ -233,12 +233,11 @@ void Dresser::add_sign(const Road& road, const RoadSignal& signal) {
 
 bool is_dressed(const RoadObject& object) { return dressed_kind(object).has_value(); }
 
-void dress_ground(RoadMeshOptions& options) {
+void dress_ground(RoadMeshOptions& options, bool mirrored) {
     const auto stuff = [](Stuff which) { return index_of(RoadMaterial::count) + index_of(which); };
     options.signals = false;
     options.leave_out = is_dressed;
-    options.ground.ditch = [](const Road& road, bool left, double s_m) { return ditch_of(road, left, s_m); };
-    options.ground.material = [stuff, seed = options.seed](const Road& road, bool left, double s_m, double out_m) {
+    options.ground = [stuff, mirrored, seed = options.seed](const Road& road, bool left, double s_m, double out_m) {
         if (is_walked(outer_lane(road, s_m, left)) || (out_m > 0.0 && out_m < 12.0))
             return stuff(Stuff::meadow);
         if (out_m == 0.0)
@@ -246,7 +245,8 @@ void dress_ground(RoadMeshOptions& options) {
         static constexpr std::array fields{Stuff::meadow, Stuff::stubble, Stuff::soil};
         constexpr double field_m = 180.0;
         return stuff(
-            fields[Dice(seed, fmt::format("field, road {} {} {}", road.id, left ? "left" : "right", std::floor(s_m / field_m))).of(3)]);
+            fields[Dice(seed, fmt::format("field, road {} {} {}", road.id, left != mirrored ? "left" : "right", std::floor(s_m / field_m)))
+                       .of(3)]);
     };
 }
 

@@ -22,9 +22,9 @@ struct DressingSettings {
 /// boxes. Objects with an outline of their own are none of these.
 bool is_dressed(const RoadObject& object);
 
-/// Has build_scene() leave to add_dressing() what that builds, and lay gravel, meadows and fields beside roads, with ditches. The scene's
-/// materials are then not complete before add_dressing(), which is to be called next.
-void dress_ground(RoadMeshOptions& options);
+/// Has build_scene() leave to add_dressing() what that builds, and lay gravel, meadows and fields beside roads. The scene's
+/// materials are then not complete before add_dressing(), which is to be called next. `mirrored`: of a network seen in a mirror.
+void dress_ground(RoadMeshOptions& options, bool mirrored = false);
 
 /// Adds all dressed objects of the network, each in the box of its plain shape and a mesh (two for a tree) of its own, named by name and
 /// id; crash barriers a mesh each 60 m. Besides, where lanes leave room: a hedge or a fence before every other house, pedestrians on

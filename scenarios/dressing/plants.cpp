@@ -137,9 +137,9 @@ void append_sprigs(TriangleSoup& soup, int count, const glm::dvec3& centre, cons
     }
 }
 
-/// Skirts of boughs, each a star of ten points under the tip of the next lower one.
+/// Skirts of boughs, each a star under the tip of the next lower one.
 void append_spruce(DressedObject& out, double height_m, double radius_m, Dice& dice) {
-    constexpr int tiers = 8, points = 11;
+    constexpr int tiers = 8, points = 7;
     const double free_m = 0.25 * height_m, tall = (height_m - free_m) / tiers;
     for (int tier = 0; tier < tiers; ++tier) {
         const double low = free_m + tier * tall, share = 1.0 - tier / (tiers + 0.3), tip = std::min(height_m, low + 2.0 * tall);
@@ -193,13 +193,13 @@ DressedObject dressed_tree(double height_m, double radius_m, Dice dice, Detail d
     }
     const Stuff leaves = dice.share() < 0.7 ? Stuff::leaves : Stuff::dry_leaves;
     constexpr int boughs = 6;
-    const double turn = 2.0 * pi * dice.share(), sprig_m = std::clamp(0.16 * radius_m, 0.25, 0.5);
+    const double turn = 2.0 * pi * dice.share(), sprig_m = std::clamp(0.25 * radius_m, 0.3, 0.8);
     const auto clump = [&](const glm::dvec3& centre, double size) {
         const glm::dvec3 radii(size * radius_m, size * radius_m, std::min(size * radius_m * 1.15, 0.22 * height_m));
         Dice own = dice.fork();
-        append_clump(out.high, centre, radii, bounds, near ? 1 : 0, leaves, own);
+        append_clump(out.high, centre, radii, bounds, 1, leaves, own);
         if (near)
-            append_sprigs(out.high, 14, centre, radii, sprig_m, bounds, leaves, own);
+            append_sprigs(out.high, 5, centre, radii, sprig_m, bounds, leaves, own);
     };
     for (int i = 0; i < boughs; ++i) {
         const double angle = turn + 2.0 * pi * i / boughs + dice.between(-0.3, 0.3), up = dice.between(0.0, 1.0);
@@ -225,7 +225,7 @@ DressedObject dressed_bush(double height_m, double radius_m, Dice dice) {
         const glm::dvec3 centre(0.4 * radius_m * std::cos(angle), 0.4 * radius_m * std::sin(angle), height_m * dice.between(0.35, 0.5));
         const glm::dvec3 radii(0.6 * radius_m, 0.6 * radius_m, 0.55 * height_m);
         append_clump(out.low, centre, radii, bounds, 1, leaves, dice);
-        append_sprigs(out.low, 8, centre, radii, std::min(0.35, 0.35 * radius_m), bounds, leaves, dice);
+        append_sprigs(out.low, 4, centre, radii, std::min(0.35, 0.35 * radius_m), bounds, leaves, dice);
     }
     return out;
 }

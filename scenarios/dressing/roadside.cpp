@@ -26,17 +26,6 @@ double edge_height_m(const Road& road, double s_m, bool left) {
 
 bool is_walked(const Lane& lane) { return lane.type == "sidewalk" || lane.type == "walking"; }
 
-double ditch_of(const Road& road, bool left, double s_m) {
-    if (road.junction != "-1")
-        return 0.0;
-    constexpr double taper_m = 20.0;
-    double nearest_m = std::min(s_m, road.length_m - s_m); // to what has none
-    for (const LaneSection& section : road.sections)
-        if (const Lane& lane = left ? section.lanes.front() : section.lanes.back(); is_walked(lane) || lane.type == "curb")
-            nearest_m = std::min(nearest_m, std::max({section.s_m - s_m, s_m - section.end_m, 0.0}));
-    return std::clamp((nearest_m - 5.0) / taper_m, 0.0, 1.0);
-}
-
 /// A hedge or a fence along the road, half-way between sidewalk and front, where the house stands along the road and leaves 2.5 m.
 void Dresser::add_garden(const Road& road, const RoadObject& object, Dice drawn, const std::string& name) {
     const double kind = drawn.share();
@@ -139,8 +128,7 @@ void Dresser::add_bollards(const Road& road) {
 Pose Dresser::beside(const Road& road, double s_m, bool left, double out_m) const {
     const Pose edge = surface_pose(network_, road, s_m, outer_edge_m(road, s_m, left));
     const double yaw = std::atan2(edge.forward().y, edge.forward().x), side = left ? 1.0 : -1.0;
-    return {edge.position_m +
-                glm::dvec3(-std::sin(yaw) * side * out_m, std::cos(yaw) * side * out_m, -ground_drop_m(out_m, ditch_of(road, left, s_m))),
+    return {edge.position_m + glm::dvec3(-std::sin(yaw) * side * out_m, std::cos(yaw) * side * out_m, -ground_drop_m(out_m)),
             axes_from_angles(yaw, 0.0, 0.0)};
 }
 
@@ -167,15 +155,15 @@ void Dresser::add_verge(const Road& road, bool left) {
         if (is_walked(outer_lane(road, 0.5 * (from + to), left)) || road.junction != "-1" ||
             route_.nearest_m(beside(road, 0.5 * (from + to), left, 0.0).position_m) > far_from_route_m)
             continue;
-        for (double s = from; s < to; s += here.between(0.2, 0.8)) {
+        for (double s = from; s < to; s += here.between(0.6, 2.2)) {
             const double share = here.share(), out = 0.7 + 6.3 * share * share; // denser towards the road
             const Pose pose = beside(road, s, left, out);
-            const double most = ground_drop_m(out, ditch_of(road, left, s)) + 0.05;
+            const double most = ground_drop_m(out) + 0.05;
             if (is_free(road, pose.position_m, 0.3))
                 append_placed(grass, dressed_tuft(std::min(0.45, most) * here.between(0.7, 1.0), here.fork()).low, pose);
         }
         add_mesh(grass, {}, fmt::format("grass, road {} s {:.0f}-{:.0f}", road.id, from, to), true, false);
-        for (double s = from + here.between(0.0, 20.0); s < to; s += here.between(8.0, 32.0)) {
+        for (double s = from + here.between(0.0, 30.0); s < to; s += here.between(12.0, 45.0)) {
             const double radius = here.between(0.6, 1.5);
             const Pose pose = beside(road, s, left, here.between(9.5, 15.0));
             if (is_free(road, pose.position_m, radius))
@@ -184,10 +172,10 @@ void Dresser::add_verge(const Road& road, bool left) {
         }
         TriangleSoup fence;
         bool open = fence_m > 0.0; // nothing stands in its way
-        for (double s = from + 1.5; open && s + 1.5 <= to; s += 3.0) {
-            const Pose a = beside(road, s - 1.5, left, fence_m), b = beside(road, s + 1.5, left, fence_m);
+        for (double s = from + 2.0; open && s + 2.0 <= to; s += 4.0) {
+            const Pose a = beside(road, s - 2.0, left, fence_m), b = beside(road, s + 2.0, left, fence_m);
             const glm::dvec3 way = b.position_m - a.position_m, middle = 0.5 * (a.position_m + b.position_m);
-            open = is_free(road, middle, 1.6);
+            open = is_free(road, middle, 2.1);
             append_placed(fence, dressed_field_fence(glm::length(way)).low,
                           {middle, axes_from_angles(std::atan2(way.y, way.x), std::atan2(way.z, std::hypot(way.x, way.y)), 0.0)});
         }

@@ -30,21 +30,45 @@ double smallest_pixel_rad(const std::vector<View>& views) {
     return least;
 }
 
-/// With a note of what shades the own lane.
-void dress(Scene& scene, Drive& drive, const RoadNetwork& network, const Route& route) {
+/// What is on the other side of y = 0.
+Mesh reflected(Mesh mesh) {
+    mesh.origin_m.y = -mesh.origin_m.y;
+    for (Vertex& v : mesh.vertices) {
+        v.position_m.y = -v.position_m.y;
+        v.normal.y = -v.normal.y;
+    }
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+    return mesh;
+}
+
+/// With a note of what shades the own lane. In a mirror stands the image of what would stand without one.
+void dress(Scene& scene, Drive& drive, const RoadNetwork& network, const Route& route, RoadMeshOptions options) {
     const std::size_t before = scene.meshes.size();
-    add_dressing(scene, network, route,
-                 {.textures = drive.textured,
-                  .seed = drive.seed,
-                  .pixel_rad = smallest_pixel_rad(drive.views),
-                  .faces = read_signal_faces(drive.road_file)});
+    const DressingSettings settings{.textures = drive.textured,
+                                    .seed = drive.seed,
+                                    .pixel_rad = smallest_pixel_rad(drive.views),
+                                    .faces = read_signal_faces(drive.road_file)};
+    if (drive.mirrored_road) {
+        const RoadNetwork original = mirrored(network);
+        dress_ground(options);
+        Scene there = build_scene(original, options);
+        const std::size_t first = there.meshes.size();
+        add_dressing(there, original, Route(original, drive.start, drive.via), settings);
+        scene.materials = std::move(there.materials);
+        scene.textures = std::move(there.textures);
+        for (std::size_t i = first; i < there.meshes.size(); ++i)
+            scene.meshes.push_back(reflected(std::move(there.meshes[i])));
+    } else {
+        add_dressing(scene, network, route, settings);
+    }
     constexpr std::size_t most_told = 40;
     std::vector<std::string> names = shades_of_lane(scene, route, before);
     const std::size_t more = names.size() > most_told ? names.size() - most_told : 0;
     names.resize(names.size() - more);
     if (!names.empty())
         drive.notes.push_back(fmt::format("dressed objects that shade the own lane somewhere on the route: {}{}", fmt::join(names, "; "),
-                                          more > 0 ? fmt::format(" and {} more", more) : ""));
+                                          more > 0 ? fmt::format("; and {} more", more) : ""));
 }
 
 } // namespace
@@ -54,10 +78,10 @@ Scene staged_scene(Drive& drive, const RoadNetwork& network, const Route& route)
     if (drive.dressing == Dressing::none)
         options.leave_out = [](const RoadObject&) { return true; };
     else if (drive.dressing == Dressing::dressed)
-        dress_ground(options);
+        dress_ground(options, drive.mirrored_road);
     Scene scene = build_scene(network, options);
     if (drive.dressing == Dressing::dressed)
-        dress(scene, drive, network, route);
+        dress(scene, drive, network, route, options);
     add_scenery(scene, drive.scenery, route);
     find_street_lamps(drive, network);
     add_street_lamp_poles(drive, route, scene);

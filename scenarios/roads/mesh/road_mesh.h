@@ -10,13 +10,8 @@
 
 namespace fernlicht {
 
-/// What lies beside the roads, in place of verge and terrain. Empty functions: those, without ditches.
-struct GroundLook {
-    /// Material, into the scene's, from so far out on.
-    std::function<std::uint32_t(const Road& road, bool left, double s_m, double out_m)> material = {};
-    /// Depth of the ditch from 1.5 to 4.2 m out, of 0.65 m below the road's edge: 0 to 1.
-    std::function<double(const Road& road, bool left, double s_m)> ditch = {};
-};
+/// What lies beside a road from so far out on: a material of the scene.
+using GroundMaterial = std::function<std::uint32_t(const Road& road, bool left, double s_m, double out_m)>;
 
 struct RoadMeshOptions {
     double chord_error_m = 0.005; ///< greatest distance between the surface and its triangles
@@ -27,8 +22,8 @@ struct RoadMeshOptions {
     RoadSurface surface = {};
     /// Objects that are left out, because there are to be none or somebody else builds them. Empty: none are.
     std::function<bool(const RoadObject&)> leave_out = {};
-    bool signals = true; ///< false: left out, because somebody else builds them
-    GroundLook ground = {};
+    bool signals = true;        ///< false: left out, because somebody else builds them
+    GroundMaterial ground = {}; ///< empty: verge and terrain
 };
 
 /// Surface with marks as materials of their own strips (no overlapping geometry), verge and terrain, objects, signal boards with posts.
@@ -42,8 +37,8 @@ Scene build_scene(const RoadNetwork& network, const RoadMeshOptions& options = {
 
 /// Where an object stands that is no outline: upright on the road's surface at its place, x along its heading.
 Pose standing(const RoadNetwork& network, const Road& road, const RoadObject& object);
-/// How far the ground beside a road lies below its edge, so many metres out; `ditch` as of GroundLook.
-double ground_drop_m(double out_m, double ditch = 0.0);
+/// How far the ground beside a road lies below its edge, so many metres out.
+double ground_drop_m(double out_m);
 
 /// The materials that build_scene uses, untextured, by name: asphalt, concrete, kerb, marking-white, marking-yellow, verge, terrain, board,
 /// board-back, post, delineator, object, trunk, leaves; with wheel tracks then asphalt-track-0 to 4, the bare lane first.

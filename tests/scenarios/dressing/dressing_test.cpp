@@ -1,6 +1,7 @@
 #include "scenarios/dressing/dressing.h"
 
 #include "scenarios/dressing/dressed_object.h"
+#include "scenarios/drives/play/staged_scene.h"
 #include "scenarios/models/road_user_bodies.h"
 #include "scenarios/roads/mesh/mesh_materials.h"
 #include "scenarios/roads/mesh/road_mesh.h"
@@ -342,6 +343,37 @@ TEST(Dressing, CarsOfThreeShapesFillTheirBoxes) {
     }
 }
 
+TEST(Dressing, OfAMirroredDriveIsItsImage) {
+    const auto scene_of = [](bool in_mirror) {
+        Drive drive = read_drive(FERNLICHT_SOURCE_DIR "/scenarios/library/drives/s-bend.yaml");
+        RoadNetwork network = read_opendrive(drive.road_file);
+        Route::Start start = drive.start;
+        if (in_mirror) {
+            network = mirrored(std::move(network));
+            drive.mirrored_road = true;
+            start.lane = -start.lane;
+        }
+        return staged_scene(drive, network, Route(network, start, drive.via));
+    };
+    const Scene here = scene_of(false), there = scene_of(true);
+    EXPECT_EQ(here.materials, there.materials);
+    std::size_t compared = 0;
+    for (const Mesh& mesh : here.meshes) {
+        if (!mesh.name.starts_with("bush") && !mesh.name.starts_with("field fence") && !mesh.name.starts_with("grass") &&
+            !mesh.name.starts_with("patches"))
+            continue;
+        const auto image = std::ranges::find_if(there.meshes, [&](const Mesh& other) {
+            return other.name == mesh.name && other.origin_m == glm::dvec3(mesh.origin_m.x, -mesh.origin_m.y, mesh.origin_m.z);
+        });
+        ASSERT_NE(image, there.meshes.end()) << mesh.name;
+        ASSERT_EQ(image->vertices.size(), mesh.vertices.size());
+        for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+            ASSERT_EQ(image->vertices[i].position_m.y, -mesh.vertices[i].position_m.y) << mesh.name;
+        ++compared;
+    }
+    EXPECT_GT(compared, 100U);
+}
+
 TEST(Dressing, HousesKeepTheirDetailAsFarAsAPixelShowsIt) {
     RoadNetwork network = opendrive_text::library_road("straight.xodr");
     RoadObject house;
@@ -384,21 +416,26 @@ TEST(Dressing, GardensStandBetweenSidewalkAndHouseWhereThereIsRoom) {
     EXPECT_LT(gardens(dressed(network, route, 1)), gardens(scene) / 4) << "those of mill lane may stay";
 }
 
-TEST(Dressing, DitchesRunBesideCountryRoadsAndNotBesideStreets) {
-    EXPECT_DOUBLE_EQ(ground_drop_m(2.6, 1.0), 0.65);
-    EXPECT_DOUBLE_EQ(ground_drop_m(1.0, 1.0), ground_drop_m(1.0));
-    EXPECT_DOUBLE_EQ(ground_drop_m(20.0, 0.5), ground_drop_m(20.0));
-    for (const auto& [name, deepest] : {std::pair("straight.xodr", 0.65), std::pair("village.xodr", 0.45)}) {
-        const RoadNetwork network = opendrive_text::library_road(name);
-        const Scene scene = dressed(network, Route(network, {}), 1);
-        double lowest = 0.0;
-        for (const Mesh& mesh : scene.meshes)
-            if (mesh.name.starts_with("left of road 1 ") || mesh.name.starts_with("right of road 1 "))
-                for (const Vertex& v : mesh.vertices)
-                    lowest = std::min(lowest, mesh.origin_m.z + static_cast<double>(v.position_m.z) -
-                                                  (std::string_view(name) == "village.xodr" ? 0.12 : 0.0));
-        EXPECT_NEAR(-lowest, deepest, 0.13) << name;
+TEST(Dressing, GroundKeepsItsShapeUnderGravelMeadowsAndFields) {
+    const RoadNetwork network = opendrive_text::library_road("country.xodr");
+    const Scene plain = build_scene(network), scene = dressed(network, Route(network, {}), 1);
+    const auto has = [&](const Mesh& mesh, Stuff stuff) {
+        return std::ranges::any_of(mesh.batches,
+                                   [&](const Batch& b) { return b.material == index_of(RoadMaterial::count) + index_of(stuff); });
+    };
+    std::size_t compared = 0, fields = 0;
+    for (const Mesh& mesh : plain.meshes) {
+        if (mesh.name.find("of road") == std::string::npos)
+            continue;
+        const auto there = std::ranges::find(scene.meshes, mesh.name, &Mesh::name);
+        ASSERT_NE(there, scene.meshes.end());
+        EXPECT_TRUE(std::ranges::equal(there->vertices, mesh.vertices, {}, &Vertex::position_m, &Vertex::position_m)) << mesh.name;
+        EXPECT_TRUE(has(*there, Stuff::gravel) && has(*there, Stuff::meadow)) << mesh.name;
+        fields += has(*there, Stuff::stubble) || has(*there, Stuff::soil) ? 1U : 0U;
+        ++compared;
     }
+    EXPECT_GE(compared, 50U);
+    EXPECT_GT(fields, 10U);
 }
 
 TEST(Dressing, PatchesLieAMillimetreAboveAsphaltAlone) {
