@@ -53,7 +53,8 @@ int tell_town(const TownFlags& flags) {
     const TownFound found = look_at_town(model, request);
     std::filesystem::create_directories(folder);
     write_png(found.view, folder / "driver.png");
-    const auto figure = lux_map_figure(found.map, fmt::format("{} in two lamps, {}", model.name, request.lamp));
+    auto figure = lux_map_figure(found.map, fmt::format("{} in two lamps, {}", model.name, request.lamp));
+    figure->subtitle = "lux on the ground; lines at 1, 3, 5, 10, 30 and 50 lx";
     write_file(folder / "lux.png", plots::png_of_svg(plots::svg_of(*figure, 0)));
     const std::string text = town_text(model, found);
     write_file(folder / "town.txt", text);

@@ -75,8 +75,7 @@ std::vector<TownFound::Row> rows_of(const Scene& scene, const Moment& moment) {
         TownFound::Row& row = rows.emplace_back(TownFound::Row{ahead, {}});
         for (std::size_t i = 0; i < 3; ++i) {
             const double left = 3.0 - 3.0 * static_cast<double>(i);
-            const TwinPixel there =
-                twin.pixel(moment, map, (beside_m - left) / pixel_m - 0.5, (ahead_m - two_lamps_x_m - ahead) / pixel_m - 0.5);
+            const TwinPixel there = twin.pixel(moment, map, (beside_m - left) / pixel_m, (ahead_m - two_lamps_x_m - ahead) / pixel_m);
             if (there.id != 0)
                 row.ground_lx[i] = there.illuminance_lx;
         }
