@@ -18,11 +18,8 @@ namespace fernlicht {
 std::vector<const CLI::App*> commands_below(const CLI::App& command);
 /// Its words from the program down: "fernlicht can record".
 std::string full_name(const CLI::App& command);
-bool takes_value(const CLI::Option& flag);
 /// The words that it takes, where they are listed ("as-is|auto"); else none.
 std::vector<std::string> choices_of(const CLI::Option& option);
-std::string value_name(const CLI::Option& option); ///< "INT", "as-is|auto"
-std::string meaning_of(const CLI::Option& option); ///< with range and default
 
 /// In roff's man macros: of the program, or of a command with all below it. No date, so the same bytes every time.
 std::string man_page(const CLI::App& command);

@@ -1,5 +1,7 @@
 #include "runner/commands/exit_codes.h"
 #include "runner/commands/manual.h"
+
+#include "runner/commands/help.h"
 #include "scenarios/values/version.h"
 
 #include <CLI/CLI.hpp>
@@ -61,7 +63,7 @@ std::string page_name(const CLI::App& command) {
     return name;
 }
 
-/// "--repeat INT": names in bold, value in italics.
+/// "--repeat N": names in bold, value in italics.
 std::string tag(const CLI::Option& option) {
     if (option.get_positional())
         return "\\fI" + roff(value_name(option)) + "\\fR";
@@ -76,7 +78,7 @@ std::string tag(const CLI::Option& option) {
 void add_options(const CLI::App& command, bool positional, const std::string& group, std::string& page) {
     for (const CLI::Option* option : command.get_options())
         if (option->get_positional() == positional && option->get_group() == group)
-            page += ".TP\n" + tag(*option) + "\n" + roff(meaning_of(*option)) + "\n";
+            page += ".TP\n" + tag(*option) + "\n" + roff(meaning(*option)) + "\n";
 }
 
 /// `section` and `below` are the macros of its headings.
@@ -121,8 +123,6 @@ std::string full_name(const CLI::App& command) {
     return command.get_parent() ? full_name(*command.get_parent()) + " " + command.get_name() : command.get_name();
 }
 
-bool takes_value(const CLI::Option& flag) { return flag.get_items_expected_max() > 0; }
-
 std::vector<std::string> choices_of(const CLI::Option& option) {
     std::string words = option.get_option_text();
     char between = '|';
@@ -134,30 +134,6 @@ std::vector<std::string> choices_of(const CLI::Option& option) {
                              return std::islower(c) || std::isdigit(c) || c == '-' || c == between;
                          });
     return is_list ? CLI::detail::split(words, between) : std::vector<std::string>{};
-}
-
-std::string value_name(const CLI::Option& option) {
-    if (!option.get_option_text().empty())
-        return option.get_option_text();
-    const std::vector<std::string> choices = choices_of(option);
-    std::string name =
-        option.get_positional() ? option.get_single_name() : option.get_type_name().substr(0, option.get_type_name().find(':'));
-    if (!option.get_positional() && !choices.empty())
-        name = fmt::format("{}", fmt::join(choices, "|"));
-    if (option.get_expected_max() == CLI::detail::expected_max_vector_size)
-        return name + "...";
-    return option.get_expected_min() > 1 ? fmt::format("{} x {}", name, option.get_expected_min()) : name;
-}
-
-std::string meaning_of(const CLI::Option& option) {
-    std::string text = option.get_description();
-    const std::string type = option.get_type_name();
-    if (const std::size_t range = type.find(" in ["); range != std::string::npos)
-        text += ", from " + type.substr(range + 5, type.find(" - ", range) - range - 5) + " to " +
-                type.substr(type.find(" - ", range) + 3, type.find(']', range) - type.find(" - ", range) - 3);
-    if (takes_value(option) && !option.get_default_str().empty())
-        text += " (default: " + option.get_default_str() + ")";
-    return text;
 }
 
 std::string man_page(const CLI::App& command) {

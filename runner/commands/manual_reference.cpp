@@ -1,4 +1,5 @@
 #include "runner/commands/exit_codes.h"
+#include "runner/commands/help.h"
 #include "runner/commands/manual.h"
 
 #include <CLI/CLI.hpp>
@@ -16,7 +17,7 @@ std::string text_of(const CLI::Option& option) {
     for (const std::string& name : option.get_lnames())
         names.push_back("--" + name);
     const std::string value = option.get_positional() || takes_value(option) ? value_name(option) : "";
-    return fmt::format("`{}{}{}`: {}", fmt::join(names, ", "), names.empty() || value.empty() ? "" : " ", value, meaning_of(option));
+    return fmt::format("`{}{}{}`: {}", fmt::join(names, ", "), names.empty() || value.empty() ? "" : " ", value, meaning(option));
 }
 
 void each(const CLI::App& command, const std::function<void(const CLI::App&)>& take) {

@@ -73,6 +73,20 @@ Document readings_document() {
     return {"Readings", {{"", {std::move(all)}}}};
 }
 
+std::string readings_json() {
+    Json all = Json::array();
+    for (const QuantityRow& row : quantities())
+        all.push_back({{"names", forms_in_words(row)},
+                       {"unit", row.unit},
+                       {"better", row.better == Better::higher  ? Json("higher")
+                                  : row.better == Better::lower ? Json("lower")
+                                                                : Json(nullptr)},
+                       {"meaning", row.meaning},
+                       {"equation", row.equation},
+                       {"source", row.source}});
+    return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 Document techniques_reference(std::span<const Technique> rows, ShadowMethods shadows) {
     const auto ending = [](std::string_view ignores, std::string_view origin) {
         return fmt::format("{}{}{}{}.", ignores.empty() ? "" : ". Ignores ", ignores, origin.empty() ? "" : ". ", origin);

@@ -14,6 +14,7 @@ using ShadowMethods = std::span<const ShadowMethodName>;
 Document techniques_document(std::span<const Technique> rows, ShadowMethods shadows);
 std::string techniques_json(std::span<const Technique> rows, ShadowMethods shadows);
 Document readings_document();
+std::string readings_json();
 /// The same as lists: docs/reference/techniques.md and quantities.md.
 Document techniques_reference(std::span<const Technique> rows, ShadowMethods shadows);
 Document quantities_reference();

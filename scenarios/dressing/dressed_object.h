@@ -3,6 +3,7 @@
 
 #include "scenarios/dressing/dressing_materials.h"
 #include "scenarios/models/triangle_soup.h"
+#include "scenarios/roads/signal_faces.h"
 
 namespace fernlicht {
 
@@ -46,5 +47,13 @@ DressedObject dressed_field_fence(double length_m);
 DressedObject dressed_fence(double length_m, double height_m, double fall_m);
 /// A W-beam of a crash barrier along x, `width_m` deep and `height_m` high, its bulges towards the road.
 DressedObject dressed_guard_rail(double length_m, double width_m, double height_m, bool road_left);
+/// A sign's plate about its middle, its face at x = 0, read by who looks along -x. Films of one colour each, as EN 12899-1's class RA2
+/// returns light. `dice`: for names of places, where the road's file has none.
+TriangleSoup dressed_sign(double width_m, double height_m, const SignalFace& face, Dice dice);
+/// A traffic light, out: housing and three lenses under visors, its face at x = 0.
+TriangleSoup dressed_traffic_light(double width_m, double height_m);
+
+/// A bollard with a reflecting band.
+DressedObject dressed_bollard(double height_m);
 
 } // namespace fernlicht

@@ -31,6 +31,24 @@ enum class Stuff : std::uint32_t {
     hedge,
     grass,
     zinc,
+    blind,
+    net,
+    sheet_white,
+    sheet_yellow,
+    sheet_red,
+    sheet_blue,
+    sheet_black,
+    sign_back,
+    meadow,
+    gravel,
+    stubble,
+    soil,
+    patch,
+    old_patch,
+    seam,
+    iron,
+    lid,
+    crossing,
     count
 };
 
@@ -39,8 +57,9 @@ constexpr std::uint32_t index_of(Stuff stuff) { return static_cast<std::uint32_t
 /// By Stuff. Without pictures: reflectances are the means.
 std::vector<Material> dressing_materials();
 
-/// Adds them to the scene and returns the place of the first. `textures`: with pictures of plaster, brick, tiles, bark and leaves, of
-/// road_texture_px, whose mean reflectances are the materials'. The same seed gives the same bytes.
+/// Adds them to the scene and returns the place of the first. `textures`: with pictures of plaster, brick, tiles, bark, leaves and ground,
+/// of road_texture_px, whose mean reflectances are the materials'. What lies on the road is as the scene's asphalt and paint, darker or
+/// lighter; without those, as road_materials() has them. The same seed gives the same bytes.
 std::uint32_t add_dressing_materials(Scene& scene, bool textures, std::uint64_t seed);
 
 /// Draws by SplitMix64 (Steele, Lea, Flood 2014): the same on every machine.

@@ -22,8 +22,11 @@ constexpr double frame_wide_m = 0.07;
 /// A hole in a wall, in its plane: u to the right as seen from outside, z up.
 struct Opening {
     double left_m, right_m, bottom_m, top_m;
-    Stuff pane; ///< of a door the light above it
+    Stuff pane;         ///< of a door the light above it
+    double drawn = 0.0; ///< how far a blind is down, whether there are curtains
     bool is_door = false;
+
+    bool has_blind() const { return pane == Stuff::glass && !is_door && drawn < 0.4; }
 };
 
 /// A wall's plane: where u = 0 stands, which way u runs, and which way is out.
@@ -99,9 +102,10 @@ class HouseBuilder {
             for (int column = 0; column < columns; ++column) {
                 const double middle = (column + 0.5) * pitch;
                 if (storey == 0 && column == door)
-                    all.push_back({middle - 0.55, middle + 0.55, floor, floor + 2.1, pane(), true});
+                    all.push_back({middle - 0.55, middle + 0.55, floor, floor + 2.1, pane(), dice_.share(), true});
                 else if (front || dice_.share() < 0.7)
-                    all.push_back({middle - 0.55, middle + 0.55, floor + 0.85, std::min(floor + 2.1, eaves_m_ - 0.15), pane()});
+                    all.push_back(
+                        {middle - 0.55, middle + 0.55, floor + 0.85, std::min(floor + 2.1, eaves_m_ - 0.15), pane(), dice_.share()});
             }
         }
         return all;
@@ -129,7 +133,10 @@ class HouseBuilder {
             }
         for (const Opening& hole : holes) {
             near_ ? fill(p, hole)
-                  : flat(p, hole.left_m, hole.right_m, hole.bottom_m, hole.top_m, 0.0, hole.is_door ? Stuff::door : hole.pane);
+                  : flat(p, hole.left_m, hole.right_m, hole.bottom_m, hole.top_m, 0.0,
+                         hole.is_door       ? Stuff::door
+                         : hole.has_blind() ? Stuff::blind
+                                            : hole.pane);
             if (hole.is_door) {
                 const glm::dvec3 foot = p.at(hole.left_m - 0.1, 0.0),
                                  top = p.at(hole.right_m + 0.1, size_.ground_m + 0.5 * floor_m, 0.05 - wall_inside_m);
@@ -149,17 +156,41 @@ class HouseBuilder {
             flat(p, l, r, t - 0.35, t, d, h.pane); // the light above it
             return;
         }
+        double blind = t; // its lower end
+        if (h.has_blind()) {
+            blind = h.drawn < 0.25 ? b : b + 0.45 * (t - b);
+            flat(p, l, r, blind, t, 0.4 * d, Stuff::blind);
+            flat(p, l, r, blind - 0.02, blind, 0.4 * d - 0.004, Stuff::zinc); // its last slat
+        }
+        if (blind == b) {
+            shutters(p, h);
+            return;
+        }
         flat(p, l, l + frame_wide_m, b, t, d, Stuff::white_frame);
         flat(p, r - frame_wide_m, r, b, t, d, Stuff::white_frame);
         flat(p, l + frame_wide_m, r - frame_wide_m, b, b + frame_wide_m, d, Stuff::white_frame);
         flat(p, l + frame_wide_m, r - frame_wide_m, t - frame_wide_m, t, d, Stuff::white_frame);
         const double middle = 0.5 * (l + r), bar = 0.5 * frame_wide_m;
         flat(p, middle - bar, middle + bar, b + frame_wide_m, t - frame_wide_m, d, Stuff::white_frame);
-        flat(p, l + frame_wide_m, middle - bar, b + frame_wide_m, t - frame_wide_m, d, h.pane);
-        flat(p, middle + bar, r - frame_wide_m, b + frame_wide_m, t - frame_wide_m, d, h.pane);
-        if (shutters_) // leaves of half the window's width, open against the wall
-            for (const double from : {l - 0.58, r + 0.03})
-                flat(p, from, from + 0.55, b, t, -0.03, Stuff::shutter);
+        // Two panes; curtains hang at their outer sides, or a low one across them.
+        const bool lit = h.pane == Stuff::room, low = h.drawn > 0.8 && !lit;
+        const Stuff cloth = lit ? Stuff::curtain : Stuff::net;
+        const double hem = low && h.pane == Stuff::glass ? 0.5 * (b + t) : b + frame_wide_m, top = t - frame_wide_m,
+                     hangs = !low && h.pane != Stuff::curtain && h.drawn > 0.45 ? 0.12 : 0.0;
+        for (const double side : {-1.0, 1.0}) {
+            const double inner = middle + side * bar, outer = middle + side * (0.5 * (r - l) - frame_wide_m), edge = outer - side * hangs;
+            flat(p, std::min(inner, edge), std::max(inner, edge), hem, top, d, h.pane);
+            flat(p, std::min(edge, outer), std::max(edge, outer), hem, top, d, cloth);
+            flat(p, std::min(inner, outer), std::max(inner, outer), b + frame_wide_m, hem, d, cloth);
+        }
+        shutters(p, h);
+    }
+
+    /// Leaves of half the window's width, open against the wall.
+    void shutters(const WallPlane& p, const Opening& h) {
+        if (shutters_)
+            for (const double from : {h.left_m - 0.58, h.right_m + 0.03})
+                flat(p, from, from + 0.55, h.bottom_m, h.top_m, -0.03, Stuff::shutter);
     }
 
     /// Between the wall's top and the roof.
@@ -183,7 +214,7 @@ class HouseBuilder {
         soup_.add({whole[0], a, d}, m);
         soup_.add({whole[2], d, c}, m);
         const bool shuttered = std::exchange(shutters_, false);
-        fill(p, {u0, u1, z0, z1, behind});
+        fill(p, {u0, u1, z0, z1, behind, 0.5});
         shutters_ = shuttered;
     }
 
@@ -198,8 +229,9 @@ class HouseBuilder {
         for (std::size_t i = 0; i < 4; ++i) {
             const std::size_t k = (i + 1) % 4;
             const glm::dvec2 &a = outer[k], &b = outer[i];
-            quad({glm::dvec3(b, 0.0), glm::dvec3(a, 0.0), glm::dvec3(a, top), glm::dvec3(b, top)}, Stuff::plinth);
-            quad({glm::dvec3(b, top), glm::dvec3(a, top), glm::dvec3(inner[k], top), glm::dvec3(inner[i], top)}, Stuff::plinth);
+            const double lower = top - plinth_proud_m; // a chamfer leads rain off
+            quad({glm::dvec3(b, 0.0), glm::dvec3(a, 0.0), glm::dvec3(a, lower), glm::dvec3(b, lower)}, Stuff::plinth);
+            quad({glm::dvec3(b, lower), glm::dvec3(a, lower), glm::dvec3(inner[k], top), glm::dvec3(inner[i], top)}, Stuff::plinth);
         }
     }
 

@@ -98,7 +98,7 @@ class SegmentCells {
 
 } // namespace
 
-std::vector<std::string> shades_of_lane(const Scene& scene, const Route& route) {
+std::vector<std::string> shades_of_lane(const Scene& scene, const Route& route, std::size_t first) {
     std::vector<Segment> segments;
     for (double at = 0.0; at < route.length_m(); at += route_every_m) {
         const Pose car = route.pose(at);
@@ -111,7 +111,8 @@ std::vector<std::string> shades_of_lane(const Scene& scene, const Route& route) 
     }
     const SegmentCells near(segments);
     std::vector<std::string> names;
-    for (const Mesh& mesh : scene.meshes) {
+    for (std::size_t i = first; i < scene.meshes.size(); ++i) {
+        const Mesh& mesh = scene.meshes[i];
         if (!mesh.casts || mesh.body >= 0 || mesh.vertices.empty() || std::ranges::find(names, mesh.name) != names.end())
             continue;
         glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);

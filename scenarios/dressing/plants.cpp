@@ -29,6 +29,7 @@ struct PlantBox {
 struct TubeRing {
     glm::dvec3 centre_m;
     double radius_m;
+    double lobes = 0.0; ///< share of the radius by which five ribs stand out, as roots do
 };
 void append_tube(TriangleSoup& soup, const std::vector<TubeRing>& rings, int sides, Stuff stuff) {
     const glm::dvec3 axis = glm::normalize(rings.back().centre_m - rings.front().centre_m);
@@ -42,8 +43,8 @@ void append_tube(TriangleSoup& soup, const std::vector<TubeRing>& rings, int sid
         for (int s = 0; s <= sides; ++s) {
             const double angle = 2.0 * pi * (s % sides) / sides;
             const glm::dvec3 out = std::cos(angle) * across + std::sin(angle) * third;
-            soup.vertices.push_back(
-                {rings[i].centre_m + rings[i].radius_m * out, out, glm::vec2(times_round * s / sides, along_m / picture_m)});
+            const double radius = rings[i].radius_m * (1.0 - rings[i].lobes * (0.5 - 0.5 * std::cos(5.0 * angle)));
+            soup.vertices.push_back({rings[i].centre_m + radius * out, out, glm::vec2(times_round * s / sides, along_m / picture_m)});
         }
     }
     const auto row = static_cast<std::uint32_t>(sides + 1);
@@ -170,13 +171,22 @@ DressedObject dressed_tree(double height_m, double radius_m, Dice dice, Detail d
     const bool near = detail == Detail::near, spruce = dice.share() < 0.25;
     const double free_m = 0.25 * height_m, foot_m = 0.025 * height_m;
     const PlantBox bounds{radius_m, height_m};
-    // The plain trunk's radii up to the crown, with roots spreading at its foot.
-    const double root_m = std::min(1.35 * foot_m, radius_m);
-    append_tube(out.low, {{{0, 0, 0}, root_m}, {{0, 0, 0.04 * height_m + 0.3}, foot_m}, {{0, 0, free_m}, 0.82 * foot_m}}, near ? 10 : 6,
-                Stuff::bark);
+    // About as thick as the plain trunk, slightly bent; roots spread at its foot.
+    const glm::dvec2 bend = 0.35 * foot_m * glm::dvec2(dice.between(-1, 1), dice.between(-1, 1));
+    std::vector<TubeRing> trunk;
+    for (const double z_m : {0.0, 0.4, 0.7, 1.2, 2.4})
+        if (z_m < free_m - 0.3 && (near || z_m == 0.0 || z_m == 1.2)) {
+            const double flare = std::exp(-std::max(0.0, z_m - 0.45) / 0.30), up = z_m / free_m;
+            trunk.push_back({{glm::dvec2(std::sin(pi * up)) * bend, z_m},
+                             std::min(foot_m * (0.94 - 0.14 * up + 0.5 * flare), radius_m),
+                             0.10 + 0.25 * flare});
+        }
+    trunk.push_back({{0, 0, free_m}, 0.80 * foot_m, 0.10});
+    append_tube(out.low, trunk, near ? 10 : 6, Stuff::bark);
     const double lean_x = 0.1 * radius_m * dice.between(-1, 1), lean_y = 0.1 * radius_m * dice.between(-1, 1);
     const glm::dvec3 fork(0, 0, free_m), top(lean_x, lean_y, 0.8 * height_m);
-    append_tube(out.high, {{fork, 0.82 * foot_m}, {0.5 * (fork + top), 0.55 * foot_m}, {top, 0.2 * foot_m}}, near ? 7 : 5, Stuff::bark);
+    append_tube(out.high, {{fork, 0.80 * foot_m, 0.10}, {0.5 * (fork + top), 0.55 * foot_m}, {top, 0.2 * foot_m}}, near ? 7 : 5,
+                Stuff::bark);
     if (spruce) {
         append_spruce(out, height_m, radius_m, dice);
         return out;
@@ -187,9 +197,9 @@ DressedObject dressed_tree(double height_m, double radius_m, Dice dice, Detail d
     const auto clump = [&](const glm::dvec3& centre, double size) {
         const glm::dvec3 radii(size * radius_m, size * radius_m, std::min(size * radius_m * 1.15, 0.22 * height_m));
         Dice own = dice.fork();
-        append_clump(out.high, centre, radii, bounds, near ? 2 : 1, leaves, own);
+        append_clump(out.high, centre, radii, bounds, near ? 1 : 0, leaves, own);
         if (near)
-            append_sprigs(out.high, 22, centre, radii, sprig_m, bounds, leaves, own);
+            append_sprigs(out.high, 14, centre, radii, sprig_m, bounds, leaves, own);
     };
     for (int i = 0; i < boughs; ++i) {
         const double angle = turn + 2.0 * pi * i / boughs + dice.between(-0.3, 0.3), up = dice.between(0.0, 1.0);
@@ -215,22 +225,25 @@ DressedObject dressed_bush(double height_m, double radius_m, Dice dice) {
         const glm::dvec3 centre(0.4 * radius_m * std::cos(angle), 0.4 * radius_m * std::sin(angle), height_m * dice.between(0.35, 0.5));
         const glm::dvec3 radii(0.6 * radius_m, 0.6 * radius_m, 0.55 * height_m);
         append_clump(out.low, centre, radii, bounds, 1, leaves, dice);
-        append_sprigs(out.low, 14, centre, radii, std::min(0.3, 0.3 * radius_m), bounds, leaves, dice);
+        append_sprigs(out.low, 8, centre, radii, std::min(0.35, 0.35 * radius_m), bounds, leaves, dice);
     }
     return out;
 }
 
 DressedObject dressed_tuft(double height_m, Dice dice) {
     DressedObject out;
-    for (int i = 0; i < 6; ++i) {
-        const double angle = 2.0 * pi * dice.share(), lean = dice.between(0.1, 0.6) * height_m;
-        const glm::dvec3 forward(std::cos(angle), std::sin(angle), 0.0), across(-forward.y, forward.x, 0.0);
-        const glm::dvec3 foot = 0.15 * dice.share() * forward,
-                         tip = foot + lean * forward + glm::dvec3(0, 0, height_m * dice.between(0.6, 1.0));
-        for (const double side : {1.0, -1.0})
-            out.low.add({foot - 0.012 * side * across + 0.002 * side * forward, foot + 0.012 * side * across + 0.002 * side * forward,
-                         tip + 0.002 * side * forward},
-                        index_of(Stuff::grass));
+    for (int i = 0; i < 5; ++i) {
+        // Blades bend towards one way along x or the other: who drives along it sees their faces.
+        const double angle = dice.between(-1.1, 1.1) + (dice.share() < 0.5 ? pi : 0.0), lean = dice.between(0.1, 0.7) * height_m;
+        const glm::dvec3 forward(std::cos(angle), std::sin(angle), 0.0),
+            across = dice.between(0.008, 0.020) * glm::dvec3(-forward.y, forward.x, 0.0);
+        const glm::dvec3 foot(0.3 * (dice.share() - 0.5), 0.3 * (dice.share() - 0.5), 0.0),
+            tip = foot + lean * forward + glm::dvec3(0, 0, height_m * dice.between(0.5, 1.0));
+        // Its normal is the meadow's: with both of its sides it returns light as that does, and the ground before it does not shade it.
+        const std::size_t before = out.low.vertices.size();
+        out.low.add({foot + across, foot - across, tip}, index_of(Stuff::grass));
+        for (std::size_t k = before; k < out.low.vertices.size(); ++k)
+            out.low.vertices[k].normal = {0.0, 0.0, 1.0};
     }
     return out;
 }

@@ -235,29 +235,29 @@ Model dressed_pedestrian(const BodySize& size) {
                 {0.112 * h, 0.066 * h, x, 0.775 * h},
                 {0.085 * h, 0.050 * h, x, 0.815 * h},
                 {0.040 * h, 0.038 * h, x, 0.84 * h}},
-               BodyMaterial::paint, 14);
+               BodyMaterial::paint, 7);
     body.limb({x, 0.0, 0.82 * h}, {x + 0.005 * h, 0.0, 0.87 * h}, 0.031 * h, 0.031 * h, BodyMaterial::skin);
-    body.limb({x + 0.012 * h, 0.0, 0.895 * h}, {x + 0.012 * h, 0.0, 0.93 * h}, 0.040 * h, 0.046 * h, BodyMaterial::skin, 12);
-    body.limb({x - 0.006 * h, 0.0, 0.925 * h}, {x - 0.004 * h, 0.0, 0.948 * h}, 0.050 * h, 0.050 * h, BodyMaterial::hair, 12);
+    body.limb({x + 0.012 * h, 0.0, 0.895 * h}, {x + 0.012 * h, 0.0, 0.93 * h}, 0.040 * h, 0.046 * h, BodyMaterial::skin, 8);
+    body.limb({x - 0.006 * h, 0.0, 0.925 * h}, {x - 0.004 * h, 0.0, 0.948 * h}, 0.050 * h, 0.050 * h, BodyMaterial::hair, 8);
     for (const double side : {-1.0, 1.0}) {
         const glm::dvec3 shoulder(x, side * 0.105 * h, 0.79 * h), elbow(x - side * 0.25 * step, side * (half - 0.03 * h), 0.62 * h),
             wrist(x - side * 0.8 * step + 0.02 * h, side * (half - 0.035 * h), 0.50 * h), ankle(x + side * step, side * 0.05 * h, 0.05 * h),
             knee(x + side * 0.55 * step + 0.015 * h, side * 0.052 * h, 0.27 * h);
-        body.limb(shoulder, elbow, 0.036 * h, 0.029 * h, BodyMaterial::paint, 10);
-        body.limb(elbow, wrist, 0.028 * h, 0.021 * h, BodyMaterial::paint, 10);
+        body.limb(shoulder, elbow, 0.036 * h, 0.029 * h, BodyMaterial::paint, 7);
+        body.limb(elbow, wrist, 0.028 * h, 0.021 * h, BodyMaterial::paint, 7);
         body.limb(wrist, wrist + glm::dvec3(0.004 * h, 0, -0.035 * h), 0.017 * h, 0.017 * h, BodyMaterial::skin);
-        body.limb({x, side * 0.048 * h, 0.50 * h}, knee, 0.052 * h, 0.037 * h, BodyMaterial::cloth, 10);
-        body.limb(knee, ankle, 0.037 * h, 0.026 * h, BodyMaterial::cloth, 10);
+        body.limb({x, side * 0.048 * h, 0.50 * h}, knee, 0.052 * h, 0.037 * h, BodyMaterial::cloth, 7);
+        body.limb(knee, ankle, 0.037 * h, 0.026 * h, BodyMaterial::cloth, 7);
         body.limb(ankle - glm::dvec3(0.018 * h, 0, 0.025 * h), ankle + glm::dvec3(0.065 * h, 0, -0.028 * h), 0.024 * h, 0.019 * h,
-                  BodyMaterial::trim, 10);
+                  BodyMaterial::trim, 7);
         if (reflects) {
             const glm::dvec3 low = ankle + 0.12 * (knee - ankle), high = ankle + 0.30 * (knee - ankle);
-            body.limb(low, high, 0.0295 * h, 0.0315 * h, BodyMaterial::band, 10);
+            body.limb(low, high, 0.0295 * h, 0.0315 * h, BodyMaterial::band, 7);
         }
     }
     if (reflects)
         body.limb({x - 0.10 * step, half - 0.035 * h - 0.01 * h, 0.69 * h}, {x - 0.15 * step, half - 0.032 * h, 0.665 * h}, 0.036 * h,
-                  0.035 * h, BodyMaterial::band, 10);
+                  0.035 * h, BodyMaterial::band, 7);
     return std::move(body).take();
 }
 

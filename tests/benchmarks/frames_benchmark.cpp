@@ -6,12 +6,14 @@
 #include "renderer/renderer.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/place_traffic.h"
+#include "scenarios/drives/play/staged_scene.h"
 #include "scenarios/roads/mesh/road_mesh.h"
 #include "scenarios/roads/road_network.h"
 #include "scenarios/traffic/road_user_mesh.h"
 #include "tests/benchmarks/country_road.h"
 #include "tests/trial.h"
 
+#include <array>
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <map>
@@ -112,6 +114,64 @@ BENCHMARK(frame_with_traffic)
         for (const std::vector<std::int64_t>& arguments : cases)
             frames->Args(arguments);
     }) -> Unit(benchmark::kMillisecond) -> MeasureProcessCPUTime() -> UseRealTime();
+
+// A frame of a standard route, plain or dressed: the mean over 12 moments spread over the drive. Run with
+// --benchmark_filter=frame_dressed --benchmark_repetitions=9 --benchmark_enable_random_interleaving=true --benchmark_min_time=0.05.
+
+struct DressedStage {
+    DressedStage(Device& device, const char* name, bool dressed) : drive(read(name, dressed)) {
+        const RoadNetwork network = read_opendrive(drive.road_file);
+        const Route route(network, drive.start, drive.via);
+        scene = staged_scene(drive, network, route);
+        constexpr int count = 12;
+        State state = start(drive);
+        for (int tick = 0, next = 0; next < count; ++tick, state = advance(state, drive))
+            if (tick == next * tick_count(drive) / count) {
+                moments.push_back(moment_at(state, drive, route, drive.lamp_sets.front()));
+                ++next;
+            }
+        renderer.emplace(device, scene, RendererSettings{});
+        renderer->prepare(moments, drive.views.front(), {.colour = true});
+        draw();
+    }
+    static Drive read(const std::string& name, bool dressed) {
+        DriveEdits edits;
+        edits.values = {{"dressing", dressed ? "dressed" : "plain"}};
+        return read_drive(library_path("drives/" + name + ".yaml"), edits);
+    }
+    void draw() {
+        for (const Moment& moment : moments)
+            renderer->render(moment, drive.views.front(), {.colour = true});
+        renderer->finish();
+    }
+    Drive drive;
+    Scene scene;
+    std::optional<Renderer> renderer;
+    std::vector<Moment> moments;
+};
+
+void frame_dressed(benchmark::State& state) {
+    static Device device = open_device("auto");
+    static std::map<std::pair<std::int64_t, std::int64_t>, std::unique_ptr<DressedStage>> stages;
+    static constexpr std::array<const char*, 5> routes{"straight", "s-bend", "country", "motorway", "village"};
+    const char* const route = routes[static_cast<std::size_t>(state.range(0))];
+    std::unique_ptr<DressedStage>& stage = stages[{state.range(0), state.range(1)}];
+    if (!stage)
+        stage = std::make_unique<DressedStage>(device, route, state.range(1) != 0);
+    for (auto _ : state)
+        stage->draw();
+    std::size_t triangles = 0;
+    for (const Mesh& mesh : stage->scene.meshes)
+        triangles += mesh.indices.size() / 3;
+    state.counters["triangles"] = static_cast<double>(triangles);
+    state.SetLabel(route);
+}
+BENCHMARK(frame_dressed)
+    ->ArgNames({"route", "dressed"})
+    ->ArgsProduct({{0, 1, 2, 3, 4}, {0, 1}})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 // A frame on a road of 50 km against one of 1 km: what lies behind the horizon must cost nothing. Run with
 // --benchmark_filter=frame_on --benchmark_repetitions=15 --benchmark_enable_random_interleaving=true.

@@ -53,8 +53,11 @@ TEST_F(DressedFrames, LanesAreLitAsInPlainOnesAndHousesAreNot) {
     const View driver = driver_view(320, 240, 40.0, -1.0);
     for (std::size_t i = 0; i < plain.moments.size(); ++i) {
         const Frame a = first.draw(plain.moments[i], map, all_results), b = second.draw(dressed.moments[i], map, all_results);
-        EXPECT_EQ(a.illuminance_lx, b.illuminance_lx) << "both lanes, to 120 m";
-        EXPECT_EQ(a.target_lx, b.target_lx);
+        // Patches lie 1 mm above the road: 0.15 % of the lamps' height, and 0.0014 degrees at 40 m, where light falls tenfold in 0.7
+        // degrees.
+        for (const auto& [expected, found] : {std::pair(&a.illuminance_lx, &b.illuminance_lx), std::pair(&a.target_lx, &b.target_lx)})
+            for (std::size_t k = 0; k < expected->pixels().size(); ++k)
+                ASSERT_NEAR(found->pixels()[k], expected->pixels()[k], 0.01F * expected->pixels()[k] + 1e-3F) << "both lanes, to 120 m";
         const Frame c = first.draw(plain.moments[i], driver, all_results), d = second.draw(dressed.moments[i], driver, all_results),
                     e = bare.draw(none.moments[i], driver, all_results);
         EXPECT_NE(c.luminance_cdm2, d.luminance_cdm2);

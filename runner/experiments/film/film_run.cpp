@@ -127,7 +127,8 @@ std::vector<FilmedPanel> panels_of(const std::deque<Stage>& stages, const std::v
     }
     for (const std::string& name : wanted)
         if (!known.contains(name))
-            throw InputError({{}, 0, 0, "--lamp-set"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(known, ", ")));
+            throw InputError({{}, 0, 0, "--lamp-sets"}, "found '" + printable(name) + "'",
+                             fmt::format("one of {}", fmt::join(known, ", ")));
     return panels;
 }
 
@@ -280,9 +281,15 @@ void share_white(const std::vector<Drive>& asked, std::deque<Stage>& stages) {
 /// All that can be refused before a device is opened.
 void read_stages(const FilmRequest& request, std::deque<Stage>& stages) {
     for (const Drive& drive : request.drives) {
-        stages.emplace_back(as_filmed(drive, request));
-        if (driver_view(stages.back().drive) == nullptr)
+        const View* view = driver_view(drive);
+        if (view == nullptr)
             throw InputError({drive.file, 0, 0, "views"}, "found only maps", "a driver's view");
+        Drive filmed = as_filmed(drive, request);
+        View finest = at_size(*view, request.width_px, request.height_px); // levels of detail are chosen for it, too
+        finest.vertical_fov_rad = request.vertical_fov_rad.value_or(finest.vertical_fov_rad);
+        filmed.views.push_back(finest);
+        stages.emplace_back(std::move(filmed));
+        stages.back().drive.views.pop_back();
     }
     share_white(request.drives, stages);
 }
@@ -315,6 +322,9 @@ FilmFound run_film(const FilmRequest& request) {
     if (found.planned <= 0)
         throw InputError({{}, 0, 0, "--frames"}, fmt::format("found a range from {} on", first),
                          fmt::format("frames of the film, which has 0 to {}", all - 1));
+    if (request.frames.last >= all && request.frames.last != TickRange{}.last)
+        found.notes.push_back(fmt::format("--frames: {} of the {} frames asked for, as the film ends with frame {}", found.planned,
+                                          request.frames.last - first + 1, all - 1));
     Device device = open_device(request.backend);
     check_sanity(device);
     RendererSettings settings = settings_for(device, false);

@@ -16,7 +16,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <iterator>
 #include <limits>
 
 namespace fernlicht {
@@ -33,28 +32,29 @@ double smallest_pixel_rad(const std::vector<View>& views) {
 
 /// With a note of what shades the own lane.
 void dress(Scene& scene, Drive& drive, const RoadNetwork& network, const Route& route) {
-    Scene dressing;
-    dressing.materials.swap(scene.materials);
-    dressing.textures.swap(scene.textures);
-    add_dressing(dressing, network, route, {.textures = drive.textured, .seed = drive.seed, .pixel_rad = smallest_pixel_rad(drive.views)});
+    const std::size_t before = scene.meshes.size();
+    add_dressing(scene, network, route,
+                 {.textures = drive.textured,
+                  .seed = drive.seed,
+                  .pixel_rad = smallest_pixel_rad(drive.views),
+                  .faces = read_signal_faces(drive.road_file)});
     constexpr std::size_t most_told = 40;
-    std::vector<std::string> names = shades_of_lane(dressing, route);
+    std::vector<std::string> names = shades_of_lane(scene, route, before);
     const std::size_t more = names.size() > most_told ? names.size() - most_told : 0;
     names.resize(names.size() - more);
     if (!names.empty())
-        drive.notes.push_back(fmt::format("dressed objects that shade the own lane somewhere on the route: {}{}", fmt::join(names, ", "),
+        drive.notes.push_back(fmt::format("dressed objects that shade the own lane somewhere on the route: {}{}", fmt::join(names, "; "),
                                           more > 0 ? fmt::format(" and {} more", more) : ""));
-    scene.materials.swap(dressing.materials);
-    scene.textures.swap(dressing.textures);
-    std::ranges::move(dressing.meshes, std::back_inserter(scene.meshes));
 }
 
 } // namespace
 
 Scene staged_scene(Drive& drive, const RoadNetwork& network, const Route& route) {
-    RoadMeshOptions options{.textures = drive.textured, .seed = drive.seed};
-    if (drive.dressing != Dressing::plain)
-        options.leave_out = [&](const RoadObject& object) { return drive.dressing == Dressing::none || is_dressed(object); };
+    RoadMeshOptions options{.textures = drive.textured, .seed = drive.seed, .surface = drive.road_surface};
+    if (drive.dressing == Dressing::none)
+        options.leave_out = [](const RoadObject&) { return true; };
+    else if (drive.dressing == Dressing::dressed)
+        dress_ground(options);
     Scene scene = build_scene(network, options);
     if (drive.dressing == Dressing::dressed)
         dress(scene, drive, network, route);

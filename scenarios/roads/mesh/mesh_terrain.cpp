@@ -26,9 +26,26 @@ struct Column {
 };
 constexpr double verge_m = 1.5;
 
-std::array<Column, 5> columns(double width) {
-    return {Column{0.0, 0.0}, Column{std::min(verge_m, width), 0.09}, Column{std::min(5.0, width), 0.35},
-            Column{std::min(12.0, width), 0.45}, Column{width, 0.45}};
+constexpr std::size_t most_columns = 7;
+using Columns = std::array<Column, most_columns>;
+constexpr std::size_t plain_columns = 5;
+
+/// `ditch`: of its full depth; as many columns as `count` says, plain_columns or, for a side with a ditch, most_columns.
+Columns columns(double width, std::size_t count, double ditch) {
+    const Columns flat{Column{0.0, 0.0}, Column{verge_m, 0.09}, Column{5.0, 0.35}, Column{12.0, 0.45}, Column{width, 0.45}};
+    const Columns deep{Column{0.0, 0.0},  Column{verge_m, 0.09}, Column{2.4, 0.65},  Column{2.9, 0.65},
+                       Column{4.2, 0.25}, Column{12.0, 0.45},    Column{width, 0.45}};
+    Columns out = count == plain_columns ? flat : deep;
+    for (std::size_t k = 0; k < count; ++k) {
+        if (count != plain_columns && k > 0 && k + 1 < count) {
+            const std::size_t next = out[k].out_m <= 5.0 ? 2 : 3;
+            const Column &a = flat[next - 1], &b = flat[next];
+            const double level = k == 1 ? a.drop_m : a.drop_m + (b.drop_m - a.drop_m) * (out[k].out_m - a.out_m) / (b.out_m - a.out_m);
+            out[k].drop_m = level + ditch * (out[k].drop_m - level);
+        }
+        out[k].out_m = std::min(out[k].out_m, width);
+    }
+    return out;
 }
 
 /// One point of the road's outer edge.
@@ -47,25 +64,26 @@ struct Rib {
     double width_m = 0.0;
     glm::dvec3 outward{0.0}, forward{0.0}; ///< horizontal
     double grade = 0.0;                    ///< rise along the road
-    std::array<glm::dvec3, 5> points_m = {};
-    std::array<double, 5> cap_m{unlimited, unlimited, unlimited, unlimited, unlimited};
+    double ditch = 0.0;                    ///< of its full depth
+    std::array<glm::dvec3, most_columns> points_m = {};
+    std::array<double, most_columns> cap_m{unlimited, unlimited, unlimited, unlimited, unlimited, unlimited, unlimited};
 };
 
 class Side {
   public:
-    Side(const SurfacePlan& plan, std::size_t road_index, const SurfaceRows& surface, bool left, double verge_width)
-        : plan_(plan), road_index_(road_index), left_(left) {
+    Side(const SurfacePlan& plan, std::size_t road_index, const SurfaceRows& surface, bool left, const RoadMeshOptions& options)
+        : plan_(plan), road_index_(road_index), left_(left), look_(options.ground) {
         for (std::size_t i = 0; i < plan.stretches.size(); ++i)
             if (!surface.empty(i))
                 follow(surface, i);
-        place(verge_width);
+        place(options.verge_width_m);
     }
 
     void fit(const Footprints& footprints) {
         for (std::size_t i = 0; i + 1 < ribs_.size(); ++i) {
             if (ribs_[i + 1].begins)
                 continue;
-            for (std::size_t k = 0; k < 4; ++k) {
+            for (std::size_t k = 0; k + 1 < count_; ++k) {
                 const double cap = allowed(footprints, i, k, open_[i][k]);
                 if (cap == unlimited)
                     continue;
@@ -92,7 +110,7 @@ class Side {
                                            static_cast<std::size_t>(stretch - plan_.stretches.begin())),
                                 ribs_[i].points_m[0]);
             }
-            for (std::size_t k = 0; k < 4; ++k)
+            for (std::size_t k = 0; k + 1 < count_; ++k)
                 if (!open_[i][k])
                     append_cell(*builder, i, k);
         }
@@ -174,12 +192,18 @@ class Side {
         for (std::size_t i = ribs_.size(); i-- > 1;)
             ribs_[i - 1].width_m = std::min(ribs_[i - 1].width_m, ribs_[i].width_m + widening_per_m * (ribs_[i].s_m - ribs_[i - 1].s_m));
         for (Rib& rib : ribs_) {
-            const std::array<Column, 5> all = columns(rib.width_m);
-            for (std::size_t k = 0; k < 5; ++k)
+            if (look_.ditch)
+                rib.ditch = look_.ditch(road, left_, rib.s_m);
+            if (rib.ditch > 0.0)
+                count_ = most_columns;
+        }
+        for (Rib& rib : ribs_) {
+            const Columns all = columns(rib.width_m, count_, rib.ditch);
+            for (std::size_t k = 0; k < count_; ++k)
                 rib.points_m[k] =
                     edge_[rib.edge].position_m + all[k].out_m * rib.outward - glm::dvec3(0.0, 0.0, k == 0 ? 0.0 : all[k].drop_m);
         }
-        open_.assign(ribs_.size(), {false, false, false, false});
+        open_.assign(ribs_.size(), {});
     }
 
     PlanQuad cell(std::size_t rib, std::size_t column) const {
@@ -205,7 +229,7 @@ class Side {
     }
 
     glm::dvec3 normal(const Rib& rib, std::size_t column) const {
-        const std::array<Column, 5> all = columns(rib.width_m);
+        const Columns all = columns(rib.width_m, count_, rib.ditch);
         const std::size_t inner = column == 0 ? 0 : column - 1, outer = column == 0 ? 1 : column;
         const double width = all[outer].out_m - all[inner].out_m;
         const double fall = width > 0.01 ? (all[outer].drop_m - all[inner].drop_m) / width : 0.0;
@@ -230,7 +254,8 @@ class Side {
     void append_cell(MeshBuilder& builder, std::size_t i, std::size_t k) const {
         const Rib& a = ribs_[i];
         const Rib& b = ribs_[i + 1];
-        const std::uint32_t material = index_of(k == 0 ? RoadMaterial::verge : RoadMaterial::terrain);
+        const std::uint32_t material = look_.material ? look_.material(*plan_.road, left_, a.s_m, columns(unlimited, count_, 0.0)[k].out_m)
+                                                      : index_of(k == 0 ? RoadMaterial::verge : RoadMaterial::terrain);
         const glm::dvec3 a_out = lowered(a.points_m[k + 1], a.cap_m[k + 1]), b_out = lowered(b.points_m[k + 1], b.cap_m[k + 1]);
         const glm::dvec3 na = normal(a, k), nb = normal(b, k), na_out = normal(a, k + 1), nb_out = normal(b, k + 1);
         if (k > 0) {
@@ -252,9 +277,11 @@ class Side {
     const SurfacePlan& plan_;
     std::size_t road_index_;
     bool left_;
+    const GroundLook& look_;
+    std::size_t count_ = plain_columns;
     std::vector<EdgePoint> edge_;
     std::vector<Rib> ribs_;
-    std::vector<std::array<bool, 4>> open_; ///< cells that are left out
+    std::vector<std::array<bool, most_columns>> open_; ///< cells that are left out
 };
 
 constexpr double far_beyond_m = 2500.0, far_below_m = 0.5;
@@ -263,13 +290,14 @@ constexpr double max_far_tiles = 250.0; // each way; larger then
 
 } // namespace
 
-double ground_drop_m(double out_m) {
-    const std::array<Column, 5> all = columns(unlimited);
-    for (std::size_t k = 1; k + 1 < all.size(); ++k)
+double ground_drop_m(double out_m, double ditch) {
+    const std::size_t count = ditch > 0.0 ? most_columns : plain_columns;
+    const Columns all = columns(unlimited, count, ditch);
+    for (std::size_t k = 1; k + 1 < count; ++k)
         if (out_m < all[k].out_m)
             return all[k - 1].drop_m +
                    (all[k].drop_m - all[k - 1].drop_m) * std::max(0.0, out_m - all[k - 1].out_m) / (all[k].out_m - all[k - 1].out_m);
-    return all.back().drop_m;
+    return all[count - 1].drop_m;
 }
 
 void append_terrain(Scene& scene, const SurfacePlan& plan, std::size_t road_index, const SurfaceRows& surface, const Footprints& footprints,
@@ -277,7 +305,7 @@ void append_terrain(Scene& scene, const SurfacePlan& plan, std::size_t road_inde
     if (!(options.verge_width_m > 0.0))
         return;
     for (const bool left : {false, true}) {
-        Side side(plan, road_index, surface, left, options.verge_width_m);
+        Side side(plan, road_index, surface, left, options);
         side.fit(footprints);
         side.append(scene);
     }

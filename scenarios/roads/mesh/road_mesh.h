@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenarios/roads/road_network.h"
+#include "scenarios/roads/road_surface.h"
 #include "scenarios/values/scene.h"
 
 #include <cstdint>
@@ -9,14 +10,25 @@
 
 namespace fernlicht {
 
+/// What lies beside the roads, in place of verge and terrain. Empty functions: those, without ditches.
+struct GroundLook {
+    /// Material, into the scene's, from so far out on.
+    std::function<std::uint32_t(const Road& road, bool left, double s_m, double out_m)> material = {};
+    /// Depth of the ditch from 1.5 to 4.2 m out, of 0.65 m below the road's edge: 0 to 1.
+    std::function<double(const Road& road, bool left, double s_m)> ditch = {};
+};
+
 struct RoadMeshOptions {
     double chord_error_m = 0.005; ///< greatest distance between the surface and its triangles
     double chunk_length_m = 60.0; ///< a mesh's extent along the road
     double verge_width_m = 30.0;  ///< terrain beside the outermost lane on each side
     bool textures = true;         ///< pictures of asphalt, concrete, grass and worn paint (mesh_materials.h); mean reflectances stay
     std::uint64_t seed = 1;       ///< of the textures
+    RoadSurface surface = {};
     /// Objects that are left out, because there are to be none or somebody else builds them. Empty: none are.
     std::function<bool(const RoadObject&)> leave_out = {};
+    bool signals = true; ///< false: left out, because somebody else builds them
+    GroundLook ground = {};
 };
 
 /// Surface with marks as materials of their own strips (no overlapping geometry), verge and terrain, objects, signal boards with posts.
@@ -30,11 +42,11 @@ Scene build_scene(const RoadNetwork& network, const RoadMeshOptions& options = {
 
 /// Where an object stands that is no outline: upright on the road's surface at its place, x along its heading.
 Pose standing(const RoadNetwork& network, const Road& road, const RoadObject& object);
-/// How far the ground beside a road lies below its edge, so many metres out.
-double ground_drop_m(double out_m);
+/// How far the ground beside a road lies below its edge, so many metres out; `ditch` as of GroundLook.
+double ground_drop_m(double out_m, double ditch = 0.0);
 
 /// The materials that build_scene uses, untextured, by name: asphalt, concrete, kerb, marking-white, marking-yellow, verge, terrain, board,
-/// board-back, post, delineator, object, trunk, leaves.
-std::vector<Material> road_materials();
+/// board-back, post, delineator, object, trunk, leaves; with wheel tracks then asphalt-track-0 to 4, the bare lane first.
+std::vector<Material> road_materials(const RoadSurface& surface = {});
 
 } // namespace fernlicht

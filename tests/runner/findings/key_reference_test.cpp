@@ -9,7 +9,7 @@ std::vector<std::string> lines_of(const Section& section) {
     std::vector<std::string> lines;
     for (const DocumentPart& part : section.blocks)
         if (const auto* listing = std::get_if<Listing>(&part))
-            for (const Cell& item : listing->items)
+            for (const auto& item : listing->items)
                 lines.push_back(item.text);
         else
             lines.push_back(std::get<std::string>(part));
