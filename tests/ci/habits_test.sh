@@ -41,7 +41,7 @@ need(links > 0, "no page has a link")
 
 # Pages that sources, scripts, schemas and help name by their paths.
 kinds = {".c", ".cff", ".cmake", ".cpp", ".css", ".glsl", ".h", ".html", ".js", ".json", ".md", ".mustache", ".py", ".sh", ".toml", ".txt", ".yaml", ""}
-named, out = 0, re.compile(r"/(build|out|\.git|\.cache|fuzz/(seeds|corpus)|baselines)/|habits_test\.sh$")
+named, out = 0, re.compile(r"/(build|out|\.git|\.cache|fuzz/(seeds|corpus)|baselines)/|tests/ci/\w+_test\.sh$")
 for file in sorted(root.rglob("*")):
     if file.suffix not in kinds or not file.is_file() or out.search(f"/{file.relative_to(root)}"): continue
     for path, anchor, decision in re.findall(r"\bdocs/(?:([\w/-]+\.md)(?:#([\w-]+))?|decisions/(\d{4})\b)", file.read_text(errors="replace")):
