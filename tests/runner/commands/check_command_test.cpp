@@ -53,7 +53,7 @@ dressing: grand
     EXPECT_THAT(said, Not(HasSubstr("missing, expected"))) << "duration_s stands there by another name";
     EXPECT_EQ(lines_of(said).size(), 12U) << said;
     EXPECT_EQ(lines_of(said).back(), "1 file, 11 errors, 0 warnings");
-    EXPECT_THAT(printed("run " + drive, 2), HasSubstr("road: ")) << "who plays it hears of the first alone";
+    EXPECT_EQ(lines_of(printed("run " + drive, 2)).size(), 1U) << "who plays it hears of the first alone";
 }
 
 TEST(Check, FindsWhatTheFirstFrameWouldLack) {
