@@ -13,7 +13,7 @@ DressedObject dressed_fence(double length_m, double height_m, double fall_m) {
         append_box(out.low, {x0, y0, z0}, {x1, y1, z1}, index_of(Stuff::wood));
     };
     const double half = 0.5 * length_m;
-    const int posts = std::max(2, static_cast<int>(length_m / 2.2) + 1), pickets = static_cast<int>(length_m / 0.22);
+    const int posts = std::max(2, static_cast<int>(length_m / 2.2) + 1), pickets = static_cast<int>(length_m / 0.30);
     for (int i = 0; i < posts; ++i) {
         const double x = -half + 0.05 + (length_m - 0.1) * i / (posts - 1);
         box(x - 0.05, x + 0.05, -0.05, 0.05, -fall_m, height_m);
@@ -22,7 +22,7 @@ DressedObject dressed_fence(double length_m, double height_m, double fall_m) {
         box(-half, half, -0.02, 0.02, z - 0.04, z + 0.04);
     for (int i = 0; i < pickets; ++i) {
         const double x = -half + (i + 0.5) * length_m / pickets;
-        box(x - 0.045, x + 0.045, -0.03, -0.01, 0.06 * height_m, 0.96 * height_m);
+        box(x - 0.055, x + 0.055, -0.03, -0.01, 0.06 * height_m, 0.96 * height_m);
     }
     return out;
 }

@@ -139,7 +139,7 @@ void append_sprigs(TriangleSoup& soup, int count, const glm::dvec3& centre, cons
 
 /// Skirts of boughs, each a star under the tip of the next lower one.
 void append_spruce(DressedObject& out, double height_m, double radius_m, Dice& dice) {
-    constexpr int tiers = 8, points = 7;
+    constexpr int tiers = 6, points = 7;
     const double free_m = 0.25 * height_m, tall = (height_m - free_m) / tiers;
     for (int tier = 0; tier < tiers; ++tier) {
         const double low = free_m + tier * tall, share = 1.0 - tier / (tiers + 0.3), tip = std::min(height_m, low + 2.0 * tall);
@@ -193,21 +193,18 @@ DressedObject dressed_tree(double height_m, double radius_m, Dice dice, Detail d
     }
     const Stuff leaves = dice.share() < 0.7 ? Stuff::leaves : Stuff::dry_leaves;
     constexpr int boughs = 6;
-    const double turn = 2.0 * pi * dice.share(), sprig_m = std::clamp(0.25 * radius_m, 0.3, 0.8);
+    const double turn = 2.0 * pi * dice.share(), sprig_m = std::clamp(0.20 * radius_m, 0.3, 0.6);
     const auto clump = [&](const glm::dvec3& centre, double size) {
         const glm::dvec3 radii(size * radius_m, size * radius_m, std::min(size * radius_m * 1.15, 0.22 * height_m));
         Dice own = dice.fork();
         append_clump(out.high, centre, radii, bounds, 1, leaves, own);
         if (near)
-            append_sprigs(out.high, 5, centre, radii, sprig_m, bounds, leaves, own);
+            append_sprigs(out.high, 3, centre, radii, sprig_m, bounds, leaves, own);
     };
     for (int i = 0; i < boughs; ++i) {
         const double angle = turn + 2.0 * pi * i / boughs + dice.between(-0.3, 0.3), up = dice.between(0.0, 1.0);
         const double reach = radius_m * (0.62 - 0.18 * up);
-        const glm::dvec3 from = fork + (0.1 + 0.5 * up) * (top - fork);
         const glm::dvec3 to(reach * std::cos(angle), reach * std::sin(angle), free_m + (0.22 + 0.38 * up) * (height_m - free_m));
-        if (near)
-            append_tube(out.high, {{from, 0.35 * foot_m}, {to, 0.12 * foot_m}}, 5, Stuff::bark);
         clump(to, dice.between(0.36, 0.48));
     }
     clump({lean_x, lean_y, height_m - 0.2 * (height_m - free_m)}, 0.5);

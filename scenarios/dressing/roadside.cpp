@@ -58,13 +58,13 @@ void Dresser::add_garden(const Road& road, const RoadObject& object, Dice drawn,
         add(dressed_fence(length, drawn.between(0.8, 1.1), 0.3), pose, "fence of " + name);
 }
 
-/// One every 30 to 70 m on each sidewalk, going one way or the other, an arm's length from its outer edge; one in six on a bicycle.
+/// One every 40 to 90 m on each sidewalk, going one way or the other, an arm's length from its outer edge; one in six on a bicycle.
 void Dresser::add_people(const Road& road) {
     if (road.junction != "-1")
         return;
     for (const bool left : {true, false}) {
         Dice drawn(settings_.seed, fmt::format("people, road {} {}", road.id, left ? "left" : "right"));
-        for (double s = drawn.between(10.0, 40.0); s < road.length_m - 5.0; s += drawn.between(30.0, 70.0)) {
+        for (double s = drawn.between(10.0, 40.0); s < road.length_m - 5.0; s += drawn.between(40.0, 90.0)) {
             const Lane& lane = outer_lane(road, s, left);
             const bool back = drawn.share() < 0.5, dark = drawn.share() < 0.7;
             const auto draw = static_cast<std::uint32_t>(drawn.of(6));
