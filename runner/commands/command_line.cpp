@@ -1,7 +1,7 @@
 // The command line: options end here; below are plain values.
 #include "runner/commands/commands.h"
-#include "runner/commands/help.h"
 #include "runner/commands/exit_codes.h"
+#include "runner/commands/help.h"
 #include "runner/commands/old_flags.h"
 #include "runner/commands/parse_errors.h"
 #include "runner/files/log.h"

@@ -243,9 +243,9 @@ TEST(FilmCommand, InterruptedItKeepsWhatWasFilmed) {
     if (!has_ffmpeg())
         GTEST_SKIP() << "ffmpeg is not installed";
     const TemporaryFolder folder;
-    const Outcome run = run_interrupted(
-        fmt::format("film {} --film {} --resolution 160x120 --backend software --log-json --frames 0:199", filmed_drive, folder / "film.mp4"),
-        "film of straight");
+    const Outcome run = run_interrupted(fmt::format("film {} --film {} --resolution 160x120 --backend software --log-json --frames 0:199",
+                                                    filmed_drive, folder / "film.mp4"),
+                                        "film of straight");
     EXPECT_EQ(run.exit_code, 1) << run.output;
     EXPECT_THAT(run.output, HasSubstr("incomplete: interrupted by the user"));
     const Outcome counted = run_shell("ffprobe -v error -select_streams v -count_frames -show_entries stream=nb_read_frames -of csv=p=0 " +
