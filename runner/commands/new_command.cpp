@@ -32,7 +32,12 @@ const std::vector<Starter>& lamps() {
          "a low beam as a table of candela, for a spreadsheet",
          {"lamp {} --check", "lamp {} --regulation r149-c", "run first-light --lamp {} --watch"}},
         {"ies", ".ies", "lamp.csv", "", "the same low beam in IES LM-63", {"lamp {} --check", "run first-light --lamp {} --watch"}},
-        {"pixels", ".yaml", "pixels.yaml", "pixel-lamp", "a pixel lamp for a high beam", {"lamp {}", "run first-light --lamp high={} --watch"}},
+        {"pixels",
+         ".yaml",
+         "pixels.yaml",
+         "pixel-lamp",
+         "a pixel lamp for a high beam",
+         {"lamp {}", "run first-light --lamp high={} --watch"}},
     };
     return all;
 }
