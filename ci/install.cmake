@@ -7,7 +7,7 @@ set(manual ${CMAKE_BINARY_DIR}/generated/manual)
 set(parts lib/fernlicht/modules) # two levels down: from files of lib/NAME CPack concludes that the package has libraries for others
 
 install(TARGETS fernlicht RUNTIME DESTINATION bin COMPONENT program)
-install(TARGETS fernlicht-svg fernlicht-ipopt fernlicht-zip LIBRARY DESTINATION ${parts} COMPONENT program)
+install(TARGETS fernlicht-svg fernlicht-ipopt fernlicht-zip fernlicht-gltf LIBRARY DESTINATION ${parts} COMPONENT program)
 install(FILES scenarios/control/fernlicht_control.h DESTINATION include/fernlicht/scenarios/control COMPONENT program) # for control laws in C
 install(TARGETS fernlicht-openimageio LIBRARY DESTINATION ${parts} COMPONENT openimageio)
 if(TARGET fernlicht-import)

@@ -124,6 +124,7 @@ TwinPixel Twin::at(const Moment& moment, const View& view, double x_px, double y
     const glm::dvec3 to_eye = camera.is_map ? -camera.axis : camera.eye_m - pixel.point_m;
     const glm::dvec3 albedo(material.albedo), eye_direction = glm::normalize(to_eye);
     const double wet = gets_wet(material.kind) ? weather.wetness : 0.0;
+    const Facets facets = facets_of(material);
     glm::dvec3 light(0.0);
     const auto add_light = [&](const LitLamp& lamp) {
         const glm::dvec3 lamp_m = lamp.pose.position_m - moment.ego.position_m, to_lamp = lamp_m - pixel.point_m;
@@ -143,14 +144,19 @@ TwinPixel Twin::at(const Moment& moment, const View& view, double x_px, double y
         const glm::dvec2 angles =
             photometry::goniometer_angles(photometry::lamp_space(-to_lamp, -lamp.pose.left(), lamp.pose.up(), lamp.pose.forward()));
         pixel.bound_lx += float_bound_lx(e, cosine, log_gradient_per_rad(lamp.file->table, degrees(angles.x), degrees(angles.y)));
-        glm::dvec3 returned = albedo * e / pi;
+        glm::dvec3 returned = albedo * e / pi, beads(0.0);
+        const glm::dvec3 lamp_direction = glm::normalize(to_lamp);
         if (material.retro_rl > 0.0F)
-            returned += retro_tint(material) * photometry::retro_luminance(static_cast<double>(material.retro_rl), e_perp, cosine,
-                                                                           photometry::observation_angle(to_lamp, to_eye),
-                                                                           static_cast<double>(material.retro_reference_rad),
-                                                                           1.0 / static_cast<double>(material.retro_falloff_rad));
+            beads = retro_tint(material) * photometry::retro_luminance(static_cast<double>(material.retro_rl), e_perp, cosine,
+                                                                       photometry::observation_angle(to_lamp, to_eye),
+                                                                       static_cast<double>(material.retro_reference_rad),
+                                                                       1.0 / static_cast<double>(material.retro_falloff_rad));
+        returned += beads + gloss_light(facets, pixel.normal, lamp_direction, eye_direction, e_perp);
         if (wet > 0.0)
-            returned = partly_wet(returned, wet_light(albedo, pixel.normal, glm::normalize(to_lamp), eye_direction, e_perp), wet);
+            returned = partly_wet(returned,
+                                  wet_light(albedo, pixel.normal, lamp_direction, eye_direction, e_perp) +
+                                      static_cast<double>(material.retro_wet) * beads,
+                                  wet);
         light += lamp.colour.linear_srgb * returned;
     };
     std::ranges::for_each(moment.lamps, add_light);
@@ -158,7 +164,7 @@ TwinPixel Twin::at(const Moment& moment, const View& view, double x_px, double y
     const double e_sky = sky_lx * 0.5 * (1.0 + pixel.normal.z);
     pixel.illuminance_lx += e_sky;
     pixel.bound_lx += e_sky * operations * half_ulp;
-    glm::dvec3 returned = albedo * e_sky / pi;
+    glm::dvec3 returned = albedo * e_sky / pi + gloss_sky_light(facets, pixel.normal, eye_direction, sky_lx / pi);
     if (wet > 0.0)
         returned = partly_wet(returned, wet_sky_light(albedo, pixel.normal, eye_direction, e_sky, sky_lx / pi), wet);
     light += returned;
@@ -169,7 +175,8 @@ TwinPixel Twin::at(const Moment& moment, const View& view, double x_px, double y
             e_sun = 0.0;
         pixel.illuminance_lx += e_sun;
         pixel.bound_lx += direct->illuminance_lx * operations * half_ulp;
-        returned = albedo * e_sun / pi;
+        returned =
+            albedo * e_sun / pi + gloss_light(facets, pixel.normal, towards, eye_direction, e_sun > 0.0 ? direct->illuminance_lx : 0.0);
         if (wet > 0.0)
             returned = partly_wet(returned,
                                   wet_light(albedo, pixel.normal, towards, eye_direction, e_sun > 0.0 ? direct->illuminance_lx : 0.0), wet);

@@ -225,13 +225,22 @@ FN real facet_cosine(real cosine, real alpha) {
     return sqrt(cosine * cosine + alpha * alpha * (1.0 - cosine * cosine));
 }
 
-// Fresnel's reflectance of water in air for unpolarised light, 0 <= cosine <= 1.
+// Refractive index of stone, bitumen and paint: of the facets of a dry road.
+const real facet_index = 1.5;
+
+// Fresnel's reflectance of a dielectric in air for unpolarised light, 0 <= cosine <= 1.
+// Float: 3e-06 of 1, condition 2.
+FN real dielectric_reflectance(real cosine, real index) {
+    real g = sqrt(index * index - 1.0 + cosine * cosine);
+    real across = (cosine - g) / (cosine + g);
+    real along = (index * index * cosine - g) / (index * index * cosine + g);
+    return 0.5 * (across * across + along * along);
+}
+
+// The same of water.
 // Float: 3e-06 of 1, condition 2.
 FN real water_reflectance(real cosine) {
-    real g = sqrt(water_index * water_index - 1.0 + cosine * cosine);
-    real across = (cosine - g) / (cosine + g);
-    real along = (water_index * water_index * cosine - g) / (water_index * water_index * cosine + g);
-    return 0.5 * (across * across + along * along);
+    return dielectric_reflectance(cosine, water_index);
 }
 
 // Diffuse reflectance of a surface under a film of water towards one direction (Lekner and Dorf 1988, for given directions): light enters
@@ -242,10 +251,11 @@ FN real wet_albedo(real albedo, real cosine_in, real cosine_out) {
     return albedo * through / (water_index * water_index * (1.0 - water_inner_reflectance * albedo));
 }
 
-// Luminance by mirroring in the film for each lux on a plane across the light, 1/sr: facets of GGX (Walter et al. 2007) with Smith's
-// correlated shadowing and Fresnel's reflectance. Unit vectors. 0 where either direction lies below the surface.
+// Luminance by mirroring for each lux on a plane across the light, 1/sr: facets of GGX (Walter et al. 2007) with Smith's correlated
+// shadowing and Fresnel's reflectance. Unit vectors. 0 where either direction lies below the surface. Over the cosine of the light it is the
+// same with light and eye exchanged.
 // Float: 0.0005 relative, condition 1000.
-FN real wet_mirrored(vec3 normal, vec3 to_light, vec3 to_eye, real alpha) {
+FN real facet_mirrored(vec3 normal, vec3 to_light, vec3 to_eye, real alpha, real index) {
     real c_in = dot(normal, to_light);
     real c_out = dot(normal, to_eye);
     vec3 h = to_light + to_eye;
@@ -257,8 +267,14 @@ FN real wet_mirrored(vec3 normal, vec3 to_light, vec3 to_eye, real alpha) {
     real spread = a2 * c_h * c_h + dot(across, across);
     real density = a2 / (3.14159265358979323846 * spread * spread);
     real seen = 0.5 / (c_out * sqrt(a2 + (1.0 - a2) * c_in * c_in) + c_in * sqrt(a2 + (1.0 - a2) * c_out * c_out));
-    real mirrored = c_in * density * seen * water_reflectance(0.5 * length_h);
+    real mirrored = c_in * density * seen * dielectric_reflectance(0.5 * length_h, index);
     return SELECT(c_in > 0.0 && c_out > 0.0, mirrored, 0.0);
+}
+
+// The same of a film of water.
+// Float: 0.0005 relative, condition 1000.
+FN real wet_mirrored(vec3 normal, vec3 to_light, vec3 to_eye, real alpha) {
+    return facet_mirrored(normal, to_light, to_eye, alpha, water_index);
 }
 
 // Tone mappers: luminance -> 0..1, monotone, l_max -> 1. l >= 0, l_max > 0.

@@ -1,6 +1,7 @@
 #include "metrics/display/camera_picture.h"
 
 #include "metrics/display/scatter.h"
+#include "scenarios/values/mixed_bits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,20 +11,12 @@
 namespace fernlicht {
 namespace {
 
-/// SplitMix64 (Steele, Lea, Flood 2014): the n-th number by n alone, whichever thread asks.
-std::uint64_t mixed(std::uint64_t n) {
-    n += 0x9e3779b97f4a7c15U;
-    n = (n ^ (n >> 30)) * 0xbf58476d1ce4e5b9U;
-    n = (n ^ (n >> 27)) * 0x94d049bb133111ebU;
-    return n ^ (n >> 31);
-}
-
 /// Above 0, up to 1.
-double uniform(std::uint64_t n) { return (static_cast<double>(mixed(n) >> 11) + 1.0) * 0x1p-53; }
+double uniform(std::uint64_t n) { return (static_cast<double>(next_mixed(n) >> 11) + 1.0) * 0x1p-53; }
 
 /// Box and Muller 1958.
 double normal_deviate(std::uint64_t seed, std::uint64_t n) {
-    const std::uint64_t first = mixed(seed) + 2 * n;
+    const std::uint64_t first = next_mixed(seed) + 2 * n;
     return std::sqrt(-2.0 * std::log(uniform(first))) * std::cos(2.0 * std::numbers::pi * uniform(first + 1));
 }
 

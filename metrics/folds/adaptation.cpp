@@ -4,6 +4,7 @@
 #include "metrics/seeing/visibility.h"
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/play/advance.h"
+#include "scenarios/roads/mesh/mesh_materials.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -49,13 +50,14 @@ Driver oncoming_driver(const Drive& drive, const Route& route, double at_m, doub
     };
     const glm::dvec3 rear = axle(0.0), forward = glm::normalize(axle(drive.wheelbase_m) - rear),
                      left = glm::normalize(glm::cross(foot.up(), forward));
-    Driver driver{{rear, {forward, left, glm::cross(forward, left)}}, foot.position_m + eye_height_m * foot.up()};
+    Driver driver{
+        {rear, {forward, left, glm::cross(forward, left)}}, foot.position_m + eye_height_m * foot.up(), drive.road_surface.pavement};
     look_ahead(route, at_m + eye_x_m - drive.bumper_m, Across::oncoming_centre, -1.0, driver);
     return driver;
 }
 
 Driver driver_ahead(const Drive& drive, const Route& route, double along_m, const Pose& car, const glm::dvec3& eye_m) {
-    Driver driver{car, eye_m};
+    Driver driver{car, eye_m, drive.road_surface.pavement};
     look_ahead(route, along_m + drive.bumper_m, Across::own_centre, 1.0, driver);
     return driver;
 }
@@ -78,7 +80,7 @@ std::vector<LitLamp> low_beams(const Drive& drive, const LampSet& lamp_set, cons
 }
 
 Value lane_luminance_cdm2(const Driver& driver, std::vector<LitLamp> lamps, const Moment& moment) {
-    static const Material asphalt = material_named("asphalt");
+    const Material& asphalt = pavement_material(driver.pavement);
     if (driver.lane.empty())
         return Value::not_measured(driver.no_lane);
     Moment lit;

@@ -5,6 +5,7 @@
 
 #include "metrics/readings/value.h"
 #include "scenarios/drives/play/nudge.h"
+#include "scenarios/roads/road_surface.h"
 #include "scenarios/roads/route.h"
 
 #include <string>
@@ -20,6 +21,7 @@ inline constexpr double adaptation_from_m = 15.0, adaptation_to_m = 60.0, adapta
 struct Driver {
     Pose car;
     glm::dvec3 eye_m{0.0};
+    Pavement pavement = Pavement::standard;
     std::vector<Pose> lane = {};
     std::string no_lane = {}; ///< why there is no such lane; "" where there is
 };

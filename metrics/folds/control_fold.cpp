@@ -32,7 +32,7 @@ double curvature_per_m(const Route& route, double at_m) {
 
 /// The most that any driver who comes towards the car gets, 1.1 m above the rear axle of the other car and 1.5 m before it. nullopt: nobody
 /// comes, or light by way of a wet road is not known. A crest of the road hides lamps.
-std::optional<double> others_lx(const Moment& moment, const Route& route) {
+std::optional<double> others_lx(const Moment& moment, const Route& route, Pavement pavement) {
     std::optional<double> most;
     for (const Body& body : moment.bodies) {
         const glm::dvec3 eye = to_parent(body.pose, {1.5, 0.0, eye_height_m}), in_car = to_local(moment.ego, eye);
@@ -41,7 +41,7 @@ std::optional<double> others_lx(const Moment& moment, const Route& route) {
         const RoadPlane plane = road_plane(moment.ego, body.pose);
         if (!why_no_mirror(moment.weather, plane).empty())
             return std::nullopt;
-        const double by_road = facing_lx(lamps_in_road(moment.lamps, moment.weather, plane, eye));
+        const double by_road = facing_lx(lamps_in_road(moment.lamps, moment.weather, plane, eye, pavement));
         const std::optional<double> at_m = along_route_m(route, eye, moment.distance_m + in_car.x);
         const double straight = facing_lx(at_m ? lamps_over_road(moment, route, *at_m, eye) : seen_lamps(moment, eye));
         most = std::max(most.value_or(0.0), straight + by_road);
@@ -50,10 +50,10 @@ std::optional<double> others_lx(const Moment& moment, const Route& route) {
 }
 
 /// By way of a wet road, too; nullopt where that is not known.
-std::optional<double> lit_lx(const Moment& moment, const Route& route, double along_m, double left_m, double above_m) {
+std::optional<double> lit_lx(const Moment& moment, const Route& route, Pavement pavement, double along_m, double left_m, double above_m) {
     const Pose surface = route.pose(along_m, left_m);
     const glm::dvec3 point = surface.position_m + above_m * surface.up();
-    const RoadLight by_film = light_by_road(moment, route, along_m, point);
+    const RoadLight by_film = light_by_road(moment, route, along_m, point, pavement);
     return by_film.unknown.empty() ? std::optional(facing_lx(seen_lamps(moment, point)) + facing_lx(by_film.patches)) : std::nullopt;
 }
 
@@ -95,7 +95,7 @@ auto ControlFold::change(std::optional<double> Light::*figure) {
 
 ControlFold::Light ControlFold::light(const Moment& moment, double curvature) const {
     Light light;
-    light.others_lx = others_lx(moment, route_);
+    light.others_lx = others_lx(moment, route_, drive_.road_surface.pavement);
     const double bumper_m = moment.distance_m + drive_.bumper_m, there_m = bumper_m + look_m;
     std::vector<LineSample> line;
     for (double ahead_m = 0.0; ahead_m <= farthest_m && bumper_m + ahead_m <= route_.length_m(); ahead_m += line_step_m)
@@ -107,9 +107,10 @@ ControlFold::Light ControlFold::light(const Moment& moment, double curvature) co
     const CrossSection section = route_.cross_section(there_m);
     for (const RouteLane& lane : section.lanes)
         if (lane.name == "own")
-            light.inside_lx = lit_lx(moment, route_, there_m, curvature > 0.0 ? lane.left_m : lane.right_m, target_m);
+            light.inside_lx =
+                lit_lx(moment, route_, drive_.road_surface.pavement, there_m, curvature > 0.0 ? lane.left_m : lane.right_m, target_m);
     if (const std::optional<double> oncoming_m = offset_across_m(section, Across::oncoming_centre))
-        light.glare_lx = lit_lx(moment, route_, there_m, *oncoming_m, eye_height_m);
+        light.glare_lx = lit_lx(moment, route_, drive_.road_surface.pavement, there_m, *oncoming_m, eye_height_m);
     return light;
 }
 

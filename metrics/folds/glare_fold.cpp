@@ -78,7 +78,7 @@ void OncomingFold::add(const Moment& moment, const LampSet& lamp_set) {
             facing += lamp.facing_lx;
             sources.push_back(glare_source(lamp, *eye.place_m, eye.gaze));
         }
-        const RoadLight by_film = light_over_road(moment, route_, observer.at_m, *eye.place_m);
+        const RoadLight by_film = light_over_road(moment, route_, observer.at_m, *eye.place_m, drive_.road_surface.pavement);
         for (const SeenLamp& patch : by_film.patches) {
             facing += patch.facing_lx;
             sources.push_back(glare_source(patch, *eye.place_m, eye.gaze));
@@ -157,7 +157,7 @@ void MirrorFold::add(const Moment& moment, const LampSet& lamp_set) {
                 on_mirror += lamp.facing_lx;
                 sources.push_back(mirrored_source(lamp, mirror_m, mirrors.reflectance, eye_m, car.forward()));
             }
-            const RoadLight by_film = light_over_road(moment, route_, ahead_m, mirror_m);
+            const RoadLight by_film = light_over_road(moment, route_, ahead_m, mirror_m, drive_.road_surface.pavement);
             for (const SeenLamp& patch : by_film.patches) {
                 on_mirror += patch.facing_lx;
                 by_road.push_back(mirrored_source(patch, mirror_m, mirrors.reflectance, eye_m, car.forward()));
@@ -225,7 +225,7 @@ void TrafficFold::add(const Moment& moment) {
     const GlareParameters& parameters = *drive_.seeing.glare;
     const glm::dvec3 eye_m = to_parent(moment.ego, driver_eye_m(drive_));
     std::vector<GlareSource> sources = traffic_glare(moment, eye_m, moment.ego.forward(), boxes_);
-    const TrafficByRoad by_film = traffic_by_road(moment, eye_m, moment.ego.forward(), boxes_);
+    const TrafficByRoad by_film = traffic_by_road(moment, eye_m, moment.ego.forward(), boxes_, drive_.road_surface.pavement);
     sources.insert(sources.end(), by_film.sources.begin(), by_film.sources.end());
     double facing = 0.0;
     for (const GlareSource& source : sources)

@@ -33,7 +33,7 @@ Moment reaching(const Moment& moment, const RoadBetween& road, const glm::dvec3&
 } // namespace
 
 PlaceFold::PlaceFold(const Drive& drive, const Route& route)
-    : drive_(drive), route_(route), board_(material_named("board")), marking_(material_named("marking-white")) {
+    : drive_(drive), route_(route), board_(material_named("board")), marking_(material_named("marking-white", drive.road_surface)) {
     const PlaceParameters& asked = *drive.seeing.places;
     for (const double distance_m : asked.distances_m) {
         const auto figure = [&](Quantity quantity, ReadingSurface surface, ReadingPlace place, const std::string& where) {
@@ -87,7 +87,7 @@ void PlaceFold::add(const Moment& moment) {
             const Pose surface = route_.pose(at_m, edge_m.value_or(0.0));
             const glm::dvec3 above = surface.position_m + kerb_target_m * surface.up();
             const Moment low = reaching(moment, road, surface.position_m), high = reaching(moment, road, above);
-            const RoadLight by_film = light_by_road(high, route_, at_m, above);
+            const RoadLight by_film = light_by_road(high, route_, at_m, above, drive_.road_surface.pavement);
             say_there(edge_m.has_value(), "", [&] { return surface_illuminance_lx(low, surface.position_m, surface.up()); });
             say_there(edge_m.has_value(), by_film.unknown, [&] { return target_illuminance_lx(high, above) + facing_lx(by_film.patches); });
         }
@@ -98,7 +98,7 @@ void PlaceFold::add(const Moment& moment) {
             const Pose surface = route_.pose(at_m, from_m.value_or(0.0) + place.left_m);
             const glm::dvec3 point = surface.position_m + place.above_m * surface.up(), face = -surface.forward();
             const Moment lit = reaching(moment, road, point);
-            const RoadLight by_film = light_by_road(lit, route_, at_m, point);
+            const RoadLight by_film = light_by_road(lit, route_, at_m, point, drive_.road_surface.pavement);
             say_there(from_m.has_value(), by_film.unknown,
                       [&] { return surface_illuminance_lx(lit, point, face) + illuminance_by_road_lx(by_film.patches, point, face); });
             say_there(from_m.has_value(), by_film.unknown,
@@ -144,7 +144,7 @@ void SensorFold::add(const Moment& moment) {
         here.passed = here.passed || to_go_m < 0.0;
         if (!here.point_m || to_go_m < 0.0)
             continue;
-        const RoadLight by_film = light_over_road(moment, route_, sensor.at_m, *here.point_m);
+        const RoadLight by_film = light_over_road(moment, route_, sensor.at_m, *here.point_m, drive_.road_surface.pavement);
         if (here.unknown.empty())
             here.unknown = by_film.unknown;
         const double lx = facing_lx(lamps_over_road(moment, route_, sensor.at_m, *here.point_m)) + facing_lx(by_film.patches);
@@ -235,8 +235,8 @@ glm::dvec3 driver_eye_m(const Drive& drive) {
     return view ? view->position_m : glm::dvec3(1.3, 0.35, 1.2);
 }
 
-Material material_named(const std::string& name) {
-    for (const Material& material : road_materials())
+Material material_named(const std::string& name, const RoadSurface& surface) {
+    for (const Material& material : road_materials(surface))
         if (material.name == name)
             return material;
     throw std::logic_error("no material " + name);

@@ -79,6 +79,6 @@ std::string place_name(Across across);
 glm::dvec3 driver_eye_m(const Drive& drive);
 
 /// Of road_materials(); throws std::logic_error for another name.
-Material material_named(const std::string& name);
+Material material_named(const std::string& name, const RoadSurface& surface = {});
 
 } // namespace fernlicht

@@ -3,6 +3,7 @@
 #include "metrics/folds/place_fold.h"
 #include "metrics/glare/wet_road.h"
 #include "scenarios/light/light.h"
+#include "scenarios/roads/mesh/mesh_materials.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -68,16 +69,13 @@ std::vector<TargetSquare> target_squares(const Moment& moment, const SeenLane& s
     return all;
 }
 
-const Material& road_behind_targets() {
-    static const Material asphalt = material_named("asphalt");
-    return asphalt;
-}
-
-void light_squares(const Moment& moment, const glm::dvec3& eye_m, const VisibilityParameters& asked, std::vector<TargetSquare>& squares) {
+void light_squares(const Moment& moment, const glm::dvec3& eye_m, const VisibilityParameters& asked, Pavement behind,
+                   std::vector<TargetSquare>& squares) {
     double adaptation_cdm2 = 0.0; // of the road behind the lowest square
     for (TargetSquare& square : squares) {
         if (square.on_road) {
-            square.background_cdm2 = surface_luminance(moment, square.behind_m, square.road_up, road_behind_targets(), eye_m).photopic_cdm2;
+            square.background_cdm2 =
+                surface_luminance(moment, square.behind_m, square.road_up, pavement_material(behind), eye_m).photopic_cdm2;
             if (adaptation_cdm2 == 0.0)
                 adaptation_cdm2 = square.background_cdm2;
             square.adaptation_cdm2 = square.background_cdm2;

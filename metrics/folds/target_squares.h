@@ -38,11 +38,9 @@ struct TargetSquare {
 std::vector<TargetSquare> target_squares(const Moment& moment, const SeenLane& seen, const Route& route, double along_m, Across across,
                                          double size_m, int squares);
 
-/// The material of the road behind targets.
-const Material& road_behind_targets();
-
 /// Fills in clear air and the lamps' own light.
-void light_squares(const Moment& moment, const glm::dvec3& eye_m, const VisibilityParameters& asked, std::vector<TargetSquare>& squares);
+void light_squares(const Moment& moment, const glm::dvec3& eye_m, const VisibilityParameters& asked, Pavement behind,
+                   std::vector<TargetSquare>& squares);
 
 /// The moment without lamps that the lane hides from the square.
 Moment lamps_reaching(const Moment& moment, const TargetSquare& square);

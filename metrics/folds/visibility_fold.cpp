@@ -7,6 +7,7 @@
 #include "metrics/seeing/visibility.h"
 #include "scenarios/light/fog_light.h"
 #include "scenarios/light/light.h"
+#include "scenarios/roads/mesh/mesh_materials.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,22 +45,23 @@ VisibilityFold::VisibilityFold(const Drive& drive, const Route& route) : drive_(
 
 std::vector<TargetSquare> VisibilityFold::squares(const Moment& moment, const SeenLane& ahead, double along_m, const Stand& stand) const {
     std::vector<TargetSquare> all = target_squares(moment, ahead, route_, along_m, stand.across, stand.size_m, stand.squares);
-    light_squares(moment, ahead.eye.at_m, *drive_.seeing.visibility, all);
+    light_squares(moment, ahead.eye.at_m, *drive_.seeing.visibility, drive_.road_surface.pavement, all);
     return all;
 }
 
 VisibilityFold::Added VisibilityFold::added(const Moment& moment, const SeenLane& ahead, double along_m, const TargetSquare& square) const {
     const auto air = [&](const glm::dvec3& to_m) { return lamps_airlight(moment, to_m, ahead.eye.at_m).photopic_cdm2; };
     Added added{air(square.middle_m), air(square.behind_m), 0.0};
-    if (moment.weather.wetness > 0.0 && !square.hidden) {
+    if (mirrors(moment.weather, drive_.road_surface.pavement) && !square.hidden) {
         const Moment lit = lamps_reaching(moment, square);
-        added[2] = illuminance_by_road_lx(light_by_road(lit, route_, along_m, square.middle_m).patches, square.middle_m, square.face);
+        added[2] = illuminance_by_road_lx(light_by_road(lit, route_, along_m, square.middle_m, drive_.road_surface.pavement).patches,
+                                          square.middle_m, square.face);
     }
     return added;
 }
 
 void VisibilityFold::add_weather(const Moment& moment, const SeenLane& ahead, std::vector<Place>& places) const {
-    if (!(moment.weather.extinction_per_m > 0.0) && !(moment.weather.wetness > 0.0))
+    if (!(moment.weather.extinction_per_m > 0.0) && !mirrors(moment.weather, drive_.road_surface.pavement))
         return;
     const auto squares_of = [](const Place& place) { return place.squares.size(); };
     const std::size_t most = places.empty() ? 0 : squares_of(*std::ranges::max_element(places, {}, squares_of));
@@ -166,7 +168,8 @@ void VisibilityFold::add_background(const Moment& lit, const SeenLane& ahead, do
         background.missing = "the line of sight does not meet the road in some moment";
         return;
     }
-    const SurfaceLuminance seen = seen_luminance(lit, road->position_m, road->up(), road_behind_targets(), ahead.eye.at_m);
+    const SurfaceLuminance seen =
+        seen_luminance(lit, road->position_m, road->up(), pavement_material(drive_.road_surface.pavement), ahead.eye.at_m);
     background.photopic.push_back(seen.photopic_cdm2);
     if (seen.photopic_cdm2 > 0.0 && lit.daylight.horizontal_illuminance_lx == 0.0)
         background.mesopic.push_back(mesopic_luminance(seen.photopic_cdm2, seen.scotopic_cdm2 / seen.photopic_cdm2).luminance_cdm2);

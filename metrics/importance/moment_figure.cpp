@@ -7,6 +7,7 @@
 #include "metrics/seeing/visibility.h"
 #include "scenarios/light/fog_light.h"
 #include "scenarios/light/light.h"
+#include "scenarios/roads/mesh/mesh_materials.h"
 
 #include <algorithm>
 #include <cmath>
@@ -262,9 +263,10 @@ class Sight final : public MomentFigure {
         double ahead_m = 0.0;
         std::vector<TargetSquare> squares;
     };
-    Sight(const VisibilityTarget& target, const VisibilityParameters& asked, const glm::dvec3& eye_m, bool is_level, bool to_routes_end,
-          std::vector<Place> places)
-        : target_(target), asked_(asked), eye_m_(eye_m), is_level_(is_level), to_routes_end_(to_routes_end), places_(std::move(places)) {}
+    Sight(const VisibilityTarget& target, const VisibilityParameters& asked, const glm::dvec3& eye_m, Pavement pavement, bool is_level,
+          bool to_routes_end, std::vector<Place> places)
+        : target_(target), asked_(asked), eye_m_(eye_m), pavement_(pavement), is_level_(is_level), to_routes_end_(to_routes_end),
+          places_(std::move(places)) {}
 
     Value value(const Moment& moment) const override {
         if (is_level_)
@@ -287,7 +289,7 @@ class Sight final : public MomentFigure {
   private:
     std::vector<TargetSquare> lit(const Moment& moment, std::size_t place) const {
         std::vector<TargetSquare> squares = places_[place].squares;
-        light_squares(moment, eye_m_, asked_, squares);
+        light_squares(moment, eye_m_, asked_, pavement_, squares);
         return squares;
     }
 
@@ -319,7 +321,7 @@ class Sight final : public MomentFigure {
         fernlicht::add_gradient(gradient, moment, {clearest->middle_m, Facing::surface, clearest->face, clearest->unlit},
                                 per_level * by_shown * clearest->left * target_.reflectance / pi);
         const auto add_road = [&](const TargetSquare& square, double by_luminance) {
-            std::vector<double> per_cd = luminance_per_cd(moment, square.behind_m, square.road_up, road_behind_targets(), eye_m_);
+            std::vector<double> per_cd = luminance_per_cd(moment, square.behind_m, square.road_up, pavement_material(pavement_), eye_m_);
             for (double& one : per_cd)
                 one *= per_level * by_luminance;
             fernlicht::add_gradient(gradient, moment, square.behind_m, per_cd);
@@ -336,6 +338,7 @@ class Sight final : public MomentFigure {
     const VisibilityTarget target_;
     const VisibilityParameters asked_;
     glm::dvec3 eye_m_;
+    Pavement pavement_;
     bool is_level_, to_routes_end_;
     std::vector<Place> places_;
 };
@@ -398,7 +401,8 @@ MomentFigurePointer sight_figure(const ReadingKey& key, const VisibilityTarget& 
             add(static_cast<double>(k) * asked.step_m);
     if (is_level && places.front().squares.empty())
         return nullptr;
-    return std::make_shared<Sight>(target, asked, seen.eye.at_m, is_level, room_m < asked.ahead_m, std::move(places));
+    return std::make_shared<Sight>(target, asked, seen.eye.at_m, drive.road_surface.pavement, is_level, room_m < asked.ahead_m,
+                                   std::move(places));
 }
 
 } // namespace fernlicht

@@ -121,12 +121,13 @@ ReadingOfLight::ReadingOfLight(const ReadingKey& key, const Drive& drive, const 
                           key.quantity == mirror_illuminance || of_eye;
     if (key.aspect != Aspect::value || !(of_light || of_extent || of_evenness || of_sight))
         refuse(key, fmt::format("a reading that is light or where light ends: {}", importance_readings));
-    if (of_light && std::ranges::any_of(moments, [](const Moment& moment) { return moment.weather.wetness > 0.0; }))
-        refuse(key, "a dry road: what a wet one mirrors to a place comes from more than one direction of the beam");
-    if (of_sight && std::ranges::any_of(moments, [](const Moment& moment) {
-            return moment.weather.wetness > 0.0 || moment.weather.extinction_per_m > 0.0;
-        }))
-        refuse(key, "clear air and a dry road: what fog scatters before a target and water mirrors onto it comes from all over the beam");
+    const auto mirroring = [&](const Moment& moment) { return mirrors(moment.weather, drive.road_surface.pavement); };
+    if (of_light && std::ranges::any_of(moments, mirroring))
+        refuse(key, "a dry road without gloss: what another mirrors to a place comes from more than one direction of the beam");
+    if (of_sight &&
+        std::ranges::any_of(moments, [&](const Moment& moment) { return mirroring(moment) || moment.weather.extinction_per_m > 0.0; }))
+        refuse(key, "clear air and a dry road without gloss: what fog scatters before a target and a road mirrors onto it comes from all "
+                    "over the beam");
     if (key.quantity == area)
         add_area(key, drive, route, moments);
     else if (of_extent)

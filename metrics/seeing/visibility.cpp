@@ -141,21 +141,30 @@ double returned_cdm2(const Moment& moment, double albedo, double e_perp, const g
     const double cosine = photometry::incidence(normal, to_light);
     if (!(cosine > 0.0) || !(e_perp > 0.0))
         return 0.0;
-    double luminance = photometry::diffuse_luminance(albedo, e_perp * cosine);
+    double luminance = photometry::diffuse_luminance(albedo, e_perp * cosine), returned = 0.0;
     if (material.retro_rl > 0.0F)
-        luminance += photometry::retro_luminance(
+        returned = photometry::retro_luminance(
             static_cast<double>(material.retro_rl), e_perp, cosine, photometry::observation_angle(to_light, to_eye),
             static_cast<double>(material.retro_reference_rad), 1.0 / static_cast<double>(material.retro_falloff_rad));
+    luminance += returned;
+    if (material.gloss > 0.0F)
+        luminance += gloss_light(facets_of(material), normal, glm::normalize(to_light), glm::normalize(to_eye), e_perp);
     if (moment.weather.wetness > 0.0 && gets_wet(material.kind))
         return partly_wet(glm::dvec3(luminance),
-                          wet_light(glm::dvec3(albedo), normal, glm::normalize(to_light), glm::normalize(to_eye), e_perp),
+                          wet_light(glm::dvec3(albedo), normal, glm::normalize(to_light), glm::normalize(to_eye), e_perp) +
+                              static_cast<double>(material.retro_wet) * returned,
                           moment.weather.wetness)
             .x;
     return luminance;
 }
 
 double of_sky_cdm2(const Moment& moment, double albedo, const glm::dvec3& normal, const Material& material, const glm::dvec3& to_eye) {
-    const double dry = photometry::diffuse_luminance(albedo, daylight_illuminance_lx(moment.daylight, normal));
+    double dry = photometry::diffuse_luminance(albedo, daylight_illuminance_lx(moment.daylight, normal));
+    if (const Facets facets = facets_of(material); facets.share > 0.0) {
+        dry += gloss_sky_light(facets, normal, glm::normalize(to_eye), sky_luminance_cdm2(moment.daylight));
+        if (const DirectLight* const direct = moment.daylight.direct())
+            dry += gloss_light(facets, normal, direct->towards(), glm::normalize(to_eye), direct->illuminance_lx);
+    }
     if (!(moment.weather.wetness > 0.0) || !gets_wet(material.kind))
         return dry;
     const glm::dvec3 out = glm::normalize(to_eye);

@@ -20,6 +20,7 @@ const Program& NaiveLighting::variant(std::size_t lamps, const Shot& shot) {
     d.push_back({"SHADOWS", settings_.shadows.any() ? "1" : "0"});
     if (scene_.moves())
         d.push_back({"MOVING", "1"});
+    d.push_back({"GLOSS", scene_.has([](const SurfaceClass& c) { return c.glossy; }) ? "1" : "0"});
     d.push_back({"TEXTURED", scene_.texture_bytes() > 0 ? "1" : "0"});
     return variants_.emplace(key, Program(context_, "naive.vert.glsl", "naive.frag.glsl", d)).first->second;
 }

@@ -71,6 +71,8 @@ void PhotometricLighting::note_what_is_left_out(const Shot& shot, const std::vec
         say(fmt::format("shadow look-ups on {} of {} pieces in view", unshaded, drawn), "no caster stands between them and a lamp");
     if (!scene_.has([](const SurfaceClass& c) { return c.retroreflecting; }))
         say("retroreflection", "no material of the scene retroreflects");
+    if (!scene_.has([](const SurfaceClass& c) { return c.glossy; }))
+        say("gloss of dry surfaces", "no material of the scene has any");
     if (!scene_.has([](const SurfaceClass& c) { return c.texture > 0; }))
         say("surface textures", "no material of the scene has one");
     if (!scene_.has([](const SurfaceClass& c) { return c.emissive; }))

@@ -29,8 +29,6 @@ bool has_weather(const Moment& moment) {
     return moment.daylight.direct() != nullptr || moment.weather.extinction_per_m > 0.0 || moment.weather.wetness > 0.0;
 }
 
-bool fog_before_sky(const Shot& shot) { return shot.moment.weather.extinction_per_m > 0.0 && !shot.camera.is_map && shot.outputs.seen(); }
-
 void set_weather_uniforms(const GladGLContext& gl, const Program& program, const Shot& shot) {
     const Weather& weather = shot.moment.weather;
     const auto extinction = static_cast<float>(weather.extinction_per_m);
@@ -50,6 +48,8 @@ void set_weather_uniforms(const GladGLContext& gl, const Program& program, const
 }
 
 } // namespace
+
+bool fog_before_sky(const Shot& shot) { return shot.moment.weather.extinction_per_m > 0.0 && !shot.camera.is_map && shot.outputs.seen(); }
 
 PhotometricLighting::PhotometricLighting(Context& context, const Scene& scene, const RendererSettings& settings, bool pruned)
     : context_(context), settings_(settings), pruned_(pruned),
@@ -171,11 +171,21 @@ PhotometricLighting::Features PhotometricLighting::features_of(const Shot& shot,
             f.beams.push_back(beam->shape);
     f.shadows = !f.beams.empty() && (group.shadowed || !pruned_) && shadows_;
     if (pruned_ && reflects)
-        f.surface = {surface.texture, surface.retroreflecting && (!f.beams.empty() || f.traffic), surface.emissive && settings_.sources,
-                     surface.moving, surface.tinted && (!f.beams.empty() || f.traffic)};
+        f.surface = {surface.texture,
+                     surface.retroreflecting && (!f.beams.empty() || f.traffic),
+                     surface.emissive && settings_.sources,
+                     surface.moving,
+                     surface.tinted && (!f.beams.empty() || f.traffic),
+                     surface.glossy && (!f.beams.empty() || f.traffic || f.sky || sun > 0),
+                     surface.beads && f.wet && (!f.beams.empty() || f.traffic)};
     else if (!pruned_)
-        f.surface = {scene_.has([](const SurfaceClass& c) { return c.texture > 0; }) ? 1 : 0, true, settings_.sources, surface.moving,
-                     scene_.has([](const SurfaceClass& c) { return c.tinted; })};
+        f.surface = {scene_.has([](const SurfaceClass& c) { return c.texture > 0; }) ? 1 : 0,
+                     true,
+                     settings_.sources,
+                     surface.moving,
+                     scene_.has([](const SurfaceClass& c) { return c.tinted; }),
+                     reflects && scene_.has([](const SurfaceClass& c) { return c.glossy; }),
+                     f.wet && scene_.has([](const SurfaceClass& c) { return c.beads; })};
     f.surface.moving = surface.moving;
     return f;
 }
@@ -198,6 +208,8 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
     define("AIR_BOUND", flag(pruned_));
     define("WET", flag(f.wet));
     define("WET_ALPHA", literal(wet_roughness));
+    define("GLOSS", flag(f.surface.glossy));
+    define("BEADS", flag(f.surface.beads));
     define("BACKGROUND", flag(f.background));
     define("RETRO", flag(f.surface.retroreflecting));
     define("RETRO_TINT", flag(f.surface.tinted));
@@ -233,7 +245,8 @@ const PhotometricLighting::Compiled& PhotometricLighting::variant(const Features
         d.insert(d.end(), more.begin(), more.end());
     }
     Program program(context_, "photometric.vert.glsl", "photometric.frag.glsl", d);
-    return variants_.emplace(f, Compiled{std::move(program), f.traffic, f.shadows, f.sun > 0, f.fog || f.wet, f.lamps_in_fog})
+    return variants_
+        .emplace(f, Compiled{std::move(program), f.traffic, f.shadows, f.sun > 0, f.fog || f.wet || f.surface.glossy, f.lamps_in_fog})
         .first->second;
 }
 
@@ -389,7 +402,8 @@ void PhotometricLighting::draw(const Shot& shot) {
         shot.work.lamps = std::max(shot.work.lamps, static_cast<int>(f.beams.size()));
         shot.work.features += static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.sky ? 1 : 0) + f.sun + (f.fog ? 1 : 0) +
                               (f.lamps_in_fog ? lamps_in_fog_.count() : 0) + (f.wet ? 1 : 0) + (f.surface.retroreflecting ? 1 : 0) +
-                              (f.surface.tinted ? 1 : 0) + (f.surface.emissive ? 1 : 0) + (f.surface.texture > 0 ? 1 : 0);
+                              (f.surface.tinted ? 1 : 0) + (f.surface.glossy ? 1 : 0) + (f.surface.beads ? 1 : 0) +
+                              (f.surface.emissive ? 1 : 0) + (f.surface.texture > 0 ? 1 : 0);
         const int textures = static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.surface.texture > 0 ? 1 : 0) +
                              (f.sun > 1 ? 1 : 0) + (f.traffic_shadows ? 1 : 0);
         shot.work.samplers = std::max(shot.work.samplers, textures);

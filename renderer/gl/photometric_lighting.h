@@ -12,6 +12,9 @@
 
 namespace fernlicht::gl {
 
+/// Air that is seen before the sky.
+bool fog_before_sky(const Shot& shot);
+
 class PhotometricLighting : public Lighting {
   public:
     /// `pruned`: leave out what a moment does not need; else everything is compiled in and drawn, which gives the same pixels.

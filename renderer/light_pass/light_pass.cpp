@@ -36,6 +36,9 @@ packs::PassMaterial material_of(const Material& m, bool sources) {
     to.retro_reference = m.retro_reference_rad;
     to.retro_inverse_falloff = 1.0F / m.retro_falloff_rad;
     to.texture_mode = m.texture < 0 ? -1 : static_cast<std::int32_t>(m.texture_mode);
+    to.gloss = m.gloss;
+    to.roughness = m.gloss_roughness;
+    to.glossy = m.gloss > 0.0F;
     to.retroreflecting = m.retro_rl > 0.0F;
     to.emissive = sources && m.emission_cdm2 != glm::vec3(0.0F);
     return to;

@@ -22,9 +22,9 @@ struct Shown {
     std::int32_t all_of = 0;                ///< id that every pixel has; 0: none
     const PassMaterial* material = nullptr; ///< of that
     vec3 nearness, normal_x, normal_y, normal_z, albedo, emission, tint;
-    Floats nearest, farthest, rl, retro_reference, retro_inverse_falloff;
+    Floats nearest, farthest, rl, retro_reference, retro_inverse_falloff, gloss, roughness;
     Ints mesh;
-    bool lit, shadowed, retroreflecting, emissive, any_curved;
+    bool lit, shadowed, retroreflecting, emissive, glossy, any_curved;
 };
 
 void show_material(Shown& s, Mask here, const PassMaterial& m, Ints texels) {
@@ -66,6 +66,11 @@ void show(Shown& s, Mask here, const PassTriangle& t, Ints texels) {
         put(s.retro_inverse_falloff, m.retro_inverse_falloff);
         put_three(s.tint, m.tint);
         s.retroreflecting = true;
+    }
+    if (m.glossy) {
+        put(s.gloss, m.gloss);
+        put(s.roughness, m.roughness);
+        s.glossy = true;
     }
     if (m.emissive) {
         put_three(s.emission, m.emission);
@@ -122,11 +127,17 @@ Floats visibility(const PassShadow& shadow, const float* depths, const vec3& p, 
     return select(w > none, seen, all);
 }
 
-/// What lamps bring: lux, and what retroreflection makes of it; in colour where they differ in it.
+/// What lamps bring: lux, and what retroreflection and gloss make of it; in colour where they differ in it.
 struct Light {
-    Floats illuminance = 0.0, target = 0.0, returned = 0.0;
-    vec3 coloured{0.0, 0.0, 0.0}, returned_coloured{0.0, 0.0, 0.0};
+    Floats illuminance = 0.0, target = 0.0, returned = 0.0, mirrored = 0.0;
+    vec3 coloured{0.0, 0.0, 0.0}, returned_coloured{0.0, 0.0, 0.0}, mirrored_coloured{0.0, 0.0, 0.0};
 };
+
+/// Of unit length.
+vec3 towards_eye(const PassPicture& picture, const vec3& p) {
+    const Floats none = 0.0;
+    return picture.is_map ? vec3(none, none, -1.0) : vec3(none, none, none) - p * inversesqrt(dot(p, p));
+}
 
 void add_lamp(Light& sum, const PassPicture& picture, const PassLamp& lamp, const Shown& s, const vec3& p, const vec3& n, Floats lift,
               bool seen) {
@@ -154,6 +165,16 @@ void add_lamp(Light& sum, const PassPicture& picture, const PassLamp& lamp, cons
                     sum.returned_coloured = sum.returned_coloured + colour * l;
                 else
                     sum.returned += l;
+            }
+            if (seen && s.glossy) {
+                const vec3 to_lamp = vec3(none, none, none) - v * inverse_d;
+                const Floats mirrored =
+                    photometry::facet_mirrored(n, to_lamp, towards_eye(picture, p), s.roughness, photometry::facet_index);
+                const Floats l = select(lit && s.gloss > none, e_perp * s.gloss * mirrored, none);
+                if (picture.colour_of_all == nullptr)
+                    sum.mirrored_coloured = sum.mirrored_coloured + colour * l;
+                else
+                    sum.mirrored += l;
             }
         }
     }
@@ -286,15 +307,23 @@ void light_pack(const PassPicture& picture, const Shown& s, Place at, Floats x, 
             const vec3 colour = in_all(picture.colour_of_all);
             sum.coloured = colour * sum.illuminance;
             sum.returned_coloured = colour * sum.returned;
+            sum.mirrored_coloured = colour * sum.mirrored;
         }
         light = diffuse(sum.coloured);
         if (s.retroreflecting)
             light = light + s.tint * sum.returned_coloured;
+        if (s.glossy)
+            light = light + sum.mirrored_coloured;
     }
     if (picture.sky_lx > 0.0F) {
         const Floats e = photometry::sky_illuminance(picture.sky_lx, {none, none, dot(n, in_all(picture.upwards))});
         sum.illuminance += e;
         light = light + diffuse({e, e, e});
+        if (s.glossy && seen) {
+            const Floats cosine = photometry::facet_cosine(max(dot(n, towards_eye(picture, p)), none), s.roughness);
+            const Floats l = s.gloss * picture.sky_luminance * photometry::dielectric_reflectance(cosine, photometry::facet_index);
+            light = light + vec3(l, l, l);
+        }
     }
     if (s.emissive)
         light = light + s.emission;

@@ -9,9 +9,9 @@
 namespace fernlicht::packs {
 
 struct PassMaterial {
-    float albedo[3], rl, rl_per_y, blend[3], emission[3], retro_reference, retro_inverse_falloff, tint[3];
+    float albedo[3], rl, rl_per_y, blend[3], emission[3], retro_reference, retro_inverse_falloff, tint[3], gloss, roughness;
     std::int32_t texture_mode; ///< -1: none
-    bool retroreflecting, emissive;
+    bool retroreflecting, emissive, glossy;
 };
 
 /// Seen at (X, Y, 1) in the picture: tangents, of maps metres.

@@ -100,16 +100,20 @@ void add_luminance(const Shot& shot, const LitLamp& lamp, const Points& lamp_m, 
     observation_lanes(shot, light, lamp_m, seen, angle_rad);
     for (const std::size_t i : lanes_of(seen)) {
         const SurfaceResponse& response = light.responses[i];
-        glm::dvec3 returned = response.albedo * (e_perp[i] * cosine[i] / pi);
+        glm::dvec3 returned = response.albedo * (e_perp[i] * cosine[i] / pi), beads(0.0);
         if (response.retro_rl > 0.0)
-            returned += response.retro_tint * photometry::retro_luminance(response.retro_rl, e_perp[i], cosine[i], angle_rad[i],
-                                                                          response.retro_reference_rad, response.retro_inverse_falloff);
-        const glm::dvec3& p = light.hits[i].point_m;
-        if (const double wet = wetness_at(shot, response); wet > 0.0)
-            returned = partly_wet(
-                returned,
-                wet_light(response.albedo, light.hits[i].normal, glm::normalize(lamp_m[i] - p), glm::normalize(shot.to_eye(p)), e_perp[i]),
-                wet);
+            beads = response.retro_tint * photometry::retro_luminance(response.retro_rl, e_perp[i], cosine[i], angle_rad[i],
+                                                                      response.retro_reference_rad, response.retro_inverse_falloff);
+        returned += beads;
+        const glm::dvec3 &p = light.hits[i].point_m, &n = light.hits[i].normal;
+        const double wet = wetness_at(shot, response);
+        if (response.facets.share > 0.0)
+            returned += gloss_light(response.facets, n, glm::normalize(lamp_m[i] - p), glm::normalize(shot.to_eye(p)), e_perp[i]);
+        if (wet > 0.0)
+            returned = partly_wet(returned,
+                                  wet_light(response.albedo, n, glm::normalize(lamp_m[i] - p), glm::normalize(shot.to_eye(p)), e_perp[i]) +
+                                      response.retro_wet * beads,
+                                  wet);
         colour[i] += lamp.colour.linear_srgb * returned;
     }
 }
@@ -160,6 +164,9 @@ void add_sun(const Shot& shot, const DirectLight& sun, Points& colour, PacketLig
             continue;
         const SurfaceResponse& response = light.responses[i];
         glm::dvec3 returned = response.albedo * (e[i] / pi);
+        if (response.facets.share > 0.0)
+            returned += gloss_light(response.facets, light.hits[i].normal, towards, glm::normalize(shot.to_eye(light.hits[i].point_m)),
+                                    sun.illuminance_lx);
         if (const double wet = wetness_at(shot, response); wet > 0.0)
             returned = partly_wet(returned,
                                   wet_light(response.albedo, light.hits[i].normal, towards,
@@ -217,6 +224,9 @@ void light_packet(const Shot& shot, const std::array<SamplePoint, packet_size>& 
             continue;
         const SurfaceResponse& response = light.responses[i];
         glm::dvec3 of_sky = response.albedo * e_sky / pi;
+        if (sky && response.facets.share > 0.0)
+            of_sky +=
+                gloss_sky_light(response.facets, light.hits[i].normal, glm::normalize(shot.to_eye(light.hits[i].point_m)), sky_lx / pi);
         if (const double wet = wetness_at(shot, response); wet > 0.0 && sky)
             of_sky = partly_wet(of_sky,
                                 wet_sky_light(response.albedo, light.hits[i].normal, glm::normalize(shot.to_eye(light.hits[i].point_m)),

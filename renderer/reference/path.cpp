@@ -12,7 +12,7 @@ namespace {
 
 /// Pairs of coordinates that the second path of a pixel's sample starts at, and those by mirror and glass: beyond those of any before.
 constexpr std::size_t retro_pairs = std::size_t{1} << 24, mirrored_pairs = std::size_t{2} << 24, refracted_pairs = std::size_t{3} << 24,
-                      air_first_pair = std::size_t{4} << 24, film_pairs = std::size_t{5} << 24;
+                      air_first_pair = std::size_t{4} << 24, film_pairs = std::size_t{5} << 24, gloss_pairs = std::size_t{6} << 24;
 /// Scatterings in the air after which Russian roulette begins, and the share of paths that it lets go on each time.
 constexpr int scatterings_kept = 16;
 constexpr double kept_scattering = 0.9;
@@ -103,7 +103,8 @@ glm::dvec3 seen_along(const Shot& shot, const SamplePoint& point, const Ray& ray
     glm::dvec3 sum(0.0);
     if (!surface.is_glass()) {
         const double sky_lx = shot.moment.daylight.horizontal_illuminance_lx * 0.5 * (1.0 + hit->normal.z);
-        glm::dvec3 of_sky = surface.response.albedo * (sky_lx / pi);
+        glm::dvec3 of_sky = surface.response.albedo * (sky_lx / pi) +
+                            gloss_sky_light(surface.response.facets, hit->normal, surface.out, sky_luminance_cdm2(shot.moment.daylight));
         if (surface.wetness > 0.0)
             of_sky = partly_wet(
                 of_sky, wet_sky_light(surface.response.albedo, hit->normal, surface.out, sky_lx, sky_luminance_cdm2(shot.moment.daylight)),
@@ -140,10 +141,17 @@ void add_bounced_light(const Shot& shot, const std::array<SamplePoint, packet_si
                                      radiance);
         }
         if (shot.outputs.luminance && wetness > 0.0) {
-            const FilmSample film = sample_film(hit.normal, to_eye, points[i].pair(film_pairs));
+            const FacetSample film = sample_film(hit.normal, to_eye, points[i].pair(film_pairs));
             if (film.weight > 0.0 && glm::dot(film.direction, hit.facet_normal) > 0.0)
                 light.luminance_cdm2[i] +=
                     left * wetness * film.weight * luminance(arriving(i, points[i], film_pairs + 1, {from_m, film.direction}, light.rays));
+        }
+        if (const Facets& facets = light.responses[i].facets; shot.outputs.luminance && facets.share > 0.0 && wetness < 1.0) {
+            const FacetSample gloss =
+                sample_facets(hit.normal, to_eye, points[i].pair(gloss_pairs), facets.roughness, photometry::facet_index);
+            if (gloss.weight > 0.0 && glm::dot(gloss.direction, hit.facet_normal) > 0.0)
+                light.luminance_cdm2[i] += left * (1.0 - wetness) * facets.share * gloss.weight *
+                                           luminance(arriving(i, points[i], gloss_pairs + 1, {from_m, gloss.direction}, light.rays));
         }
         if (!shot.outputs.luminance || light.responses[i].retro_rl <= 0.0)
             continue;
@@ -154,7 +162,7 @@ void add_bounced_light(const Shot& shot, const std::array<SamplePoint, packet_si
             sample_retro(surface.lobe, surface.out, hit.normal, points[i].pair(retro_pairs), points[i].pair(retro_pairs + 1).x);
         if (sample.weight > 0.0 && glm::dot(sample.direction, hit.facet_normal) > 0.0)
             light.luminance_cdm2[i] +=
-                left * (1.0 - wetness) * sample.weight *
+                left * (1.0 - wetness + light.responses[i].retro_wet * wetness) * sample.weight *
                 luminance(surface.response.retro_tint * arriving(i, points[i], retro_pairs + 2, {from_m, sample.direction}, light.rays));
     }
 }

@@ -7,18 +7,15 @@
 // independent as far as the hash (finaliser of MurmurHash3 in its 64-bit form "mix13" of Stafford 2011) is.
 #pragma once
 
+#include "scenarios/values/mixed_bits.h"
+
 #include <cstdint>
 #include <glm/vec2.hpp>
 
 namespace fernlicht::reference {
 
 /// 64 well-mixed bits of a key and a number. Chains: mixed(mixed(seed, pixel), replicate).
-constexpr std::uint64_t mixed(std::uint64_t key, std::uint64_t number) {
-    std::uint64_t x = key + 0x9E3779B97F4A7C15ULL * (number + 1);
-    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
-    return x ^ (x >> 31);
-}
+constexpr std::uint64_t mixed(std::uint64_t key, std::uint64_t number) { return fernlicht::mixed(key + mixing_step * (number + 1)); }
 
 /// A scrambled sequence of points in as many dimensions as are asked for, two at a time.
 class PointNet {

@@ -17,9 +17,9 @@ constexpr std::size_t max_smooth = 64;
 
 double greatest(const glm::dvec3& rgb) { return std::max({rgb.x, rgb.y, rgb.z}); }
 
-/// About the share of light that the film sends on, by which a path chooses it; 0..1.
-double film_share(const glm::dvec3& normal, const glm::dvec3& out) {
-    return photometry::water_reflectance(photometry::facet_cosine(std::clamp(glm::dot(normal, out), 0.0, 1.0), wet_roughness));
+/// About the share of light that facets send on, by which a path chooses them; 0..1.
+double facet_share(const glm::dvec3& normal, const glm::dvec3& out, double roughness, double index) {
+    return photometry::dielectric_reflectance(photometry::facet_cosine(std::clamp(glm::dot(normal, out), 0.0, 1.0), roughness), index);
 }
 
 } // namespace
@@ -84,16 +84,21 @@ glm::dvec3 lamps_on(const Shot& shot, const Surface& surface, const SamplePoint&
             if (!shot.embree.visible(surface.hit, lamp_m))
                 continue;
         }
-        glm::dvec3 reflected = surface.response.albedo * (cosine / pi);
+        glm::dvec3 reflected = surface.response.albedo * (cosine / pi), beads(0.0);
         if (surface.lobe.is_there())
-            reflected += surface.response.retro_tint * retro_times_cosine(surface.lobe, photometry::observation_angle(to_lamp, surface.out),
-                                                                          cosine, glm::dot(surface.hit.normal, surface.out));
+            beads = surface.response.retro_tint * retro_times_cosine(surface.lobe, photometry::observation_angle(to_lamp, surface.out),
+                                                                     cosine, glm::dot(surface.hit.normal, surface.out));
+        reflected += beads;
         const double left = air_transmittance(shot.moment.weather, glm::length(to_lamp)); // 1 in clear air
         glm::dvec3 returned = reflected * (e_perp * left);
+        if (surface.response.facets.share > 0.0)
+            returned += gloss_light(surface.response.facets, surface.hit.normal, glm::normalize(to_lamp), surface.out, e_perp * left);
         if (surface.wetness > 0.0)
-            returned = partly_wet(
-                returned, wet_light(surface.response.albedo, surface.hit.normal, glm::normalize(to_lamp), surface.out, e_perp * left),
-                surface.wetness);
+            returned =
+                partly_wet(returned,
+                           wet_light(surface.response.albedo, surface.hit.normal, glm::normalize(to_lamp), surface.out, e_perp * left) +
+                               surface.response.retro_wet * (e_perp * left) * beads,
+                           surface.wetness);
         sum += lamp.colour.linear_srgb * returned;
     }
     if (const DirectLight* sun = shot.moment.daylight.direct()) {
@@ -101,7 +106,8 @@ glm::dvec3 lamps_on(const Shot& shot, const Surface& surface, const SamplePoint&
         if (e > 0.0 && shot.settings.shadows)
             ++rays;
         if (e > 0.0 && (!shot.settings.shadows || shot.embree.visible(surface.hit, surface.hit.point_m + sun->towards() * sun_distance_m)))
-            sum += partly_wet(surface.response.albedo * (e / pi),
+            sum += partly_wet(surface.response.albedo * (e / pi) + gloss_light(surface.response.facets, surface.hit.normal, sun->towards(),
+                                                                               surface.out, sun->illuminance_lx),
                               surface.wetness > 0.0
                                   ? wet_light(surface.response.albedo, surface.hit.normal, sun->towards(), surface.out, sun->illuminance_lx)
                                   : glm::dvec3(0.0),
@@ -112,9 +118,14 @@ glm::dvec3 lamps_on(const Shot& shot, const Surface& surface, const SamplePoint&
 
 bool go_on_from(const Surface& surface, const SamplePoint& point, std::size_t pair, Ray& ray, glm::dvec3& weight, bool& specular) {
     const SpecularSplit smooth = specular_split(surface);
-    const double dry = 1.0 - surface.wetness, retro = surface.lobe.returned * dry,
-                 film = surface.wetness > 0.0 ? surface.wetness * film_share(surface.hit.normal, surface.out) : 0.0;
-    const double rough = surface.albedo + retro + film, reflected = rough + smooth.mirrored_share + smooth.refracted_share;
+    const Facets& facets = surface.response.facets;
+    const glm::dvec3& n = surface.hit.normal;
+    const double dry = 1.0 - surface.wetness, returning = dry + surface.response.retro_wet * surface.wetness,
+                 retro = surface.lobe.returned * returning,
+                 film = surface.wetness > 0.0 ? surface.wetness * facet_share(n, surface.out, wet_roughness, photometry::water_index) : 0.0,
+                 gloss =
+                     facets.share > 0.0 ? dry * facets.share * facet_share(n, surface.out, facets.roughness, photometry::facet_index) : 0.0;
+    const double rough = surface.albedo + retro + film + gloss, reflected = rough + smooth.mirrored_share + smooth.refracted_share;
     if (reflected <= 0.0)
         return false;
     const glm::dvec2 choice = point.pair(pair), square = point.pair(pair + 1);
@@ -130,10 +141,15 @@ bool go_on_from(const Surface& surface, const SamplePoint& point, std::size_t pa
         lobe_choice = (lobe_choice - surface.albedo) / retro;
         const RetroSample sample = sample_retro(surface.lobe, surface.out, surface.hit.normal, square, choice.y);
         ray.direction = sample.direction;
-        weight *= surface.response.retro_tint * (sample.weight * (reflected / retro) * dry);
+        weight *= surface.response.retro_tint * (sample.weight * (reflected / retro) * returning);
+    } else if (lobe_choice < surface.albedo + retro + gloss) {
+        lobe_choice = (lobe_choice - surface.albedo - retro) / gloss;
+        const FacetSample sample = sample_facets(n, surface.out, square, facets.roughness, photometry::facet_index);
+        ray.direction = sample.direction;
+        weight *= sample.weight * dry * facets.share * (reflected / gloss);
     } else if (!specular) {
-        lobe_choice = (lobe_choice - surface.albedo - retro) / film;
-        const FilmSample sample = sample_film(surface.hit.normal, surface.out, square);
+        lobe_choice = (lobe_choice - surface.albedo - retro - gloss) / film;
+        const FacetSample sample = sample_film(surface.hit.normal, surface.out, square);
         ray.direction = sample.direction;
         weight *= sample.weight * surface.wetness * (reflected / film);
     } else {
@@ -190,14 +206,14 @@ glm::dvec3 diffuse_reflectance(const glm::dvec3& albedo, double wetness, double 
     return (1.0 - wetness) * albedo + wetness * wet;
 }
 
-FilmSample sample_film(const glm::dvec3& normal, const glm::dvec3& out, const glm::dvec2& square) {
+FacetSample sample_facets(const glm::dvec3& normal, const glm::dvec3& out, const glm::dvec2& square, double roughness, double index) {
     const auto [u, v] = across(normal);
     const double c_out = glm::dot(normal, out);
     if (c_out <= 0.0)
         return {};
     // E. Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018: on the stretched hemisphere the facets seen are a
     // disc.
-    const glm::dvec3 stretched = glm::normalize(glm::dvec3(wet_roughness * glm::dot(u, out), wet_roughness * glm::dot(v, out), c_out));
+    const glm::dvec3 stretched = glm::normalize(glm::dvec3(roughness * glm::dot(u, out), roughness * glm::dot(v, out), c_out));
     const auto [s, t] = across(stretched);
     const double radius = std::sqrt(square.x), turn = 2.0 * pi * square.y, upright = 0.5 * (1.0 + stretched.z);
     // `t` must lie on the side that the horizon cuts: the frame is turned so that `s` is level.
@@ -208,17 +224,18 @@ FilmSample sample_film(const glm::dvec3& normal, const glm::dvec3& out, const gl
     const double a = radius * std::cos(turn), full = radius * std::sin(turn),
                  b = (1.0 - upright) * std::sqrt(std::max(0.0, 1.0 - a * a)) + upright * full;
     const glm::dvec3 facet = a * level + b * upwards + std::sqrt(std::max(0.0, 1.0 - a * a - b * b)) * stretched;
-    const glm::dvec3 h = glm::normalize(wet_roughness * (u * facet.x + v * facet.y) + normal * std::max(1e-12, facet.z));
-    FilmSample sample;
+    const glm::dvec3 h = glm::normalize(roughness * (u * facet.x + v * facet.y) + normal * std::max(1e-12, facet.z));
+    FacetSample sample;
     const double c_h = glm::dot(out, h);
     sample.direction = glm::normalize(2.0 * c_h * h - out);
     const double c_in = glm::dot(normal, sample.direction);
     if (c_in <= 0.0 || c_h <= 0.0)
         return sample;
     // Smith's correlated shadowing of both directions over that of one.
-    const double a2 = wet_roughness * wet_roughness, root_out = std::sqrt(a2 + (1.0 - a2) * c_out * c_out),
+    const double a2 = roughness * roughness, root_out = std::sqrt(a2 + (1.0 - a2) * c_out * c_out),
                  root_in = std::sqrt(a2 + (1.0 - a2) * c_in * c_in);
-    sample.weight = photometry::water_reflectance(std::min(c_h, 1.0)) * c_in * (c_out + root_out) / (c_out * root_in + c_in * root_out);
+    sample.weight =
+        photometry::dielectric_reflectance(std::min(c_h, 1.0), index) * c_in * (c_out + root_out) / (c_out * root_in + c_in * root_out);
     return sample;
 }
 

@@ -20,6 +20,7 @@
 
 #include "renderer/reference/shot.h"
 #include "renderer/reference/surface_response.h"
+#include "scenarios/photometry.h"
 
 namespace fernlicht::reference {
 
@@ -78,13 +79,16 @@ inline double wetness_at(const Shot& shot, const SurfaceResponse& response) {
 /// pi times the diffuse reflectance function between two directions, dry and wet shares together: exactly the albedo where it is dry.
 glm::dvec3 diffuse_reflectance(const glm::dvec3& albedo, double wetness, double cosine_in, double cosine_out);
 
-/// A direction off the film's facets, drawn by those that are seen from `out` (GGX: Heitz 2018), and reflectance times cosine over its
-/// density, which is Fresnel's reflectance times what other facets leave of it: below 1. Weight 0 below the surface.
-struct FilmSample {
+/// A direction off facets, drawn by those that are seen from `out` (GGX: Heitz 2018), and reflectance times cosine over its density, which
+/// is Fresnel's reflectance times what other facets leave of it: below 1. Weight 0 below the surface.
+struct FacetSample {
     glm::dvec3 direction{0.0, 0.0, 1.0};
     double weight = 0.0;
 };
-FilmSample sample_film(const glm::dvec3& normal, const glm::dvec3& out, const glm::dvec2& square);
+FacetSample sample_facets(const glm::dvec3& normal, const glm::dvec3& out, const glm::dvec2& square, double roughness, double index);
+inline FacetSample sample_film(const glm::dvec3& normal, const glm::dvec3& out, const glm::dvec2& square) {
+    return sample_facets(normal, out, square, wet_roughness, photometry::water_index);
+}
 
 /// As far as the air before the sky is followed.
 inline constexpr double air_end_m = 5000.0;

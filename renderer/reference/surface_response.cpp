@@ -44,7 +44,9 @@ SurfaceResponse response_at(const Scene& scene, const SurfaceHit& hit) {
                              1.0 / static_cast<double>(material.retro_falloff_rad),
                              glm::dvec3(material.emission_cdm2),
                              gets_wet(material.kind),
-                             retro_tint(material)};
+                             retro_tint(material),
+                             facets_of(material),
+                             static_cast<double>(material.retro_wet)};
     if (material.texture < 0)
         return response;
     const glm::dvec4 texel = texel_at(scene.textures[static_cast<std::size_t>(material.texture)], hit.uv);

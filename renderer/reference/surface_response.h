@@ -19,6 +19,7 @@
 #pragma once
 
 #include "renderer/reference/embree_scene.h"
+#include "scenarios/light/light.h"
 
 #include <glm/vec4.hpp>
 
@@ -31,6 +32,8 @@ struct SurfaceResponse {
     glm::dvec3 emission_cdm2{0.0};
     bool gets_wet = false;
     glm::dvec3 retro_tint{1.0}; ///< of retroreflected light
+    Facets facets;              ///< while it is dry
+    double retro_wet = 0.0;     ///< share of retroreflection that is left under water
 };
 
 /// A texture between its texels: bilinear, repeating, texel centres at (i + 0.5) / width, as OpenGL's GL_LINEAR. No mipmaps: the average

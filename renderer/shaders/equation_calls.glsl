@@ -84,5 +84,9 @@ FN vec4 equation_value(int equation, vec4 a, vec4 b, vec4 c, vec4 d) {
         vec3 light = white_adapted(first_three(a), first_three(b), first_three(c), first_three(d));
         return vec4(light.x, light.y, light.z, 0.0);
     }
+    if (equation == 39)
+        return vec4(dielectric_reflectance(a.x, a.y), 0.0, 0.0, 0.0);
+    if (equation == 40)
+        return vec4(facet_mirrored(first_three(a), first_three(b), first_three(c), a.w, d.x), 0.0, 0.0, 0.0);
     return vec4(quick_srgb_encoded(a.x), 0.0, 0.0, 0.0);
 }

@@ -1,6 +1,6 @@
 // Technique `photometric-naive`: the equations of `photometric` written down as they stand, for its speed to be measured against.
 //
-// Compiled per set of features: LAMP_COUNT, SHADOWS, TEXTURED, and which results are wanted (WANT_*). What is left out adds exactly +0.
+// Compiled per set of features: LAMP_COUNT, SHADOWS, TEXTURED, GLOSS, and which results are wanted (WANT_*). What is left out adds exactly +0.
 #include "naive_lamps.glsl"
 #include "materials.glsl"
 
@@ -60,6 +60,10 @@ void add_lamp(Lamp lamp, sampler2D beam, sampler2D map) {
     if (rl > 0.0)
         light += lamp.colour.rgb * material.tint.rgb * retro_luminance(rl, e_perp, cosine, observation_angle(to_lamp, to_eye), material.retro.x, material.retro.y);
 #endif
+#if WANT_SEEN && GLOSS
+    if (material.gloss.x > 0.0 && e_perp > 0.0)
+        light += lamp.colour.rgb * (material.gloss.x * e_perp * facet_mirrored(n, normalize(to_lamp), normalize(to_eye), material.gloss.y, facet_index));
+#endif
 #if WANT_TARGET
     vec3 raised = p + vec3(0.0, 0.0, target_height_m);
     vec3 raised_to_lamp = lamp.position_m.xyz - raised;
@@ -96,6 +100,10 @@ void main() {
     illuminance += e_sky;
 #if WANT_SEEN
     light += vec3(diffuse_luminance(albedo.r, e_sky), diffuse_luminance(albedo.g, e_sky), diffuse_luminance(albedo.b, e_sky));
+#if GLOSS
+    light += vec3(material.gloss.x * (sky_lx * photometry_inverse_pi) *
+                  dielectric_reflectance(facet_cosine(max(dot(n, normalize(to_eye)), 0.0), material.gloss.y), facet_index));
+#endif
 #endif
 
 #if WANT_SEEN

@@ -1,7 +1,7 @@
 // Technique `photometric`: exact distance and cosine per fragment, intensity from the candela table, one shadow map per lamp,
 // diffuse and retroreflecting surfaces with their textures, uniform sky.
 //
-// Compiled per set of features: LAMP_COUNT, SHADOWS, SKY, SUN, SUN_SHADOWS, TRAFFIC, TRAFFIC_SHADOWS, FOG, LAMPS_IN_FOG, WET, BACKGROUND, RETRO, RETRO_TINT, EMISSIVE, TEXTURED (0: none, 1: TEXTURE_MODE alone, 2: any), and which
+// Compiled per set of features: LAMP_COUNT, SHADOWS, SKY, SUN, SUN_SHADOWS, TRAFFIC, TRAFFIC_SHADOWS, FOG, LAMPS_IN_FOG, WET, BEADS, GLOSS, BACKGROUND, RETRO, RETRO_TINT, EMISSIVE, TEXTURED (0: none, 1: TEXTURE_MODE alone, 2: any), and which
 // results are wanted (WANT_*). What is left out adds exactly +0 or multiplies by exactly 1.
 #include "photometric_lamps.glsl"
 #include "photometric_varyings.glsl"
@@ -145,6 +145,27 @@ vec3 wet_sky_light(vec3 albedo, vec3 n, float e_sky) {
 #define REFLECT_WET(i, e_perp, inverse_d)
 #endif
 
+#if WANT_SEEN && GLOSS
+// What the facets of a dry surface mirror of one source, and of the sky.
+float gloss_light(vec3 n, vec3 to_light, vec3 to_eye, float e_perp) {
+    return e_perp > 0.0 ? v_gloss.x * e_perp * facet_mirrored(n, to_light, to_eye, v_gloss.y, facet_index) : 0.0;
+}
+float gloss_sky_light(vec3 n) {
+    float out_cosine = facet_cosine(max(-dot(n, normalize(v_from_eye)), 0.0), v_gloss.y);
+    return v_gloss.x * v_sky_cdm2 * dielectric_reflectance(out_cosine, facet_index);
+}
+#define REFLECT_GLOSS(i, e_perp, inverse_d) \
+    light += DRY(COLOUR(i).rgb * gloss_light(v_n[i] * inverse_n, -v_w[i] * inverse_d, normalize(EYE(i).xyz - EYE(i).w * v_w[i]), e_perp));
+#else
+#define REFLECT_GLOSS(i, e_perp, inverse_d)
+#endif
+
+#if WANT_SEEN && RETRO && BEADS
+#define WET_BEADS(l) light += v_wet * v_gloss.z * (l);
+#else
+#define WET_BEADS(l)
+#endif
+
 #if WANT_SEEN
 #define REFLECT_DIFFUSE(i, e) light += DRY(COLOUR(i).rgb * vec3(diffuse_luminance(albedo.r, e), diffuse_luminance(albedo.g, e), diffuse_luminance(albedo.b, e)));
 #if RETRO
@@ -154,7 +175,11 @@ vec3 wet_sky_light(vec3 albedo, vec3 n, float e_sky) {
 #define TINTED(colour) (colour)
 #endif
 #define REFLECT_RETRO(i, e_perp, cosine) \
-    light += DRY(TINTED(COLOUR(i).rgb) * retro_luminance(rl, e_perp, cosine, quick_observation_angle(-v_w[i], EYE(i).xyz - EYE(i).w * v_w[i]), v_retro.x, v_retro.y));
+    { \
+        vec3 returned = TINTED(COLOUR(i).rgb) * retro_luminance(rl, e_perp, cosine, quick_observation_angle(-v_w[i], EYE(i).xyz - EYE(i).w * v_w[i]), v_retro.x, v_retro.y); \
+        light += DRY(returned); \
+        WET_BEADS(returned) \
+    }
 #else
 #define REFLECT_RETRO(i, e_perp, cosine)
 #endif
@@ -188,6 +213,7 @@ vec3 wet_sky_light(vec3 albedo, vec3 n, float e_sky) {
         REFLECT_DIFFUSE(i, e) \
         REFLECT_RETRO(i, e_perp, cosine) \
         REFLECT_WET(i, e_perp, inverse_d) \
+        REFLECT_GLOSS(i, e_perp, inverse_d) \
         LIGHT_TARGET(i, beam, map) \
     }
 
@@ -238,6 +264,9 @@ void main() {
 #if WANT_SEEN && WET
         PRECISE vec3 wet = vec3(0.0);
 #endif
+#if WANT_SEEN && GLOSS
+        PRECISE vec3 mirrored = vec3(0.0);
+#endif
         // Conditions at the loops' ends: llvmpipe runs a body once more, for no fragment, before it leaves by a condition at the beginning.
         uint k = 0u;
         if (list.y > 0u) do {
@@ -258,6 +287,9 @@ void main() {
 #if WANT_SEEN && WET
                 wet += unit.colour.rgb * wet_light(albedo, n, normalize(to_lamp), -normalize(v_from_eye), e_perp);
 #endif
+#if WANT_SEEN && GLOSS
+                mirrored += unit.colour.rgb * gloss_light(n, normalize(to_lamp), -normalize(v_from_eye), e_perp);
+#endif
 #if WANT_SEEN && RETRO
                 returned += TINTED(unit.colour.rgb) *
                             retro_luminance(rl, e_perp, e, quick_observation_angle(to_lamp, v_traffic_eye.xyz - v_traffic_eye.w * v_traffic_p), v_retro.x, v_retro.y);
@@ -269,6 +301,10 @@ void main() {
         illuminance += others.w;
 #if WANT_SEEN
         light += DRY(vec3(diffuse_luminance(albedo.r, others.r), diffuse_luminance(albedo.g, others.g), diffuse_luminance(albedo.b, others.b)) + returned);
+        WET_BEADS(returned)
+#if GLOSS
+        light += DRY(mirrored);
+#endif
 #if WET
         light += v_wet * wet;
 #endif
@@ -281,6 +317,9 @@ void main() {
     illuminance += e_sky;
 #if WANT_SEEN
     light += DRY(vec3(diffuse_luminance(albedo.r, e_sky), diffuse_luminance(albedo.g, e_sky), diffuse_luminance(albedo.b, e_sky)));
+#if GLOSS
+    light += DRY(vec3(gloss_sky_light(normalize(v_normal))));
+#endif
 #if WET
     light += v_wet * wet_sky_light(albedo, normalize(v_normal), e_sky);
 #endif
@@ -295,8 +334,13 @@ void main() {
     illuminance += e_sun;
 #if WANT_SEEN
     light += DRY(vec3(diffuse_luminance(albedo.r, e_sun), diffuse_luminance(albedo.g, e_sun), diffuse_luminance(albedo.b, e_sun)));
-#if WET
+#if WET || GLOSS
     float sun_seen = e_sun > 0.0 ? e_sun / directional_illuminance(1.0, normalize(v_normal), v_sun.xyz) : 0.0;
+#endif
+#if GLOSS
+    light += DRY(vec3(gloss_light(normalize(v_normal), v_sun.xyz, -normalize(v_from_eye), sun_seen)));
+#endif
+#if WET
     light += v_wet * wet_light(albedo, normalize(v_normal), v_sun.xyz, -normalize(v_from_eye), sun_seen);
 #endif
 #endif

@@ -34,7 +34,7 @@ uniform vec4 traffic_grid; // ahead x, y of the car; corner ahead, left
 uniform float air_lamp_count;
 uniform float air_min_cdm2;
 #endif
-#if FOG || WET
+#if FOG || WET || GLOSS
 uniform float sky_cdm2;
 #endif
 #if WET
@@ -53,7 +53,7 @@ void main() {
     vec3 n = turned(normal);
     Material m = materials[material];
 #endif
-#if FOG || WET
+#if FOG || WET || GLOSS
     v_from_eye = eye_axis.w > 0.0 ? p - eye_m : 1000.0 * eye_axis.xyz; // as seen from a map: from straight above
     v_sky_cdm2 = sky_cdm2;
 #endif
@@ -86,6 +86,9 @@ void main() {
 #endif
 #endif
 #endif
+#if GLOSS || BEADS
+    v_gloss = m.gloss.xyz;
+#endif
 #if SKY || SUN
     v_normal = n;
 #endif
@@ -117,7 +120,7 @@ void main() {
 #if WANT_TARGET
         v_raise[i] = lamp.raise.xyz;
 #endif
-#if WANT_SEEN && (RETRO || FOG || WET)
+#if WANT_SEEN && (RETRO || FOG || WET || GLOSS)
         v_eye[i] = lamp.eye;
 #endif
 #endif

@@ -17,6 +17,9 @@ flat STAGE_IO vec3 v_tint;
 #endif
 #endif
 #endif
+#if GLOSS || BEADS
+flat STAGE_IO vec3 v_gloss; // share, roughness, retroreflection left under water
+#endif
 #if TRAFFIC
 STAGE_IO vec3 v_traffic_p; // relative to the car
 STAGE_IO vec3 v_traffic_n; // not yet of unit length
@@ -37,13 +40,13 @@ flat STAGE_IO vec4 v_sun; // towards sun or moon; w: lx on a plane across its li
 STAGE_IO vec3 v_sun_at; // in its shadow map, of a point raised above the surface
 #endif
 #endif
-#if FOG || WET
+#if FOG || WET || GLOSS
 STAGE_IO vec3 v_from_eye;
 #endif
 #if FOG
 flat STAGE_IO vec4 v_fog; // extinction on the way from a lamp and on that to the eye, scattering, g
 #endif
-#if FOG || WET
+#if FOG || WET || GLOSS
 flat STAGE_IO float v_sky_cdm2;
 #endif
 #if LAMPS_IN_FOG
@@ -70,7 +73,7 @@ flat STAGE_IO vec4 v_colour[LAMP_COUNT]; // linear sRGB of luminance 1; w: inten
 #if WANT_TARGET
 flat STAGE_IO vec3 v_raise[LAMP_COUNT]; // from the point to the target above it
 #endif
-#if WANT_SEEN && (RETRO || FOG || WET)
+#if WANT_SEEN && (RETRO || FOG || WET || GLOSS)
 flat STAGE_IO vec4 v_eye[LAMP_COUNT]; // in lamp space; w: 1 a place, 0 a direction
 #endif
 #endif

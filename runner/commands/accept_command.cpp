@@ -1,5 +1,6 @@
 #include "runner/commands/accept_command.h"
 
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/run/run_report.h"
 #include "runner/files/output_folder.h"
 #include "runner/judge/baselines.h"
@@ -33,16 +34,16 @@ std::string stored_text(const Baseline& baseline, const Stored& stored) {
 
 struct AcceptFlags {
     std::string run, baselines = "baselines", note;
-    bool add = false, replace = false, replace_class = false, readings_only = false;
+    bool also = false, replace = false, replace_class = false, readings_only = false;
 };
 
 int accept(const AcceptFlags& flags) {
-    if (flags.add + flags.replace + flags.replace_class > 1)
-        throw InputError({{}, 0, 0, "accept"}, "found more than one of --add, --replace and --replace-class", "one of them");
-    if (flags.add && flags.note.empty())
-        throw InputError({{}, 0, 0, "--add"}, "found no --note",
+    if (flags.also + flags.replace + flags.replace_class > 1)
+        throw InputError({{}, 0, 0, "accept"}, "found more than one of --also, --replace and --replace-class", "one of them");
+    if (flags.also && flags.note.empty())
+        throw InputError({{}, 0, 0, "--also"}, "found no --note",
                          "the reason why several results are right, e.g. --note \"two drivers round differently\"");
-    const Acceptance how = flags.add             ? Acceptance::add
+    const Acceptance how = flags.also            ? Acceptance::add
                            : flags.replace       ? Acceptance::replace
                            : flags.replace_class ? Acceptance::replace_class
                                                  : Acceptance::first;
@@ -122,12 +123,12 @@ void add_accept_command(CLI::App& app, const std::vector<std::string>&, std::fun
     const auto flags = std::make_shared<AcceptFlags>();
     CLI::App* command = app.add_subcommand("accept", "take a run's results as baselines for later runs; judges nothing");
     command->add_option("RUN", flags->run, "folder of a complete run or study, or of a `fernlicht reference` picture")->required();
-    command->add_option("--baselines", flags->baselines, "folder of baselines")->capture_default_str();
+    add_shared(*command, "--baselines", flags->baselines)->capture_default_str();
     command->add_flag("--replace", flags->replace, "replace the baselines under the same keys");
     command->add_flag("--replace-class", flags->replace_class, "replace all baselines of this device class; other classes keep theirs");
-    command->add_flag("--add", flags->add, "accept these as well: a run that agrees with either passes; needs --note");
+    command->add_flag("--also", flags->also, "accept these as well: a run that agrees with either passes; needs --note");
     command->add_flag("--readings-only", flags->readings_only, "store no frames, a thousandth of the size; pictures are then not compared");
-    command->add_option("--note", flags->note, "the reason, in one sentence; `fernlicht baselines` shows it");
+    add_shared(*command, "--note", flags->note);
     command->callback([flags, &chosen] { chosen = [flags] { return accept(*flags); }; });
 }
 

@@ -2,8 +2,11 @@
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/accuracy/studies/studies.h"
 #include "runner/experiments/run/run_drives.h"
+#include "runner/files/log.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -70,11 +73,11 @@ int accuracy(const AccuracyFlags& flags, const std::vector<std::string>& command
         write_document(document(result), result, request.folder, "accuracy", flags.tables);
     };
     const AccuracyResult result = run_accuracy(request);
-    fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "accuracy.html").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), page_link(request.folder / "accuracy.html"));
     if (!result.interrupted.empty())
-        fmt::print("incomplete: {}\n", result.interrupted);
+        tell(LogLevel::warning, "incomplete: " + result.interrupted);
     for (const std::string& missing : result.missing)
-        fmt::print("missing: {}\n", missing);
+        tell(LogLevel::warning, "missing: " + missing);
     const bool measured = std::ranges::any_of(result.diagrams, [](const WorkPrecision& diagram) {
         return std::ranges::any_of(diagram.rows, [](const WorkPrecisionRow& row) { return row.measured(); });
     });
@@ -86,40 +89,35 @@ int accuracy(const AccuracyFlags& flags, const std::vector<std::string>& command
 void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<AccuracyFlags>();
     CLI::App* sub = app.add_subcommand("accuracy", "compare the techniques with the reference: error against run time");
-    sub->add_option("DRIVE", flags->drives, "drive files (YAML)")->required();
-    sub->add_option(
-           "--diagrams", flags->diagrams,
-           "all, or some of techniques, reference, classical, solvers, control, extent, beam, weather, metrics, step, traffic, shadows; "
-           "else techniques")
-        ->allow_extra_args(false);
-    sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drives (default: the first of each)");
-    sub->add_option("--techniques", flags->techniques, "comma-separated names (default: all)")->allow_extra_args(false);
-    sub->add_option("--resolutions", flags->resolutions,
-                    "WIDTHxHEIGHT,...: the first for all, the others varied (default: the drive's, a half and a quarter of it)")
-        ->allow_extra_args(false);
-    sub->add_option("--shadow-maps", flags->shadow_maps,
-                    "WIDTHxHEIGHT,...: the first for all, the others varied (default: 1024x512, and twice, half and a quarter of it)")
-        ->allow_extra_args(false);
-    sub->add_option("--beams", flags->beams,
-                    "float, eight-bit or WIDTHxHEIGHTxBITS,...: the first for all, the others varied (default: the drive's and four more)")
-        ->allow_extra_args(false);
-    sub->add_flag("--full", flags->sweep.full, "every technique with every resolution, shadow map and beam (default: vary one at a time)");
-    sub->add_option("--count", flags->sweep.moments, "number of moments, spread evenly over the drive")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
-    sub->add_option("--rounds", flags->sweep.rounds, "number of timing rounds; in each, every configuration renders the moments once")
-        ->check(CLI::Range(1, 100000))
-        ->capture_default_str();
-    sub->add_option("--target-error", flags->target_error, "target standard error of each reference pixel, e.g. 0.5% or 0.005")
-        ->capture_default_str();
-    sub->add_option("--max-samples", flags->sweep.max_samples, "maximum samples per reference pixel")
-        ->check(CLI::Range(16, 1 << 20))
-        ->capture_default_str();
-    add_seed_flag(*sub, flags->sweep.seed, "seed of the reference and of the order in each round");
-    sub->add_option("--backend", flags->backend, backend_names);
-    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    add_shared(*sub, "DRIVES", flags->drives)->required();
+    sub->add_option("--diagrams", flags->diagrams,
+                    "diagrams to draw: techniques, reference, classical, solvers, control, extent, beam, weather, metrics, step, traffic, "
+                    "shadows, or all")
+        ->option_text("NAME,...")
+        ->allow_extra_args(false)
+        ->default_str("techniques");
+    add_shared(*sub, "--lamp-set", flags->lamp_set)->default_str("the first");
+    add_shared(*sub, "--techniques", flags->techniques)->default_str("all");
+    sub->add_option("--resolutions", flags->resolutions, "sizes of the pictures")
+        ->option_text("WIDTHxHEIGHT,...")
+        ->allow_extra_args(false)
+        ->default_str("the drive's, a half and a quarter of it");
+    sub->add_option("--shadow-maps", flags->shadow_maps, "texels of each shadow map")
+        ->option_text("WIDTHxHEIGHT,...")
+        ->allow_extra_args(false)
+        ->default_str("1024x512, and twice, half and a quarter of it");
+    add_shared(*sub, "--beams", flags->beams)->default_str("the drive's and four more");
+    sub->add_flag("--full", flags->sweep.full, "take every technique with every resolution, shadow map and beam, not one at a time");
+    add_shared(*sub, "--count", flags->sweep.moments)->check(CLI::Range(1, 1000))->capture_default_str();
+    add_shared(*sub, "--rounds", flags->sweep.rounds)->check(CLI::Range(1, 100000))->capture_default_str();
+    add_shared(*sub, "--target-error", flags->target_error)->capture_default_str();
+    add_shared(*sub, "--max-samples", flags->sweep.max_samples)->check(CLI::Range(16, 1 << 20))->capture_default_str();
+    add_seed_flag(*sub, flags->sweep.seed);
+    add_shared(*sub, "--backend", flags->backend);
+    add_shared(*sub, "--out", flags->out);
     add_tables_flag(*sub, flags->tables);
-    sub->add_flag("--quiet", flags->quiet, "show no progress");
+    add_shared(*sub, "--quiet", flags->quiet);
+    sub->footer("Of resolutions, shadow maps and beams the first holds for all, the others are varied. docs/accuracy.md tells more.");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return accuracy(*flags, command); }; });
 }
 

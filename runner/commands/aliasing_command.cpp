@@ -2,7 +2,10 @@
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/aliasing/aliasing_run.h"
+#include "runner/files/log.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -26,7 +29,7 @@ struct AliasingFlags {
     int supersample = 4;
     double level_lx = 1.0;
     bool quiet = false, flow = false;
-    std::filesystem::path sequence, against;
+    std::filesystem::path sequence, supersampled;
     std::optional<double> rate_hz, pixels_per_degree, view_fov_deg;
 };
 
@@ -34,7 +37,7 @@ SurfaceFilter filter_of(const std::string& text) {
     for (const SurfaceFilter filter : {SurfaceFilter::mipmapped, SurfaceFilter::none, SurfaceFilter::trilinear})
         if (filter_name(filter) == text)
             return filter;
-    refuse_flag("--filter", text, "none, mipmapped or trilinear");
+    refuse_flag("--texture-filters", text, "none, mipmapped or trilinear");
 }
 
 /// Refuses a value that comes twice.
@@ -52,7 +55,7 @@ AliasingRequest request_of(const AliasingFlags& flags) {
         edits.resolution = resolution_of(flags.resolution);
     for (const std::string& filter : flags.filters)
         request.filters.push_back(filter_of(filter));
-    check_once("--filter", request.filters, flags.filters);
+    check_once("--texture-filters", request.filters, flags.filters);
     std::vector<std::string> sample_texts;
     for (const int samples : flags.samples) {
         if (samples != 1 && samples != 4 && samples != 9 && samples != 16)
@@ -92,8 +95,8 @@ AliasingRequest request_of(const AliasingFlags& flags) {
 SequenceRequest sequence_request_of(const AliasingFlags& flags) {
     SequenceRequest request;
     request.sequence = flags.sequence;
-    if (!flags.against.empty())
-        request.against = flags.against;
+    if (!flags.supersampled.empty())
+        request.against = flags.supersampled;
     if (!flags.frames.empty())
         request.frames = two_numbers("--frames", flags.frames, ':', false, "FIRST:LAST, e.g. 60:75");
     if (!flags.rate_hz)
@@ -102,12 +105,12 @@ SequenceRequest sequence_request_of(const AliasingFlags& flags) {
         refuse_flag("--rate", fmt::format("{:g}", *flags.rate_hz), "8 to 10000 frames per second");
     request.rate_hz = *flags.rate_hz;
     if (flags.pixels_per_degree.has_value() == flags.view_fov_deg.has_value())
-        throw InputError({{}, 0, 0, "--ppd"}, flags.pixels_per_degree ? "found --view-fov too" : "is missing",
-                         "either pixels per degree or --view-fov, the vertical angle of the view in degrees");
+        throw InputError({{}, 0, 0, "--ppd"}, flags.pixels_per_degree ? "found --vertical-fov too" : "is missing",
+                         "either pixels per degree or --vertical-fov, the vertical angle of the view in degrees");
     if (flags.pixels_per_degree && !(*flags.pixels_per_degree >= 1.0 && *flags.pixels_per_degree <= 1000.0))
         refuse_flag("--ppd", fmt::format("{:g}", *flags.pixels_per_degree), "1 to 1000 pixels per degree");
     if (flags.view_fov_deg && !(*flags.view_fov_deg > 0.0 && *flags.view_fov_deg < 180.0))
-        refuse_flag("--view-fov", fmt::format("{:g}", *flags.view_fov_deg), "degrees above 0 and below 180");
+        refuse_flag("--vertical-fov", fmt::format("{:g}", *flags.view_fov_deg), "degrees above 0 and below 180");
     request.pixels_per_degree = flags.pixels_per_degree;
     request.view_fov_deg = flags.view_fov_deg;
     request.quiet = flags.quiet;
@@ -144,9 +147,9 @@ int aliasing(const AliasingFlags& flags, const std::vector<std::string>& command
                          "a drive file, or --sequence with a folder of frames");
     std::filesystem::path folder;
     const AliasingResult result = run(flags, command, folder);
-    fmt::print("{}\n{}\n", document_text(document(result)), (folder / "aliasing.html").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), page_link(folder / "aliasing.html"));
     if (!result.interrupted.empty())
-        fmt::print("incomplete: {}\n", result.interrupted);
+        tell(LogLevel::warning, "incomplete: " + result.interrupted);
     const bool measured =
         !ranked(result).empty() || std::ranges::any_of(result.rows, [](const AliasingRow& row) { return row.temporal.has_value(); });
     return result.interrupted.empty() && measured ? 0 : 1;
@@ -157,41 +160,53 @@ int aliasing(const AliasingFlags& flags, const std::vector<std::string>& command
 void add_aliasing_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<AliasingFlags>();
     CLI::App* sub = app.add_subcommand("aliasing", "measure how much of a picture is not in the scene, by how it is rendered");
-    sub->add_option("DRIVE", flags->drive, "drive file (YAML)");
-    sub->add_option("--moment", flags->moment_s, "seconds into the drive; renders the nearest moment (default: the middle one)");
-    sub->add_option("--frames", flags->frames, "FIRST:LAST, 8 to 64 consecutive moments: also measure flicker and crawl");
-    sub->add_flag("--flow", flags->flow, "with --frames: also compare optical flow with the known motion");
-    CLI::Option* const sequence = sub->add_option(
-        "--sequence", flags->sequence, "instead of a drive: folder of numbered PNG or EXR frames from elsewhere, or FOLDER/BEGIN*END");
-    sub->add_option("--against", flags->against, "the same frames at 4, 6 ... 16 times the resolution in each direction")->needs(sequence);
-    sub->add_option("--rate", flags->rate_hz, "frames per second of the sequence")->needs(sequence);
-    sub->add_option("--ppd", flags->pixels_per_degree, "pixels per degree of the sequence")->needs(sequence);
-    sub->add_option("--view-fov", flags->view_fov_deg, "vertical field of view of the sequence in degrees, instead of --ppd")
+    add_shared(*sub, "DRIVE", flags->drive);
+    add_shared(*sub, "--moment", flags->moment_s)->default_str("the middle one");
+    add_shared(*sub, "--frames", flags->frames);
+    sub->add_flag("--flow", flags->flow, "with --frames: compare optical flow with the known motion, too");
+    CLI::Option* const sequence = sub->add_option("--sequence", flags->sequence,
+                                                  "instead of a drive: numbered PNG or EXR frames from elsewhere, a folder or BEGIN*END")
+                                      ->option_text("FOLDER");
+    sub->add_option("--supersampled", flags->supersampled, "the same frames at 4, 6 ... 16 times the resolution in each direction")
+        ->option_text("FOLDER")
         ->needs(sequence);
-    sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drive (default: its first)");
-    const auto list = [&](const char* name, auto& values, const char* text) {
-        return sub->add_option(name, values, text)->delimiter(',')->allow_extra_args(false);
-    };
-    list("--techniques", flags->techniques, "comma-separated names (default: the drive's)");
-    list("--beams", flags->beams,
-         "float, eight-bit or WIDTHxHEIGHTxBITS,...: the first for all, the others varied (default: the drive's and eight-bit)");
-    list("--samples", flags->samples, "1, 4, 9 or 16 per pixel: the first for all, the others varied")->capture_default_str();
-    list("--filter", flags->filters, "texture filter: none, mipmapped or trilinear; the first for all, the others varied")
-        ->capture_default_str();
+    add_shared(*sub, "--rate", flags->rate_hz)->needs(sequence);
+    add_shared(*sub, "--ppd", flags->pixels_per_degree)->needs(sequence);
+    add_shared(*sub, "--vertical-fov", flags->view_fov_deg)->needs(sequence);
+    add_shared(*sub, "--lamp-set", flags->lamp_set)->default_str("the first");
+    add_shared(*sub, "--techniques", flags->techniques)->delimiter(',')->default_str("the drive's");
+    add_shared(*sub, "--beams", flags->beams)->delimiter(',')->default_str("the drive's and eight-bit");
+    sub->add_option("--samples", flags->samples, "samples per pixel: 1, 4, 9 or 16")
+        ->option_text("N,...")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->default_str("1,4");
+    sub->add_option("--texture-filters", flags->filters, "texture filters: none, mipmapped or trilinear")
+        ->option_text("NAME,...")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->default_str("mipmapped,none,trilinear");
     sub->add_option("--supersample", flags->supersample, "resolution of the reference in each direction, as a multiple: even, 4 to 16")
         ->capture_default_str();
-    sub->add_option("--picture", flags->picture, "luminance: of the scene, in cd/m2; display: of the tone-mapped picture on a display")
+    sub->add_option("--values", flags->picture,
+                    "what is measured: luminance of the scene in cd/m2, or the tone-mapped picture on a display")
         ->check(CLI::IsMember({"luminance", "display"}))
+        ->option_text("luminance|display")
         ->capture_default_str();
-    sub->add_option("--level", flags->level_lx, "illuminance in lux of the line whose jaggedness is measured")->capture_default_str();
-    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the view (default: the drive's)");
-    sub->add_option("--backend", flags->backend, backend_names);
-    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    sub->add_option("--level", flags->level_lx, "illuminance in lux of the line whose jaggedness is measured")
+        ->option_text("LX")
+        ->capture_default_str();
+    add_shared(*sub, "--resolution", flags->resolution)->default_str("the drive's");
+    add_shared(*sub, "--backend", flags->backend);
+    add_shared(*sub, "--out", flags->out);
     add_tables_flag(*sub, flags->tables);
-    sub->add_flag("--quiet", flags->quiet, "show no progress");
-    for (const char* of_drives : {"--moment", "--lamp-set", "--techniques", "--beams", "--samples", "--filter", "--supersample",
-                                  "--picture", "--level", "--resolution", "--backend", "--flow"})
+    add_shared(*sub, "--quiet", flags->quiet);
+    for (const char* of_drives : {"--moment", "--lamp-set", "--techniques", "--beams", "--samples", "--texture-filters", "--supersample",
+                                  "--values", "--level", "--resolution", "--backend", "--flow"})
         sequence->excludes(of_drives);
+    sub->footer(
+        "Of beams, samples and filters the first holds for all, the others are varied. 8 to 64 --frames measure flicker and crawl, too. "
+        "A --sequence needs --rate, and --ppd or --vertical-fov. docs/aliasing.md tells more.");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return aliasing(*flags, command); }; });
 }
 

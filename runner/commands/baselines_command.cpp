@@ -1,6 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/accept_command.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/files/durable_files.h"
 #include "runner/files/json_text.h"
 #include "runner/files/value_json.h"
@@ -215,22 +216,22 @@ void add_baselines_command(CLI::App& app, const std::vector<std::string>&, std::
     command->require_subcommand(0, 1);
     const auto add = [&](const char* name, const char* text, int (*action)(const BaselinesFlags&)) {
         CLI::App* sub = command->add_subcommand(name, text);
-        sub->add_option("--baselines", flags->store, "folder of baselines")->capture_default_str();
+        add_shared(*sub, "--baselines", flags->store)->capture_default_str();
         sub->callback([flags, action, &chosen] { chosen = [flags, action] { return action(*flags); }; });
         return sub;
     };
     CLI::App* listing = add("list", "the baselines there are", list);
-    listing->add_flag("--json", flags->json, "print JSON");
+    add_shared(*listing, "--json", flags->json);
     CLI::App* showing = add("show", "one baseline: who made it, readings, frames", show);
-    showing->add_option("ID", flags->word, "first digits of an id, or DRIVE/LAMP SET/TECHNIQUE")->required();
-    showing->add_flag("--json", flags->json, "print JSON");
+    add_shared(*showing, "ID", flags->word)->required();
+    add_shared(*showing, "--json", flags->json);
     CLI::App* comparing = add("diff", "two results, reading by reading and pixel by pixel", diff);
-    comparing->add_option("ID", flags->word, "the baseline")->required();
+    add_shared(*comparing, "ID", flags->word)->required();
     comparing->add_option("OTHER", flags->other, "a run's folder, or another id")->required();
     comparing->add_flag("--all", flags->all, "list what agrees, too");
     CLI::App* removing = add("remove", "remove baselines, and files no longer needed", remove);
-    removing->add_option("ID", flags->words, "first digits of an id, or DRIVE/LAMP SET/TECHNIQUE");
-    removing->add_flag("--dry-run", flags->dry, "only show what would be removed");
+    add_shared(*removing, "IDS", flags->words);
+    add_shared(*removing, "--dry-run", flags->dry);
     removing->add_flag("--unreferenced", flags->unreferenced, "without an ID: remove only files that nothing refers to");
     command->allow_extras(); // to say what is wrong with them; the actions, added before, take none
     command->callback([command, &chosen] {

@@ -2,7 +2,9 @@
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/bench/bench_run.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/files.h"
 
@@ -51,7 +53,7 @@ int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
     };
     request.write_plot = [&](const Plot& plot) { write_plot(plot, request.folder / plot.name); };
     const BenchResult result = run_bench(request);
-    fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "bench.html").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), page_link(request.folder / "bench.html"));
     return result.interrupted.empty() ? 0 : 1;
 }
 
@@ -60,21 +62,18 @@ int bench(const BenchFlags& flags, const std::vector<std::string>& command) {
 void add_bench_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<BenchFlags>();
     CLI::App* sub = app.add_subcommand("bench", "time the techniques against one another");
-    sub->add_option("DRIVE", flags->drive, "drive file (YAML) whose moments are rendered")->capture_default_str();
-    sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drive (default: its first)");
-    sub->add_option("--techniques", flags->techniques, "comma-separated names (default: all)")->allow_extra_args(false);
-    sub->add_option(
-        "--count", flags->count,
-        fmt::format("number of moments, spread evenly over the drive (default: {}, or all of a shorter drive)", default_bench_moments));
-    sub->add_option("--rounds", flags->rounds, "number of rounds; in each, every technique renders the moments once")
-        ->capture_default_str();
-    add_seed_flag(*sub, flags->seed, "seed of the order in each round");
-    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT (default: the drive's)");
-    sub->add_option("--backend", flags->backend, backend_names);
+    add_shared(*sub, "DRIVE", flags->drive)->default_str("bench");
+    add_shared(*sub, "--lamp-set", flags->lamp_set)->default_str("the first");
+    add_shared(*sub, "--techniques", flags->techniques)->default_str("all");
+    add_shared(*sub, "--count", flags->count)->default_str(fmt::format("{}, or all of a shorter drive", default_bench_moments));
+    add_shared(*sub, "--rounds", flags->rounds)->capture_default_str();
+    add_seed_flag(*sub, flags->seed);
+    add_shared(*sub, "--resolution", flags->resolution)->default_str("the drive's");
+    add_shared(*sub, "--backend", flags->backend);
     add_light_pass_flag(*sub, flags->light_pass);
-    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    add_shared(*sub, "--out", flags->out);
     add_tables_flag(*sub, flags->tables);
-    sub->add_flag("--quiet", flags->quiet, "show no progress");
+    add_shared(*sub, "--quiet", flags->quiet);
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return bench(*flags, command); }; });
 }
 

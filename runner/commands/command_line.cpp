@@ -1,6 +1,9 @@
 // The command line: options end here; below are plain values.
 #include "runner/commands/commands.h"
+#include "runner/commands/help.h"
+#include "runner/commands/exit_codes.h"
 #include "runner/commands/old_flags.h"
+#include "runner/commands/parse_errors.h"
 #include "runner/files/log.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/version.h"
@@ -11,14 +14,13 @@
 #include <exception>
 #include <fmt/format.h>
 #include <map>
-#include <regex>
+#include <utility>
 
 namespace {
 
-enum ExitCode { within_limits = 0, limits_exceeded = 1, users_input = 2, device = 3, ours = 4 };
-
 /// As --help lists them.
 fernlicht::AddCommand* const commands[] = {
+    fernlicht::add_new_command,        fernlicht::add_check_command,        fernlicht::add_open_command,
     fernlicht::add_run_command,        fernlicht::add_live_command,         fernlicht::add_film_command,
     fernlicht::add_study_command,      fernlicht::add_bench_command,        fernlicht::add_compare_command,
     fernlicht::add_fit_command,        fernlicht::add_importance_command,   fernlicht::add_masks_command,
@@ -30,9 +32,11 @@ fernlicht::AddCommand* const commands[] = {
     fernlicht::add_accept_command,     fernlicht::add_baselines_command,    fernlicht::add_store_command,
     fernlicht::add_history_command,    fernlicht::add_migrate_command,      fernlicht::add_manual_commands};
 
-int complain(ExitCode code, const std::exception& error) {
-    fernlicht::tell_end(error, code);
-    return code;
+using enum fernlicht::ExitCode;
+
+int complain(fernlicht::ExitCode code, const std::exception& error) {
+    fernlicht::tell_end(error, static_cast<int>(code));
+    return static_cast<int>(code);
 }
 
 /// Of every command, and of the commands below it: how it says what it says while it works.
@@ -53,10 +57,11 @@ void add_message_flags(CLI::App& command) {
                                         "error, warning, info or debug");
         fernlicht::log_settings().level = level->second;
     };
-    command.add_option_function<std::string>("--log-level", take, "messages on standard error: this and what weighs more (default: info)")
+    command
+        .add_option_function<std::string>("--log-level", take, "messages on standard error: these, and what weighs more (default: info)")
         ->option_text("error|warning|info|debug")
         ->group("Messages");
-    command.add_flag("--log-json", fernlicht::log_settings().json, "messages as JSON, an object a line")->group("Messages");
+    command.add_flag("--log-json", fernlicht::log_settings().json, "write messages as JSON, an object a line")->group("Messages");
     command
         .add_option_function<std::string>(
             "--annotate",
@@ -65,7 +70,7 @@ void add_message_flags(CLI::App& command) {
                     throw fernlicht::InputError({{}, 0, 0, "--annotate"}, "found '" + fernlicht::printable(found) + "'", "github");
                 fernlicht::log_settings().github = true;
             },
-            "also print what is red as annotations for the pages of a CI server (docs/ci.md)")
+            "write what is red as annotations for the pages of a CI server, too (docs/ci.md)")
         ->option_text("github")
         ->group("Messages");
 }
@@ -90,24 +95,15 @@ void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>&
         refuse_unknown_command(*called, line, at + 1);
 }
 
-/// A flag that was given more often than it may be, in people's words; "" for every other error.
-std::string given_again(const CLI::ParseError& error, std::string& flag) {
-    static const std::regex words("(.*): At Most ([0-9]+) required but received ([0-9]+)");
-    const std::string said = error.what();
-    std::smatch part;
-    if (!std::regex_match(said, part, words))
-        return "";
-    flag = part[1];
-    const int times = std::stoi(part[3]) / std::stoi(part[2]);
-    return times == 2 ? "given twice" : fmt::format("given {} times", times);
-}
-
 } // namespace
 
 int fernlicht::command_line(int argc, char** argv) {
     ::signal(SIGCHLD, SIG_DFL); // else, where a supervisor ignores it, nobody learns how a process ended
     CLI::App app("plays scripted night drives offscreen and measures what the headlamps do", "fernlicht");
-    app.set_version_flag("--version", fernlicht::program_version);
+    app.formatter(help_formatter());
+    app.get_formatter()->label("Positionals", "Arguments");
+    app.set_help_flag("-h,--help", "print this and end");
+    app.set_version_flag("--version", fernlicht::program_version, "print the version and end");
     app.require_subcommand(1);
     std::function<int()> chosen;
     const std::vector<std::string> command(argv, argv + argc);
@@ -119,21 +115,15 @@ int fernlicht::command_line(int argc, char** argv) {
         if (argc > 1)
             refuse_unknown_command(app, command);
         app.parse(argc, argv);
+        if (std::exchange(log_settings().github, log_settings().github && !log_settings().json) && log_settings().json)
+            throw InputError({{}, 0, 0, "--annotate"}, "found beside --log-json", "one of them: both write lines to standard error");
         return chosen();
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) { // --help, --version
             app.exit(error);
-            return within_limits;
+            return static_cast<int>(within_limits);
         }
-        const bool is_flag = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
-        if (const std::string old = is_flag ? fernlicht::old_word_in(command) : ""; !old.empty())
-            return complain(users_input, fernlicht::InputError({}, old));
-        std::string flag;
-        if (const std::string again = given_again(error, flag); !again.empty())
-            return complain(users_input, fernlicht::InputError({{}, 0, 0, flag}, again, "it once"));
-        complain(users_input, error);
-        tell(LogLevel::info, "Run with --help for more information.");
-        return users_input;
+        return complain(users_input, in_our_words(error, app, command));
     } catch (const fernlicht::InputError& error) {
         return complain(users_input, error);
     } catch (const fernlicht::DeviceError& error) {

@@ -46,6 +46,9 @@ AddCommand add_accept_command;       // takes a run's results as what later runs
 AddCommand add_baselines_command;    // lists, shows, compares and removes what was accepted
 AddCommand add_store_command;        // lists, verifies and prunes the cells that studies keep
 AddCommand add_history_command;      // what nights of a study read, over months: what changed, when and why
+AddCommand add_new_command;          // a commented file to start from: a lamp, a drive or a study
+AddCommand add_check_command;        // all that is wrong with files of any kind; 2 when there is an error
+AddCommand add_open_command;         // a report in the browser
 AddCommand add_migrate_command;      // files of version 0.1 with the names of today
 AddCommand add_manual_commands;      // hidden: man pages and completions of shells, out of this table
 

@@ -3,11 +3,13 @@
 #include "metrics/images/flip.h"
 #include "metrics/strictness/strictness.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/compare/lamps/lamp_comparison.h"
 #include "runner/experiments/compare/picture_comparison.h"
 #include "runner/experiments/compare/runs/run_comparison.h"
 #include "runner/files/log.h"
 #include "runner/files/output_folder.h"
+#include "runner/files/page_link.h"
 #include "runner/findings/library_versions.h"
 #include "runner/findings/run_context.h"
 #include "runner/write/document.h"
@@ -44,8 +46,8 @@ double pixels_per_degree(const CompareFlags& flags, int height_px) {
     if (!flags.view_fov_deg)
         return default_pixels_per_degree;
     if (!(*flags.view_fov_deg > 0.0 && *flags.view_fov_deg < 180.0))
-        throw InputError({{}, 0, 0, "--view-fov"}, fmt::format("found {:g}", *flags.view_fov_deg), "degrees above 0 and below 180");
-    return in_range("--view-fov", pixels_per_degree_of_view(radians(*flags.view_fov_deg), height_px));
+        throw InputError({{}, 0, 0, "--vertical-fov"}, fmt::format("found {:g}", *flags.view_fov_deg), "degrees above 0 and below 180");
+    return in_range("--vertical-fov", pixels_per_degree_of_view(radians(*flags.view_fov_deg), height_px));
 }
 
 /// The folder of --out, where there is one, and what goes into it.
@@ -75,7 +77,7 @@ class Results {
         }
         fmt::print("{}", flags_.json ? json : document_text(told));
         if (folder_ && !flags_.json)
-            fmt::print("\n{}\n", (folder() / "report.html").string());
+            fmt::print("\n{}\n", page_link(folder() / "report.html"));
     }
 
   private:
@@ -126,7 +128,7 @@ std::size_t pictured_moments(const std::string& text) {
 
 int compare_two_runs(const CompareFlags& flags, const std::vector<std::string>& command) {
     if (flags.view_fov_deg)
-        throw InputError({{}, 0, 0, "--view-fov"}, "found beside two runs", "none: the drives say what their views see");
+        throw InputError({{}, 0, 0, "--vertical-fov"}, "found beside two runs", "none: the drives say what their views see");
     RunCompareOptions options;
     if (flags.pixels_per_degree)
         options.pixels_per_degree = pixels_per_degree(flags, 0);
@@ -154,7 +156,7 @@ int compare_two_lamps(const CompareFlags& flags, const std::vector<std::string>&
     return lamps.passed() ? 0 : 1;
 }
 
-/// What a path is, by what lies there. Beam textures are pictures, too: --lamps says that they are meant as lamps.
+/// What a path is, by what lies there. Beam textures are pictures, too: --as-lamps says that they are meant as lamps.
 ComparedKind kind_of(const std::filesystem::path& path, bool lamps) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored))
@@ -176,20 +178,21 @@ void refuse_foreign_flags(const CompareFlags& flags, ComparedKind kind) {
         refuse(!flags.regulation.empty(), "--regulation", "two lamps");
         refuse(!flags.noise.empty(), "--noise", "two lamps");
         refuse(!flags.recipe.empty(), "--recipe", "two lamps");
-        refuse(flags.lamps, "--lamps", "two lamps");
+        refuse(flags.lamps, "--as-lamps", "two lamps");
         return;
     }
     refuse(!flags.strictness.empty(), "--strictness", "two pictures or two runs");
     refuse(flags.pixels_per_degree.has_value(), "--ppd", "two pictures or two runs");
-    refuse(flags.view_fov_deg.has_value(), "--view-fov", "two pictures");
+    refuse(flags.view_fov_deg.has_value(), "--vertical-fov", "two pictures");
 }
 
 int compare(const CompareFlags& flags, const std::vector<std::string>& command) {
     const ComparedKind first = kind_of(flags.reference, flags.lamps), second = kind_of(flags.tested, flags.lamps);
     if (first != second)
         throw InputError({flags.tested, 0, 0, {}}, fmt::format("is {}", name_of(second)),
-                         fmt::format("{} as A is", first == ComparedKind::lamps ? "a lamp file (--lamps takes pictures for beam textures)"
-                                                                                : name_of(first)));
+                         fmt::format("{} as A is", first == ComparedKind::lamps
+                                                       ? "a lamp file (--as-lamps takes pictures for beam textures)"
+                                                       : name_of(first)));
     refuse_foreign_flags(flags, first);
     if (first == ComparedKind::runs)
         return compare_two_runs(flags, command);
@@ -204,22 +207,24 @@ void add_compare_command(CLI::App& app, const std::vector<std::string>& command,
     const auto flags = std::make_shared<CompareFlags>();
     CLI::App* sub = app.add_subcommand(
         "compare", "show how two pictures, runs or lamps differ, in numbers and pictures, and whether they are close enough");
-    sub->add_option("A", flags->reference,
-                    "the reference: PNG (display) or EXR (linear) as run writes them, a run's folder, or a lamp file")
+    sub->add_option("A", flags->reference, "the reference: a picture (PNG or EXR as run writes them), a run's folder, or a lamp file")
         ->required();
     sub->add_option("B", flags->tested, "what to compare with A, of the same kind")->required();
     sub->add_option("--strictness", flags->strictness,
-                    "identical, same-driver, same-light, same-picture, or a YAML file (docs/comparing.md); exit with 1 if B fails it");
-    CLI::Option* density = sub->add_option("--ppd", flags->pixels_per_degree, "pixels per degree, for FLIP (default: 67.02)");
-    sub->add_option("--view-fov", flags->view_fov_deg, "vertical field of view in degrees, instead of --ppd")->excludes(density);
-    sub->add_option("--out", flags->out, "new or empty folder for report.html, compare.json and pictures");
-    sub->add_option("--pictures", flags->pictures, "two runs: moments to show of each drive and view, or all")->capture_default_str();
-    sub->add_option("--regulation", flags->regulation, "two lamps: margin of both in each row; exit with 1 if B does not pass")
-        ->option_text("ID");
-    sub->add_option("--noise", flags->noise, "two lamps: standard deviation of an intensity, e.g. 1%");
+                    "exit with 1 if B fails it: identical, same-driver, same-light, same-picture, or a YAML file (docs/comparing.md)")
+        ->option_text("NAME|FILE");
+    CLI::Option* density = add_shared(*sub, "--ppd", flags->pixels_per_degree)->default_str("67.02");
+    add_shared(*sub, "--vertical-fov", flags->view_fov_deg)->excludes(density);
+    add_shared(*sub, "--out", flags->out);
+    sub->add_option("--pictures", flags->pictures, "of two runs: moments to show of each drive and view")
+        ->option_text("N|all")
+        ->capture_default_str();
+    add_shared(*sub, "--regulation", flags->regulation);
+    add_shared(*sub, "--noise", flags->noise);
     add_recipe_flag(*sub, flags->recipe);
-    sub->add_flag("--lamps", flags->lamps, "read pictures as beam textures");
-    sub->add_flag("--json", flags->json, "print JSON");
+    sub->add_flag("--as-lamps", flags->lamps, "read pictures as beam textures");
+    add_shared(*sub, "--json", flags->json);
+    sub->footer("FLIP sees by --ppd or --vertical-fov. With --regulation, which two lamps may have, exit code 1 where B does not pass.");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return compare(*flags, command); }; });
 }
 

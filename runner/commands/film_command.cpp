@@ -3,13 +3,16 @@
 #include "renderer/device.h"
 #include "renderer/technique.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/film/film_run.h"
 #include "runner/files/film_file.h"
-#include "runner/files/output_folder.h"
+#include "runner/files/log.h"
+#include "runner/findings/figures.h"
 #include "runner/write/plots/svg.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
@@ -49,6 +52,8 @@ FilmOverlays overlays_of(const std::vector<std::string>& lists) {
 /// "25" or "30000/1001"
 FrameRate rate_of(const std::string& text) {
     constexpr const char* expected = "frames a second, up to 1000: 25, or a fraction such as 30000/1001";
+    if (text.find_first_not_of("0123456789/") != std::string::npos || text.starts_with('/'))
+        refuse_flag("--rate", text, expected);
     const auto [frames, seconds] = two_numbers("--rate", text.find('/') == std::string::npos ? text + "/1" : text, '/', false, expected);
     if (frames < 1 || seconds < 1 || frames > seconds * std::int64_t{highest_rate})
         refuse_flag("--rate", text, expected);
@@ -76,7 +81,10 @@ FilmRequest request_of(const FilmFlags& flags) {
                           : flags.grid       ? FilmArrangement::grid
                                              : FilmArrangement::automatic;
     if (!flags.lamp_sets.empty())
-        request.lamp_sets = items_of("--lamp-set", flags.lamp_sets);
+        request.lamp_sets = items_of("--lamp-sets", flags.lamp_sets);
+    for (const std::string& name : request.lamp_sets)
+        if (std::ranges::count(request.lamp_sets, name) > 1)
+            refuse_flag("--lamp-sets", name + " twice", "each lamp set once");
     if (flags.vertical_fov_deg != 0.0) {
         if (!(flags.vertical_fov_deg >= 1.0 && flags.vertical_fov_deg <= 120.0))
             refuse_flag("--vertical-fov", fmt::format("{}", flags.vertical_fov_deg), "1 to 120 degrees");
@@ -95,15 +103,14 @@ void check_film(const FilmFlags& flags, const TickRange& frames) {
     std::filesystem::path file = flags.film;
     if (film_kind(flags.film) == FilmKind::png)
         file = numbered_file_there(flags.film, frames.first, frames.last).value_or(numbered_file(flags.film, frames.first));
-    refuse_existing("--film", file, flags.force);
-    refuse_unwritable("--film", file, {}, flags.force);
+    check_target("--film", file, flags.force);
 }
 
 int film(const FilmFlags& flags) {
     FilmRequest request = request_of(flags);
-    check_film(flags, request.frames);
     for (const std::filesystem::path& file : flags.drives)
-        request.drives.push_back(read_drive(file, film_edits(flags)));
+        request.drives.push_back(read_drive(named_file("drive", file, "DRIVE"), film_edits(flags)));
+    check_film(flags, request.frames);
     std::optional<FilmFile> file;
     request.begin = [&] { file.emplace(flags.film, request.width_px, request.height_px, request.rate); };
     request.take = [&](Image<plots::Colour> pixels, const plots::Drawing& marks, int number) {
@@ -113,10 +120,11 @@ int film(const FilmFlags& flags) {
     const FilmFound found = run_film(request);
     file->finish();
     for (const std::string& note : found.notes)
-        fmt::print("note: {}\n", note);
+        tell(LogLevel::info, note);
     if (!found.interrupted.empty())
-        fmt::print("incomplete: {}: {} of {} frames\n", found.interrupted, found.filmed, found.planned);
-    fmt::print("{}: {} frames, {:.3f} s\n", flags.film.string(), found.filmed, request.rate.time_s(found.filmed));
+        tell(LogLevel::warning, fmt::format("incomplete: {}: {} of {} frames", found.interrupted, found.filmed, found.planned));
+    fmt::print("{}: {}, {:.3f} s\n", flags.film.string(), counted(static_cast<std::size_t>(found.filmed), "frame"),
+               request.rate.time_s(found.filmed));
     return found.interrupted.empty() ? 0 : 1;
 }
 
@@ -124,38 +132,42 @@ int film(const FilmFlags& flags) {
 
 void add_film_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto flags = std::make_shared<FilmFlags>();
-    CLI::App* sub = app.add_subcommand("film", "drives as a film: lamp sets beside one another, with lux and isolux lines");
-    sub->add_option("DRIVE", flags->drives, "drive files (YAML), or storyboards (OpenSCENARIO, .xosc): a panel for each lamp set of each")
+    CLI::App* sub = app.add_subcommand("film", "film drives: lamp sets beside one another, with lux and isolux lines");
+    add_shared(*sub, "DRIVES", flags->drives)->required();
+    sub->add_option("--film", flags->film, "new file: NAME.webm or NAME.mp4, both by ffmpeg, or NAME-%06d.png, a picture for each frame")
+        ->option_text("FILE")
         ->required();
-    sub->add_option("--film", flags->film, "FILE.webm, FILE.mp4 (both by ffmpeg), or NAME-%06d.png: a picture for each frame")->required();
-    sub->add_flag("--force", flags->force, "replace a film that is there");
+    add_shared(*sub, "--force", flags->force);
     CLI::Option* const beside = sub->add_flag("--side-by-side", flags->side_by_side, "two panels (default for two)");
     CLI::Option* const wipe =
         sub->add_flag("--wipe", flags->wipe, "one picture, its left half by the first lamp set, its right by the second");
     CLI::Option* const grid = sub->add_flag("--grid", flags->grid, "up to nine panels (default for more than two)");
     beside->excludes(wipe)->excludes(grid);
     wipe->excludes(grid);
-    sub->add_option(
-           "--overlay", flags->overlays,
-           "what is told beside titles and time, separated by commas: lux (the road from above, with a scale), isolux (lines in the "
-           "driver's view), readings (reach and width of the moment), speed")
-        ->option_text("lux,isolux,readings,speed")
+    sub->add_option("--overlay", flags->overlays,
+                    "show these, too: lux (the road from above, with a scale), isolux (lines in the driver's view), readings (reach and "
+                    "width of the moment), speed")
+        ->option_text("NAME,...")
         ->allow_extra_args(false);
-    sub->add_option("--lamp-set", flags->lamp_sets, "NAMES of lamp sets, separated by commas (default: all)")->allow_extra_args(false);
+    sub->add_option("--lamp-sets", flags->lamp_sets, "film these lamp sets alone")
+        ->option_text("NAME,...")
+        ->allow_extra_args(false)
+        ->default_str("all");
     flags->rate = "25";
-    sub->add_option("--rate", flags->rate, "frames a second; a fraction, too: 30000/1001")->capture_default_str();
-    sub->add_option("--frames", flags->frames, "FIRST:LAST: film these frames only, counted from 0");
+    add_shared(*sub, "--rate", flags->rate)->capture_default_str();
+    add_shared(*sub, "--frames", flags->frames);
     flags->resolution = "1280x720";
-    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the film")->capture_default_str();
-    sub->add_option("--vertical-fov", flags->vertical_fov_deg,
-                    "vertical field of view in degrees, in place of the drive's: a smaller one shows more of what is far");
-    sub->add_option("--aim", flags->aim, "in place of the drive's aim of low and high beams: as-is or auto")->option_text("as-is|auto");
-    sub->add_option("--technique", flags->technique, "technique to light the scene with; `fernlicht techniques` lists them");
-    sub->add_option("--shadows", flags->shadows, "shadow method; `fernlicht techniques` lists them");
-    sub->add_option("--backend", flags->request.backend, backend_names);
+    add_shared(*sub, "--resolution", flags->resolution)->capture_default_str();
+    add_shared(*sub, "--vertical-fov", flags->vertical_fov_deg)->default_str("the drive's");
+    add_shared(*sub, "--aim", flags->aim);
+    add_shared(*sub, "--technique", flags->technique);
+    add_shared(*sub, "--shadows", flags->shadows);
+    add_shared(*sub, "--backend", flags->request.backend);
     add_light_pass_flag(*sub, flags->request.light_pass);
-    sub->add_flag("--quiet", flags->request.quiet, "show no progress");
-    sub->footer("docs/film.md tells more.");
+    add_shared(*sub, "--quiet", flags->request.quiet);
+    sub->footer(
+        "Each lamp set of each drive has a panel; the size is the film's, and a rate may be a fraction: 30000/1001. docs/film.md tells "
+        "more.");
     sub->callback([flags, &chosen] { chosen = [flags] { return film(*flags); }; });
 }
 

@@ -1,7 +1,9 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/fit/fit_run.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/files.h"
 
@@ -45,7 +47,7 @@ int fit_points(const FitFlags& flags, const std::vector<std::string>& command) {
         write_document(document(result), result, request.folder, "report", flags.tables);
     };
     const FitResult result = run_fit(request);
-    fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "report.html").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), page_link(request.folder / "report.html"));
     return good(result) ? 0 : 1;
 }
 
@@ -62,17 +64,18 @@ std::string column_help() {
 void add_fit_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<FitFlags>();
     CLI::App* sub = app.add_subcommand("fit", "fit aim, flux and height of each lamp to measured lux points");
-    sub->add_option("DRIVE", flags->drive, "drive file (YAML): the car as it should be")->required();
-    sub->add_option("--points", flags->points, "CSV file: place, direction, lux and uncertainty of each reading")->required();
-    sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drive (default: its first)");
-    sub->add_option("--hold", flags->hold, "what keeps the drive's value: pitch, yaw, flux, height, or of one lamp, e.g. left.height")
+    add_shared(*sub, "DRIVE", flags->drive)->required();
+    sub->add_option("--points", flags->points, "CSV file: place, direction, lux and uncertainty of each reading")
+        ->option_text("FILE")
+        ->required();
+    add_shared(*sub, "--lamp-set", flags->lamp_set)->default_str("the first");
+    sub->add_option("--hold", flags->hold, "keep the drive's value of pitch, yaw, flux or height, or of one lamp: left.height")
+        ->option_text("NAME,...")
         ->allow_extra_args(false);
-    sub->add_option("--lamp", flags->lamps,
-                    "[SIDE=]FILE: use this lamp file for all low beams, or for the lamps whose name contains SIDE (left, right, high)")
-        ->allow_extra_args(false);
+    add_shared(*sub, "--lamp", flags->lamps);
     add_recipe_flag(*sub, flags->recipe);
-    sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's");
-    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    add_shared(*sub, "--road", flags->road);
+    add_shared(*sub, "--out", flags->out);
     add_tables_flag(*sub, flags->tables);
     sub->footer(column_help());
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return fit_points(*flags, command); }; });

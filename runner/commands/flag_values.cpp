@@ -1,5 +1,6 @@
 #include "runner/commands/flag_values.h"
 
+#include "runner/commands/shared_flags.h"
 #include "runner/files/log.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"
@@ -54,15 +55,18 @@ std::filesystem::path result_folder(const std::string& out, const std::string& n
 
 std::filesystem::path named_file(const std::string& kind, const std::filesystem::path& typed, const char* key) {
     std::error_code ignored;
-    const bool is_path =
-        typed.has_parent_path() || typed.has_extension() || typed.empty() || std::filesystem::is_regular_file(typed, ignored);
+    const bool is_path = typed == "-" || typed.has_parent_path() || typed.has_extension() || typed.empty() ||
+                         std::filesystem::is_regular_file(typed, ignored);
     return is_path ? typed : library_file(kind, typed.string(), "", {{}, 0, 0, key});
 }
 
-void refuse_existing(const char* flag, const std::filesystem::path& path, bool force) {
+void check_target(const char* flag, const std::filesystem::path& path, bool force) {
+    if (path.empty() || path == "-")
+        return;
     std::error_code error;
     if (!force && std::filesystem::exists(path, error))
         throw InputError({{}, 0, 0, flag}, printable(path.string(), 400) + " is there already", "a new file, or --force");
+    refuse_unwritable(flag, path, {}, force);
 }
 
 std::vector<std::pair<std::string, std::filesystem::path>> lamps_of(const std::vector<std::string>& texts) {
@@ -75,24 +79,17 @@ std::vector<std::pair<std::string, std::filesystem::path>> lamps_of(const std::v
 }
 
 void add_recipe_flag(CLI::App& command, std::filesystem::path& recipe) {
-    command
-        .add_option_function<std::string>(
-            "--recipe",
-            [&recipe](const std::string& given) {
-                recipe = recipe_file(given, std::filesystem::current_path(), {{}, 0, 0, "--recipe"});
-            },
-            "how lamp files that are text grids are laid out: a YAML file or the name of a shipped recipe (docs/lamps.md)")
-        ->option_text("NAME|FILE");
+    add_shared_taken(command, "--recipe", [&recipe](const std::string& given) {
+        recipe = recipe_file(given, std::filesystem::current_path(), {{}, 0, 0, "--recipe"});
+    });
 }
 
-void add_seed_flag(CLI::App& command, std::uint64_t& seed, const char* text) {
-    command.add_option("--seed", seed, text)->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))->capture_default_str();
+void add_seed_flag(CLI::App& command, std::uint64_t& seed) {
+    add_shared(command, "--seed", seed)->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))->capture_default_str();
 }
 
 void add_light_pass_flag(CLI::App& command, LightPass& pass) {
-    command.add_option_function<std::string>(
-        "--light-pass", [&pass](const std::string& name) { pass = light_pass_named(name); },
-        fmt::format("where photometric computes light: {}", light_pass_names));
+    add_shared_taken(command, "--light-pass", [&pass](const std::string& name) { pass = light_pass_named(name); });
 }
 
 void add_tables_flag(CLI::App& command, const OutputFormat*& tables) {
@@ -107,7 +104,8 @@ void add_tables_flag(CLI::App& command, const OutputFormat*& tables) {
             refuse_flag("--tables", name, known.c_str());
         tables = &*format;
     };
-    command.add_option_function<std::string>("--tables", take, known + ": write each table of the page also as a file in tables/");
+    command.add_option_function<std::string>("--tables", take, "write each table of the page to a file in tables/, too: " + known)
+        ->option_text("FORMAT");
 }
 
 void add_print_flags(CLI::App& command, const OutputFormat*& format, std::vector<CLI::Option*> others) {
@@ -193,10 +191,6 @@ std::vector<std::optional<BeamTexels>> beams_of(const std::vector<std::string>& 
     return beams;
 }
 
-void add_trace_flag(CLI::App& command, std::filesystem::path& trace) {
-    command.add_option("--trace", trace, "new file for a timeline of what takes how long, for Perfetto and chrome://tracing (docs/ci.md)");
-}
-
 TickRange tick_range(const std::string& frames) {
     TickRange range;
     if (frames.empty())
@@ -211,13 +205,16 @@ TickRange tick_range(const std::string& frames) {
 }
 
 void add_judging_flags(CLI::App& command, JudgingFlags& flags) {
-    command.add_option("--baselines", flags.baselines, "folder of baselines to judge against");
+    add_shared(command, "--baselines", flags.baselines)->default_str("none: nothing is compared");
     command.add_flag("--across-devices", flags.across_devices, "where this device class has no baseline, judge by those of other classes");
     command.add_option("--repeat", flags.repeats, "times to play each lamp set; results that differ in a byte are flaky, which is red")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    command.add_option("--known", flags.known, "YAML list of known failures and flakes, each with reason and expiry");
-    command.add_option("--today", flags.today, "YYYY-MM-DD, the day used to expire known failures (default: today, UTC)");
+    command.add_option("--known", flags.known, "list of known failures and flakes (YAML), each with reason and expiry")
+        ->option_text("FILE");
+    command.add_option("--today", flags.today, "day by which known failures expire, 2026-12-31")
+        ->option_text("DATE")
+        ->default_str("today, UTC");
 }
 
 std::optional<KnownFailures> take(const JudgingFlags& flags, RunOptions& options) {
@@ -233,11 +230,16 @@ std::optional<KnownFailures> take(const JudgingFlags& flags, RunOptions& options
 }
 
 void add_log_flags(CLI::App& command, LogFlags& flags) {
-    command.add_option("--stamps", flags.stamps,
-                       "what timestamps count from: absolute, zero (-tz) or delta (-td); detected where possible");
-    command.add_option("--start", flags.start, "time of the first frame in s, where timestamps are zero or delta (default: 0)");
-    command.add_option("--utc-offset", flags.utc_offset, "UTC offset of dates in timestamps (-tA), e.g. +02:00 (default: UTC)");
-    command.add_flag("--lenient", flags.lenient, "skip lines that are not frames, and report how many");
+    command.add_option("--stamps", flags.stamps, "what timestamps count from, as with candump's -ta, -tz and -td")
+        ->option_text("absolute|zero|delta")
+        ->default_str("detected where possible");
+    command.add_option("--start", flags.start, "time of the first frame in seconds, where timestamps are zero or delta")
+        ->option_text("S")
+        ->default_str("0");
+    command.add_option("--utc-offset", flags.utc_offset, "UTC offset of dates in timestamps (-tA), such as +02:00")
+        ->option_text("+HH:MM")
+        ->default_str("UTC");
+    add_shared(command, "--lenient", flags.lenient);
 }
 
 std::int64_t nanoseconds_of(const char* flag, const std::string& text, bool negative) {

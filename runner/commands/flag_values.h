@@ -46,15 +46,16 @@ std::filesystem::path result_folder(const std::string& out, const std::string& n
 /// the positional `key` for a word that is neither.
 std::filesystem::path named_file(const std::string& kind, const std::filesystem::path& typed, const char* key);
 
-/// Throws InputError naming the flag where there is a file of this name and `force` does not say to replace it.
-void refuse_existing(const char* flag, const std::filesystem::path& path, bool force);
+/// Of a file that a command will write: throws InputError naming the flag where there is one of this name and `force` does not say to
+/// replace it, and where none can be written. "" and "-" are none.
+void check_target(const char* flag, const std::filesystem::path& path, bool force);
 
 /// What --lamp says, "[SIDE=]FILE" each: lamps by a part of their names ("": all), and files.
 std::vector<std::pair<std::string, std::filesystem::path>> lamps_of(const std::vector<std::string>& texts);
 /// `--recipe NAME|FILE`, the recipe of lamp files that are text grids.
 void add_recipe_flag(CLI::App& command, std::filesystem::path& recipe);
 
-void add_seed_flag(CLI::App& command, std::uint64_t& seed, const char* text);
+void add_seed_flag(CLI::App& command, std::uint64_t& seed);
 /// --light-pass auto, shader or cpu.
 void add_light_pass_flag(CLI::App& command, LightPass& pass);
 /// --tables, the same for all commands that write a document: any format that has tables. What is none is refused while flags are parsed.
@@ -62,9 +63,6 @@ void add_tables_flag(CLI::App& command, const OutputFormat*& tables);
 /// A flag for each format of whole documents (--markdown), for commands that print one; at most one of
 /// them and of `others` may be given.
 void add_print_flags(CLI::App& command, const OutputFormat*& format, std::vector<CLI::Option*> others = {});
-
-/// --trace, of commands that play drives (runner/files/trace_file.h).
-void add_trace_flag(CLI::App& command, std::filesystem::path& trace);
 
 /// "FIRST:LAST", "FIRST:" or ":LAST" of --frames; all for "". Throws InputError naming the flag.
 TickRange tick_range(const std::string& frames);
@@ -77,9 +75,6 @@ struct JudgingFlags {
 };
 
 void add_judging_flags(CLI::App& command, JudgingFlags& flags);
-
-/// Of --strict: what it does with what the check of lamp files found.
-inline constexpr const char* strict_text = "refuse lamp files with which readings are meaningless, instead of a warning";
 
 /// Sets baselines, across_devices, repeats and today of `options`, and reads the list of known failures, where there is one. The only
 /// place that asks the clock for the day. Throws InputError for flags without effect, what is no date, and a list that cannot be read.

@@ -1,16 +1,21 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/history/history_document.h"
 #include "runner/experiments/history/night_of_study.h"
+#include "runner/files/json_text.h"
 #include "runner/files/log.h"
 #include "runner/files/output_folder.h"
+#include "runner/files/page_link.h"
+#include "runner/files/value_json.h"
 #include "runner/findings/figures.h"
 #include "runner/findings/library_versions.h"
 #include "runner/findings/run_context.h"
 #include "runner/history/history.h"
 #include "runner/judge/known_failures.h"
 #include "runner/write/document.h"
+#include "runner/write/document_json.h"
 #include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
@@ -27,11 +32,11 @@ namespace {
 
 /// The flags as typed.
 struct HistoryFlags {
-    std::string history, folder, study, night, reading, cells = "*", note, drift = "0.5%", before, out;
+    std::string history, folder, study, night, reading, note, drift = "0.5%", before, out;
     std::optional<std::size_t> keep;
     const OutputFormat* tables = nullptr;
-    bool accept = false, withdraw = false, fails_on_change = false, dry = false, csv = false, force = false;
-    std::vector<std::string> command;
+    bool accept = false, withdraw = false, fails_on_change = false, dry = false, csv = false, json = false, force = false;
+    std::vector<std::string> command, only{"*"};
 };
 
 std::filesystem::path file_of(const HistoryFlags& flags) {
@@ -151,8 +156,21 @@ int accept_night(const HistoryFlags& flags) {
     return 0;
 }
 
+nlohmann::ordered_json night_json(const Night& night) {
+    return {{"night", night.number},       {"played_utc", night.played_utc}, {"study", night.study},
+            {"cells", night.cells.size()}, {"readings", readings_in(night)}, {"accepted", night.accepted},
+            {"note", night.note},          {"device", device_in(night)},     {"folder", night.folder}};
+}
+
 int list_nights(const HistoryFlags& flags) {
     const std::vector<Night> nights = nights_named(flags);
+    if (flags.json) {
+        nlohmann::ordered_json all = nlohmann::ordered_json::array();
+        for (const Night& night : nights)
+            all.push_back(night_json(night));
+        fmt::print("{}", json_text(all));
+        return 0;
+    }
     if (nights.empty()) {
         fmt::print("no night is in {}\n", file_of(flags).string());
         return 0;
@@ -174,6 +192,21 @@ int show(const HistoryFlags& flags) {
         return list_nights(flags);
     const std::vector<Night> nights = nights_of_study(flags);
     const Night& night = nights[place_of_night(nights, flags.night)];
+    if (flags.json) {
+        nlohmann::ordered_json all = night_json(night), cells = nlohmann::ordered_json::array();
+        for (const NightCell& cell : night.cells) {
+            nlohmann::ordered_json readings = nlohmann::ordered_json::object();
+            for (const auto& [name, value] : *cell.readings)
+                readings[name] = value_json(value);
+            cells.push_back({{"name", cell.name},
+                             {"failed", cell.failed.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(cell.failed)},
+                             {"frame_s", cell.frame_s ? nlohmann::ordered_json(*cell.frame_s) : nlohmann::ordered_json(nullptr)},
+                             {"readings", std::move(readings)}});
+        }
+        all["cells"] = std::move(cells);
+        fmt::print("{}", json_text(all));
+        return 0;
+    }
     std::vector<std::vector<std::string>> facts{
         {"night", fmt::format("{} of {}", night.number, printable(night.study))},
         {"played", night.played_utc},
@@ -211,9 +244,13 @@ int tell(const HistoryFlags& flags, const Document& told, const HistoryFindings&
         write_document(told, findings, folder.path(), "report", flags.tables);
         folder.finish();
     }
+    if (flags.json) {
+        fmt::print("{}", json_text(document_json(told)));
+        return 0;
+    }
     fmt::print("{}", document_text(told));
     if (!flags.out.empty())
-        fmt::print("\n{}\n", (std::filesystem::path(flags.out) / "report.html").string());
+        fmt::print("\n{}\n", page_link(std::filesystem::path(flags.out) / "report.html"));
     return 0;
 }
 
@@ -227,7 +264,7 @@ RunContext context_of(const HistoryFlags& flags) {
 int trend(const HistoryFlags& flags) {
     HistoryFindings findings;
     findings.context = context_of(flags);
-    return tell(flags, trend_document(nights_of_study(flags), flags.reading, flags.cells), findings);
+    return tell(flags, trend_document(nights_of_study(flags), flags.reading, items_of("--only", flags.only)), findings);
 }
 
 int explain(const HistoryFlags& flags) {
@@ -244,7 +281,7 @@ int explain(const HistoryFlags& flags) {
 
 int prune(const HistoryFlags& flags) {
     if (flags.keep.has_value() == !flags.before.empty())
-        throw InputError({{}, 0, 0, "prune"}, flags.keep ? "found --keep and --before" : "found neither --keep nor --before",
+        throw InputError({{}, 0, 0, "prune"}, flags.keep ? "found --keep-nights and --before" : "found neither --keep-nights nor --before",
                          "one of them");
     if (!flags.before.empty() && !is_date(flags.before))
         refuse_flag("--before", flags.before, "a date, e.g. 2026-01-31");
@@ -252,6 +289,13 @@ int prune(const HistoryFlags& flags) {
     if (std::error_code ignored; !std::filesystem::exists(file, ignored))
         throw InputError({file, 0, 0, {}}, "is no file", "a history");
     const History::Pruned pruned = History(file, History::For::collecting).prune(flags.keep, flags.before, flags.dry);
+    if (flags.json) {
+        nlohmann::ordered_json nights = nlohmann::ordered_json::array();
+        for (const Night& night : pruned.nights)
+            nights.push_back({{"night", night.number}, {"study", night.study}, {"played_utc", night.played_utc}});
+        fmt::print("{}", json_text({{"dry_run", flags.dry}, {"removed", nights}, {"kept_accepted", pruned.kept_accepted}}));
+        return 0;
+    }
     for (const Night& night : pruned.nights)
         fmt::print("{} night {} of {}, {}\n", flags.dry ? "would remove" : "removed", night.number, printable(night.study), night.date());
     fmt::print("{} {}{}; their folders stay as they are\n", flags.dry ? "would remove" : "removed", counted(pruned.nights.size(), "night"),
@@ -265,18 +309,16 @@ int export_nights(const HistoryFlags& flags) {
     if (!flags.csv)
         throw InputError({{}, 0, 0, "export"}, "found no format", "--csv");
     const std::vector<Night> nights = nights_named(flags);
-    if (flags.out.empty()) {
+    if (flags.out.empty() || flags.out == "-") {
         export_csv(nights, [](const std::string& lines) { fmt::print("{}", lines); });
         return 0;
     }
-    refuse_existing("--out", flags.out, flags.force);
+    check_target("--out", flags.out, flags.force);
     std::string all;
     export_csv(nights, [&all](const std::string& lines) { all += lines; });
     write_file(flags.out, all);
     return 0;
 }
-
-constexpr const char* night_words = "last, a number or a date";
 
 } // namespace
 
@@ -288,49 +330,50 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
     command->footer("docs/history.md tells what counts as a change and how causes are found.");
     const auto add_action = [&](const char* name, const char* text, int (*action)(const HistoryFlags&)) {
         CLI::App* sub = command->add_subcommand(name, text);
-        sub->add_option("--history", flags->history, "the file (default: " + default_history_file().string() + ")");
+        add_shared(*sub, "--history", flags->history)->default_str(default_history_file().string());
         sub->callback([flags, action, &chosen] { chosen = [flags, action] { return action(*flags); }; });
         return sub;
     };
-    const auto add_study = [&](CLI::App* sub, const char* text) { sub->add_option("--study", flags->study, text); };
-    const char* const one_study = "of this study (default: that of the night that was added last)";
-    const char* const page = "new or empty folder for the page";
+    const auto add_study = [&](CLI::App* sub, const char* usual) { add_shared(*sub, "--study", flags->study)->default_str(usual); };
+    const char* const last_study = "that of the night that was added last";
     CLI::App* adding = add_action("add", "add a night: the folder of a complete study", add);
     adding->add_option("FOLDER", flags->folder, "folder that `fernlicht study` wrote")->required();
     adding->add_flag("--accept", flags->accept, "later nights are compared with this one");
-    adding->add_option("--note", flags->note, "why it is accepted, in one sentence");
+    add_shared(*adding, "--note", flags->note);
     CLI::App* accepting = add_action("accept", "compare later nights with this one", accept_night);
-    accepting->add_option("NIGHT", flags->night, night_words)->required();
-    accepting->add_option("--note", flags->note, "why, in one sentence");
+    add_shared(*accepting, "NIGHT", flags->night)->required();
+    add_shared(*accepting, "--note", flags->note);
     accepting->add_flag("--withdraw", flags->withdraw, "take an acceptance back");
-    add_study(accepting, one_study);
+    add_study(accepting, last_study);
     CLI::App* showing = add_action("show", "list the nights, or show one", show);
-    showing->add_option("NIGHT", flags->night, night_words);
-    add_study(showing, "of this study (default: all; for one night that of the night that was added last)");
+    add_shared(*showing, "NIGHT", flags->night);
+    add_study(showing, "all; for one night that of the night that was added last");
     CLI::App* trending = add_action("trend", "when a reading changed, and why", trend);
     trending->add_option("READING", flags->reading, "name or pattern of readings, * and ? allowed; frame_s for times")->required();
-    trending->add_option("--cells", flags->cells, "pattern of cells")->capture_default_str();
-    add_study(trending, one_study);
+    add_shared(*trending, "--only", flags->only)->default_str("all cells");
+    add_study(trending, last_study);
     CLI::App* explaining = add_action("explain", "what changed since the last accepted night, dated, with its cause", explain);
-    explaining->add_option("NIGHT", flags->night, "the night to explain: last, a number or a date (default: last)");
+    add_shared(*explaining, "NIGHT", flags->night)->default_str("last");
     explaining->add_option("--drift", flags->drift, "tell of a drift when its sum exceeds this; each step is smaller")
+        ->option_text("SHARE")
         ->capture_default_str();
-    explaining->add_flag("--fail-on-change", flags->fails_on_change,
-                         "exit code 1 where anything changed since the last accepted night, or cannot be compared with it");
-    add_study(explaining, one_study);
+    add_shared(*explaining, "--fail-on-change", flags->fails_on_change);
+    add_study(explaining, last_study);
     for (CLI::App* sub : {trending, explaining}) {
-        sub->add_option("--out", flags->out, page);
+        add_shared(*sub, "--out", flags->out);
         add_tables_flag(*sub, flags->tables);
     }
     CLI::App* pruning = add_action("prune", "remove old nights; accepted ones stay", prune);
-    pruning->add_option("--keep", flags->keep, "keep so many of the newest nights of each study")->check(CLI::Range(0, 1'000'000));
-    pruning->add_option("--before", flags->before, "remove nights before this date");
-    pruning->add_flag("--dry-run", flags->dry, "only show what would be removed");
-    CLI::App* exporting = add_action("export", "every reading of every night, one line each", export_nights);
-    exporting->add_flag("--csv", flags->csv, "as tidy CSV (RFC 4180)");
-    exporting->add_option("--out", flags->out, "new file (default: print)");
-    exporting->add_flag("--force", flags->force, "replace the file");
-    add_study(exporting, "of this study (default: all)");
+    pruning->add_option("--keep-nights", flags->keep, "keep so many of the newest nights of each study")->check(CLI::Range(0, 1'000'000));
+    pruning->add_option("--before", flags->before, "remove nights before this date")->option_text("DATE");
+    add_shared(*pruning, "--dry-run", flags->dry);
+    for (CLI::App* sub : {showing, trending, explaining, pruning})
+        add_shared(*sub, "--json", flags->json);
+    CLI::App* exporting = add_action("export", "every reading of every night, one line each, as tidy CSV (RFC 4180)", export_nights);
+    add_shared(*exporting, "--csv", flags->csv);
+    add_shared(*exporting, "-o,--out", flags->out);
+    add_shared(*exporting, "--force", flags->force);
+    add_study(exporting, "all");
 }
 
 } // namespace fernlicht

@@ -2,6 +2,7 @@
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
 #include "runner/commands/model_command.h"
+#include "runner/commands/shared_flags.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/program_module.h"
 
@@ -80,7 +81,7 @@ int import_command(const ImportRequest& request) {
     std::error_code error;
     if (request.out.extension() != ".glb")
         throw InputError({{}, 0, 0, "OUT"}, "found '" + printable(request.out.string()) + "'", "a name that ends in .glb");
-    refuse_existing("OUT", request.out, request.force);
+    check_target("OUT", request.out, request.force);
     const std::filesystem::path program = request.program.empty() ? program_part("fernlicht-import") : request.program;
     if (!std::filesystem::exists(program, error))
         throw DeviceError("there is no " + program.string() +
@@ -107,11 +108,12 @@ void add_import_command(CLI::App& app, const std::vector<std::string>&, std::fun
     const auto forward = std::make_shared<std::string>("y");
     CLI::App* command = app.add_subcommand("import", "convert an OpenFlight database (.flt) to glTF (.glb)");
     command->add_option("FILE", request->file, "OpenFlight, 14.0 to 17.0")->required();
-    command->add_option("OUT", request->out, "the .glb to write")->required();
+    command->add_option("OUT", request->out, "new file for the glTF, NAME.glb")->required();
     command->add_option("--forward", *forward, "the file's forward axis: y for vehicles, x where x is east and y north")
         ->check(CLI::IsMember({"x", "y"}))
+        ->option_text("x|y")
         ->capture_default_str();
-    command->add_flag("--force", request->force, "replace OUT if it exists");
+    add_shared(*command, "--force", request->force);
     command->callback([request, forward, &chosen] {
         chosen = [request, forward] {
             request->forward = (*forward)[0];

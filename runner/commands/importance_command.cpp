@@ -1,7 +1,9 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/importance/importance_run.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/files.h"
 #include "scenarios/yaml/library_file.h"
@@ -19,7 +21,7 @@ struct ImportanceFlags {
     std::filesystem::path drive, recipe;
     std::string reading, rating, row, photometer, lamp_set, road, frames, out;
     std::vector<std::string> lamps;
-    int check = 20;
+    int trials = 20;
     std::uint64_t seed = 1;
     const OutputFormat* tables = nullptr;
 };
@@ -43,7 +45,7 @@ int tell_importance(const ImportanceFlags& flags, const std::vector<std::string>
     request.lamp_set = flags.lamp_set;
     request.reading = flags.reading;
     request.ticks = tick_range(flags.frames);
-    request.check = flags.check;
+    request.check = flags.trials;
     request.seed = flags.seed;
     request.folder = result_folder(flags.out, (request.row ? request.row->rating.name : request.drive.name) + "-importance");
     request.command = command;
@@ -55,7 +57,7 @@ int tell_importance(const ImportanceFlags& flags, const std::vector<std::string>
         write_document(document(result), result, request.folder, "report", flags.tables);
     };
     const ImportanceResult result = run_importance(request);
-    fmt::print("{}\n{}\n", document_text(document(result)), (request.folder / "report.html").string());
+    fmt::print("{}\n{}\n", document_text(document(result)), page_link(request.folder / "report.html"));
     return result.value.number() && agrees(result) ? 0 : 1;
 }
 
@@ -64,31 +66,28 @@ int tell_importance(const ImportanceFlags& flags, const std::vector<std::string>
 void add_importance_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<ImportanceFlags>();
     CLI::App* sub = app.add_subcommand("importance", "where in the beam a reading of a drive is decided");
-    sub->add_option("DRIVE", flags->drive, "drive file (YAML); with --rating the lamps: a file of lamp sets or a drive that has them")
-        ->required();
-    CLI::Option* const reading = sub->add_option("--reading", flags->reading, fmt::format("one of {}", importance_readings));
-    CLI::Option* const rating =
-        sub->add_option("--rating", flags->rating,
-                        fmt::format("in place of a reading the margin of a row of this rating: a file (YAML), or {}",
-                                    fmt::join(library_names("rating"), ", ")))
-            ->excludes(reading);
-    sub->add_option("--row", flags->row, "the row; its drive is played")->needs(rating);
-    sub->add_option("--photometer", flags->photometer, "of the row's this one alone")->needs(rating);
-    sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drive (default: its first)");
-    sub->add_option("--lamp", flags->lamps,
-                    "[SIDE=]FILE: use this lamp file for all low beams, or for the lamps whose name contains SIDE (left, right, high)")
-        ->allow_extra_args(false)
-        ->excludes(rating);
+    add_shared(*sub, "DRIVE", flags->drive)->required();
+    CLI::Option* const reading =
+        sub->add_option("--reading", flags->reading, fmt::format("one of {}", importance_readings))->option_text("READING");
+    CLI::Option* const rating = add_shared(*sub, "--rating", flags->rating)->excludes(reading);
+    sub->add_option("--row", flags->row, "row of the rating, whose drive is played")->option_text("ROW")->needs(rating);
+    sub->add_option("--photometer", flags->photometer, "photometer of the row to look at alone")->option_text("NAME")->needs(rating);
+    add_shared(*sub, "--lamp-set", flags->lamp_set)->default_str("the first");
+    add_shared(*sub, "--lamp", flags->lamps)->excludes(rating);
     add_recipe_flag(*sub, flags->recipe);
-    sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's")->excludes(rating);
-    sub->add_option("--frames", flags->frames, "FIRST:LAST of the drive's moments (default: all); N:N for one")->excludes(rating);
-    sub->add_option("--check", flags->check, "smooth random changes of the lamps with which the drive is read again; 0: none")
+    add_shared(*sub, "--road", flags->road)->excludes(rating);
+    add_shared(*sub, "--frames", flags->frames)->excludes(rating);
+    sub->add_option("--trials", flags->trials, "smooth random changes of the lamps with which the drive is read again; 0: none")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
-    add_seed_flag(*sub, flags->seed, "seed of these changes");
-    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    add_seed_flag(*sub, flags->seed);
+    add_shared(*sub, "--out", flags->out);
     add_tables_flag(*sub, flags->tables);
-    sub->footer("Exit code 1 where the reading is not measured, or the smallest changes are not foretold. docs/importance.md tells more.");
+    sub->footer(
+        fmt::format("With --rating, the margin of a row in place of a reading; DRIVE is then a file of lamp sets or a drive that has "
+                    "them. Ours are {}. Exit code 1 where the reading is not measured, or the smallest changes are not foretold. "
+                    "docs/importance.md tells more.",
+                    fmt::join(library_names("rating"), ", ")));
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return tell_importance(*flags, command); }; });
 }
 

@@ -1,8 +1,10 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/improve/improve_run.h"
 #include "runner/experiments/study/study_run.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -61,7 +63,7 @@ std::vector<NamedDrive> named_cells(const ImproveFlags& flags, const std::filesy
 
 int tell_improvement(const ImproveFlags& flags, const std::vector<std::string>& command) {
     if (flags.drives.empty() == flags.study.empty())
-        refuse_flag("--drive", flags.study.empty() ? "neither --drive nor --study" : "both --drive and --study", "one of them");
+        refuse_flag("--drive", flags.study.empty() ? "neither --drive nor --cells-of" : "both --drive and --cells-of", "one of them");
     if (flags.gains.empty())
         refuse_flag("--gain", "none", "at least one reading to be gained");
     ImproveRequest request;
@@ -97,7 +99,7 @@ int tell_improvement(const ImproveFlags& flags, const std::vector<std::string>& 
     };
     const ImproveResult result = run_improve(request);
     fmt::print("{}\n{}\n{}\n", document_text(document(result)), (request.folder / result.written).string(),
-               (request.folder / "report.html").string());
+               page_link(request.folder / "report.html"));
     return improved(result) ? 0 : 1;
 }
 
@@ -105,41 +107,51 @@ int tell_improvement(const ImproveFlags& flags, const std::vector<std::string>& 
 
 void add_improve_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<ImproveFlags>();
-    CLI::App* sub = app.add_subcommand("improve", "the smallest change of a lamp that gains what is asked of readings");
+    CLI::App* sub = app.add_subcommand("improve", "find the smallest change of a lamp that gains what is asked of readings");
     sub->add_option("LAMP", flags->lamp, "lamp file, low beams on both sides of every drive")->required();
-    sub->add_option("--drive", flags->drives, "drive files (YAML)")->allow_extra_args(false);
-    sub->add_option("--study", flags->study, "study file (YAML): its cells with this lamp, instead of --drive");
-    sub->add_option("--only", flags->only, "with --study: comma-separated names of cells, * and ? allowed")->allow_extra_args(false);
+    sub->add_option("--drive", flags->drives, "drive to play (YAML)")->option_text("DRIVE")->allow_extra_args(false);
+    sub->add_option("--cells-of", flags->study, "in place of --drive: the cells of this study that have the lamp")->option_text("STUDY");
+    add_shared(*sub, "--only", flags->only);
     sub->add_option("--gain", flags->gains,
-                    "'[DRIVE:]READING by AMOUNT', in its unit or %, for the better; one of those that `importance` tells of")
+                    "'[DRIVE:]READING by AMOUNT', in its unit or %, for the better; a reading that `importance` tells of")
+        ->option_text("GAIN")
         ->allow_extra_args(false);
     sub->add_option("--keep", flags->kept, "'[DRIVE:]READING' that gets no worse, 'READING within AMOUNT', 'READING at least|most FIGURE'")
+        ->option_text("BOUND")
         ->allow_extra_args(false);
-    sub->add_option("--regulation", flags->regulation,
-                    "table whose rows get no worse than it allows; `fernlicht lamp --regulation list FILE` names all");
+    add_shared(*sub, "--regulation", flags->regulation);
     sub->add_option("--keep-row", flags->kept_rows, "row of the regulation that gets no worse, such as 'zone III'")
+        ->option_text("ROW")
         ->allow_extra_args(false);
-    sub->add_flag("--left-hand-traffic", flags->left_hand_traffic, "use the regulation's mirrored table");
+    add_shared(*sub, "--left-hand-traffic", flags->left_hand_traffic);
     sub->add_option("--max-change", flags->change_percent, "the most that a sample may change, per cent of it")
+        ->option_text("PERCENT")
         ->check(CLI::Range(0.1, 1e4));
-    sub->add_option("--max-change-cd", flags->change_cd, "the most that a sample may change, candela")->check(CLI::Range(0.1, 1e6));
+    sub->add_option("--max-change-cd", flags->change_cd, "the most that a sample may change, candela")
+        ->option_text("CD")
+        ->check(CLI::Range(0.1, 1e6));
     sub->add_option("--max-flux", flags->flux_percent, "the most that the flux may grow, per cent; may be negative")
+        ->option_text("PERCENT")
         ->check(CLI::Range(-90.0, 1000.0));
     sub->add_option("--max-steepness", flags->steepness, "the steepest place between samples at most so many times as steep")
         ->check(CLI::Range(1.0, 100.0));
-    sub->add_option("--floor", flags->floor_cd,
-                    "candela that a change counts against beside the light that is there (default: 0.1 % of the peak)")
-        ->check(CLI::Range(1.0, 1e6));
+    sub->add_option("--floor-cd", flags->floor_cd, "candela that a change counts against beside the light that is there")
+        ->option_text("CD")
+        ->check(CLI::Range(1.0, 1e6))
+        ->default_str("0.1 % of the peak");
     sub->add_option("--narrowest", flags->narrowest_deg,
                     "degrees of H, half of it in V: narrower bends of the change count more than its size")
+        ->option_text("DEG")
         ->check(CLI::Range(0.2, 10.0))
         ->capture_default_str();
     sub->add_option("--as", flags->as, "format of the lamp that is written")->check(CLI::IsMember({"ies", "csv"}))->capture_default_str();
     add_recipe_flag(*sub, flags->recipe);
-    sub->add_option("--frames", flags->frames, "FIRST:LAST of each drive's moments (default: all)");
-    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    add_shared(*sub, "--frames", flags->frames);
+    add_shared(*sub, "--out", flags->out);
     add_tables_flag(*sub, flags->tables);
-    sub->footer("Exit code 1 where not all that was asked is met. docs/improve.md tells more.");
+    sub->footer(
+        "With --regulation its rows get no worse than it allows. Exit code 1 where not all that was asked is met. docs/improve.md tells "
+        "more.");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return tell_improvement(*flags, command); }; });
 }
 

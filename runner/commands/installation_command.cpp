@@ -1,5 +1,6 @@
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/installation/installation_run.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
@@ -52,16 +53,17 @@ int tell_installation(const InstallationFlags& flags) {
 
 void add_installation_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto flags = std::make_shared<InstallationFlags>();
-    CLI::App* sub = app.add_subcommand("installation", "a drive's low beams against UN R48: inclination under loads, bend light's kink");
-    sub->add_option("DRIVE", flags->drive, "drive file (YAML)")->required();
-    sub->add_option("--lamps", flags->lamps, "file of lamp sets with their mounts, vehicle and control in place of the drive's");
-    sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drive (default: its first)");
+    CLI::App* sub =
+        app.add_subcommand("installation", "hold a drive's low beams against UN R48: inclination under loads, bend light's kink");
+    add_shared(*sub, "DRIVE", flags->drive)->required();
+    add_shared(*sub, "--lamps", flags->lamps);
+    add_shared(*sub, "--lamp-set", flags->lamp_set)->default_str("the first");
     sub->add_option("--load", flags->loads,
                     "a load beyond the car with its driver, in place of R48's states for a usual car and of the drive's own `load`")
         ->option_text("NAME=FRONT_KG,REAR_KG")
         ->allow_extra_args(false);
-    sub->add_flag("--json", flags->json, "print JSON");
-    sub->footer("Exit code 1 where something is not met or not measured. docs/regulations.md says more.");
+    add_shared(*sub, "--json", flags->json);
+    sub->footer("Exit code 1 where something is not met or not measured. docs/regulations.md tells more.");
     sub->callback([flags, &chosen] { chosen = [flags] { return tell_installation(*flags); }; });
 }
 

@@ -83,6 +83,9 @@ int lamp_adaptive(const LampRequest& request) {
         refuse("--left-hand-traffic", fmt::format("{}, which has one form for all traffic", adaptive_table), "no flag");
     if (request.scale != 1.0 || request.mirror || !request.subtract.empty())
         refuse("--regulation", fmt::format("found {} with a lamp that is changed", adaptive_table), "the lamp as it is, and --add");
+    if (!request.other_side.empty())
+        refuse("--other-side", fmt::format("found with {}, which judges the beam by itself", adaptive_table),
+               "--add, which adds the low beam");
     LampRequest alone = request;
     alone.add.clear();
     LampFile lamp = lamp_of(alone);
@@ -107,33 +110,39 @@ int lamp_adaptive(const LampRequest& request) {
         dimmed = {dimmed.left_deg + turned.h_deg, dimmed.right_deg + turned.h_deg, dimmed.bottom_deg + turned.v_deg,
                   dimmed.top_deg + turned.v_deg};
     } else if (options.aim && *options.aim != AimRule::as_is)
-        refuse("--aim", "found without the lower beam whose aim the beam keeps", "--aim-by LOWER with it");
+        refuse("--aim-rule", "found without the lower beam whose aim the beam keeps", "--aim-by LOWER with it");
     Regulation r = fmvss108_adaptive(dimmed, asked.tables[0], asked.tables[1]);
     r.notes.push_back(how);
+    if (!asked.other_m.empty() && request.add.empty())
+        r.notes.emplace_back("judged without a low beam: where the pixels shine beside one, add it with --add FILE");
     return tell_regulation({r, {fmt::format("{}", fmt::join(names, " + "))}, check_regulation(r, {lamp.table}, options)}, request);
 }
 
 void add_adaptive_options(CLI::App& command, AdaptiveRequest& request) {
     const char* group = "Adaptive beams (of --regulation fmvss108-adb, r149-adb-... and r123-adb-...)";
-    command.add_option("--other", request.other_m, "a pixel lamp spares what is so far ahead of it and left of the car's middle, in m")
-        ->expected(2)
-        ->option_text("AHEAD LEFT")
-        ->group(group);
-    command.add_option("--other-size", request.other_size_m, "its width and height in m")->expected(2)->capture_default_str()->group(group);
-    command.add_option("--lamp-at", request.lamp_at_m, "where the lamp is: left of the car's middle and above the road, in m")
-        ->expected(2)
+    const auto add = [&](const char* name, std::vector<double>& numbers, const char* text, const char* names) {
+        return command.add_option(name, numbers, text)
+            ->expected(static_cast<int>(numbers.empty() ? 2 : numbers.size()))
+            ->option_text(names)
+            ->group(group);
+    };
+    add("--other", request.other_m, "a pixel lamp spares what is so far ahead of it and left of the car's middle, in m", "AHEAD LEFT");
+    add("--other-size", request.other_size_m, "its width and height in m", "WIDTH HEIGHT")->default_str("1.8 1.5");
+    add("--lamp-at", request.lamp_at_m, "where the lamp is: left of the car's middle and above the road, in m", "LEFT UP")
+        ->default_str("0.45 0.65");
+    command.add_option("--margin", request.margin_deg, "degrees of dark to each side of it")
+        ->option_text("DEG")
         ->capture_default_str()
         ->group(group);
-    command.add_option("--margin", request.margin_deg, "degrees of dark to each side of it")->capture_default_str()->group(group);
-    command
-        .add_option("--dimmed", request.dimmed_deg,
-                    "of fmvss108-adb: the area that counts as dimmed, in degrees of the file as filed (default: the other)")
+    command.add_option("--dimmed", request.dimmed_deg, "of fmvss108-adb: the area that counts as dimmed, in degrees of the file as filed")
         ->expected(4)
         ->option_text("LEFT RIGHT BOTTOM TOP")
+        ->default_str("the other")
         ->group(group);
     command.add_option("--adb-tables", request.tables, "of fmvss108-adb: tables of the lower and of the upper beam")
         ->expected(2)
-        ->capture_default_str()
+        ->option_text("LOWER UPPER")
+        ->default_str("fmvss108-lb2v-vol fmvss108-ub2")
         ->group(group);
 }
 

@@ -2,6 +2,7 @@
 
 #include "metrics/beam/intake.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/files/described_json.h"
 #include "runner/files/json_text.h"
 #include "runner/findings/lamp_checks.h"
@@ -35,8 +36,8 @@ void refuse_beside_check(const LampRequest& request) {
             throw InputError({{}, 0, 0, option}, "found together with --check", "one of them");
     if (request.voltage_v && !(*request.voltage_v >= 12.0 && *request.voltage_v <= 13.8))
         throw InputError({{}, 0, 0, "--voltage"}, fmt::format("found {}", *request.voltage_v), "12 to 13.8 V");
-    if (request.add.size() > 1)
-        throw InputError({{}, 0, 0, "--add"}, fmt::format("found {} files", request.add.size()), "one, the lamp of the right side");
+    if (!request.add.empty())
+        throw InputError({{}, 0, 0, "--add"}, "found together with --check", "--other-side FILE, the lamp of the right side");
 }
 
 std::string facts_direction(double deg, const char* more, const char* less) {
@@ -107,12 +108,10 @@ std::string check_json(const LampFile& lamp, Intake intake, const LampRequest& r
 
 int lamp_check(const LampRequest& request) {
     refuse_beside_check(request);
-    LampRequest left = request;
-    left.add.clear();
-    const LampFile lamp = lamp_of(left);
+    const LampFile lamp = lamp_of(request);
     Intake intake = check_intake(lamp, {function_asked(request.function), request.left_hand_traffic});
-    if (!request.add.empty())
-        if (const auto swapped = swapped_sides(lamp, read_lamp(request.add.front(), request.reading), !request.mirror))
+    if (!request.other_side.empty())
+        if (const auto swapped = swapped_sides(lamp, read_lamp(request.other_side, request.reading), !request.mirror))
             intake.findings.push_back(*swapped);
     fmt::print("{}", request.json ? check_json(lamp, intake, request) : document_text(document(lamp, intake, request)));
     std::fflush(stdout); // the table before the error
@@ -132,11 +131,17 @@ void add_check_options(CLI::App& command, LampRequest& request) {
     command
         .add_flag(
             "--check", request.check,
-            "look for what exports do to a lamp: units, axes, sides, aim, coverage, steps; with --add for the right lamp beside the left")
+            "look for what exports do to a lamp: units, axes, sides, aim, coverage, steps; with --other-side, of the left lamp beside "
+            "the right one")
         ->group(group);
-    command.add_option("--function", request.function, "with --check: low, high or other; recognised by default")->group(group);
-    command.add_option("--voltage", request.voltage_v, "with --check: V at which the lamp was measured")->group(group);
-    command.add_flag("--strict", request.strict, strict_text)->group(group);
+    command.add_option("--function", request.function, "with --check: what the beam is for")
+        ->option_text("low|high|other")
+        ->default_str("as recognised")
+        ->group(group);
+    command.add_option("--voltage", request.voltage_v, "with --check: volts at which the lamp was measured")
+        ->option_text("V")
+        ->group(group);
+    add_shared(command, "--strict", request.strict)->group(group);
 }
 
 } // namespace fernlicht

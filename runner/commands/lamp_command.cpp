@@ -2,9 +2,12 @@
 
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
+#include "runner/commands/watch.h"
 #include "runner/experiments/compare/lamps/lamp_description.h"
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/json_text.h"
+#include "runner/files/output_folder.h"
 #include "runner/findings/plots/isocandela.h"
 #include "runner/write/document.h"
 #include "runner/write/plots/png.h"
@@ -28,7 +31,7 @@ LampFile modelled(const std::string& name) {
             return lamp_of_model(model);
         names.push_back(model.name);
     }
-    throw InputError({{}, 0, 0, "--model"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(names, ", ")));
+    throw InputError({{}, 0, 0, "--lamp-model"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(names, ", ")));
 }
 
 void scale(LampFile& lamp, double factor) {
@@ -105,12 +108,14 @@ LampFile read_other(const std::filesystem::path& path, const LampReadOptions& re
 
 /// What is read is never replaced, what else is there by --force alone.
 void refuse_to_overwrite(const LampRequest& request, const std::filesystem::path& out, const char* option) {
+    if (out == "-")
+        return;
     const auto same = [&](const std::filesystem::path& in) {
         std::error_code ignored; // a path that is not there is no input
         return !in.empty() && std::filesystem::equivalent(in, out, ignored);
     };
     bool input = same(request.file);
-    input = input || same(request.against) || same(request.levels);
+    input = input || same(request.against) || same(request.levels) || same(request.other_side);
     for (const auto* list : {&request.add, &request.subtract})
         for (const auto& path : *list)
             input = input || same(path);
@@ -118,6 +123,7 @@ void refuse_to_overwrite(const LampRequest& request, const std::filesystem::path
         throw InputError({out, 0, 0, option}, "found a file that is read", "another name to write to");
     if (!request.force && std::filesystem::exists(std::filesystem::symlink_status(out)))
         throw InputError({out, 0, 0, option}, "found a file of that name", "another name to write to, or --force");
+    refuse_unwritable(option, out, {}, true);
 }
 
 std::optional<plots::AngleWindow> window_of(const std::vector<double>& edges) {
@@ -133,7 +139,7 @@ std::optional<plots::AngleWindow> window_of(const std::vector<double>& edges) {
 }
 
 void check_picture_name(const std::filesystem::path& path) {
-    if (!path.empty() && path.extension() != ".png" && path.extension() != ".svg")
+    if (!path.empty() && path != "-" && path.extension() != ".png" && path.extension() != ".svg")
         throw InputError({path, 0, 0, "--picture"}, fmt::format("found extension '{}'", printable(path.extension().string())),
                          ".svg or .png");
 }
@@ -163,11 +169,14 @@ template <class Value> void add_choice(CLI::App& command, const std::string& nam
 
 void add_texture_options(CLI::App& command, LampReadOptions& reading) {
     const char* group = "Beam textures (where the image has no metadata)";
-    command.add_option("--texture-scale", reading.texture_scale_lx, "lux for a pixel value of 1 (8-bit: 255)")->group(group);
+    command.add_option("--texture-scale", reading.texture_scale_lx, "lux for a pixel value of 1 (8-bit: 255)")
+        ->option_text("LX")
+        ->group(group);
     command.add_option("--texture-distance", reading.texture_distance_m, "distance in metres of --texture-scale")
+        ->option_text("M")
         ->capture_default_str()
         ->group(group);
-    const auto extent = [&](const char* name, double(&edges)[2], const char* text) {
+    const auto extent = [&](const char* name, double(&edges)[2], const char* names, const char* text) {
         command
             .add_option_function<std::vector<double>>(
                 name,
@@ -177,10 +186,11 @@ void add_texture_options(CLI::App& command, LampReadOptions& reading) {
                 },
                 text)
             ->expected(2)
+            ->option_text(names)
             ->group(group);
     };
-    extent("--texture-h", reading.texture_h_extent_deg, "left and right edge in degrees");
-    extent("--texture-v", reading.texture_v_extent_deg, "bottom and top edge in degrees");
+    extent("--texture-h", reading.texture_h_extent_deg, "LEFT RIGHT", "left and right edge in degrees");
+    extent("--texture-v", reading.texture_v_extent_deg, "BOTTOM TOP", "bottom and top edge in degrees");
 }
 
 /// In place of the description; the picture is that of the difference.
@@ -194,7 +204,7 @@ int tell_apart(const LampFile& lamp, const LampRequest& request) {
     }
     if (request.json)
         fmt::print("{}", json_text(difference_json(difference)));
-    else {
+    else if (request.picture != "-") {
         for (const auto& [what, text] : difference_lines(lamp, other, difference))
             fmt::print("{:<14} {}\n", what, text);
         fmt::print("\n{}", table_text(named_places_table(difference)));
@@ -212,7 +222,8 @@ void write_lamp_picture(const plots::Figure& figure, const LampRequest& request)
 
 LampFile lamp_of(const LampRequest& request) {
     if (request.file.empty() == request.model.empty())
-        throw InputError({}, request.file.empty() ? "found no lamp" : "found both a file and --model", "a lamp file or --model NAME");
+        throw InputError({}, request.file.empty() ? "found no lamp" : "found both a file and --lamp-model",
+                         "a lamp file or --lamp-model NAME");
     LampFile lamp = request.model.empty() ? read_lamp(request.file, request.reading) : modelled(request.model);
     if (lamp.pixels && request.reading != LampReadOptions{.rule = request.reading.rule, .recipe = request.reading.recipe})
         throw InputError({request.file, 0, 0, {}}, "found --axis or a flag of textures for a pixel lamp", "none of them");
@@ -257,6 +268,10 @@ int lamp_command(const LampRequest& request) {
     if (!request.regulation.empty())
         return lamp_regulation(request);
     check_picture_name(request.picture);
+    const bool prints_file = request.picture == "-" || request.convert == "-";
+    if (prints_file && (request.json || request.picture == request.convert))
+        throw InputError({{}, 0, 0, request.picture == "-" ? "--picture" : "--convert"},
+                         fmt::format("found standard output beside {}", request.json ? "--json" : "--convert"), "one thing to print");
     if (!request.picture.empty())
         refuse_to_overwrite(request, request.picture, "--picture");
     if (request.cut_off)
@@ -276,52 +291,89 @@ int lamp_command(const LampRequest& request) {
         write_lamp(lamp, request.convert);
     if (!request.picture.empty())
         write_lamp_picture(plots::isocandela_diagram(lamp.table, lamp.name, window_of(request.window)), request);
-    fmt::print("{}", request.json ? json_of(description) : text_of(description));
+    if (!prints_file)
+        fmt::print("{}", request.json ? json_of(description) : text_of(description));
     return 0;
 }
+
+namespace {
+
+int lamp_turn(LampRequest request, WatchTurn& turn) {
+    if (request.watch) {
+        for (const std::filesystem::path* const file :
+             {&request.file, &request.against, &request.levels, &request.reading.recipe, &request.aim_by})
+            turn.reads(*file);
+        for (const auto* const files : {&request.add, &request.subtract})
+            for (const std::filesystem::path& file : *files)
+                turn.reads(file);
+        turn.reads(lamp_of(request).opened);
+        request.force = request.force || turn.is_again(); // its own files
+    }
+    return lamp_command(request);
+}
+
+} // namespace
 
 void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto request = std::make_shared<LampRequest>();
     CLI::App* command = app.add_subcommand("lamp", "describe a lamp file; scale, mirror, add, convert or plot it");
-    command->add_option("FILE", request->file, lamp_format_list() + "; text grids with --recipe");
-    command->add_option("--model", request->model, "built-in model instead of a file: halogen-low, halogen-high, xenon-low, xenon-high");
-    command->add_flag("--json", request->json, "print JSON");
-    command->add_option("--picture", request->picture,
-                        "write the isocandela diagram, or with --cut-off its scans and the elbow, as .svg or .png");
-    command->add_flag("--force", request->force, "let --convert and --picture replace an existing file");
-    command->add_option("--window", request->window, "left, right, bottom and top edge of the picture in degrees")
+    command->add_option("FILE", request->file, lamp_format_list() + "; text grids with --recipe; or - for standard input");
+    add_shared(*command, "--lamp-model", request->model);
+    add_shared(*command, "--json", request->json);
+    add_shared(*command, "--picture", request->picture);
+    add_shared(*command, "--force", request->force);
+    command->add_option("--window", request->window, "edges of the picture in degrees")
         ->expected(4)
+        ->option_text("LEFT RIGHT BOTTOM TOP")
         ->allow_extra_args(false);
-    command->add_option("--spots", request->spots, "fit this many OpenGL 1.x spot lights (1 to 8) and report the residual");
-    command->add_option("--convert", request->convert,
-                        "write the lamp as .ies (LM-63-2002, type A), .csv (beam matrix) or .exr (beam texture)");
-    command->add_option("--levels", request->levels,
-                        "of a pixel lamp: levels of its pixels over time (CSV), as a drive takes them, or levels-*.csv of a run");
-    command->add_option("--levels-lamp", request->levels_lamp, "with levels-*.csv of several lamps: whose");
-    command->add_option_function<double>(
-        "--at", [request](double s) { request->levels_s = s; }, "with --levels: the time in s at which the lamp is looked at");
-    command->add_option("--scale", request->scale, "multiply the intensities")->capture_default_str();
+    command->add_option("--spots", request->spots, "fit this many OpenGL 1.x spot lights, 1 to 8, and report the residual");
+    command
+        ->add_option("--convert", request->convert,
+                     "new file for the lamp: .ies (LM-63-2002, type A), .csv (beam matrix) or .exr (beam texture); - prints LM-63")
+        ->option_text("FILE");
+    command
+        ->add_option("--levels", request->levels,
+                     "of a pixel lamp: levels of its pixels over time (CSV), as a drive takes them, or levels-*.csv of a run")
+        ->option_text("FILE");
+    command->add_option("--levels-lamp", request->levels_lamp, "with levels-*.csv of several lamps: whose")->option_text("NAME");
+    command
+        ->add_option_function<double>(
+            "--at", [request](double s) { request->levels_s = s; }, "with --levels: the time in seconds at which the lamp is looked at")
+        ->option_text("S");
+    command->add_option("--scale", request->scale, "multiply the intensities")->option_text("FACTOR")->capture_default_str();
     command->add_flag("--mirror", request->mirror, "swap left and right: right-hand to left-hand traffic and back");
-    command->add_option("--add", request->add, "add another lamp's light")->allow_extra_args(false);
-    command->add_option("--against", request->against,
-                        "report what differs from this lamp (aim, cut-off, level, zones, and at 75R, 50V, B50L, kerb shoulder, "
-                        "foreground and other named places) and what is only noise");
-    command->add_option_function<std::string>(
-        "--noise", [request](const std::string& text) { request->noise_relative = share_of("--noise", text); },
-        "with --against: standard deviation of an intensity, e.g. 1%; the noise found in the tables is used if larger");
+    command->add_option("--add", request->add, "add another lamp's light")->option_text("FILE")->allow_extra_args(false);
     command->add_option("--subtract", request->subtract, "subtract another lamp's light; negative results become 0 and are counted")
+        ->option_text("FILE")
         ->allow_extra_args(false);
+    command
+        ->add_option("--other-side", request->other_side,
+                     "the lamp of the other side, for --check and for tables that judge half the sum of both")
+        ->option_text("FILE");
+    command
+        ->add_option("--against", request->against,
+                     "report what differs from this lamp (aim, cut-off, level, zones, and at 75R, 50V, B50L, kerb shoulder, "
+                     "foreground and other named places) and what is only noise")
+        ->option_text("FILE");
+    add_shared_taken(*command, "--noise", [request](const std::string& text) { request->noise_relative = share_of("--noise", text); });
     add_choice(*command, "--rule", request->reading.rule, {{"linear", BetweenSamples::linear_cd}, {"log", BetweenSamples::log_cd}},
                "interpolation between samples: linear (in cd) or log (in log cd)");
     add_choice(*command, "--axis", request->reading.type_c_axis,
                {{"automatic", TypeCAxis::automatic}, {"horizontal", TypeCAxis::horizontal}, {"nadir", TypeCAxis::nadir}},
-               "where Type C and EULUMDAT beams point: automatic, horizontal or nadir");
+               "where Type C and EULUMDAT beams point");
     add_recipe_flag(*command, request->reading.recipe);
     add_texture_options(*command, request->reading);
     add_check_options(*command, *request);
     add_regulation_options(*command, *request);
-    command->footer("Changes are applied in this order: levels, scale, mirror, add, subtract.");
-    command->callback([request, &chosen] { chosen = [request] { return lamp_command(*request); }; });
+    command->footer(
+        "Changes are applied in this order: levels, scale, mirror, add, subtract; those from scale on to the lamp of --other-side, too. "
+        "The picture, .svg or .png, is the isocandela diagram; "
+        "with --against the difference, with --cut-off its scans and the elbow. What goes to standard output takes the place of the "
+        "description.");
+    add_watch_flag(*command, request->watch);
+    command->callback([request, &chosen] {
+        chosen = [request] { return watched(request->watch, [&](WatchTurn& turn) { return lamp_turn(*request, turn); }); };
+    });
 }
 
 } // namespace fernlicht

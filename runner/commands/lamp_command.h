@@ -4,6 +4,7 @@
 #include "runner/experiments/regulation/regulation_result.h"
 #include "runner/write/plots/svg.h"
 #include "scenarios/lamps/lamp_file.h"
+#include "scenarios/lamps/pixel_lamp.h"
 
 #include <optional>
 #include <string>
@@ -39,6 +40,7 @@ struct LampRequest {
     double scale = 1.0;
     bool mirror = false;
     std::vector<std::filesystem::path> add, subtract;
+    std::filesystem::path other_side;       ///< the lamp of the other side, of --check and of tables that judge both; empty: none
     std::filesystem::path convert, picture; ///< empty: none
     bool force = false;                     ///< files of these names may be replaced
     std::vector<double> window;             ///< of the picture: left, right, bottom, top in degrees; empty: chosen
@@ -47,12 +49,12 @@ struct LampRequest {
     std::filesystem::path against; ///< a lamp to be told apart from; empty: none
     double noise_relative = 0.0;   ///< with `against`: standard deviation of an intensity
     std::string regulation;        ///< id or "list"; empty: none
-    std::string aim;               ///< of --regulation; empty: the regulation's own
+    std::string aim;               ///< --aim-rule of --regulation; empty: the regulation's own
     std::filesystem::path aim_by;
     bool left_hand_traffic = false, no_re_aim = false;
     AdaptiveRequest adaptive; ///< of --regulation fmvss108-adb
     bool cut_off = false;
-    bool check = false, strict = false;
+    bool check = false, strict = false, watch = false;
     std::string function;                             ///< of --check; empty: recognised
     std::optional<double> voltage_v;                  ///< of --check; nullopt: not stated
     SharpnessRule sharpness = SharpnessRule::maximum; ///< of --cut-off
@@ -87,8 +89,8 @@ int tell_regulation(const RegulationFound& found, const LampRequest& request);
 /// Prints the cut-off's figures; 0. Throws InputError.
 int lamp_cut_off(const LampRequest& request);
 
-/// Prints the intake check, with `add` as the right lamp beside `file` as the left one; 0. Throws InputError, with `strict` also for what
-/// makes readings meaningless.
+/// Prints the intake check, with `other_side` as the right lamp beside `file` as the left one; 0. Throws InputError, with `strict` also for
+/// what makes readings meaningless.
 int lamp_check(const LampRequest& request);
 
 /// Throws InputError where flags of the check are given without it.

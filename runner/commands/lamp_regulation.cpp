@@ -1,5 +1,6 @@
 #include "runner/commands/lamp_command.h"
 
+#include "runner/commands/shared_flags.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/pose.h"
@@ -21,7 +22,7 @@ void refuse_other_work(const LampRequest& request, const char* option) {
     refuse(!request.against.empty(), "--against");
 }
 
-/// The lamp, and the other side where --add names it, which sits across the car's middle.
+/// The lamp, and the other side where --other-side names it, which sits across the car's middle.
 std::vector<LampFile> requested_lamps(const LampRequest& request, const Regulation& r, std::vector<std::string>& notes) {
     const auto spared = [&](LampFile lamp, double side) {
         if (request.adaptive.other_m.empty())
@@ -31,19 +32,17 @@ std::vector<LampFile> requested_lamps(const LampRequest& request, const Regulati
         spare_other(lamp, asked, notes.emplace_back());
         return lamp;
     };
-    if (!r.pairs || request.add.empty())
+    if (!r.pairs && !request.other_side.empty())
+        throw InputError({{}, 0, 0, "--other-side"}, "found with --regulation " + r.id + ", which judges the lamp by itself",
+                         "none; --add adds another lamp's light");
+    if (request.other_side.empty())
         return {spared(lamp_of(request), 1.0)};
-    if (request.add.size() > 1)
-        throw InputError({{}, 0, 0, "--add"}, fmt::format("found {} files", request.add.size()),
-                         "one, the lamp of the other side: " + r.id + " judges half the sum of both");
-    LampRequest one = request, other = request;
-    one.add.clear();
-    other.add.clear();
-    other.file = request.add.front();
+    LampRequest other = request;
+    other.file = request.other_side;
     other.model.clear();
     other.levels.clear();
     other.levels_s.reset();
-    return {spared(lamp_of(one), 1.0), spared(lamp_of(other), -1.0)};
+    return {spared(lamp_of(request), 1.0), spared(lamp_of(other), -1.0)};
 }
 
 } // namespace
@@ -55,7 +54,7 @@ std::optional<AimRule> requested_aim(const LampRequest& request) {
     for (const AimRule rule : {automatic, as_is, cut_off, cut_off_by_line, elbow, vol, vor, maximum})
         if (name_of(rule) == request.aim)
             return rule;
-    throw InputError({{}, 0, 0, "--aim"}, "found '" + printable(request.aim) + "'",
+    throw InputError({{}, 0, 0, "--aim-rule"}, "found '" + printable(request.aim) + "'",
                      "auto, as-is, cut-off, cut-off-line, elbow, vol, vor or maximum");
 }
 
@@ -116,41 +115,39 @@ int lamp_cut_off(const LampRequest& request) {
     const CutOffFound found{lamp, options, request.left_hand_traffic, measure_cut_off({&table, {}}, options), fit_elbow({&table, {}})};
     if (!request.picture.empty())
         write_lamp_picture(cut_off_figure(found), request);
-    fmt::print("{}", request.json ? cut_off_json(found) : document_text(document(found)));
+    if (request.picture != "-")
+        fmt::print("{}", request.json ? cut_off_json(found) : document_text(document(found)));
     return 0;
 }
 
 void refuse_regulation_options(const LampRequest& request) {
     request.adaptive.check();
-    const char* option = !request.aim.empty()        ? "--aim"
-                         : !request.aim_by.empty()   ? "--aim-by"
-                         : request.no_re_aim         ? "--no-re-aim"
-                         : request.left_hand_traffic ? "--left-hand-traffic"
-                         : request.adaptive.asked()  ? (request.adaptive.other_m.empty() ? "--dimmed" : "--other")
-                                                     : nullptr;
+    const char* option = !request.aim.empty()          ? "--aim-rule"
+                         : !request.aim_by.empty()     ? "--aim-by"
+                         : request.no_re_aim           ? "--no-re-aim"
+                         : request.left_hand_traffic   ? "--left-hand-traffic"
+                         : !request.other_side.empty() ? "--other-side"
+                         : request.adaptive.asked()    ? (request.adaptive.other_m.empty() ? "--dimmed" : "--other")
+                                                       : nullptr;
     if (option)
         throw InputError({{}, 0, 0, option}, "found without --regulation, --cut-off or --check", "one of them");
 }
 
 void add_regulation_options(CLI::App& command, LampRequest& request) {
     const char* group = "Regulations (our copies of their tables; not an approval)";
-    command
-        .add_option("--regulation", request.regulation,
-                    "check the lamp against a table, with the margin of each row; `list` names all tables")
-        ->option_text("ID|list")
-        ->group(group);
+    add_shared(command, "--regulation", request.regulation)->group(group);
     command.add_flag("--cut-off", request.cut_off, "measure the cut-off: position, sharpness, linearity, kink")->group(group);
+    add_shared(command, "--left-hand-traffic", request.left_hand_traffic)->group(group);
     command
-        .add_flag("--left-hand-traffic", request.left_hand_traffic, "use the mirrored table; with --check: the road is driven on the left")
+        .add_option("--aim-rule", request.aim, "how to aim for the table: auto, as-is, cut-off, cut-off-line, elbow, vol, vor or maximum")
+        ->option_text("RULE")
+        ->default_str("the regulation's way")
         ->group(group);
-    command
-        .add_option("--aim", request.aim,
-                    "how to aim, instead of the regulation's way: auto, as-is, cut-off, cut-off-line, elbow, vol, vor, maximum")
-        ->group(group);
-    command.add_option("--aim-by", request.aim_by, "low-beam file whose aim this beam takes over")->group(group);
+    command.add_option("--aim-by", request.aim_by, "low-beam file whose aim this beam takes over")->option_text("FILE")->group(group);
     command.add_flag("--no-re-aim", request.no_re_aim, "do not re-aim a failing lamp within the edition's allowance")->group(group);
     add_adaptive_options(command, request.adaptive);
     command.add_option("--detector", request.detector_mm, "with --cut-off: detector diameter in mm at 25 m; 0: a point")
+        ->option_text("MM")
         ->capture_default_str()
         ->group(group);
     command
@@ -161,7 +158,9 @@ void add_regulation_options(CLI::App& command, LampRequest& request) {
                     throw InputError({{}, 0, 0, "--sharpness"}, "found '" + printable(word) + "'", "maximum or at-inflection");
                 request.sharpness = word == "maximum" ? SharpnessRule::maximum : SharpnessRule::at_inflection;
             },
-            "with --cut-off: which G represents a scan, maximum or at-inflection")
+            "with --cut-off: which G represents a scan")
+        ->option_text("maximum|at-inflection")
+        ->default_str("maximum")
         ->group(group);
 }
 

@@ -2,11 +2,11 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/findings/lists.h"
 #include "runner/write/document.h"
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/drive.h"
-#include "scenarios/values/errors.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -19,14 +19,14 @@ namespace {
 struct List {
     const char *name, *about;
     Document (*document)();
-    std::string (*json)(); ///< nullptr: none
+    std::string (*json)();
 };
 
 constexpr List lists[] = {
     {"techniques", "list techniques and shadow methods: what each computes and ignores",
      [] { return techniques_document(techniques(), shadow_method_names()); },
      [] { return techniques_json(techniques(), shadow_method_names()); }},
-    {"readings", "list what is read of a drive: names, units, which way is better, definitions", readings_document, nullptr},
+    {"readings", "list what is read of a drive: names, units, which way is better, definitions", readings_document, readings_json},
     {"signals", "list the signals of lamp control: name, unit, range, who writes them, and whether a CAN bus may", signals_document,
      signals_json}};
 
@@ -39,14 +39,12 @@ std::vector<ListedFmu> fmus_of(const std::filesystem::path& file) {
     }
     std::vector<ListedFmu> fmus;
     std::vector<PluginParameters> told;
-    for (const LampSet& lamp_set : read_drive(file).lamp_sets)
+    for (const LampSet& lamp_set : read_drive(named_file("drive", file, "FILE")).lamp_sets)
         for (const PluginParameters& plugin : lamp_set.control ? lamp_set.control->plugins : std::vector<PluginParameters>{})
             if (plugin.fmu && std::ranges::find(told, plugin) == told.end()) {
                 told.push_back(plugin);
                 fmus.push_back({fmt::format("{}, lamp set {}", plugin.library.filename().string(), lamp_set.name), fmu_ties(plugin)});
             }
-    if (fmus.empty())
-        throw InputError({file, 0, 0, "control.plugins"}, "found no FMU", "a drive with one, or a file named *.fmu");
     return fmus;
 }
 
@@ -61,19 +59,18 @@ void add_list_commands(CLI::App& app, const std::vector<std::string>&, std::func
     for (const List& list : lists) {
         const auto form = std::make_shared<Form>();
         CLI::App* command = app.add_subcommand(list.name, list.about);
-        std::vector<CLI::Option*> others;
-        if (list.json)
-            others.push_back(command->add_flag("--json", form->json, "print JSON"));
-        add_print_flags(*command, form->printed, others);
+        add_print_flags(*command, form->printed, {add_shared(*command, "--json", form->json)});
         if (list.document == signals_document)
             command->add_option("FILE", form->file,
-                                "a drive or an FMU: the variables of its FMUs instead, and what each is tied to (docs/control.md)");
+                                "drive or FMU: list the variables of its FMUs instead, and what each is tied to (docs/control.md)");
         command->callback([form, &list, &chosen] {
             chosen = [form, &list] {
                 const std::vector<ListedFmu> fmus = form->file.empty() ? std::vector<ListedFmu>{} : fmus_of(form->file);
                 const auto text_of = form->printed ? form->printed->of_document : document_text;
-                if (fmus.empty())
+                if (form->file.empty())
                     fmt::print("{}", form->json ? list.json() : text_of(list.document()));
+                else if (fmus.empty() && !form->json)
+                    fmt::print("{} has no FMU: its lamps move by built-in laws, or not at all\n", form->file.string());
                 else
                     fmt::print("{}", form->json ? fmus_json(fmus) : text_of(fmus_document(fmus)));
                 return 0;

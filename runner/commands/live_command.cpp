@@ -1,10 +1,14 @@
 #include "runner/commands/commands.h"
 
 #include "renderer/device.h"
+#include "runner/commands/exit_codes.h"
 #include "runner/commands/flag_values.h"
 #include "runner/commands/run_files.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/live/live_run.h"
+#include "runner/files/log.h"
 #include "runner/files/output_folder.h"
+#include "runner/files/page_link.h"
 #include "runner/findings/run_context.h"
 #include "scenarios/drives/keys/bus_keys.h"
 #include "scenarios/values/errors.h"
@@ -16,8 +20,6 @@
 
 namespace fernlicht {
 namespace {
-
-constexpr int interrupted_code = 130; ///< as a shell has it for what SIGINT ended
 
 /// The flags as typed.
 struct LiveFlags {
@@ -93,11 +95,11 @@ int live(const LiveFlags& flags, const std::vector<std::string>& command) {
     if (!report.live->replay.empty())
         fmt::print("replay     {}\n", report.live->replay);
     for (const std::string& warning : report.warnings)
-        fmt::print("warning: {}\n", warning);
+        tell(LogLevel::warning, warning);
     if (!report.complete)
-        fmt::print("incomplete: {}\n", report.interrupted);
-    fmt::print("{}\n", (options.folder / "report.html").string());
-    return !report.complete ? interrupted_code : flags.lossless && lost(*report.live) ? 1 : 0;
+        tell(LogLevel::warning, "incomplete: " + report.interrupted);
+    fmt::print("{}\n", page_link(options.folder / "report.html"));
+    return !report.complete ? static_cast<int>(ExitCode::interrupted) : flags.lossless && lost(*report.live) ? 1 : 0;
 }
 
 } // namespace
@@ -105,25 +107,30 @@ int live(const LiveFlags& flags, const std::vector<std::string>& command) {
 void add_live_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<LiveFlags>();
     CLI::App* sub = app.add_subcommand("live", "play a drive in real time, with inputs from a CAN bus and outputs onto it");
-    sub->add_option("DRIVE", flags->drive, "drive file (YAML) with the key `can`")->required();
-    sub->add_option("--can", flags->options.interface, "CAN interface of the kernel, e.g. can0 or vcan0");
-    sub->add_option("--can-log", flags->options.log, "candump log, played at its own pace instead of listening on an interface");
-    sub->add_option("--can-start", flags->start, "timestamp of the recording that is the drive's 0 s");
-    sub->add_option("--duration", flags->duration_s, "seconds to drive, instead of the drive's own")->check(CLI::Range(0.01, 1.0e6));
-    sub->add_option("--lamp-set", flags->options.lamp_set, "lamp set to drive with, where there are several");
-    sub->add_option("--listen", flags->options.listen_s, "seconds to listen to the bus before 0 s")->check(CLI::Range(0.0, 3600.0));
-    sub->add_option("--record", flags->options.record, "candump log to write the used frames to (default: one in the report's folder)");
-    sub->add_option("--receive-buffer", flags->options.receive_buffer_bytes,
-                    "socket receive buffer in bytes (default: 4 MiB where permitted)")
-        ->check(CLI::Range(1, 1 << 30));
+    add_shared(*sub, "DRIVE", flags->drive)->required();
+    sub->add_option("--can", flags->options.interface, "CAN interface of the kernel, such as can0 or vcan0")->option_text("IFACE");
+    add_shared(*sub, "--can-log", flags->options.log);
+    add_shared(*sub, "--can-start", flags->start)->default_str("that of the log's first frame");
+    add_shared(*sub, "--duration", flags->duration_s)->check(CLI::Range(0.01, 1.0e6))->default_str("the drive's");
+    add_shared(*sub, "--lamp-set", flags->options.lamp_set);
+    sub->add_option("--listen", flags->options.listen_s, "seconds to listen to the bus before 0 s")
+        ->check(CLI::Range(0.0, 3600.0))
+        ->option_text("S");
+    sub->add_option("--record", flags->options.record, "candump log of the frames that were used")
+        ->option_text("FILE")
+        ->default_str("one in the report's folder");
+    sub->add_option("--receive-buffer", flags->options.receive_buffer_bytes, "bytes of the socket's receive buffer")
+        ->check(CLI::Range(1, 1 << 30))
+        ->default_str("4 MiB where permitted");
     sub->add_flag("--no-draw", flags->no_draw, "render no pictures; needs no GL");
-    sub->add_flag("--no-wait", flags->no_wait, "with --can-log: as fast as possible, without pictures");
+    sub->add_flag("--no-wait", flags->no_wait, "with --can-log: go as fast as possible, without pictures");
     sub->add_flag("--lossless", flags->lossless,
                   "exit with 1 if a frame was dropped, not sent or not recorded, or the interface went down");
-    sub->add_option("--backend", flags->options.backend, backend_names);
-    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
-    sub->add_option("--out", flags->out, "new or empty folder for the report");
+    add_shared(*sub, "--backend", flags->options.backend);
+    add_shared(*sub, "--resolution", flags->resolution);
+    add_shared(*sub, "--out", flags->out);
     add_tables_flag(*sub, flags->tables);
+    sub->footer("A log is played at its own pace, in place of an interface.");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return live(*flags, command); }; });
 }
 

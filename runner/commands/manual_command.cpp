@@ -1,6 +1,7 @@
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
 #include "runner/commands/manual.h"
+#include "runner/commands/shared_flags.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
 
@@ -41,10 +42,12 @@ int man(const CLI::App& program, const ManFlags& flags) {
 } // namespace
 
 void add_manual_commands(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
+    add_docs_command(app, chosen);
     const auto flags = std::make_shared<ManFlags>();
     CLI::App* sub = app.add_subcommand("man", "print a man page: man -l <(fernlicht man run)")->group("");
-    CLI::Option* const command = sub->add_option("COMMAND", flags->command, "whose page (default: the program's)");
-    sub->add_option("--out", flags->out, "write all pages into this folder, which is there")->excludes(command);
+    CLI::Option* const command = sub->add_option("COMMAND", flags->command, "whose page")->default_str("the program's");
+    add_shared(*sub, "--out", flags->out)->excludes(command);
+    sub->footer("With --out all pages are written.");
     sub->callback([&app, flags, &chosen] { chosen = [&app, flags] { return man(app, *flags); }; });
 
     static const std::map<std::string, std::string (*)(const CLI::App&)> shells{

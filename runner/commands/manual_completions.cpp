@@ -1,5 +1,7 @@
 #include "runner/commands/manual.h"
 
+#include "runner/commands/help.h"
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,4 +1,7 @@
+#include "runner/commands/exit_codes.h"
 #include "runner/commands/manual.h"
+
+#include "runner/commands/help.h"
 #include "scenarios/values/version.h"
 
 #include <CLI/CLI.hpp>
@@ -35,22 +38,6 @@ from its folder
 .TP
 .I /usr/lib/fernlicht/modules
 libraries that few commands open
-.SH EXIT STATUS
-.TP
-.B 0
-done; what was judged is within limits
-.TP
-.B 1
-a limit or a baseline exceeded, a requested reading not measured, a case failed, or a run interrupted
-.TP
-.B 2
-the input cannot be used
-.TP
-.B 3
-the machine cannot do it
-.TP
-.B 4
-a bug in fernlicht
 )";
 
 /// Text as roff takes it: its own signs escaped, none at a line's start.
@@ -76,20 +63,7 @@ std::string page_name(const CLI::App& command) {
     return name;
 }
 
-std::string value_name(const CLI::Option& option) {
-    if (!option.get_option_text().empty())
-        return option.get_option_text();
-    const std::vector<std::string> choices = choices_of(option);
-    std::string name =
-        option.get_positional() ? option.get_single_name() : option.get_type_name().substr(0, option.get_type_name().find(':'));
-    if (!option.get_positional() && !choices.empty())
-        name = fmt::format("{}", fmt::join(choices, "|"));
-    if (option.get_expected_max() == CLI::detail::expected_max_vector_size)
-        return name + "...";
-    return option.get_expected_min() > 1 ? fmt::format("{} x {}", name, option.get_expected_min()) : name;
-}
-
-/// "--repeat INT": names in bold, value in italics.
+/// "--repeat N": names in bold, value in italics.
 std::string tag(const CLI::Option& option) {
     if (option.get_positional())
         return "\\fI" + roff(value_name(option)) + "\\fR";
@@ -99,17 +73,6 @@ std::string tag(const CLI::Option& option) {
     for (const std::string& name : option.get_lnames())
         names += (names.empty() ? "\\fB\\-\\-" : ", \\fB\\-\\-") + roff(name) + "\\fR";
     return takes_value(option) ? names + " \\fI" + roff(value_name(option)) + "\\fR" : names;
-}
-
-std::string meaning(const CLI::Option& option) {
-    std::string text = option.get_description();
-    const std::string type = option.get_type_name();
-    if (const std::size_t range = type.find(" in ["); range != std::string::npos)
-        text += ", from " + type.substr(range + 5, type.find(" - ", range) - range - 5) + " to " +
-                type.substr(type.find(" - ", range) + 3, type.find(']', range) - type.find(" - ", range) - 3);
-    if (takes_value(option) && !option.get_default_str().empty())
-        text += " (default: " + option.get_default_str() + ")";
-    return text;
 }
 
 void add_options(const CLI::App& command, bool positional, const std::string& group, std::string& page) {
@@ -160,8 +123,6 @@ std::string full_name(const CLI::App& command) {
     return command.get_parent() ? full_name(*command.get_parent()) + " " + command.get_name() : command.get_name();
 }
 
-bool takes_value(const CLI::Option& flag) { return flag.get_items_expected_max() > 0; }
-
 std::vector<std::string> choices_of(const CLI::Option& option) {
     std::string words = option.get_option_text();
     char between = '|';
@@ -192,7 +153,10 @@ std::string man_page(const CLI::App& command) {
         page += ".TP\n.BR " + roff(page_name(*one)) + " (1)\n" + roff(one->get_description()) + "\n";
     page += ".SH OPTIONS\n";
     add_options(command, false, "Options", page);
-    return page + of_the_program;
+    page += of_the_program + std::string(".SH EXIT STATUS\n");
+    for (const ExitMeaning& one : exit_meanings)
+        page += fmt::format(".TP\n.B {}\n{}\n", static_cast<int>(one.code), roff(one.meaning));
+    return page;
 }
 
 } // namespace fernlicht

@@ -1,7 +1,9 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/masks/masks_run.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -18,7 +20,7 @@ namespace {
 /// The flags as typed.
 struct MasksFlags {
     std::filesystem::path drive;
-    std::string lamps, against = "high", limits = "adb-track", out;
+    std::string lamps, full_light = "high", rating = "adb-track", out;
     std::vector<std::string> margins{"0,0.25,0.5,1,1.5,2"};
     const OutputFormat* tables = nullptr;
 };
@@ -46,8 +48,8 @@ int tell_masks(const MasksFlags& flags, const std::vector<std::string>& command)
         edits.lamp_sets = flags.lamps;
     request.margins_deg = margins_of(flags.margins);
     request.drive = read_drive(named_file("drive", flags.drive, "DRIVE"), edits);
-    request.limits = read_rating(library_file("rating", flags.limits, "", {{}, 0, 0, "--limits"}));
-    request.against = flags.against;
+    request.limits = read_rating(library_file("rating", flags.rating, "", {{}, 0, 0, "--rating"}));
+    request.against = flags.full_light;
     request.folder = result_folder(flags.out, request.drive.name + "-masks");
     request.command = command;
     request.write = [&request, &flags](const MasksFound& found) {
@@ -57,7 +59,7 @@ int tell_masks(const MasksFlags& flags, const std::vector<std::string>& command)
         write_document(document(found), found, request.folder, "report", flags.tables);
     };
     const MasksFound found = run_masks(request);
-    fmt::print("{}\n{}\n", document_text(document(found)), (request.folder / "report.html").string());
+    fmt::print("{}\n{}\n", document_text(document(found)), page_link(request.folder / "report.html"));
     return 0;
 }
 
@@ -65,18 +67,18 @@ int tell_masks(const MasksFlags& flags, const std::vector<std::string>& command)
 
 void add_masks_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<MasksFlags>();
-    CLI::App* sub = app.add_subcommand("masks", "what masks of an adaptive beam cost the driver, against what they spare others");
-    sub->add_option("DRIVE", flags->drive, "drive file (YAML) with lamp sets, some of which mask others")->required();
+    CLI::App* sub = app.add_subcommand("masks", "weigh what masks of an adaptive beam cost the driver against what they spare others");
+    add_shared(*sub, "DRIVE", flags->drive)->required();
     sub->add_option("--margins", flags->margins, "margins of the masks that are tried, in degrees, beside the lamp sets' own")
+        ->option_text("DEG,...")
         ->allow_extra_args(false)
-        ->capture_default_str();
-    sub->add_option("--against", flags->against, "lamp set whose light counts as full")->capture_default_str();
-    sub->add_option("--lamps", flags->lamps, "file of lamp sets with their mounts and control, in place of the drive's");
-    sub->add_option("--limits", flags->limits, "rating (YAML, or a shipped one) whose photometers and limits hold for others")
-        ->capture_default_str();
-    sub->add_option("--out", flags->out, "new or empty folder for the results");
+        ->default_str(flags->margins.front());
+    sub->add_option("--full-light", flags->full_light, "lamp set whose light counts as full")->option_text("NAME")->capture_default_str();
+    add_shared(*sub, "--lamps", flags->lamps);
+    add_shared(*sub, "--rating", flags->rating)->capture_default_str();
+    add_shared(*sub, "--out", flags->out);
     add_tables_flag(*sub, flags->tables);
-    sub->footer("docs/pixel-lamps.md tells more.");
+    sub->footer("The rating's photometers and limits hold for others. docs/pixel-lamps.md tells more.");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return tell_masks(*flags, command); }; });
 }
 

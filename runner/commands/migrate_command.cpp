@@ -1,6 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "metrics/readings/reading_key.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/files/durable_files.h"
 #include "runner/files/log.h"
 #include "runner/judge/old_baselines.h"
@@ -195,7 +196,7 @@ void add_migrate_command(CLI::App& app, const std::vector<std::string>&, std::fu
     CLI::App* sub = app.add_subcommand("migrate", "convert files of version 0.1 to today's names; printed unless a flag is given");
     sub->add_option("FILE", flags->files, "drives, studies, lists of known failures, logs of drives, and folders of baselines")->required();
     sub->add_flag("--in-place", flags->in_place, "write over the files");
-    sub->add_option("--out", flags->out, "folder for the converted files");
+    add_shared(*sub, "--out", flags->out);
     sub->callback([flags, &chosen] { chosen = [flags] { return migrate(*flags); }; });
 }
 

@@ -4,9 +4,11 @@
 #include "renderer/renderer.h"
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
+#include "runner/experiments/town/two_lamps.h"
 #include "runner/files/json_text.h"
 #include "runner/files/picture_file.h"
-#include "scenarios/lamps/lamp_model.h"
+#include "scenarios/models/material_doubts.h"
 #include "scenarios/models/model.h"
 #include "scenarios/models/road_user_bodies.h"
 #include "scenarios/values/errors.h"
@@ -21,8 +23,8 @@
 namespace fernlicht {
 namespace {
 
-constexpr double lamps_x_m = 3.6, lamps_z_m = 0.65, lamps_y_m = 0.6;
-const glm::dvec3 eye_m{1.3, 0.35, 1.2};
+constexpr double lamps_x_m = two_lamps_x_m;
+const glm::dvec3& eye_m = two_lamps_eye_m;
 
 /// The model's box, turned: from its least to its greatest corner.
 std::pair<glm::dvec3, glm::dvec3> turned_box(const Model& model, const ModelRequest& request) {
@@ -73,32 +75,6 @@ Scene model_scene(const Model& model, const ModelRequest& request) {
     return scene;
 }
 
-/// Two lamps of the request, 1.2 m apart and 0.65 m above the road; no sky.
-Moment lit_moment(const ModelRequest& request) {
-    const auto& models = lamp_models();
-    const auto known = std::ranges::find(models, request.lamp, &LampModel::name);
-    if (known == models.end())
-        throw InputError({{}, 0, 0, "--lamp"}, "found '" + printable(request.lamp) + "'",
-                         "halogen-low, halogen-high, xenon-low or xenon-high");
-    const auto file = std::make_shared<const LampFile>(lamp_of_model(*known));
-    const LampColour colour = colour_of_temperature(request.lamp.starts_with("xenon") ? 4300.0 : 3200.0);
-    Moment moment;
-    for (const double y : {lamps_y_m, -lamps_y_m}) {
-        MountedLamp lamp;
-        lamp.name = y > 0.0 ? "left" : "right";
-        lamp.position_m = {lamps_x_m, y, lamps_z_m};
-        lamp.file = file;
-        LitLamp lit;
-        lit.name = lamp.name;
-        lit.file = file;
-        lit.pose = lamp.pose();
-        lit.intensity_factor = lamp.intensity_factor();
-        lit.colour = colour;
-        moment.lamps.push_back(std::move(lit));
-    }
-    return moment;
-}
-
 /// From the driver's eye, as wide as the model and its surroundings need.
 View towards(const Model& model, const ModelRequest& request) {
     const auto [low, high] = turned_box(model, request);
@@ -134,7 +110,7 @@ const OwnBody bodies[] = {{"car", car_body, {{4.5, 1.8, 1.45}, -0.9, glm::vec3(0
 
 void write_model_picture(const Model& model, const ModelRequest& request) {
     const Scene scene = model_scene(model, request);
-    const Moment moment = lit_moment(request);
+    const Moment moment = in_two_lamps(request.lamp, {});
     Device device = open_device(request.backend);
     RendererSettings settings;
     settings.technique = request.technique;
@@ -169,11 +145,17 @@ std::string model_text(const Model& model, double scale) {
                         millimetres(-low.x), millimetres(-low.y), millimetres(-low.z));
     text += fmt::format("  triangles    {} in {} mesh{}, {} vertices\n", model.triangles(), model.meshes.size(),
                         model.meshes.size() == 1 ? "" : "es", vertices);
-    for (const Material& m : model.materials)
-        text += fmt::format("  material     {}: reflects {:.3f} {:.3f} {:.3f}{}{}{}\n", m.name, m.albedo.r, m.albedo.g, m.albedo.b,
-                            m.texture >= 0 ? fmt::format(", picture {}", model.textures[static_cast<std::size_t>(m.texture)].name) : "",
-                            m.retro_rl > 0.0F ? fmt::format(", returns {:.3g} cd/(lx m2)", m.retro_rl) : "",
-                            m.emission_cdm2 != glm::vec3(0.0F) ? ", shines by itself" : "");
+    auto doubt = model.doubts.begin();
+    for (std::uint32_t i = 0; i < model.materials.size(); ++i) {
+        const Material& m = model.materials[i];
+        text += fmt::format(
+            "  material     {}: reflects {:.3f} ({:.3f} {:.3f} {:.3f}{}){}{}\n", m.name, mean_reflectance(model, m), m.albedo.r, m.albedo.g,
+            m.albedo.b, m.texture >= 0 ? fmt::format(", picture {}", model.textures[static_cast<std::size_t>(m.texture)].name) : "",
+            m.retro_rl > 0.0F ? fmt::format(", returns {:.3g} cd/(lx m2)", m.retro_rl) : "",
+            m.emission_cdm2 != glm::vec3(0.0F) ? fmt::format(", shines with {:.3g} cd/m2", luminance_of(m.emission_cdm2)) : "");
+        for (; doubt != model.doubts.end() && doubt->material == i; ++doubt)
+            text += fmt::format("    doubtful   {}\n", doubt->text);
+    }
     for (const SurfaceTexture& t : model.textures)
         text += fmt::format("  picture      {}: {} x {} texels\n", t.name, t.width, t.height);
     for (const Mount& m : model.mounts) {
@@ -199,8 +181,20 @@ std::string model_json(const Model& model, double scale) {
                  {"pictures", Json::array()},
                  {"mounts", Json::array()},
                  {"notes", model.notes}};
-    for (const Material& m : model.materials)
-        json["materials"].push_back({{"name", m.name}, {"albedo", three(m.albedo)}, {"texture", m.texture}, {"retro_rl", m.retro_rl}});
+    for (std::uint32_t i = 0; i < model.materials.size(); ++i) {
+        const Material& m = model.materials[i];
+        Json doubts = Json::array();
+        for (const MaterialDoubt& doubt : model.doubts)
+            if (doubt.material == i)
+                doubts.push_back(doubt.text);
+        json["materials"].push_back({{"name", m.name},
+                                     {"albedo", three(m.albedo)},
+                                     {"texture", m.texture},
+                                     {"retro_rl", m.retro_rl},
+                                     {"reflectance", mean_reflectance(model, m)},
+                                     {"emission_cdm2", luminance_of(m.emission_cdm2)},
+                                     {"doubts", doubts}});
+    }
     for (const SurfaceTexture& t : model.textures)
         json["pictures"].push_back({{"name", t.name}, {"width", t.width}, {"height", t.height}});
     for (const Mount& m : model.mounts)
@@ -210,8 +204,10 @@ std::string model_json(const Model& model, double scale) {
 }
 
 int model_command(const ModelRequest& request) {
-    refuse_existing("--picture", request.picture, request.force);
-    refuse_existing("--write", request.write, request.force);
+    check_target("--picture", request.picture, request.force);
+    check_target("--write", request.write, request.force);
+    if ((request.picture == "-") + (request.write == "-") + request.json > 1 && (request.picture == "-" || request.write == "-"))
+        throw InputError({{}, 0, 0, request.write == "-" ? "--write" : "--picture"}, "found standard output twice", "one thing to print");
     if (!request.write.empty() && !request.file.empty())
         throw InputError({{}, 0, 0, "--write"}, "found it beside a file", "--body KIND");
     const Model model = model_of(request);
@@ -219,30 +215,40 @@ int model_command(const ModelRequest& request) {
         write_file(request.write, glb_of(model));
     if (!request.picture.empty())
         write_model_picture(model, request);
-    fmt::print("{}", request.json ? model_json(model, request.scale) : model_text(model, request.scale));
+    if (request.picture != "-" && request.write != "-")
+        fmt::print("{}", request.json ? model_json(model, request.scale) : model_text(model, request.scale));
     return 0;
 }
 
 void add_model_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto request = std::make_shared<ModelRequest>();
     CLI::App* command = app.add_subcommand("model", "describe a model; render it at night in our lamps");
-    command->add_option("FILE", request->file, "glTF: .gltf or .glb");
-    command->add_option("--body", request->body, "built-in body instead of a file: car, van, truck, bus, motorcycle, bicycle, pedestrian");
-    command->add_option("--picture", request->picture, "write a PNG of the model on a level road, lit by two lamps, seen by the driver");
-    command->add_option("--write", request->write, "write the body as a .glb");
+    command->add_option("FILE", request->file, "glTF (.gltf, .glb), or - for a .glb on standard input");
+    command
+        ->add_option("--body", request->body, "built-in body in place of a file: car, van, truck, bus, motorcycle, bicycle or pedestrian")
+        ->option_text("NAME");
+    add_shared(*command, "--picture", request->picture);
+    command->add_option("--write", request->write, "new file for the body, NAME.glb, or - for standard output")->option_text("FILE");
     command->add_option("--distance", request->distance_m, "metres from the lamps to the model")
+        ->option_text("M")
         ->check(CLI::Range(1.0, 300.0))
         ->capture_default_str();
     command->add_option("--yaw", request->yaw_deg, "turn the model left, in degrees: 0 drives away, 180 comes towards you")
+        ->option_text("DEG")
         ->check(CLI::Range(-360.0, 360.0))
         ->capture_default_str();
-    command->add_option("--scale", request->scale, "metres per unit of the file")->check(CLI::Range(1.0e-4, 1.0e4))->capture_default_str();
-    command->add_option("--lamp", request->lamp, "halogen-low, halogen-high, xenon-low or xenon-high")->capture_default_str();
-    command->add_option("--technique", request->technique, "technique to light it with")->capture_default_str();
-    command->add_option("--backend", request->backend, backend_names)->capture_default_str();
-    command->add_flag("--json", request->json, "print JSON");
-    command->add_flag("--force", request->force, "let --picture and --write replace an existing file");
+    command->add_option("--metres-per-unit", request->scale, "size of the file's unit")
+        ->option_text("M")
+        ->check(CLI::Range(1.0e-4, 1.0e4))
+        ->capture_default_str();
+    add_shared(*command, "--low-beams", request->lamp)->capture_default_str();
+    add_shared(*command, "--technique", request->technique)->capture_default_str();
+    add_shared(*command, "--backend", request->backend)->capture_default_str();
+    add_shared(*command, "--json", request->json);
+    add_shared(*command, "--force", request->force);
+    command->footer("The picture is a PNG: the model on a level road, lit by two lamps, seen by the driver.");
     command->callback([request, &chosen] { chosen = [request] { return model_command(*request); }; });
+    add_town_command(app, chosen);
 }
 
 } // namespace fernlicht

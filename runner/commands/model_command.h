@@ -4,8 +4,13 @@
 #include "scenarios/models/model.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace fernlicht {
 
@@ -17,7 +22,7 @@ struct ModelRequest {
     double distance_m = 25.0;      ///< from the lamps to the model's nearest point, >= 1
     double yaw_deg = 0.0;          ///< of the model: 0 drives away from us, 180 comes towards us
     double scale = 1.0;
-    std::string lamp = "halogen-low"; ///< one of our lamp models, on both sides
+    std::string lamp = "halogen-low"; ///< two_lamps.h
     std::string technique = "photometric", backend = "auto";
     int width_px = 960, height_px = 540;
     bool json = false, force = false;
@@ -31,6 +36,9 @@ std::string model_json(const Model& model, double scale);
 
 /// All that the request asks for; text or JSON goes to standard output. Returns 0. Throws InputError, DeviceError.
 int model_command(const ModelRequest& request);
+
+/// Adds `fernlicht town`, as add_model_command() does for `fernlicht model`, which calls it.
+void add_town_command(CLI::App& app, std::function<int()>& chosen);
 
 struct ImportRequest {
     std::filesystem::path file, out;

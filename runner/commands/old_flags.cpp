@@ -10,19 +10,47 @@ struct OldFlag {
     const char *command, *old, *now; ///< command: "" for all
 };
 
-constexpr OldFlag old_flags[] = {{"", "references", "baselines"},
-                                 {"", "--variant", "--lamp-set"},
-                                 {"", "--references", "--baselines"},
-                                 {"accept", "--to", "--baselines"},
-                                 {"accept", "--store", "--baselines"},
-                                 {"baselines", "--store", "--baselines"},
-                                 {"references", "--store", "--baselines"},
-                                 {"accuracy", "--moments", "--count"},
-                                 {"accuracy", "--samples", "--max-samples"},
-                                 {"shadows", "--moments", "--count"},
-                                 {"bench", "--frames", "--count"},
-                                 {"bench", "--drive", "FILE alone"},
-                                 {"reference", "--most-samples", "--max-samples"}};
+constexpr OldFlag of_version_0_1[] = {{"", "references", "baselines"},
+                                      {"", "--variant", "--lamp-set"},
+                                      {"", "--references", "--baselines"},
+                                      {"accept", "--to", "--baselines"},
+                                      {"accept", "--store", "--baselines"},
+                                      {"baselines", "--store", "--baselines"},
+                                      {"references", "--store", "--baselines"},
+                                      {"accuracy", "--moments", "--count"},
+                                      {"accuracy", "--samples", "--max-samples"},
+                                      {"shadows", "--moments", "--count"},
+                                      {"bench", "--frames", "--count"},
+                                      {"bench", "--drive", "FILE alone"},
+                                      {"reference", "--most-samples", "--max-samples"}};
+
+/// Names that meant another thing in another command, or that one thing had beside another.
+constexpr OldFlag renamed[] = {{"accept", "--add", "--also"},
+                               {"aliasing", "--against", "--supersampled"},
+                               {"aliasing", "--filter", "--texture-filters"},
+                               {"aliasing", "--picture", "--values"},
+                               {"aliasing", "--view-fov", "--vertical-fov"},
+                               {"can decode", "--known", "--skip-unknown"},
+                               {"can merge", "--channel", "--rename-channel"},
+                               {"can record", "--start", "--can-start"},
+                               {"compare", "--lamps", "--as-lamps"},
+                               {"compare", "--view-fov", "--vertical-fov"},
+                               {"film", "--lamp-set", "--lamp-sets"},
+                               {"history prune", "--keep", "--keep-nights"},
+                               {"history trend", "--cells", "--only"},
+                               {"importance", "--check", "--trials"},
+                               {"improve", "--floor", "--floor-cd"},
+                               {"improve", "--study", "--cells-of"},
+                               {"lamp", "--aim", "--aim-rule"},
+                               {"lamp", "--model", "--lamp-model"},
+                               {"masks", "--against", "--full-light"},
+                               {"masks", "--limits", "--rating"},
+                               {"model", "--lamp", "--low-beams"},
+                               {"model", "--scale", "--metres-per-unit"},
+                               {"shadows", "--floor", "--floor-lx"},
+                               {"shadows", "--lamp", "--scene-lamp"},
+                               {"shadows", "--map-texels", "--shadow-map"},
+                               {"storyboard", "--quiet", "--brief"}};
 
 } // namespace
 
@@ -31,10 +59,14 @@ std::string old_word_in(const std::vector<std::string>& command_line) {
         const std::string word = command_line[i].substr(0, command_line[i].find('='));
         if (i > 1 && !word.starts_with("--"))
             continue;
-        const auto known = std::ranges::find_if(
-            old_flags, [&](const OldFlag& flag) { return flag.old == word && (*flag.command == '\0' || flag.command == command_line[1]); });
-        if (known != std::end(old_flags))
+        const auto is_meant = [&](const OldFlag& flag) {
+            const std::string command = flag.command, here = command_line[1] + (command_line.size() > 2 ? " " + command_line[2] : "");
+            return flag.old == word && (command.empty() || command == command_line[1] || command == here);
+        };
+        if (const auto known = std::ranges::find_if(of_version_0_1, is_meant); known != std::end(of_version_0_1))
             return fmt::format("found '{}' of version 0.1, expected {} (`fernlicht migrate` converts files)", word, known->now);
+        if (const auto known = std::ranges::find_if(renamed, is_meant); known != std::end(renamed))
+            return fmt::format("found '{}', expected {}, as it is called now", word, known->now);
     }
     return {};
 }

@@ -1,4 +1,4 @@
-// What flags and commands were called in version 0.1.
+// What flags and commands were called before.
 #pragma once
 
 #include <string>

@@ -1,7 +1,9 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/rating/rating_run.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/files.h"
 #include "scenarios/yaml/library_file.h"
@@ -35,7 +37,7 @@ int tell_rating(const RateFlags& flags, const std::vector<std::string>& command)
         write_document(document(found), found, request.folder, "report", flags.tables);
     };
     const RatingFound found = run_rating(request);
-    fmt::print("{}\n{}\n", document_text(document(found)), (request.folder / "report.html").string());
+    fmt::print("{}\n{}\n", document_text(document(found)), page_link(request.folder / "report.html"));
     return all_within(found) ? 0 : 1;
 }
 
@@ -43,13 +45,12 @@ int tell_rating(const RateFlags& flags, const std::vector<std::string>& command)
 
 void add_rate_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<RateFlags>();
-    CLI::App* sub = app.add_subcommand("rate", "one lamp set judged by a rating: drives, limits over distance, points");
-    sub->add_option("RATING", flags->rating, fmt::format("rating file (YAML), or {}", fmt::join(library_names("rating"), ", ")))
+    CLI::App* sub = app.add_subcommand("rate", "judge one lamp set by a rating: drives, limits over distance, points");
+    sub->add_option("RATING", flags->rating, fmt::format("rating: a file (YAML), or {}", fmt::join(library_names("rating"), ", ")))
         ->required();
-    sub->add_option("--lamps", flags->lamps, "file of lamp sets with their mounts and control (YAML), or a drive that has them")
-        ->required();
-    sub->add_option("--lamp-set", flags->lamp_set, "which of them is rated (default: the first)");
-    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    add_shared(*sub, "--lamps", flags->lamps)->required();
+    add_shared(*sub, "--lamp-set", flags->lamp_set)->default_str("the first");
+    add_shared(*sub, "--out", flags->out);
     add_tables_flag(*sub, flags->tables);
     sub->footer("Exit code 1 where a limit is exceeded or a row not measured. docs/ratings.md tells more.");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return tell_rating(*flags, command); }; });

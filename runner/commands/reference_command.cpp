@@ -1,8 +1,10 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/accuracy/drive_error.h"
 #include "runner/experiments/reference/reference_run.h"
+#include "runner/files/log.h"
 #include "runner/findings/run_context.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
@@ -124,21 +126,25 @@ int draw_reference(const ReferenceFlags& flags, const std::vector<std::string>& 
     const ReferenceResult result = run_reference(request);
     fmt::print("{}", document_text(document(result)));
     if (!result.interrupted.empty())
-        fmt::print("incomplete: {}; the same command with --resume --out {} goes on\n", result.interrupted,
-                   shell_quoted({request.folder.string()}));
+        tell(LogLevel::warning, fmt::format("incomplete: {}; the same command with --resume --out {} goes on", result.interrupted,
+                                            shell_quoted({request.folder.string()})));
     fmt::print("{}\n", (request.folder / "reference.exr").string());
     return result.interrupted.empty() ? 0 : 1;
 }
 
 void add_solver_options(CLI::App& sub, ReferenceFlags& flags) {
     SolverSettings& solver = flags.solver;
-    sub.add_option("--smooth-depth", flags.max_smooth, "whitted: maximum mirrors and glass surfaces in sequence")
+    sub.add_option("--smooth-depth", flags.max_smooth, "whitted: most mirrors and glass surfaces in sequence")
         ->check(CLI::Range(0, 64))
         ->capture_default_str();
     sub.add_option("--reach", solver.reach_m, "radiosity, photon-map: metres around the car within which surfaces reflect light")
+        ->option_text("M")
         ->check(CLI::Range(1.0, 2000.0))
         ->capture_default_str();
-    sub.add_option("--patch", solver.patch_m, "radiosity: width of a patch, metres")->check(CLI::Range(0.01, 100.0))->capture_default_str();
+    sub.add_option("--patch", solver.patch_m, "radiosity: width of a patch in metres")
+        ->option_text("M")
+        ->check(CLI::Range(0.01, 100.0))
+        ->capture_default_str();
     sub.add_option("--form-factor-rays", solver.form_factor_rays, "radiosity: rays per patch, rounded to a multiple of 16")
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
@@ -149,6 +155,7 @@ void add_solver_options(CLI::App& sub, ReferenceFlags& flags) {
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 26))
         ->capture_default_str();
     sub.add_option("--photon-radius", solver.radius_m, "photon-map: metres over which light is averaged")
+        ->option_text("M")
         ->check(CLI::Range(0.001, 100.0))
         ->capture_default_str();
     sub.add_flag("--no-gather", flags.no_gather, "radiosity, photon-map: show the solution without final gathering");
@@ -159,36 +166,30 @@ void add_solver_options(CLI::App& sub, ReferenceFlags& flags) {
 void add_reference_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<ReferenceFlags>();
     CLI::App* sub = app.add_subcommand("reference", "ray-trace one moment, each pixel with its standard error");
-    sub->add_option("DRIVE", flags->drive, "drive file (YAML)")->required();
-    sub->add_option("--moment", flags->moment_s,
-                    "seconds into the drive, from 0 to its last moment, one step before its end; renders the nearest moment")
-        ->capture_default_str();
-    sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drive (default: its first)");
-    sub->add_option("--view", flags->view, "view of the drive (default: the driver's)");
+    add_shared(*sub, "DRIVE", flags->drive)->required();
+    add_shared(*sub, "--moment", flags->moment_s)->capture_default_str();
+    add_shared(*sub, "--lamp-set", flags->lamp_set)->default_str("the first");
+    sub->add_option("--view", flags->view, "view of the drive")->option_text("NAME")->default_str("the driver's");
     sub->add_option("--integrator", flags->integrator,
                     "direct: light of lamps and sky; path: with bounced light; whitted, radiosity, photon-map: the classical methods")
         ->check(CLI::IsMember({"direct", "path", "whitted", "radiosity", "photon-map"}))
+        ->option_text("NAME")
         ->capture_default_str();
     add_solver_options(*sub, *flags);
-    sub->add_option("--target-error", flags->target_error, "target standard error of each pixel, e.g. 0.5% or 0.005")
-        ->capture_default_str();
-    sub->add_option("--max-samples", flags->max_samples,
-                    "maximum samples per pixel, whatever its error; rounded down to a power of two; at least 128 where light bounces")
-        ->check(CLI::Range(16, 1 << 24))
-        ->capture_default_str();
-    sub->add_option("--lamp-radius", flags->lamp_radius_m,
-                    "radius of lamps as discs in metres, 0: points (default: lamp_radius_m of a drive with soft-map shadows, else 0)")
-        ->check(CLI::Range(0.0, 1.0));
-    sub->add_option("--lamp", flags->lamps,
-                    "[SIDE=]FILE: use this lamp file for all low beams, or for the lamps whose name contains SIDE (left, right, high)")
-        ->allow_extra_args(false);
+    add_shared(*sub, "--target-error", flags->target_error)->capture_default_str();
+    add_shared(*sub, "--max-samples", flags->max_samples)->check(CLI::Range(16, 1 << 24))->capture_default_str();
+    add_shared(*sub, "--lamp-radius", flags->lamp_radius_m)
+        ->check(CLI::Range(0.0, 1.0))
+        ->default_str("lamp_radius_m of a drive with soft-map shadows, else 0");
+    add_shared(*sub, "--lamp", flags->lamps);
     add_recipe_flag(*sub, flags->recipe);
-    sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's");
-    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of a perspective view");
-    add_seed_flag(*sub, flags->seed, "seed of the samples");
-    sub->add_option("--out", flags->out, "new or empty folder for the results");
-    sub->add_flag("--resume", flags->resume, "continue what was interrupted in the --out folder");
-    sub->add_flag("--quiet", flags->quiet, "show no progress");
+    add_shared(*sub, "--road", flags->road);
+    add_shared(*sub, "--resolution", flags->resolution);
+    add_seed_flag(*sub, flags->seed);
+    add_shared(*sub, "--out", flags->out);
+    add_shared(*sub, "--resume", flags->resume);
+    add_shared(*sub, "--quiet", flags->quiet);
+    sub->footer("--max-samples are rounded down to a power of two, and at least 128 where light bounces. docs/reference.md tells more.");
     sub->callback([flags, command, sub, &chosen] {
         for (const CLI::Option* option : std::as_const(*sub).get_options())
             if (option->count() > 0)

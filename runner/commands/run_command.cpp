@@ -4,12 +4,17 @@
 #include "renderer/technique.h"
 #include "runner/commands/flag_values.h"
 #include "runner/commands/run_files.h"
+#include "runner/commands/shared_flags.h"
+#include "runner/commands/watch.h"
 #include "runner/experiments/run/run_drives.h"
 #include "runner/files/log.h"
+#include "runner/files/page_link.h"
 #include "runner/files/trace_file.h"
 #include "runner/judge/verdict_line.h"
 #include "runner/write/document.h"
+#include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/glob.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -32,7 +37,7 @@ struct RunFlags {
     std::vector<std::string> road_folders;
     std::string replay, ego, can_start, can_channel;
     std::optional<std::string> can_log, shadows, aim;
-    bool lenient = false, no_accuracy = false;
+    bool lenient = false, no_accuracy = false, watch = false;
 };
 
 DriveEdits edits_of(const RunFlags& flags) {
@@ -95,8 +100,6 @@ void print_verdicts(const Report& report, const std::vector<Drive>& drives) {
         fmt::print("{}", verdict_line(verdict, "known failures: "));
         annotate_red(verdict, "known failures: ", {});
     }
-    for (const std::string& warning : report.warnings)
-        fmt::print("warning: {}\n", warning);
     const VerdictCounts counts = count_verdicts(report);
     if (counts.all() == 0)
         return;
@@ -114,29 +117,58 @@ void print_verdicts(const Report& report, const std::vector<Drive>& drives) {
     fmt::print("{}\n", line);
 }
 
-int run(const RunFlags& flags, const std::vector<std::string>& command) {
+/// What whoever changes a lamp looks at: readings that decide, and those that have limits.
+std::vector<std::pair<std::string, std::string>> figures_of(const Report& report) {
+    std::vector<std::pair<std::string, std::string>> figures;
+    for (const PlayedCell& played : report.played)
+        for (const Reading& reading : played.readings) {
+            const std::string name = reading.name();
+            const auto fits = [&](const std::string& pattern) { return matches(pattern, name); };
+            const auto is_limit = [&](const Verdict& verdict) { return verdict.name == name; };
+            if (!std::ranges::any_of(decides_by_default(), fits) && std::ranges::none_of(played.verdicts, is_limit))
+                continue;
+            const std::optional<double> figure = reading.value.figure();
+            figures.emplace_back(fmt::format("{}, {}: {}", played.drive, played.lamp_set, name),
+                                 figure ? with_bound(reading.value, fmt::format("{:.4g} {}", *figure, reading.unit())) : "not measured");
+        }
+    return figures;
+}
+
+int run(const RunFlags& flags, const std::vector<std::string>& command, WatchTurn& turn) {
     RunOptions options = flags.options;
     options.ticks = tick_range(flags.frames);
     options.accuracy = !flags.no_accuracy;
     options.known = take(flags.judging, options);
-    options.write = [&](const Report& report, const std::filesystem::path& folder) { write_report(report, folder, flags.tables); };
+    options.write = [&](const Report& report, const std::filesystem::path& folder) {
+        write_report(report, folder, flags.tables);
+        turn.page_written();
+    };
     options.write_plot = [&options](const Plot& plot) { write_plot(plot, options.folder / plot.name); };
     options.command = command;
     const DriveEdits edits = edits_of(flags);
     std::vector<Drive> drives;
-    for (const std::filesystem::path& file : flags.drives)
-        drives.push_back(read_drive(named_file("drive", file, "DRIVE"), edits));
+    for (const std::filesystem::path& named : flags.drives) {
+        const std::filesystem::path file = named_file("drive", named, "DRIVE");
+        turn.reads(file);
+        drives.push_back(read_drive(file, edits));
+        turn.reads(drives.back().opened);
+        turn.reads(drives.back().road_file);
+    }
     refuse_equal_names(drives);
-    options.folder = result_folder(flags.out, drives.front().name);
+    options.folder = turn.folder(result_folder(flags.out, drives.front().name));
     TraceFile trace(flags.trace, "fernlicht run " + drives.front().name, options.folder);
     const Report report = run_drives(drives, options);
     const VerdictKind verdict = overall(report);
+    for (const std::string& warning : report.warnings)
+        tell(LogLevel::warning, warning);
+    turn.reads(report.context.inputs);
+    turn.tell_figures(figures_of(report));
     print_verdicts(report, drives);
     if (!report.complete) {
-        fmt::print("incomplete: {}\n", report.interrupted);
+        tell(LogLevel::warning, "incomplete: " + report.interrupted);
         annotate({}, "incomplete", report.interrupted);
     }
-    fmt::print("{}\n", (options.folder / "report.html").string());
+    fmt::print("{}\n", page_link(turn.page()));
     trace.finish();
     return report.complete && verdict == VerdictKind::pass ? 0 : 1;
 }
@@ -146,47 +178,45 @@ int run(const RunFlags& flags, const std::vector<std::string>& command) {
 void add_run_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<RunFlags>();
     CLI::App* sub = app.add_subcommand("run", "play drives, measure, and write a report");
-    sub->add_option("DRIVE", flags->drives,
-                    "drive files (YAML), names of ours such as first-light, or storyboards (OpenSCENARIO, .xosc): played with halogen low "
-                    "beams on all cars")
-        ->required();
-    sub->add_option("--lamp", flags->lamps,
-                    "[SIDE=]FILE: use this lamp file for all low beams, or for the lamps whose name contains SIDE (left, right, high)")
-        ->allow_extra_args(false);
+    add_shared(*sub, "DRIVES", flags->drives)->required();
+    add_shared(*sub, "--lamp", flags->lamps);
     add_recipe_flag(*sub, flags->recipe);
-    sub->add_option("--aim", flags->aim,
-                    "in place of the drive's aim of low and high beams: as-is, or auto, which turns each until its cut-off lies 1 % down")
-        ->option_text("as-is|auto");
-    sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the drive's");
-    sub->add_option("--road-folder", flags->road_folders, "also look here for the road of a drive's storyboard")->allow_extra_args(false);
-    sub->add_flag("--lenient", flags->lenient, "skip what is unsupported in a storyboard, with a note for each");
-    sub->add_option("--ego", flags->ego, "the storyboard's entity that is the own car");
-    sub->add_option("--replay", flags->replay, "drive-log-DRIVE.csv of a run: replay its poses and lamps");
-    sub->add_option("--can-log", flags->can_log,
-                    "candump log with the signals of the drive's `can`; none: use the drive's own speed and signals");
-    sub->add_option("--can-start", flags->can_start, "timestamp in the log, in s, that is the drive's 0 s (default: its first frame's)");
-    sub->add_option("--can-channel", flags->can_channel, "use only frames of this channel");
-    sub->add_option("--technique", flags->technique, "technique to light the scene with; `fernlicht techniques` lists them");
-    sub->add_option_function<std::string>(
-        "--shadows", [flags](const std::string& method) { flags->shadows = method; }, // a function: it hears of an empty text, too
-        "shadow method; `fernlicht techniques` lists them");
-    sub->add_option("--dressing", flags->dressing, "how what stands beside the road looks: none, plain or dressed");
-    sub->add_option("--backend", flags->options.backend, backend_names);
+    add_shared(*sub, "--aim", flags->aim);
+    add_shared(*sub, "--road", flags->road);
+    add_shared(*sub, "--road-folder", flags->road_folders);
+    add_shared(*sub, "--lenient", flags->lenient);
+    sub->add_option("--ego", flags->ego, "entity of the storyboard that is the own car")->option_text("NAME");
+    sub->add_option("--replay", flags->replay, "drive-log-DRIVE.csv of a run: take its poses and lamps again")->option_text("FILE");
+    add_shared(*sub, "--can-log", flags->can_log);
+    add_shared(*sub, "--can-start", flags->can_start)->default_str("that of the log's first frame");
+    sub->add_option("--can-channel", flags->can_channel, "take frames of this channel alone")->option_text("NAME");
+    add_shared(*sub, "--technique", flags->technique);
+    add_shared_taken(*sub, "--shadows", [flags](const std::string& method) { flags->shadows = method; }); // hears of an empty text, too
+    sub->add_option("--dressing", flags->dressing, "how what stands beside the road looks")->option_text("none|plain|dressed");
+    add_shared(*sub, "--backend", flags->options.backend);
     add_light_pass_flag(*sub, flags->options.light_pass);
-    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the perspective views");
-    sub->add_option("--frames", flags->frames, "FIRST:LAST: play these moments only, counted from 0");
-    sub->add_option("--capture", flags->capture, "all: store every moment");
+    add_shared(*sub, "--resolution", flags->resolution);
+    add_shared(*sub, "--frames", flags->frames);
+    sub->add_option("--capture", flags->capture, "store every moment")->option_text("all");
     add_judging_flags(*sub, flags->judging);
-    sub->add_flag("--strict", flags->options.strict, strict_text);
-    sub->add_option("--out", flags->out, "new or empty folder for the report");
+    add_shared(*sub, "--strict", flags->options.strict);
+    add_shared(*sub, "--out", flags->out);
     add_tables_flag(*sub, flags->tables);
-    add_trace_flag(*sub, flags->trace);
-    sub->add_flag("--profile", flags->options.profile, "time each pass (slows rendering)");
+    add_shared(*sub, "--trace", flags->trace);
+    sub->add_flag("--profile", flags->options.profile, "time each pass, which slows rendering");
     sub->add_flag("--contact-sheet", flags->options.contact_sheet,
                   "add a sheet of one moment in every technique, tone mapper and shadow method");
-    sub->add_flag("--no-accuracy", flags->no_accuracy, "do not compare moments with the reference");
-    sub->add_flag("--quiet", flags->options.quiet, "show no progress");
-    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return run(*flags, command); }; });
+    add_shared(*sub, "--no-accuracy", flags->no_accuracy);
+    add_shared(*sub, "--quiet", flags->options.quiet);
+    sub->footer("All cars of a storyboard have halogen low beams. `--can-log none` plays a drive by its own script.");
+    add_watch_flag(*sub, flags->watch);
+    sub->callback([flags, command, &chosen] {
+        chosen = [flags, command] {
+            if (flags->watch && !flags->trace.empty())
+                throw InputError({{}, 0, 0, "--watch"}, "found together with --trace", "one of them");
+            return watched(flags->watch, [&](WatchTurn& turn) { return run(*flags, command, turn); });
+        };
+    });
 }
 
 } // namespace fernlicht

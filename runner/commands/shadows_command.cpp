@@ -2,8 +2,11 @@
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/run/run_drives.h"
 #include "runner/experiments/shadows/shadow_study.h"
+#include "runner/files/log.h"
+#include "runner/files/page_link.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
@@ -63,15 +66,15 @@ std::vector<ShadowMethod> methods_of(const std::vector<std::string>& lists) {
 int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) {
     ShadowRequest request;
     request.options.methods = methods_of(flags.methods);
-    const auto [width, height] = two_numbers("--map-texels", flags.texels, 'x', false, "WIDTHxHEIGHT, e.g. 1024x512");
+    const auto [width, height] = two_numbers("--shadow-map", flags.texels, 'x', false, "WIDTHxHEIGHT, e.g. 1024x512");
     if (std::min(width, height) < 16 || std::max(width, height) > 8192)
-        refuse_flag("--map-texels", flags.texels, "16 to 8192 each way");
+        refuse_flag("--shadow-map", flags.texels, "16 to 8192 each way");
     request.options.width = width;
     request.options.height = height;
     if (flags.lamp_radius_m != 0.0 && !(flags.lamp_radius_m >= 0.001 && flags.lamp_radius_m <= 0.5))
         refuse_flag("--lamp-radius", fmt::format("{}", flags.lamp_radius_m), "0, or 0.001 to 0.5 m");
     if (!(flags.floor_lx >= shadow_floor_lx && flags.floor_lx <= 10.0))
-        refuse_flag("--floor", fmt::format("{}", flags.floor_lx), "0.001 to 10 lx");
+        refuse_flag("--floor-lx", fmt::format("{}", flags.floor_lx), "0.001 to 10 lx");
     if (!(flags.vertical_fov_deg >= 1.0 && flags.vertical_fov_deg <= 120.0))
         refuse_flag("--vertical-fov", fmt::format("{}", flags.vertical_fov_deg), "1 to 120 degrees");
     request.vertical_fov_rad = radians(flags.vertical_fov_deg);
@@ -83,7 +86,8 @@ int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) 
     request.scenes = items_of("--scenes", flags.scenes);
     if (request.scenes.size() > 1 && std::ranges::count(request.scenes, "none") > 0)
         refuse_flag("--scenes", fmt::format("{}", fmt::join(request.scenes, ",")), "none alone, or names of scenes");
-    request.lamp = flags.lamp.empty() && request.scenes.front() != "none" ? shipped_file("lamps/xenon-low.ies", "--lamp") : flags.lamp;
+    request.lamp =
+        flags.lamp.empty() && request.scenes.front() != "none" ? shipped_file("lamps/xenon-low.ies", "--scene-lamp") : flags.lamp;
     request.recipe = flags.recipe;
     for (const std::filesystem::path& file : flags.drives)
         request.drives.push_back(read_drive(named_file("drive", file, "DRIVE")));
@@ -101,11 +105,11 @@ int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) 
     };
     const ShadowResult result = run_shadow_study(request);
     fmt::print("{}\n{}\n", flags.printed ? flags.printed->of_document(shadow_paper(result)) : document_text(document(result)),
-               (request.folder / "shadows.html").string());
+               page_link(request.folder / "shadows.html"));
     if (!result.interrupted.empty())
-        fmt::print("incomplete: {}\n", result.interrupted);
+        tell(LogLevel::warning, "incomplete: " + result.interrupted);
     for (const std::string& missing : result.missing)
-        fmt::print("missing: {}\n", missing);
+        tell(LogLevel::warning, "missing: " + missing);
     return result.interrupted.empty() ? 0 : 1;
 }
 
@@ -114,31 +118,37 @@ int shadows(const ShadowsFlags& flags, const std::vector<std::string>& command) 
 void add_shadows_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<ShadowsFlags>();
     CLI::App* sub = app.add_subcommand("shadows", "measure how wrong each shadow method is against ray tracing, and what it costs");
-    sub->add_option("DRIVE", flags->drives, "drive files (YAML), in addition to the hard scenes");
-    sub->add_option("--methods", flags->methods, "comma-separated names (default: all)")->allow_extra_args(false);
-    sub->add_option("--scenes", flags->scenes, "comma-separated names of hard scenes, * and ? allowed, or none (default: all)")
+    add_shared(*sub, "DRIVES", flags->drives);
+    sub->add_option("--methods", flags->methods, "shadow methods to compare")
+        ->option_text("NAME,...")
         ->allow_extra_args(false)
-        ->default_str("");
-    sub->add_option("--map-texels", flags->texels, "WIDTHxHEIGHT of each map")->capture_default_str();
-    sub->add_option("--lamp-set", flags->lamp_set, "lamp set of the drives (default: the first of each)");
-    sub->add_option("--lamp", flags->lamp, "lamp file for the hard scenes (default: our lamps/xenon-low.ies)");
+        ->default_str("all");
+    sub->add_option("--scenes", flags->scenes, "hard scenes to take, * and ? allowed, or none")
+        ->option_text("NAME,...")
+        ->allow_extra_args(false)
+        ->default_str("all");
+    sub->add_option("--shadow-map", flags->texels, "texels of each shadow map")->option_text("WIDTHxHEIGHT")->capture_default_str();
+    add_shared(*sub, "--lamp-set", flags->lamp_set)->default_str("the first");
+    sub->add_option("--scene-lamp", flags->lamp, "lamp file for the hard scenes")
+        ->option_text("FILE")
+        ->default_str("our lamps/xenon-low.ies");
     add_recipe_flag(*sub, flags->recipe);
-    sub->add_option("--lamp-radius", flags->lamp_radius_m, "radius in m of lamps as discs, for soft shadows; 0: do not measure them")
+    add_shared(*sub, "--lamp-radius", flags->lamp_radius_m)->capture_default_str();
+    sub->add_option("--floor-lx", flags->floor_lx, "leave out points that get less than this without shadows")
+        ->option_text("LX")
         ->capture_default_str();
-    sub->add_option("--floor", flags->floor_lx, "lx; points that get less than this without shadows do not count")->capture_default_str();
-    sub->add_option("--vertical-fov", flags->vertical_fov_deg, "vertical field of view in degrees in the hard scenes, 4:3")
-        ->default_str(fmt::format("{:.1f}", flags->vertical_fov_deg));
-    sub->add_option("--count", flags->moments, "moments of each drive, spread evenly")->check(CLI::Range(1, 100))->capture_default_str();
-    sub->add_option("--rounds", flags->rounds, "number of timing rounds; in each, every method renders the moments once")
-        ->check(CLI::Range(1, 100000))
-        ->capture_default_str();
-    sub->add_option("--resolution", flags->resolution, "WIDTHxHEIGHT of the timed frames")->capture_default_str();
-    add_seed_flag(*sub, flags->seed, "seed of the order in each round");
-    sub->add_option("--backend", flags->backend, backend_names);
-    sub->add_option("--out", flags->out, "new or empty folder for the results");
+    add_shared(*sub, "--vertical-fov", flags->vertical_fov_deg)->default_str(fmt::format("{:.1f}", flags->vertical_fov_deg));
+    add_shared(*sub, "--count", flags->moments)->check(CLI::Range(1, 100))->capture_default_str();
+    add_shared(*sub, "--rounds", flags->rounds)->check(CLI::Range(1, 100000))->capture_default_str();
+    add_shared(*sub, "--resolution", flags->resolution)->capture_default_str();
+    add_seed_flag(*sub, flags->seed);
+    add_shared(*sub, "--backend", flags->backend);
+    add_shared(*sub, "--out", flags->out);
     add_tables_flag(*sub, flags->tables);
     add_print_flags(*sub, flags->printed);
-    sub->add_flag("--quiet", flags->quiet, "show no progress");
+    add_shared(*sub, "--quiet", flags->quiet);
+    sub->footer(
+        "Drives come on top of the hard scenes. Without a --lamp-radius soft shadows are not measured. docs/shadows.md tells more.");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return shadows(*flags, command); }; });
 }
 

@@ -2,6 +2,7 @@
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/experiments/stability/stability_case.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
@@ -33,7 +34,7 @@ class TrialFolder {
                 throw InputError({path_, 0, 0, "--out"}, "is not a folder", "a folder for the cases' files");
             std::filesystem::create_directories(path_, failed);
             if (failed)
-                throw DeviceError(fmt::format("{}: the folder cannot be made: {}", printable(asked), failed.message()));
+                throw InputError({path_, 0, 0, "--out"}, "cannot be made: " + failed.message(), "a folder that can be written to");
             return;
         }
         std::string name = (std::filesystem::temp_directory_path() / "fernlicht-stability-XXXXXX").string();
@@ -108,18 +109,17 @@ int try_cases(const StabilityFlags& flags) {
 void add_stability_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto flags = std::make_shared<StabilityFlags>();
     CLI::App* sub = app.add_subcommand("stability", "check extreme and degenerate inputs against bounds; exit with 1 if one fails");
-    CLI::Option* only = sub->add_option("--only", flags->only, "comma-separated names of cases, * and ? allowed: 'lamp/*,table/poles'")
-                            ->allow_extra_args(false)
-                            ->default_str("");
+    CLI::Option* only = add_shared(*sub, "--only", flags->only)->default_str("all");
     sub->add_flag_callback(
            "--equations", [flags] { flags->only = {"equation/*"}; }, "check the light equations one by one")
         ->excludes(only);
-    CLI::Option* json = sub->add_flag("--json", flags->json, "print JSON");
-    CLI::Option* list = sub->add_flag("--list", flags->list, "list the cases and run none")->excludes(json);
+    CLI::Option* json = add_shared(*sub, "--json", flags->json);
+    CLI::Option* list = add_shared(*sub, "--list", flags->list)->excludes(json);
     add_print_flags(*sub, flags->printed, {json, list});
     sub->add_flag("--thorough", flags->thorough, "search ten times as long");
-    sub->add_option("--backend", flags->backend, backend_names);
-    sub->add_option("--out", flags->out, "keep the files that the cases write in this folder");
+    add_shared(*sub, "--backend", flags->backend);
+    add_shared(*sub, "--out", flags->out);
+    sub->footer("The cases' files are kept in the folder of --out.");
     sub->callback([flags, &chosen] { chosen = [flags] { return try_cases(*flags); }; });
 }
 

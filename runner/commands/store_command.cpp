@@ -1,6 +1,8 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
+#include "runner/files/json_text.h"
 #include "runner/findings/figures.h"
 #include "runner/store/store_upkeep.h"
 #include "scenarios/values/errors.h"
@@ -19,7 +21,7 @@ namespace {
 
 struct StoreFlags {
     std::string store, study, older_than, at_most;
-    bool dry = false;
+    bool dry = false, json = false;
 };
 
 CellStore store_of(const StoreFlags& flags) {
@@ -55,20 +57,40 @@ std::string size_text(std::uint64_t bytes) {
 int list_store(const StoreFlags& flags) {
     std::uint64_t bytes = 0;
     std::size_t count = 0;
+    nlohmann::ordered_json cells = nlohmann::ordered_json::array();
     for (const StoredCell& cell : store_of(flags).list()) {
         if (!flags.study.empty() && !matches(flags.study, cell.study))
             continue;
-        fmt::print("{}  {:%Y-%m-%dT%H:%M:%SZ}  {:>9}  {:<24} {}\n", cell.key.substr(0, 12),
-                   fmt::gmtime(static_cast<std::time_t>(cell.used_s)), size_text(cell.bytes), printable(cell.study), printable(cell.cell));
+        const std::tm used = fmt::gmtime(static_cast<std::time_t>(cell.used_s));
+        if (flags.json) {
+            cells.push_back({{"key", cell.key},
+                             {"used_utc", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", used)},
+                             {"bytes", cell.bytes},
+                             {"study", cell.study},
+                             {"cell", cell.cell}});
+            continue;
+        }
+        fmt::print("{}  {:%Y-%m-%dT%H:%M:%SZ}  {:>9}  {:<24} {}\n", cell.key.substr(0, 12), used, size_text(cell.bytes),
+                   printable(cell.study), printable(cell.cell));
         bytes += cell.bytes;
         ++count;
     }
-    fmt::print("{}, {}\n", counted(count, "cell"), size_text(bytes));
+    if (flags.json)
+        fmt::print("{}", json_text(cells));
+    else
+        fmt::print("{}, {}\n", counted(count, "cell"), size_text(bytes));
     return 0;
 }
 
 int verify(const StoreFlags& flags) {
     const std::vector<StoreDamage> damage = verify_store(store_of(flags));
+    if (flags.json) {
+        nlohmann::ordered_json removed = nlohmann::ordered_json::array();
+        for (const StoreDamage& one : damage)
+            removed.push_back({{"what", one.what}, {"why", one.why}});
+        fmt::print("{}", json_text({{"removed", removed}}));
+        return damage.empty() ? 0 : 1;
+    }
     for (const StoreDamage& one : damage)
         fmt::print("removed {}: {}\n", one.what, one.why);
     fmt::print("{}\n", damage.empty()
@@ -90,6 +112,15 @@ int prune(const StoreFlags& flags) {
                              "a number of MiB, GiB or TiB: 20GiB"));
     const double now_s = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
     const Pruned pruned = prune_store(store_of(flags), pruning, now_s);
+    if (flags.json) {
+        fmt::print("{}", json_text({{"dry_run", flags.dry},
+                                    {"cells", pruned.cells},
+                                    {"files", pruned.files},
+                                    {"bytes", pruned.bytes},
+                                    {"cells_left", pruned.cells_left},
+                                    {"bytes_left", pruned.bytes_left}}));
+        return 0;
+    }
     fmt::print("{}{} and {}, {}; {} left, {}\n", flags.dry ? "would remove " : "removed ", counted(pruned.cells, "cell"),
                counted(pruned.files, "file"), size_text(pruned.bytes), counted(pruned.cells_left, "cell"), size_text(pruned.bytes_left));
     return 0;
@@ -103,18 +134,23 @@ void add_store_command(CLI::App& app, const std::vector<std::string>&, std::func
     store->require_subcommand(1);
     const auto add = [&](const char* name, const char* text, int (*does)(const StoreFlags&)) {
         CLI::App* sub = store->add_subcommand(name, text);
-        sub->add_option("--store", flags->store, "the store (default: $XDG_CACHE_HOME/fernlicht/store)");
+        add_shared(*sub, "--store", flags->store);
+        add_shared(*sub, "--json", flags->json);
         sub->callback([flags, does, &chosen] { chosen = [flags, does] { return does(*flags); }; });
         return sub;
     };
     CLI::App* list = add("ls", "list cells with when each was last used (UTC), least recently used first", list_store);
     add("verify", "read everything; take out what is damaged, so that it is played again; 1 when anything was", verify);
     CLI::App* pruned = add("prune", "remove cells, then files that no cell needs", prune);
-    for (CLI::App* sub : {list, pruned})
-        sub->add_option("--study", flags->study, "only what studies of this name were the first to play, * and ? allowed");
-    pruned->add_option("--older-than", flags->older_than, "remove cells last used longer ago than this: 30d, 12h or 90min");
-    pruned->add_option("--at-most", flags->at_most, "remove the least recently used cells until at most this much is left: 20GiB");
-    pruned->add_flag("--dry-run", flags->dry, "only say what would go");
+    for (CLI::App* sub : {list, pruned}) {
+        add_shared(*sub, "--study", flags->study)->default_str("all; * and ? allowed");
+        sub->footer("A cell belongs to the study that was the first to play it.");
+    }
+    pruned->add_option("--older-than", flags->older_than, "remove cells last used longer ago than this: 30d, 12h or 90min")
+        ->option_text("AGE");
+    pruned->add_option("--at-most", flags->at_most, "remove the least recently used cells until at most this much is left: 20GiB")
+        ->option_text("SIZE");
+    add_shared(*pruned, "--dry-run", flags->dry);
 }
 
 } // namespace fernlicht

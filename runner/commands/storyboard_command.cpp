@@ -1,6 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "scenarios/openscenario/play_story.h"
 #include "scenarios/openscenario/reader/read_storyboard.h"
 #include "scenarios/values/errors.h"
@@ -8,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <fmt/format.h>
 #include <iterator>
 #include <memory>
@@ -20,7 +22,7 @@ struct StoryboardFlags {
     std::vector<std::string> road_folders, parameters;
     std::string road, out;
     double max_s = 60.0, step_s = 0.01;
-    bool lenient = false, quiet = false, force = false;
+    bool lenient = false, brief = false, force = false;
 };
 
 osc::StoryboardOptions options_of(const StoryboardFlags& flags) {
@@ -61,21 +63,22 @@ void play(const StoryboardFlags& flags, const std::filesystem::path& file, const
     const RoadNetwork network = road.empty() ? RoadNetwork{} : read_opendrive(road);
     const osc::PlayedStory played = osc::play_story(story, network, {.step_s = flags.step_s, .max_s = flags.max_s});
     add_rows(played, network, number, rows);
-    fmt::print("{}: {:.6g} s, until {}\n", file.string(), static_cast<double>(std::max<std::size_t>(played.ticks(), 1) - 1) * played.step_s,
-               played.end);
-    if (flags.quiet)
+    std::FILE* const told = flags.out == "-" ? stderr : stdout;
+    fmt::print(told, "{}: {:.6g} s, until {}\n", file.string(),
+               static_cast<double>(std::max<std::size_t>(played.ticks(), 1) - 1) * played.step_s, played.end);
+    if (flags.brief)
         return;
     for (const osc::PlayedEntity& entity : played.entities) {
         const osc::EntitySample last = entity.samples.empty() ? osc::EntitySample{} : entity.samples.back();
         if (last.present)
-            fmt::print("  {}: at ({:.3f}, {:.3f}, {:.3f}) m, {:.3f} m/s, {} light changes\n", printable(entity.entity.name),
+            fmt::print(told, "  {}: at ({:.3f}, {:.3f}, {:.3f}) m, {:.3f} m/s, {} light changes\n", printable(entity.entity.name),
                        last.position_m.x, last.position_m.y, last.position_m.z, last.speed_mps, entity.lights.size());
         else
-            fmt::print("  {}: not there at the end\n", printable(entity.entity.name));
+            fmt::print(told, "  {}: not there at the end\n", printable(entity.entity.name));
     }
     for (const auto* notes : {&story.notes, &played.notes})
         for (const std::string& note : *notes)
-            fmt::print("  note: {}\n", note);
+            fmt::print(told, "  note: {}\n", note);
 }
 
 bool is_variation(const std::filesystem::path& file) {
@@ -88,7 +91,7 @@ int run(const StoryboardFlags& flags) {
         refuse_flag("--duration", fmt::format("{}", flags.max_s), "seconds above 0, at most 100 000");
     if (!(flags.step_s >= 1e-4 && flags.step_s <= 1.0))
         refuse_flag("--step", fmt::format("{}", flags.step_s), "seconds from 0.0001 to 1");
-    refuse_existing("--out", flags.out, flags.force);
+    check_target("--out", flags.out, flags.force);
     osc::StoryboardOptions options = options_of(flags);
     std::string rows = "case,time_s,entity,x_m,y_m,z_m,heading_rad,pitch_rad,roll_rad,speed_mps,road,lane,s_m,t_m,visible\n";
     if (is_variation(flags.file)) {
@@ -101,7 +104,7 @@ int run(const StoryboardFlags& flags) {
                 options.parameters[name] = value;
                 told += fmt::format(" {}={}", printable(name), printable(value));
             }
-            fmt::print("case {}:{}\n", number, told);
+            fmt::print(flags.out == "-" ? stderr : stdout, "case {}:{}\n", number, told);
             play(flags, variations.scenario, options, number++, rows);
         }
     } else {
@@ -117,16 +120,20 @@ int run(const StoryboardFlags& flags) {
 void add_storyboard_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto flags = std::make_shared<StoryboardFlags>();
     CLI::App* sub = app.add_subcommand("storyboard", "play an OpenSCENARIO XML file without rendering, and report where everything goes");
-    sub->add_option("FILE", flags->file, "scenario, or parameter variation file (plays all its cases)")->required();
-    sub->add_option("--road", flags->road, "OpenDRIVE file to use instead of the scenario's");
-    sub->add_option("--road-folder", flags->road_folders, "also look here for the scenario's road")->allow_extra_args(false);
-    sub->add_option("--parameter", flags->parameters, "NAME=VALUE for a parameter that the file declares")->allow_extra_args(false);
-    sub->add_option("--duration", flags->max_s, "maximum time to play, in s (default: 60)");
-    sub->add_option("--step", flags->step_s, "time step in s (default: 0.01)");
-    sub->add_option("--out", flags->out, "write a CSV with one row per step and entity");
-    sub->add_flag("--force", flags->force, "let --out replace an existing file");
-    sub->add_flag("--lenient", flags->lenient, "skip what is unsupported, with a note for each");
-    sub->add_flag("--quiet", flags->quiet, "list neither entities nor notes");
+    sub->add_option("FILE", flags->file, "storyboard or parameter variation, of which all cases are played; or - for standard input")
+        ->required();
+    add_shared(*sub, "--road", flags->road);
+    add_shared(*sub, "--road-folder", flags->road_folders);
+    sub->add_option("--parameter", flags->parameters, "value of a parameter that the file declares")
+        ->option_text("NAME=VALUE")
+        ->allow_extra_args(false);
+    add_shared(*sub, "--duration", flags->max_s)->default_str("60 at most");
+    sub->add_option("--step", flags->step_s, "time step in seconds")->option_text("S")->capture_default_str();
+    add_shared(*sub, "-o,--out", flags->out);
+    add_shared(*sub, "--force", flags->force);
+    add_shared(*sub, "--lenient", flags->lenient);
+    sub->add_flag("--brief", flags->brief, "list neither entities nor notes");
+    sub->footer("The file of --out is a CSV with one row per step and entity; what is printed goes to standard error beside `--out -`.");
     sub->callback([flags, &chosen] { chosen = [flags] { return run(*flags); }; });
 }
 

@@ -3,12 +3,15 @@
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
 #include "runner/commands/run_files.h"
+#include "runner/commands/shared_flags.h"
+#include "runner/commands/watch.h"
 #include "runner/experiments/history/history_document.h"
 #include "runner/experiments/history/night_of_study.h"
 #include "runner/experiments/history/tell_apart_by_playing.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/experiments/study/study_run.h"
 #include "runner/files/log.h"
+#include "runner/files/page_link.h"
 #include "runner/files/trace_file.h"
 #include "runner/findings/run_context.h"
 #include "runner/judge/verdict_line.h"
@@ -23,6 +26,7 @@
 #include <fmt/ranges.h>
 #include <memory>
 #include <oneapi/tbb/parallel_invoke.h>
+#include <set>
 #include <unistd.h>
 
 namespace fernlicht {
@@ -41,7 +45,7 @@ struct StudyFlags {
     std::optional<double> cell_minutes, cell_memory_mib;
     std::optional<int> cell_cores;
     std::string executor = "local", partition, gpus;
-    bool timed = false, fails_on_change = false, explain = false, plan = false, play = false, collect = false;
+    bool timed = false, fails_on_change = false, explain = false, plan = false, play = false, collect = false, watch = false;
 };
 
 int list_cells(const std::vector<StudyCell>& cells) {
@@ -183,9 +187,31 @@ void refuse_contradictions(const StudyFlags& flags) {
     if (!flags.out.empty() && ways > 0 && !flags.collect)
         throw InputError({{}, 0, 0, "--out"}, "found beside --list, --explain, --plan or --play, which write no report",
                          "it without these");
+    if (flags.watch && (ways > 0 || flags.timed || flags.resume || slurm || !flags.history.empty() || !flags.trace.empty()))
+        throw InputError(
+            {{}, 0, 0, "--watch"},
+            "found beside --list, --explain, --plan, --play, --collect, --timed, --resume, --executor slurm, --history or --trace",
+            "it without these");
     if (flags.timed && (ways > 0 || flags.jobs > 1))
         throw InputError({{}, 0, 0, "--timed"}, "found beside what plays several cells at a time or none",
                          "--timed by itself: cells are played one after another");
+}
+
+/// What is waited for with --watch: its drives, and lamps as each drive has them.
+void read_by(const Study& study, WatchTurn& turn) {
+    turn.reads(study.opened);
+    for (const std::filesystem::path& drive : study.drives)
+        turn.reads(drive);
+    for (const StudyLamp& lamp : study.lamps)
+        for (const std::filesystem::path* const file : {&lamp.left, &lamp.right, &lamp.high, &lamp.recipe})
+            turn.reads(*file);
+    std::set<std::pair<std::size_t, std::size_t>> seen;
+    for (const StudyCell& cell : cells_of(study))
+        if (seen.emplace(cell.drive, cell.lamp).second) {
+            const Drive drive = cell_drive(study, cell);
+            turn.reads(drive.opened);
+            turn.reads(drive.road_file);
+        }
 }
 
 /// What a store takes out of its folder must not be a report.
@@ -215,9 +241,15 @@ void annotate_study(const StudyResult& result) {
         annotate({result.study.file, 0, 0, {}}, "incomplete", result.interrupted);
 }
 
-int study(const StudyFlags& flags, const std::vector<std::string>& command) {
+int study(const StudyFlags& flags, const std::vector<std::string>& command, WatchTurn& turn) {
     refuse_contradictions(flags);
-    const Study study = read_study(named_file("study", flags.file, "FILE"));
+    if (flags.file == "-")
+        refuse_flag("STUDY", "-", "a file: processes of their own read it to play its cells");
+    const std::filesystem::path file = named_file("study", flags.file, "STUDY");
+    turn.reads(file);
+    const Study study = read_study(file);
+    if (flags.watch)
+        read_by(study, turn);
     if (flags.list) {
         refuse_unaimable(study);
         refuse_unknown_readings(study);
@@ -229,7 +261,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     if (flags.resume && flags.out.empty())
         throw InputError({{}, 0, 0, "--resume"}, "found no --out beside it", "the folder to go on in");
     StudyOptions options;
-    options.folder = result_folder(flags.out, study.name);
+    options.folder = turn.folder(result_folder(flags.out, study.name));
     options.store = flags.store.empty() && (!flags.timed || !flags.history.empty()) ? default_store() : std::filesystem::path(flags.store);
     refuse_store(options.folder, options.store);
     options.timed = flags.timed;
@@ -272,6 +304,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
                  std::get<std::string>(changes_section(*findings).blocks.front()),
                  shell_quoted({command.front(), "history", "explain", "--study", result.study.name, "--history", flags.history})});
         write_study(result, options.folder, findings, flags.figures == "paper");
+        turn.page_written();
         if (findings)
             try_history([&] { remember(flags, result, options, *findings); });
     };
@@ -297,7 +330,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
     Document summary = study_summary(result);
     if (findings)
         summary.sections.insert(summary.sections.begin(), changes_section(*findings));
-    fmt::print("{}{}\n{}\n", document_text(summary), result.played_by, (options.folder / "report.html").string());
+    fmt::print("{}{}\n{}\n", document_text(summary), result.played_by, page_link(turn.page()));
     annotate_study(result);
     trace.finish();
     if (!no_history.empty())
@@ -310,46 +343,58 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command) {
 void add_study_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<StudyFlags>();
     CLI::App* sub = app.add_subcommand("study", "play lamps x drives x techniques x conditions, and report what differs beyond noise");
-    sub->add_option("FILE", flags->file, "study file (YAML), or the name of one of ours such as standard")->required();
-    sub->add_option("--out", flags->out, "new or empty folder for the report");
-    sub->add_flag("--resume", flags->resume,
-                  "continue in the --out folder of this study: keep finished cells, play the others, write the report again");
-    sub->add_option("--backend", flags->backend, backend_names);
-    sub->add_option("--frames", flags->frames, "FIRST:LAST: play these moments of each drive only, counted from 0");
+    add_shared(*sub, "STUDY", flags->file)->required();
+    add_shared(*sub, "--out", flags->out);
+    add_shared(*sub, "--resume", flags->resume);
+    add_shared(*sub, "--backend", flags->backend);
+    add_shared(*sub, "--frames", flags->frames);
     add_judging_flags(*sub, flags->judging);
-    sub->add_flag("--strict", flags->strict, strict_text);
-    sub->add_flag("--no-accuracy", flags->no_accuracy, "do not compare moments of each cell with the reference");
-    sub->add_option("--only", flags->only, "comma-separated names of cells, * and ? allowed: 'straight*,*xenon'")->allow_extra_args(false);
-    add_trace_flag(*sub, flags->trace);
+    add_shared(*sub, "--strict", flags->strict);
+    add_shared(*sub, "--no-accuracy", flags->no_accuracy);
+    add_shared(*sub, "--only", flags->only);
+    add_shared(*sub, "--trace", flags->trace);
     sub->add_option("--figures", flags->figures,
-                    "paper: figures at column width as PDF and SVG, captions, data and LaTeX tables in DIR/paper")
-        ->check(CLI::IsMember({"paper"}));
-    sub->add_flag("--list", flags->list, "list the cells and play none");
-    sub->add_option("--store", flags->store, "folder where played cells are kept (default: $XDG_CACHE_HOME/fernlicht/store)");
-    sub->add_option("--jobs", flags->jobs, "cells to play at a time (default: one per core; with a GPU at most 4)")
-        ->check(CLI::Range(1, 1024));
+                    "write figures at column width as PDF and SVG, captions, data and LaTeX tables into the folder paper, too")
+        ->check(CLI::IsMember({"paper"}))
+        ->option_text("paper");
+    add_shared(*sub, "--list", flags->list);
+    add_shared(*sub, "--store", flags->store);
+    sub->add_option("--jobs", flags->jobs, "cells to play at a time")
+        ->check(CLI::Range(1, 1024))
+        ->default_str("one per core; with a GPU at most 4");
     sub->add_flag("--timed", flags->timed, "play cells one after another by themselves and take times; take none from the store");
-    sub->add_option("--cell-minutes", flags->cell_minutes, "stop a cell that takes longer (default: the study's resources)")
-        ->check(CLI::Range(0.001, 1e5));
+    sub->add_option("--cell-minutes", flags->cell_minutes, "stop a cell that takes longer")
+        ->check(CLI::Range(0.001, 1e5))
+        ->default_str("the study's `resources`");
     sub->add_option("--cell-memory-mib", flags->cell_memory_mib, "memory that a cell may take; 0: no limit")->check(CLI::Range(0.0, 1e7));
-    sub->add_option("--cell-cores", flags->cell_cores, "cores for each cell (default: 1; all with --jobs 1)")->check(CLI::Range(1, 1024));
-    sub->add_option("--executor", flags->executor, "local, or slurm: play cells as job arrays of a cluster")
-        ->check(CLI::IsMember({"local", "slurm"}));
-    sub->add_option("--partition", flags->partition, "partition of the cluster to submit to");
-    sub->add_option("--gpus", flags->gpus, "of the cluster for each cell, as --gres has it: gpu:1");
-    sub->add_option("--history", flags->history,
-                    "lead with what changed since the last accepted night of this history, and add tonight to it");
-    sub->add_flag("--fail-on-change", flags->fails_on_change,
-                  "with --history: exit code 1 where anything changed since that night, or cannot be compared with it");
+    sub->add_option("--cell-cores", flags->cell_cores, "cores for each cell")
+        ->check(CLI::Range(1, 1024))
+        ->default_str("1; all with --jobs 1");
+    sub->add_option("--executor", flags->executor, "where to play: here, or as job arrays of a cluster")
+        ->check(CLI::IsMember({"local", "slurm"}))
+        ->capture_default_str();
+    sub->add_option("--partition", flags->partition, "partition of the cluster to submit to")->option_text("NAME");
+    sub->add_option("--gpus", flags->gpus, "GPUs of the cluster for each cell, as --gres has it: gpu:1")->option_text("GRES");
+    add_shared(*sub, "--history", flags->history);
+    add_shared(*sub, "--fail-on-change", flags->fails_on_change);
     sub->add_flag("--explain", flags->explain, "say why each cell must be played that the store lacks, and play none");
     sub->add_flag("--plan", flags->plan, "print a command for each cell that the store lacks, a line of JSON each, and play none");
-    sub->add_option("--per", flags->per, "cells for each command of --plan, and for each task of a cluster (default: 1)")
-        ->check(CLI::Range(1, 100'000));
+    sub->add_option("--per", flags->per, "cells for each command of --plan, and for each task of a cluster")
+        ->check(CLI::Range(1, 100'000))
+        ->capture_default_str();
     sub->add_flag("--play", flags->play, "play into the store what it lacks, in this process, and write no report");
-    sub->add_option("--expect", flags->expect, "with --play: CELL=KEY, a cell and the key that --plan gave it")->allow_extra_args(false);
+    sub->add_option("--expect", flags->expect, "with --play: a cell and the key that --plan gave it")
+        ->option_text("CELL=KEY")
+        ->allow_extra_args(false);
     sub->add_flag("--collect", flags->collect, "write the report of what lies in the store, and play none");
-    sub->add_flag("--quiet", flags->quiet, "show no progress");
-    sub->callback([flags, command, &chosen] { chosen = [flags, command] { return study(*flags, command); }; });
+    add_shared(*sub, "--quiet", flags->quiet);
+    sub->footer(
+        "With --history the report leads with what changed since the last accepted night, and tonight is added. docs/studies.md tells "
+        "more.");
+    add_watch_flag(*sub, flags->watch);
+    sub->callback([flags, command, &chosen] {
+        chosen = [flags, command] { return watched(flags->watch, [&](WatchTurn& turn) { return study(*flags, command, turn); }); };
+    });
 }
 
 } // namespace fernlicht

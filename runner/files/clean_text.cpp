@@ -92,6 +92,12 @@ std::string encoded(const std::vector<char32_t>& codes) {
 
 std::string clean_text(std::string_view bytes) { return encoded(clean_code_points(bytes)); }
 
+std::string capitalised(std::string text) {
+    if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
+        text.front() = static_cast<char>(text.front() - 'a' + 'A');
+    return text;
+}
+
 std::string short_text(std::string_view bytes, std::size_t max_characters) {
     std::vector<char32_t> codes = clean_code_points(bytes);
     if (codes.size() > max_characters) {

@@ -12,6 +12,9 @@ namespace fernlicht {
 /// the direction of writing) become U+FFFD; C0 controls and DEL become their pictures (U+2400 ff.), so that a newline in a file name shows.
 std::string clean_text(std::string_view bytes);
 
+/// With a capital first, where that is a letter from a to z.
+std::string capitalised(std::string text);
+
 /// clean_text, its middle replaced by an ellipsis when longer than `max_characters` (code points; at least 3).
 std::string short_text(std::string_view bytes, std::size_t max_characters);
 

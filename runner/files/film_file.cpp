@@ -1,5 +1,6 @@
 #include "runner/files/film_file.h"
 
+#include "runner/files/child_process.h"
 #include "runner/files/picture_file.h"
 #include "scenarios/values/errors.h"
 
@@ -7,7 +8,6 @@
 #include <cerrno>
 #include <charconv>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <string>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -15,8 +15,6 @@
 #include <unistd.h>
 #include <utility>
 #include <vector>
-
-extern char** environ; // NOLINT: POSIX's
 
 namespace fernlicht {
 namespace {
@@ -86,42 +84,23 @@ FilmFile::FilmFile(std::filesystem::path file, int width_px, int height_px, Fram
     start(width_px, height_px, rate);
 }
 
-/// A socket for a pipe, since a reader that is gone then is an error and no signal. Its process group is its own: Ctrl-C on the terminal
-/// is for this program, which ends the film in order.
+/// A socket for a pipe, since a reader that is gone then is an error and no signal. Ctrl-C ends this program, which ends the film in order.
 void FilmFile::start(int width_px, int height_px, FrameRate rate) {
-    std::vector<std::string> words = encoder_words(kind_, width_px, height_px, rate, part_);
-    std::vector<char*> pointers;
-    for (std::string& word : words)
-        pointers.push_back(word.data());
-    pointers.push_back(nullptr);
     int ends[2] = {-1, -1};
     said_ = std::tmpfile();
     if (!said_ || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
         throw DeviceError(fmt::format("ffmpeg cannot be started: {}", std::generic_category().message(errno)));
     frames_ = ends[0];
-    posix_spawn_file_actions_t actions;
-    ::posix_spawn_file_actions_init(&actions);
-    ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
-    ::posix_spawn_file_actions_adddup2(&actions, ::fileno(said_), STDOUT_FILENO);
-    ::posix_spawn_file_actions_adddup2(&actions, ::fileno(said_), STDERR_FILENO);
-    posix_spawnattr_t attributes;
-    ::posix_spawnattr_init(&attributes);
-    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    ::posix_spawnattr_setpgroup(&attributes, 0);
-    ::pid_t pid = -1;
-    const int error = ::posix_spawnp(&pid, pointers.front(), &actions, &attributes, pointers.data(), environ);
-    ::posix_spawnattr_destroy(&attributes);
-    ::posix_spawn_file_actions_destroy(&actions);
-    ::close(ends[1]);
-    if (error == 0) {
-        ffmpeg_ = pid;
-        return;
+    try {
+        ffmpeg_ = start_program(encoder_words(kind_, width_px, height_px, rate, part_), {ends[1], ::fileno(said_), ::fileno(said_)});
+        ::close(ends[1]);
+    } catch (const DeviceError& error) { // there is no destructor yet
+        ::close(ends[1]);
+        ::close(frames_);
+        std::fclose(said_);
+        throw DeviceError(fmt::format("{}: {}; install Debian's package ffmpeg, or film to pictures, --film frame-%06d.png",
+                                      printable(file_.string(), 400), error.what()));
     }
-    ::close(frames_); // there is no destructor yet
-    std::fclose(said_);
-    throw DeviceError(fmt::format("{}: ffmpeg, which encodes it, cannot be started: {}; install Debian's package ffmpeg, or film to "
-                                  "pictures, --film frame-%06d.png",
-                                  printable(file_.string(), 400), std::generic_category().message(error)));
 }
 
 FilmFile::~FilmFile() {
@@ -139,11 +118,7 @@ int FilmFile::wait() {
     if (ffmpeg_ < 0)
         return 0;
     ::close(std::exchange(frames_, -1));
-    int status = 0;
-    while (::waitpid(ffmpeg_, &status, 0) < 0 && errno == EINTR)
-        ;
-    ffmpeg_ = -1;
-    return status;
+    return end_of_program(std::exchange(ffmpeg_, -1));
 }
 
 void FilmFile::fail(int status) {

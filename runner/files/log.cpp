@@ -91,8 +91,7 @@ void annotate(const InputError::Where& where, const std::string& title, const st
         place += fmt::format("line={},", where.line);
     if (!where.file.empty() && where.column > 0)
         place += fmt::format("col={},", where.column);
-    fmt::print("::error {}title={}::{}\n", place, escaped(title, true), escaped(message, false));
-    std::fflush(stdout);
+    fmt::print(stderr, "::error {}title={}::{}\n", place, escaped(title, true), escaped(message, false));
 }
 
 } // namespace fernlicht

@@ -32,7 +32,7 @@ void tell(LogLevel level, const std::string& message, const LogFields& fields = 
 void tell_end(const std::exception& error, int exit_code);
 
 /// Something red, at a place in a user's file as far as it is known, for the pages of a CI server; nothing unless the settings ask for it.
-/// On standard output: `::error file=...,line=...,title=...::message` of GitHub Actions.
+/// `::error file=...,line=...,title=...::message`, which GitHub's runner takes from standard error, too.
 void annotate(const InputError::Where& where, const std::string& title, const std::string& message);
 
 } // namespace fernlicht

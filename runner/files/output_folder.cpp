@@ -43,6 +43,9 @@ std::string contents(const fs::path& folder) {
     return fmt::format("is not empty (it holds '{}')", printable(fs::directory_iterator(folder)->path().filename().string()));
 }
 
+/// Whether another folder would do, or no disk does.
+bool is_users_choice(int error) { return error != ENOSPC && error != EIO && error != EDQUOT && error != EMFILE && error != ENFILE; }
+
 /// Made, not overwritten: of two runs that start at once in one folder the second is refused.
 void put_mark(const fs::path& folder) {
     const fs::path mark = folder / mark_name;
@@ -50,6 +53,9 @@ void put_mark(const fs::path& folder) {
     const int error = errno;
     if (file < 0 && error == EEXIST)
         throw InputError({folder, 0, 0, "--out"}, contents(folder), "a new or an empty folder");
+    if (file < 0 && is_users_choice(error))
+        throw InputError({folder, 0, 0, "--out"}, "cannot be written to: " + std::generic_category().message(error),
+                         "a folder that can be written to");
     if (file < 0)
         throw DeviceError(printable(mark.string(), 400) + ": cannot be written: " + std::generic_category().message(error));
     ::close(file);
@@ -81,6 +87,9 @@ OutputFolder::OutputFolder(fs::path folder) : folder_(std::move(folder)) {
         }
         fs::create_directories(folder_);
     } catch (const fs::filesystem_error& error) {
+        if (is_users_choice(error.code().value()))
+            throw InputError({folder_, 0, 0, "--out"}, "cannot be made or used: " + error.code().message(),
+                             "a folder that can be written to");
         throw DeviceError(printable(folder_.string(), 400) + ": cannot be made or used as output folder: " + error.code().message());
     }
     put_mark(folder_);

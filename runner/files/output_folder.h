@@ -16,8 +16,8 @@ std::filesystem::path default_output_folder(const std::string& drive, const std:
 class OutputFolder {
   public:
     /// Creates `folder` (and those above it) or takes an empty one, and marks it as in progress.
-    /// Throws InputError naming it when it holds anything (another run, other files) or is no folder, DeviceError when it cannot be created
-    /// or written to (read-only, full disk, no right).
+    /// Throws InputError naming it when it holds anything (another run, other files), is no folder or cannot be created or written to
+    /// (read-only, no right), DeviceError where the disk refuses (full).
     explicit OutputFolder(std::filesystem::path folder);
 
     /// A folder whose run did not end, to be gone on with. Throws InputError for any other.

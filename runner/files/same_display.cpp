@@ -12,7 +12,8 @@ std::string check_shown_alike(const NamedPicture& reference, const NamedPicture&
     const PictureTags a = read_png_tags(reference.file), b = read_png_tags(tested.file);
     if (!a.shown_by.empty() && !b.shown_by.empty() && a.shown_by != b.shown_by)
         throw InputError({tested.file, 0, 0, {}}, "was shown by '" + printable(b.shown_by, 200) + "'",
-                         "'" + printable(a.shown_by, 200) + "' as " + as + ", or the EXRs of the same moments");
+                         "'" + printable(a.shown_by, 200) + "' as " + as +
+                             ", or the EXRs of the same moments; one `tone_mapper` and `display` in both drives give comparable PNGs");
     for (const auto& [tags, file] : {std::pair(&a, &reference.file), std::pair(&b, &tested.file)})
         if (!tags->icc.empty())
             throw InputError({*file, 0, 0, {}}, "has the colour space of a display, by an ICC profile",

@@ -120,7 +120,7 @@ struct Plot {
     double scale = 1.0;                     ///< pixels of its PNG for one of the SVG
     bool beside = false;                    ///< small enough that others stand beside it
     bool png_alone = false;                 ///< made of pixels: no SVG is kept
-    std::string place = {};                 ///< by which a page filters and sorts it among others of its section; "": it stays
+    std::vector<std::string> places = {};   ///< by which a page filters and sorts it among others of its section; none: it stays
     std::optional<double> rank = {};        ///< by which a page sorts it, largest first
 };
 

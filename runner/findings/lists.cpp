@@ -73,6 +73,65 @@ Document readings_document() {
     return {"Readings", {{"", {std::move(all)}}}};
 }
 
+std::string readings_json() {
+    Json all = Json::array();
+    for (const QuantityRow& row : quantities())
+        all.push_back({{"names", forms_in_words(row)},
+                       {"unit", row.unit},
+                       {"better", row.better == Better::higher  ? Json("higher")
+                                  : row.better == Better::lower ? Json("lower")
+                                                                : Json(nullptr)},
+                       {"meaning", row.meaning},
+                       {"equation", row.equation},
+                       {"source", row.source}});
+    return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Document techniques_reference(std::span<const Technique> rows, ShadowMethods shadows) {
+    const auto ending = [](std::string_view ignores, std::string_view origin) {
+        return fmt::format("{}{}{}{}.", ignores.empty() ? "" : ". Ignores ", ignores, origin.empty() ? "" : ". ", origin);
+    };
+    Listing all, methods;
+    for (const Technique& row : rows)
+        all.items.emplace_back(
+            fmt::format("`{}` ({}{}{}): {}{}", row.name, kind_name(row.kind), row.passes == 1 ? "" : fmt::format(", {} passes", row.passes),
+                        !row.illuminance ? ", no lux"
+                        : row.target     ? ", lux on targets too"
+                                         : "",
+                        row.computes, ending(row.ignores, row.thesis_row > 0 ? fmt::format("Row {}", row.thesis_row) : row.origin)));
+    for (const ShadowMethodName& row : shadows)
+        methods.items.emplace_back(fmt::format("`{}`: {}{}", row.name, row.computes, ending(row.ignores, row.origin)));
+    return {"Techniques",
+            {{"",
+              {"For `--technique`; [techniques.md](../techniques.md) explains the kinds. One pass for a view, and lux on surfaces, unless "
+               "something else is said. Rows are those of Table 6.1 of Knebel 2004.",
+               std::move(all)}},
+             {"Shadow methods", {"For `--shadows`; [shadows.md](../shadows.md) has what they cost.", std::move(methods)}}}};
+}
+
+Document quantities_reference() {
+    Listing all;
+    for (const QuantityRow& row : quantities()) {
+        std::string source = row.equation;
+        if (*row.source)
+            source += (source.empty() ? "" : "; ") + std::string(row.source);
+        for (std::size_t at = 0; (at = source.find("](", at)) != std::string::npos; at += 5)
+            source.replace(at, 2, "](../"); // pages name one another from docs/
+        all.items.emplace_back(fmt::format("`{}` ({}{}): {}{}{}", fmt::join(forms_in_words(row), "`, `"), row.unit,
+                                           row.better == Better::higher  ? ", higher"
+                                           : row.better == Better::lower ? ", lower"
+                                                                         : "",
+                                           row.meaning, source.empty() ? "" : ". ", source));
+    }
+    return {
+        "Quantities",
+        {{"",
+          {"What `fernlicht readings` lists; [readings.md](../readings.md) explains how names are made. In brackets the unit and which way "
+           "is better. `[_min/_p05]`: one of these or none; `(road/target)`: one of these; numbers stand for any. Meaning, equation, "
+           "source.",
+           std::move(all)}}}};
+}
+
 Document signals_document() {
     Table all{
         .name = "signals", .caption = "", .columns = columns_of("signal`|unit<|least|greatest|written by<|from bus<|meaning<"), .rows = {}};

@@ -11,11 +11,13 @@ namespace fernlicht {
 const char* kind_name(TechniqueKind kind); ///< "as published", "as printed", "known", "ours"
 
 using ShadowMethods = std::span<const ShadowMethodName>;
-/// The tables of docs/techniques.md.
 Document techniques_document(std::span<const Technique> rows, ShadowMethods shadows);
 std::string techniques_json(std::span<const Technique> rows, ShadowMethods shadows);
-/// The table of docs/readings.md.
 Document readings_document();
+std::string readings_json();
+/// The same as lists: docs/reference/techniques.md and quantities.md.
+Document techniques_reference(std::span<const Technique> rows, ShadowMethods shadows);
+Document quantities_reference();
 Document signals_document();
 std::string signals_json();
 

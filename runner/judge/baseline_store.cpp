@@ -134,7 +134,7 @@ Stored place(const fs::path& store, std::vector<StoredBaseline>& entries, Stored
     if (how == Acceptance::first && stored.is_new)
         if (const auto other = std::ranges::find_if(entries, is_other); other != entries.end())
             throw InputError({store, 0, 0, {}}, fmt::format("holds other results for {}: {}", key_text(entry.key), short_id(other->id)),
-                             "--replace, if these are right in their place, or --add, if either is right");
+                             "--replace, if these are right in their place, or --also, if either is right");
     if (!stored.is_new && !entry.note.empty())
         known->note = entry.note;
     if (how == Acceptance::replace || how == Acceptance::replace_class)

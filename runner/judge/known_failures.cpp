@@ -2,6 +2,7 @@
 
 #include "scenarios/values/errors.h"
 #include "scenarios/values/glob.h"
+#include "scenarios/values/refusals.h"
 #include "scenarios/yaml/yaml_entry.h"
 
 #include <algorithm>
@@ -22,15 +23,22 @@ KnownFailure read_entry(const YamlEntry& entry) {
     const YamlMap map = entry.map({"id", "kind", "reason", "expires"});
     KnownFailure known;
     known.line = entry.value().line;
-    const YamlEntry id = map.require("id"), expires = map.require("expires");
-    known.id = id.text();
-    if (known.id.find('/') == std::string::npos)
-        id.refuse("DRIVE/LAMP SET/TECHNIQUE/NAME, with * for any text");
-    known.kind = map.require("kind").choice({"fails", "flaky"}) == 0 ? VerdictKind::fail : VerdictKind::flaky;
-    known.reason = map.require("reason").text();
-    known.expires = expires.text();
-    if (!is_date(known.expires))
-        expires.refuse("a date, e.g. 2026-12-31: the last day that the entry holds");
+    EachRead each;
+    each([&] {
+        const YamlEntry id = map.require("id");
+        known.id = id.text();
+        if (known.id.find('/') == std::string::npos)
+            id.refuse("DRIVE/LAMP SET/TECHNIQUE/NAME, with * for any text");
+    });
+    each([&] { known.kind = map.require("kind").choice({"fails", "flaky"}) == 0 ? VerdictKind::fail : VerdictKind::flaky; });
+    each([&] { known.reason = map.require("reason").text(); });
+    each([&] {
+        const YamlEntry expires = map.require("expires");
+        known.expires = expires.text();
+        if (!is_date(known.expires))
+            expires.refuse("a date, e.g. 2026-12-31: the last day that the entry holds");
+    });
+    each.end();
     return known;
 }
 
@@ -107,14 +115,18 @@ KnownFailures read_known_failures(const std::filesystem::path& file) {
     const YamlEntry root(tree, file, "");
     const YamlMap map = root.map({"known"});
     const YamlEntry entries = map.require("known");
-    for (const YamlEntry& item : entries.list(0, max_entries)) {
+    EachRead each;
+    const auto read = [&](const YamlEntry& item) {
         KnownFailure entry = read_entry(item);
         const auto earlier = std::ranges::find(known.entries, entry.id, &KnownFailure::id);
         if (earlier != known.entries.end())
             item.refuse("'" + printable(entry.id, 200) + "' again",
                         fmt::format("each id once; the first stands in line {}", earlier->line));
         known.entries.push_back(std::move(entry));
-    }
+    };
+    for (const YamlEntry& item : entries.list(0, max_entries))
+        each([&] { read(item); });
+    each.end();
     return known;
 }
 

@@ -7,8 +7,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <ctime>
 #include <fmt/format.h>
+#include <string_view>
 #include <unistd.h>
 
 namespace fernlicht {
@@ -47,9 +49,14 @@ extern "C" void on_signal(int signal) {
 
 } // namespace
 
+bool is_for_eyes() {
+    const char* const terminal = std::getenv("TERM");
+    return ::isatty(STDERR_FILENO) == 1 && !log_settings().json && !(terminal != nullptr && std::string_view(terminal) == "dumb");
+}
+
 Progress::Progress(std::string label, int total, bool quiet, std::string counted)
     : label_(std::move(label)), counted_(std::move(counted)), total_(total), quiet_(quiet || !is_told(LogLevel::info)),
-      terminal_(::isatty(STDERR_FILENO) == 1 && !log_settings().json), start_(std::chrono::steady_clock::now()), shown_(start_) {}
+      terminal_(is_for_eyes()), start_(std::chrono::steady_clock::now()), shown_(start_) {}
 
 Progress::~Progress() { show(true); }
 
@@ -75,10 +82,11 @@ void Progress::show(bool last) {
         return;
     }
     const int tenth = 10 * count_ / total_;
-    if (last ? tenth_shown_ == 10 : tenth == tenth_shown_)
+    if (log_settings().json ? (last ? tenth_shown_ == 10 : tenth == tenth_shown_) : last || seconds(now - shown_) < 60.0)
         return;
     tenth_shown_ = last ? 10 : tenth;
-    tell(LogLevel::info, fmt::format("{}: {}/{} {}, {:.1f}/s, {} left", label_, count_, total_, counted_, rate, clock_text(left)),
+    shown_ = now;
+    tell(LogLevel::info, fmt::format("{}: {}/{} {}", label_, count_, total_, counted_),
          {{"progress", label_}, {"done", std::int64_t{count_}}, {"total", std::int64_t{total_}}, {"per_s", rate}, {"left_s", left}});
 }
 

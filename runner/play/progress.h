@@ -1,11 +1,14 @@
-// How far a run is, and whether it was asked to end. Progress: a bar with rate and remaining time on a terminal, plain lines elsewhere,
-// nothing when quiet. By files/log.h.
+// How far a run is, and whether it was asked to end. Progress: a bar with rate and remaining time on a terminal; elsewhere a plain line a
+// minute, as CI servers end a job that is silent for long; an object each tenth for programs (--log-json); nothing when quiet.
 #pragma once
 
 #include <chrono>
 #include <string>
 
 namespace fernlicht {
+
+/// Whether standard error is a terminal on which a line may be written anew.
+bool is_for_eyes();
 
 class Progress {
   public:

@@ -1,5 +1,6 @@
 #include "runner/workers/slurm.h"
 
+#include "runner/files/child_process.h"
 #include "runner/files/durable_files.h"
 #include "scenarios/values/errors.h"
 
@@ -11,13 +12,10 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <spawn.h>
 #include <sstream>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
-
-extern char** environ; // NOLINT: POSIX's
 
 namespace fernlicht {
 namespace {
@@ -41,45 +39,31 @@ std::string all_of(int file) {
     }
 }
 
-/// No shell is between: words stay words. What it complains goes to a file without a name, so that neither can fill up. Its process
-/// group is its own: Ctrl-C on the terminal is for this program alone.
+/// What it complains goes to a file without a name, so that neither can fill up.
 Answer ask(std::vector<std::string> words) {
-    std::vector<char*> pointers;
-    for (std::string& word : words)
-        pointers.push_back(word.data());
-    pointers.push_back(nullptr);
     int said[2] = {-1, -1};
     std::FILE* const complained = std::tmpfile();
     if (!complained || ::pipe2(said, O_CLOEXEC) != 0)
         throw DeviceError(fmt::format("{} cannot be started: {}", words.front(), std::generic_category().message(errno)));
-    posix_spawn_file_actions_t actions;
-    ::posix_spawn_file_actions_init(&actions);
-    ::posix_spawn_file_actions_adddup2(&actions, said[1], STDOUT_FILENO);
-    ::posix_spawn_file_actions_adddup2(&actions, ::fileno(complained), STDERR_FILENO);
-    posix_spawnattr_t attributes;
-    ::posix_spawnattr_init(&attributes);
-    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    ::posix_spawnattr_setpgroup(&attributes, 0);
-    ::pid_t pid = -1;
-    const int error = ::posix_spawnp(&pid, pointers.front(), &actions, &attributes, pointers.data(), environ);
-    ::posix_spawnattr_destroy(&attributes);
-    ::posix_spawn_file_actions_destroy(&actions);
-    ::close(said[1]);
+    const auto close_all = [&] {
+        ::close(said[0]);
+        std::fclose(complained);
+    };
     Answer answer;
-    if (error == 0) {
+    try {
+        const pid_t program = start_program(std::move(words), {.out = said[1], .error = ::fileno(complained)});
+        ::close(said[1]);
         answer.said = all_of(said[0]);
-        int status = 0;
-        while (::waitpid(pid, &status, 0) < 0 && errno == EINTR)
-            ;
+        const int status = end_of_program(program);
         answer.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-        ::lseek(::fileno(complained), 0, SEEK_SET);
-        answer.complained = all_of(::fileno(complained));
+    } catch (const DeviceError& error) {
+        ::close(said[1]);
+        close_all();
+        throw DeviceError(std::string(error.what()) + "; Slurm's programs must be on the PATH");
     }
-    ::close(said[0]);
-    std::fclose(complained);
-    if (error != 0)
-        throw DeviceError(fmt::format("{} cannot be started: {}; Slurm's programs must be on the PATH", words.front(),
-                                      std::generic_category().message(error)));
+    ::lseek(::fileno(complained), 0, SEEK_SET);
+    answer.complained = all_of(::fileno(complained));
+    close_all();
     return answer;
 }
 

@@ -46,13 +46,14 @@ if (placed.length > 2) {
   const unique = (all) => Array.from(new Set(all));
   const make = (tag, properties, ...inside) => { const one = Object.assign(document.createElement(tag), properties); one.append(...inside); return one; };
   const sections = unique(placed.map((figure) => figure.closest('section')));
+  const placesOf = (figure) => figure.dataset.place.split(' | ');
   const off = { place: new Set(), line: new Set() };
   const count = make('output', {});
   let wanted = '';
   const show = () => {
     let shown = 0;
     for (const figure of placed) {
-      figure.hidden = off.place.has(figure.dataset.place) || !figure.dataset.place.toLowerCase().includes(wanted);
+      figure.hidden = placesOf(figure).every((place) => off.place.has(place)) || !figure.dataset.place.toLowerCase().includes(wanted);
       shown += !figure.hidden;
       for (const line of figure.querySelectorAll('[data-of]'))
         line.style.display = off.line.has(line.dataset.of) ? 'none' : '';
@@ -68,7 +69,7 @@ if (placed.length > 2) {
     });
     return chip;
   }));
-  const places = unique(placed.map((figure) => figure.dataset.place));
+  const places = unique(placed.flatMap(placesOf));
   const search = make('input', { type: 'search', placeholder: 'filter', ariaLabel: 'Routes whose name has' });
   search.addEventListener('input', () => { wanted = search.value.trim().toLowerCase(); show(); });
   const order = make('select', {}, ...['as played', 'by name', 'best first', 'worst first'].map((text) => make('option', { textContent: text })));

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace fernlicht {
 namespace {
@@ -15,12 +16,6 @@ using kainjow::mustache::data;
 using List = data::type;
 
 constexpr std::size_t embedded_bytes = std::size_t{32} << 20;
-
-std::string capitalised(std::string text) {
-    if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
-        text.front() = static_cast<char>(text.front() - 'a' + 'A');
-    return text;
-}
 
 /// Headings over neighbouring columns of one group; one over each run.
 data groups_of(const Table& table) {
@@ -177,9 +172,10 @@ data part_of(const Plot& plot, const std::filesystem::path& folder, std::size_t&
     part.set("is_plot", true);
     part.set("svg", plot_svg(plot));
     part.set("beside", plot.beside);
-    part.set("place", plot.place.empty()
+    part.set("place", plot.places.empty()
                           ? std::string()
-                          : fmt::format(" data-place=\"{}\" data-rank=\"{}\"", xml_text(plot.place), plot.rank.value_or(0.0)));
+                          : fmt::format(" data-place=\"{}\" data-rank=\"{}\"", xml_text(fmt::format("{}", fmt::join(plot.places, " | "))),
+                                        plot.rank.value_or(0.0)));
     part.set("has_files", !folder.empty());
     part.set("link", relative_link(place_of(plot)));
     part.set("captions", captions);
@@ -266,7 +262,7 @@ const char* mark_of(const std::string& verdict) {
 bool needs_script(const DocumentPart& block) {
     const auto* table = std::get_if<Table>(&block);
     const auto* plot = std::get_if<Plot>(&block);
-    return (table && table->sortable) || (plot && !plot->place.empty()) || std::holds_alternative<PictureOverlay>(block);
+    return (table && table->sortable) || (plot && !plot->places.empty()) || std::holds_alternative<PictureOverlay>(block);
 }
 
 } // namespace

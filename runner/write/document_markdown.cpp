@@ -44,7 +44,9 @@ std::string table_markdown(const Table& table) {
 std::string document_markdown(const Document& document) {
     std::string text = "# " + markdown_cell(clean_text(document.title)) + "\n";
     for (const Section& section : document.sections) {
-        text += section.title.empty() ? "" : "\n## " + markdown_cell(clean_text(section.title)) + "\n";
+        text += section.title.empty() ? ""
+                                      : "\n" + std::string(static_cast<std::size_t>(section.level), '#') + " " +
+                                            markdown_cell(clean_text(section.title)) + "\n";
         for (const DocumentPart& block : section.blocks)
             if (const auto* table = std::get_if<Table>(&block))
                 text += "\n" + table_markdown(*table);

@@ -154,10 +154,12 @@ data pair_at(const ComparedDrive& drive, const PicturedMoment& moment, const std
         codes.push_back(found == all.end() || found->codes.width() < 1 || found->codes.height() < 1 ? nullptr : &found->codes);
     }
     data part = codes_part(codes, drive);
-    data under = picture_of(drive, 0, moment, view, folder, budget_bytes);
-    if (shown == 2)
-        part.set("over", picture_of(drive, 1, moment, view, folder, budget_bytes));
-    else if (codes[0]) {
+    data first = picture_of(drive, 0, moment, view, folder, budget_bytes), under = first;
+    if (shown == 2) { // what lies over the other shows on the left
+        under = picture_of(drive, 1, moment, view, folder, budget_bytes);
+        part.set("over", first);
+    }
+    if (shown == 1 && codes[0]) {
         data lux;
         lux.set("lamp", "its lux");
         lux.set("view", short_text(view, 40));

@@ -1,6 +1,7 @@
 // Display profiles in YAML.
 #include "scenarios/display/display_profile.h"
 
+#include "scenarios/values/refusals.h"
 #include "scenarios/yaml/yaml_entry.h"
 #include "scenarios/yaml/yaml_tree.h"
 
@@ -213,22 +214,36 @@ DisplayProfile read_display_profile(const std::filesystem::path& path, FilesRead
         version.refuse("1, the version of display profiles that this program knows");
     DisplayProfile profile;
     profile.name = path.stem().string();
-    const auto title = keys.find("title");
-    profile.title = title ? title->text() : profile.name;
-    profile.black_cdm2 = keys.number_or("black_cdm2", 0.0, 0.0, max_cdm2);
-    profile.xyz_from_rgb = read_light(keys, profile.black_cdm2);
-    read_transfer(keys, profile);
-    refuse_white_beyond_pq(keys, profile);
-    if (const auto gamut = keys.find("gamut"))
-        profile.gamut = gamut->choice({"keep-luminance", "clip"}) == 0 ? GamutRule::keep_luminance : GamutRule::clip;
+    EachRead each;
+    each([&] {
+        const auto title = keys.find("title");
+        profile.title = title ? title->text() : profile.name;
+    });
+    const bool has_light = each([&] {
+        profile.black_cdm2 = keys.number_or("black_cdm2", 0.0, 0.0, max_cdm2);
+        profile.xyz_from_rgb = read_light(keys, profile.black_cdm2);
+    });
+    if (each([&] { read_transfer(keys, profile); }) && has_light)
+        each([&] { refuse_white_beyond_pq(keys, profile); });
+    each([&] {
+        if (const auto gamut = keys.find("gamut"))
+            profile.gamut = gamut->choice({"keep-luminance", "clip"}) == 0 ? GamutRule::keep_luminance : GamutRule::clip;
+    });
     profile.bits = profile.transfer == TransferKind::pq ? 16 : 8;
-    if (const auto bits = keys.find("bits"))
-        if ((profile.bits = bits->whole(8, 16)) != 8 && profile.bits != 16)
-            bits->refuse("8 or 16");
-    if (const auto distance = keys.find("viewing_distance_m"))
-        profile.viewing_distance_m = distance->number_above(0.0, 1000.0);
-    if (const auto pitch = keys.find("pixel_pitch_mm"))
-        profile.pixel_pitch_mm = pitch->number_above(0.0, 1000.0);
+    each([&] {
+        if (const auto bits = keys.find("bits"))
+            if ((profile.bits = bits->whole(8, 16)) != 8 && profile.bits != 16)
+                bits->refuse("8 or 16");
+    });
+    each([&] {
+        if (const auto distance = keys.find("viewing_distance_m"))
+            profile.viewing_distance_m = distance->number_above(0.0, 1000.0);
+    });
+    each([&] {
+        if (const auto pitch = keys.find("pixel_pitch_mm"))
+            profile.pixel_pitch_mm = pitch->number_above(0.0, 1000.0);
+    });
+    each.end();
     return profile;
 }
 

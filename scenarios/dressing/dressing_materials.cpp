@@ -2,6 +2,7 @@
 
 #include "scenarios/roads/mesh/mesh_materials.h"
 #include "scenarios/roads/mesh/road_mesh.h"
+#include "scenarios/values/mixed_bits.h"
 
 #include <algorithm>
 #include <array>
@@ -196,8 +197,6 @@ Material as_road(const Scene& scene, RoadMaterial road, const char* name, double
 /// Of luminance 1: a black body of 2700 K, x 0.4599, y 0.4106 (CIE 15), in linear sRGB.
 const glm::vec3 light_of_2700_k{1.935F, 0.804F, 0.192F};
 
-constexpr std::uint64_t golden_ratio = 0x9E3779B97F4A7C15ULL;
-
 } // namespace
 
 std::vector<Material> dressing_materials() {
@@ -243,17 +242,11 @@ std::uint32_t add_dressing_materials(Scene& scene, bool textures, std::uint64_t 
     return first;
 }
 
-Dice::Dice(std::uint64_t seed, std::string_view name) : state_(0xCBF29CE484222325ULL ^ (seed * golden_ratio)) {
+Dice::Dice(std::uint64_t seed, std::string_view name) : state_(0xCBF29CE484222325ULL ^ (seed * mixing_step)) {
     for (const char c : name) // FNV-1a (Fowler, Noll, Vo)
         state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
 }
 
-double Dice::share() {
-    state_ += golden_ratio;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
-}
+double Dice::share() { return static_cast<double>(next_mixed(state_) >> 11) * 0x1.0p-53; }
 
 } // namespace fernlicht

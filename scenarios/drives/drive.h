@@ -10,6 +10,7 @@
 #include "scenarios/lamps/mounted_lamp.h"
 #include "scenarios/models/model.h"
 #include "scenarios/openscenario/reader/read_storyboard.h"
+#include "scenarios/roads/road_surface.h"
 #include "scenarios/roads/route.h"
 #include "scenarios/sky/daylight.h"
 #include "scenarios/sky/street_lamps.h"
@@ -146,6 +147,7 @@ struct Drive {
     std::optional<BeamTexels> beams; ///< how fine beam textures are; nullopt: as fine as the technique takes them, in float
     bool textured = true;            ///< surfaces have pictures
     Dressing dressing = Dressing::plain;
+    RoadSurface road_surface;
     std::uint64_t seed = 1;
     std::vector<LampSource> lamp_sources; ///< where the lamps' files came from
     std::vector<std::string> notes;       ///< what was decided for the user ("the route ends after 8.2 s"), one sentence each

@@ -1,5 +1,7 @@
 #include "scenarios/fields/read_fields.h"
 
+#include "scenarios/values/refusals.h"
+
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
@@ -21,14 +23,18 @@ double number(const FieldRule& rule, const YamlEntry& entry) {
 
 void read_named(const Field& field, const YamlEntry& entry, void* whole) {
     field.member.clear(whole);
+    EachRead each;
     for (const auto& [name, given] : entry.named(field.rule.most)) {
         void* const element = field.member.append(whole);
         *field.member.name_of(element) = name;
-        if (field.group->is_bare)
-            read_value(field.group->fields.front(), given, element);
-        else
-            read_group(*field.group, given, element);
+        each([&, &given = given] {
+            if (field.group->is_bare)
+                read_value(field.group->fields.front(), given, element);
+            else
+                read_group(*field.group, given, element);
+        });
     }
+    each.end();
 }
 
 void read_inner(const Field& field, const YamlEntry& entry, void* whole) {
@@ -132,11 +138,14 @@ void read_value(const Field& field, const YamlEntry& entry, void* whole) {
     case FieldKind::named:
         read_named(field, entry, whole);
         break;
-    case FieldKind::list:
+    case FieldKind::list: {
         field.member.clear(whole);
+        EachRead each;
         for (const YamlEntry& element : entry.list(rule.fewest, rule.most))
-            read_group(*field.group, element, field.member.append(whole));
+            each([&] { read_group(*field.group, element, field.member.append(whole)); });
+        each.end();
         break;
+    }
     case FieldKind::own:
     case FieldKind::inlined:
         break; // has no value of its own
@@ -147,17 +156,29 @@ void read_field(const Group& group, std::string_view key, const YamlMap& keys, v
     read_field(field_named(group, key), keys, whole);
 }
 
-void read_group(const Group& group, const YamlMap& keys, void* whole) {
+namespace {
+
+/// `before`: refusals that were met before the map was opened.
+void read_fields_of(const Group& group, const YamlMap& keys, void* whole, std::size_t before) {
     bool first = true;
+    EachRead each;
     for (const Field& field : group.fields) {
-        read_field(field, keys, whole);
-        if (std::exchange(first, false))
-            refuse_unheard(group, keys, whole);
+        const bool is_read = each([&] { read_field(field, keys, whole); });
+        if (std::exchange(first, false) && is_read)
+            each([&] { refuse_unheard(group, keys, whole); });
     }
-    if (group.check)
+    each.end();
+    if (group.check && refusals_met() == before) // else it would judge what is not as it was meant
         group.check(keys, whole);
 }
 
-void read_group(const Group& group, const YamlEntry& entry, void* whole) { read_group(group, YamlMap(entry, keys_of(group)), whole); }
+} // namespace
+
+void read_group(const Group& group, const YamlMap& keys, void* whole) { read_fields_of(group, keys, whole, refusals_met()); }
+
+void read_group(const Group& group, const YamlEntry& entry, void* whole) {
+    const std::size_t before = refusals_met();
+    read_fields_of(group, YamlMap(entry, keys_of(group)), whole, before);
+}
 
 } // namespace fernlicht

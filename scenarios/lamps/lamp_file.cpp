@@ -79,7 +79,7 @@ void mirror(LampFile& lamp) {
 void write_lamp(const LampFile& lamp, const std::filesystem::path& path) {
     check_invariants(lamp.table);
     const std::string extension = uppercase(path.extension().string());
-    if (extension == ".IES")
+    if (extension == ".IES" || path == "-")
         return write_file(path, ies_text(lamp));
     if (extension == ".CSV")
         return write_file(path, beam_matrix_text(lamp));

@@ -2,6 +2,7 @@
 
 #include "scenarios/lamps/lamp_text.h"
 #include "scenarios/lamps/spectral_tables.h"
+#include "scenarios/values/refusals.h"
 
 #include <algorithm>
 #include <charconv>
@@ -147,16 +148,19 @@ Spectrum read_spectrum_file(const std::filesystem::path& path, FilesRead& opened
     Spectrum s;
     bool names_seen = false;
     std::size_t line_number = 0;
+    EachRead each;
     for (std::size_t begin = 0; begin < content.size();) {
         const std::size_t end = std::min(content.find('\n', begin), content.size());
         const std::string_view line(content.data() + begin, end - begin);
         ++line_number;
         const bool may_be_names = s.power.empty() && !names_seen;
-        const bool sample = add_sample(line, {path, line_number, 0, {}}, s, may_be_names);
+        bool sample = true;
+        each([&] { sample = add_sample(line, {path, line_number, 0, {}}, s, may_be_names); });
         const auto fields = words_of(line, field_separators);
         names_seen = names_seen || (!sample && !fields.empty() && fields[0].front() != '#');
         begin = end + 1;
     }
+    each.end();
     check_coverage(s, path);
     if (std::none_of(s.power.begin(), s.power.end(), [](double p) { return p > 0.0; }))
         throw InputError({path, 0, 0, {}}, "found a power of 0 at every wavelength", "a lamp that gives light");

@@ -87,4 +87,17 @@ glm::dvec3 wet_sky_light(const glm::dvec3& albedo, const glm::dvec3& normal, con
     return diffuse(albedo, from_all_sides, out, e_lx) + sky_cdm2 * photometry::water_reflectance(out);
 }
 
+double gloss_light(const Facets& facets, const glm::dvec3& normal, const glm::dvec3& to_light, const glm::dvec3& to_eye, double e_perp_lx) {
+    return facets.share > 0.0 && e_perp_lx > 0.0
+               ? facets.share * e_perp_lx * photometry::facet_mirrored(normal, to_light, to_eye, facets.roughness, photometry::facet_index)
+               : 0.0;
+}
+
+double gloss_sky_light(const Facets& facets, const glm::dvec3& normal, const glm::dvec3& to_eye, double sky_cdm2) {
+    if (!(facets.share > 0.0))
+        return 0.0;
+    const double out = photometry::facet_cosine(std::max(glm::dot(normal, to_eye), 0.0), facets.roughness);
+    return facets.share * sky_cdm2 * photometry::dielectric_reflectance(out, photometry::facet_index);
+}
+
 } // namespace fernlicht

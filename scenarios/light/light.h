@@ -46,6 +46,18 @@ glm::dvec3 wet_light(const glm::dvec3& albedo, const glm::dvec3& normal, const g
 /// The same under the uniform sky, `e_lx` on the surface.
 glm::dvec3 wet_sky_light(const glm::dvec3& albedo, const glm::dvec3& normal, const glm::dvec3& to_eye, double e_lx, double sky_cdm2);
 
+/// The facets that a glossy surface shows while it is dry.
+struct Facets {
+    double share = 0.0, roughness = 0.5; ///< of the surface, 0..1; GGX alpha
+};
+inline Facets facets_of(const Material& material) {
+    return {static_cast<double>(material.gloss), static_cast<double>(material.gloss_roughness)};
+}
+/// What they mirror of one source, cd/m2 as wet_light(); 0 without facets.
+double gloss_light(const Facets& facets, const glm::dvec3& normal, const glm::dvec3& to_light, const glm::dvec3& to_eye, double e_perp_lx);
+/// And of the uniform sky.
+double gloss_sky_light(const Facets& facets, const glm::dvec3& normal, const glm::dvec3& to_eye, double sky_cdm2);
+
 /// Of a surface that gets wet, `wetness` 0..1 of it: the rest stays dry.
 inline glm::dvec3 partly_wet(const glm::dvec3& dry, const glm::dvec3& wet, double wetness) { return (1.0 - wetness) * dry + wetness * wet; }
 

@@ -1,13 +1,17 @@
+#include "scenarios/models/gltf_codecs.h"
 #include "scenarios/models/gltf_materials.h"
+#include "scenarios/values/errors.h"
+#include "scenarios/values/program_module.h"
 
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
+#include <stdexcept>
 
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t max_offset = std::size_t{1} << 31;
+constexpr std::size_t max_offset = std::size_t{1} << 31, max_decoded_bytes = std::size_t{1} << 28;
 
 std::size_t component_bytes(std::size_t type) {
     return type == 5120 || type == 5121 ? 1 : type == 5122 || type == 5123 ? 2 : type == 5125 || type == 5126 ? 4 : 0;
@@ -61,7 +65,36 @@ struct GltfAccessors::Layout {
 };
 
 std::string_view GltfAccessors::view_bytes(const GltfEntry& reference) const {
-    const GltfEntry view = root_.at("bufferViews", reference.index(root_.list_size("bufferViews"), "buffer views"));
+    const std::size_t index = reference.index(root_.list_size("bufferViews"), "buffer views");
+    const GltfEntry view = root_.at("bufferViews", index);
+    const auto compressed = view.extension("EXT_meshopt_compression");
+    return compressed ? decoded(view, index, *compressed) : within(view);
+}
+
+std::string_view GltfAccessors::decoded(const GltfEntry& view, std::size_t index, const GltfEntry& compressed) const {
+    if (const auto known = decoded_.find(index); known != decoded_.end())
+        return known->second;
+    MeshoptView given{within(compressed), compressed.require("count").whole(max_accessor_elements),
+                      compressed.require("byteStride").whole(256), compressed.require("mode").text(), compressed.text_or("filter", "NONE")};
+    decoded_bytes_ += given.count * given.stride;
+    if (decoded_bytes_ > max_decoded_bytes)
+        compressed.refuse(fmt::format("{} bytes once it is decoded, with what came before", decoded_bytes_),
+                          fmt::format("at most {}", max_decoded_bytes));
+    if (const std::size_t length = view.require("byteLength").whole(max_offset); length > given.count * given.stride)
+        compressed.refuse(fmt::format("{} elements of {} bytes", given.count, given.stride),
+                          fmt::format("the {} bytes of its view", length));
+    static const auto decode = reinterpret_cast<DecodeMeshopt*>(module_function("fernlicht-gltf", "fernlicht_decode_meshopt"));
+    std::string& bytes = decoded_[index];
+    try {
+        decode(given, bytes);
+    } catch (const std::invalid_argument& error) {
+        compressed.refuse(printable(error.what()), "elements compressed by meshoptimizer");
+    }
+    return bytes;
+}
+
+/// Bytes of a buffer that a view, or the extension of one, points to.
+std::string_view GltfAccessors::within(const GltfEntry& view) const {
     const GltfEntry buffer_entry = view.require("buffer");
     const std::string& buffer = file_.buffers[buffer_entry.index(file_.buffers.size(), "buffers")];
     const std::size_t offset = view.whole_or("byteOffset", 0, max_offset), length = view.require("byteLength").whole(max_offset);
@@ -104,9 +137,9 @@ void GltfAccessors::check_all() const {
         }
 }
 
-GltfAccessors::Layout GltfAccessors::layout(const GltfEntry& reference) const {
-    return layout_of(root_.at("accessors", reference.index(count_, "accessors")));
-}
+GltfAccessors::Layout GltfAccessors::layout(const GltfEntry& reference) const { return layout_of(accessor(reference)); }
+
+std::size_t GltfAccessors::width(const GltfEntry& reference) const { return width_of(accessor(reference).require("type").text()); }
 
 GltfAccessors::Layout GltfAccessors::layout_of(const GltfEntry& entry) const {
     Layout l(entry);

@@ -109,6 +109,11 @@ std::size_t GltfEntry::whole_or(std::string_view key, std::size_t otherwise, std
     return found ? found->whole(most) : otherwise;
 }
 
+std::optional<GltfEntry> GltfEntry::extension(std::string_view name) const {
+    const auto all = find("extensions");
+    return all ? all->find(name) : std::nullopt;
+}
+
 std::size_t GltfEntry::index(std::size_t count, std::string_view what) const {
     const double value = number();
     if (!(value >= 0.0) || value >= static_cast<double>(count) || value != std::floor(value))

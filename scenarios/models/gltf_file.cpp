@@ -3,6 +3,7 @@
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -117,13 +118,21 @@ void read_buffers(GltfFile& file) {
     for (const GltfEntry& buffer : file.root().list("buffers")) {
         const std::size_t length = buffer.require("byteLength").whole(std::size_t{1} << 31);
         const auto uri = buffer.find("uri");
-        if (!uri && index > 0)
+        ++index;
+        const bool stands_in = std::ranges::any_of(std::array{"EXT_meshopt_compression", "KHR_meshopt_compression"}, [&](const char* name) {
+            const auto extension = buffer.extension(name);
+            return extension && extension->flag_or("fallback", false);
+        });
+        if (!uri && stands_in) { // what its views hold is compressed elsewhere
+            file.buffers.emplace_back();
+            continue;
+        }
+        if (!uri && index > 1)
             buffer.refuse("has no uri", "one: only the first buffer can be the .glb's own");
         std::string bytes = uri ? file.at_uri(*uri) : std::move(file.binary);
         if (bytes.size() < length)
             buffer.refuse(fmt::format("{} bytes where byteLength says {}", bytes.size(), length), "all of them");
         file.buffers.push_back(std::move(bytes));
-        ++index;
     }
 }
 

@@ -39,6 +39,7 @@ class GltfEntry {
     std::vector<double> numbers(std::size_t count) const;
     std::size_t whole(std::size_t most) const;
     std::size_t whole_or(std::string_view key, std::size_t otherwise, std::size_t most) const;
+    std::optional<GltfEntry> extension(std::string_view name) const; ///< of this object
     /// An index into a list of `count`; `what` names it: "accessors".
     std::size_t index(std::size_t count, std::string_view what) const;
 

@@ -4,6 +4,7 @@
 
 #include "scenarios/models/gltf_file.h"
 #include "scenarios/models/model.h"
+#include "scenarios/values/picture_decoding.h"
 
 #include <array>
 #include <map>
@@ -24,13 +25,18 @@ class GltfAccessors {
     std::vector<float> floats(const GltfEntry& reference, std::size_t width) const;
     /// Unsigned integers, each below `bound`.
     std::vector<std::uint32_t> indices(const GltfEntry& reference, std::size_t bound) const;
-    /// Bytes of a buffer view.
+    /// Bytes of a buffer view, decoded where it is compressed.
     std::string_view view_bytes(const GltfEntry& reference) const;
+    /// An accessor's own words, for what KHR_draco_mesh_compression keeps in its place.
+    GltfEntry accessor(const GltfEntry& reference) const { return root_.at("accessors", reference.index(count_, "accessors")); }
+    std::size_t width(const GltfEntry& reference) const; ///< numbers an element
 
   private:
     struct Layout;
     struct Block;
     Layout layout(const GltfEntry& reference) const;
+    std::string_view within(const GltfEntry& view) const;
+    std::string_view decoded(const GltfEntry& view, std::size_t index, const GltfEntry& compressed) const;
     Layout layout_of(const GltfEntry& accessor) const;
     Block block(const GltfEntry& view_reference, std::size_t offset, std::size_t count, std::size_t element, std::size_t stride) const;
     template <class Take> void each(const Layout& layout, Take take) const;
@@ -38,6 +44,8 @@ class GltfAccessors {
     const GltfFile& file_;
     GltfEntry root_;
     std::size_t count_;
+    mutable std::map<std::size_t, std::string> decoded_; ///< buffer views that were compressed
+    mutable std::size_t decoded_bytes_ = 0;
 };
 
 /// Adds a sentence once.
@@ -47,6 +55,7 @@ void add_note(std::vector<std::string>& notes, std::string note);
 struct GltfLook {
     std::uint32_t material = 0; ///< into Model::materials
     bool double_sided = false;
+    double opacity = 1.0, cutoff = 0.0;                   ///< where opacity, times that of the picture, is less, nothing is
     std::size_t uv_set = 0;                               ///< TEXCOORD_n
     std::array<double, 6> uv_transform{1, 0, 0, 0, 1, 0}; ///< u' = a u + b v + c, v' = d u + e v + f
 };
@@ -63,13 +72,22 @@ class GltfMaterials {
     GltfLook made(const GltfEntry& material);
     void note_what_is_lost(const GltfEntry& material, const std::string& name);
     int texture(const GltfEntry& info, GltfLook& look);
-    int picture(const GltfEntry& image, const std::string& name);
+    struct Picture {
+        int texture; ///< into Model::textures
+        std::vector<std::string> doubts;
+    };
+    Picture picture(const GltfEntry& image, std::size_t index, bool cut_out);
+    DecodedPicture decoded_webp(const GltfEntry& image, const std::string& bytes, std::size_t most_pixels);
+    /// Images that hold something else than colours, and what.
+    const std::map<std::size_t, const char*>& data_pictures();
+    void doubt_factor(const std::vector<double>& colour, const Material& material);
 
     GltfFile& file_;
     const GltfAccessors& accessors_;
     Model& model_;
-    std::map<std::size_t, GltfLook> looks_; ///< by index in the file
-    std::map<std::size_t, int> pictures_;   ///< Model::textures by image
+    std::map<std::size_t, GltfLook> looks_;                    ///< by index in the file
+    std::map<std::pair<std::size_t, bool>, Picture> pictures_; ///< by image; those to cut out apart
+    std::optional<std::map<std::size_t, const char*>> data_pictures_;
     std::optional<GltfLook> default_;
     std::size_t decoded_pixels_ = 0;
 };

@@ -1,35 +1,54 @@
 #include "scenarios/models/model.h"
 
+#include "scenarios/models/cut_outs.h"
+#include "scenarios/models/gltf_codecs.h"
 #include "scenarios/models/gltf_file.h"
 #include "scenarios/models/gltf_materials.h"
+#include "scenarios/models/material_doubts.h"
 #include "scenarios/models/triangle_soup.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/program_module.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
+#include <stdexcept>
 
 namespace fernlicht {
 namespace {
 
 constexpr double sheets_apart_m = 0.0005; ///< of a surface that is lit from both sides
-constexpr std::size_t max_nodes = 200'000;
+constexpr std::size_t max_nodes = 200'000, max_places = 1'000'000, max_visited_vertices = 64'000'000;
 
 /// Extensions without which such a file can be read, or that are read.
 constexpr std::string_view known_extensions[] = {"KHR_texture_transform",
-                                                 "KHR_materials_pbrSpecularGlossiness",
                                                  "KHR_mesh_quantization",
+                                                 "KHR_draco_mesh_compression",
+                                                 "EXT_meshopt_compression",
+                                                 "EXT_mesh_gpu_instancing",
+                                                 "EXT_texture_webp",
                                                  "KHR_lights_punctual",
-                                                 "KHR_materials_emissive_strength",
-                                                 "KHR_materials_unlit",
-                                                 "KHR_materials_transmission",
-                                                 "KHR_materials_ior",
+                                                 "KHR_materials_anisotropy",
                                                  "KHR_materials_clearcoat",
+                                                 "KHR_materials_dispersion",
+                                                 "KHR_materials_emissive_strength",
+                                                 "KHR_materials_ior",
+                                                 "KHR_materials_iridescence",
+                                                 "KHR_materials_pbrSpecularGlossiness",
+                                                 "KHR_materials_sheen",
                                                  "KHR_materials_specular",
+                                                 "KHR_materials_transmission",
+                                                 "KHR_materials_unlit",
+                                                 "KHR_materials_variants",
                                                  "KHR_materials_volume",
-                                                 "KHR_materials_sheen"};
+                                                 "KHR_xmp_json_ld"};
+
+constexpr const char* compressed_by_draco = "KHR_draco_mesh_compression";
+constexpr std::size_t max_draco_id = 65535;
 
 class GltfReading {
   public:
@@ -41,30 +60,40 @@ class GltfReading {
         accessors_.check_all();
         if (root.list_size("nodes") > max_nodes)
             root.require("nodes").refuse(fmt::format("at most {} nodes", max_nodes));
-        std::size_t triangles = 0; // counted before the first is made
+        std::size_t triangles = 0, vertices = 0, places = 0; // counted before the first is made
         walk_nodes(root, [&](const GltfEntry& node, const glm::dmat4&) {
-            for_meshes(node, [&](const GltfEntry& mesh) { triangles += max_triangles(mesh); });
+            const std::size_t here = place_count(node);
+            places += here;
+            for_meshes(node, [&](const GltfEntry& mesh) { triangles += here * count_mesh(mesh, vertices); });
             if (triangles > max_model_triangles)
                 node.refuse(fmt::format("with it the model has {} triangles", triangles), fmt::format("at most {}", max_model_triangles));
+            if (vertices > max_visited_vertices || places > max_places)
+                node.refuse(fmt::format("with it {} vertices are read for {} places", vertices, places),
+                            fmt::format("at most {} and {}", max_visited_vertices, max_places));
         });
         walk_nodes(root, [&](const GltfEntry& node, const glm::dmat4& world) { visit(node, world); });
         if (soup_.triangles.empty())
             root.refuse("a file without triangles in its scene", "a model");
         note_what_is_lost(root);
+        if (cut_outs_.apply(soup_, model_.textures))
+            add_note(model_.notes, "what is less opaque in the file than its cut-off, 0.5 where it blends, is cut out; the rest is opaque");
+        if (soup_.triangles.empty())
+            root.refuse("nothing but transparent triangles", "a model");
+        colour_faces(soup_, model_.materials);
         add_meshes(model_, soup_);
     }
 
   private:
     struct Corners { ///< of one primitive: vertices, by three
         std::vector<std::uint32_t> indices;
-        std::vector<float> positions, normals, uvs;
+        std::vector<float> positions, normals, uvs, colours; ///< colours: four a vertex
     };
 
     void check_extensions(const GltfEntry& root) const {
         for (const GltfEntry& name : root.list("extensionsRequired"))
             if (std::ranges::find(known_extensions, name.text()) == std::end(known_extensions))
                 name.refuse(fmt::format("requires the extension {}", printable(name.text())),
-                            "a file without it (no compressed meshes or textures)");
+                            "a file without it, with pictures in PNG, JPEG or WebP");
     }
 
     void visit(const GltfEntry& node, const glm::dmat4& world) {
@@ -72,7 +101,8 @@ class GltfReading {
             add_mount(node, name, world);
         if (node.find("skin"))
             add_note(model_.notes, "skins are left out: the model keeps the shape in which it was made");
-        for_meshes(node, [&](const GltfEntry& mesh) { add_mesh(mesh, world); });
+        const std::vector<glm::dmat4> places = places_of(node, world);
+        for_meshes(node, [&](const GltfEntry& mesh) { add_mesh(mesh, places); });
     }
 
     template <class Use> void for_meshes(const GltfEntry& node, Use use) const {
@@ -83,22 +113,66 @@ class GltfReading {
             use(file_.root().at("meshes", mesh.index(meshes, "meshes")));
     }
 
-    /// What a mesh's accessors declare.
-    std::size_t max_triangles(const GltfEntry& mesh) const {
-        const std::size_t accessors = file_.root().list_size("accessors");
+    std::size_t count_of(const GltfEntry& accessor) const {
+        return accessors_.accessor(accessor).require("count").whole(max_accessor_elements);
+    }
+
+    /// Triangles as a mesh's accessors declare them; its vertices are added.
+    std::size_t count_mesh(const GltfEntry& mesh, std::size_t& vertices) const {
         std::size_t triangles = 0;
         for (const GltfEntry& primitive : mesh.list("primitives")) {
             const auto attributes = primitive.find("attributes");
-            auto corners = primitive.find("indices");
-            if (!corners && attributes)
-                corners = attributes->find("POSITION");
+            const auto position = attributes ? attributes->find("POSITION") : std::nullopt;
+            const auto indices = primitive.find("indices"), corners = indices ? indices : position;
+            vertices += position ? count_of(*position) : 0;
             if (!corners)
                 continue;
-            const GltfEntry accessor = file_.root().at("accessors", corners->index(accessors, "accessors"));
-            const std::size_t count = accessor.require("count").whole(max_accessor_elements), mode = primitive.whole_or("mode", 4, 6);
+            const std::size_t count = count_of(*corners), mode = primitive.whole_or("mode", 4, 6);
             triangles += mode == 4 ? count / 3 : mode > 4 && count > 2 ? count - 2 : 0;
         }
         return triangles;
+    }
+
+    static std::optional<GltfEntry> instances(const GltfEntry& node) {
+        const auto instancing = node.extension("EXT_mesh_gpu_instancing");
+        return instancing ? std::optional(instancing->require("attributes")) : std::nullopt;
+    }
+
+    /// Where a node puts its meshes: once, or at each instance.
+    std::size_t place_count(const GltfEntry& node) const {
+        const auto given = instances(node);
+        std::optional<std::size_t> count;
+        for (const char* key : {"TRANSLATION", "ROTATION", "SCALE"})
+            if (const auto attribute = given ? given->find(key) : std::nullopt) {
+                if (count && *count != count_of(*attribute))
+                    attribute->refuse(fmt::format("{} of {} instances", count_of(*attribute), *count), "as many of all");
+                count = count_of(*attribute);
+            }
+        return count.value_or(1);
+    }
+
+    std::vector<glm::dmat4> places_of(const GltfEntry& node, const glm::dmat4& world) const {
+        const auto given = instances(node);
+        std::vector<glm::dmat4> places(place_count(node), world);
+        const auto numbers = [&](const char* key, std::size_t width) {
+            const auto attribute = given ? given->find(key) : std::nullopt;
+            return attribute ? accessors_.floats(*attribute, width) : std::vector<float>{};
+        };
+        const std::vector<float> moves = numbers("TRANSLATION", 3), turns = numbers("ROTATION", 4), scales = numbers("SCALE", 3);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            if (!moves.empty())
+                places[i] = glm::translate(places[i], glm::dvec3(moves[3 * i], moves[3 * i + 1], moves[3 * i + 2]));
+            if (!turns.empty()) {
+                const glm::dquat turn(turns[4 * i + 3], turns[4 * i], turns[4 * i + 1], turns[4 * i + 2]);
+                if (!(glm::length(turn) > 1e-6 && glm::length(turn) < 1e6))
+                    given->require("ROTATION")
+                        .refuse(fmt::format("instance {} has a quaternion without direction", i), "one that is not 0");
+                places[i] *= glm::mat4_cast(glm::normalize(turn));
+            }
+            if (!scales.empty())
+                places[i] = glm::scale(places[i], glm::dvec3(scales[3 * i], scales[3 * i + 1], scales[3 * i + 2]));
+        }
+        return places;
     }
 
     void add_mount(const GltfEntry& node, const std::string& name, const glm::dmat4& world) {
@@ -110,14 +184,14 @@ class GltfReading {
         model_.mounts.push_back({printable(name), {from_gltf_axes(glm::dvec3(world[3])), {x, y, glm::cross(x, y)}}});
     }
 
-    void add_mesh(const GltfEntry& mesh, const glm::dmat4& world) {
+    void add_mesh(const GltfEntry& mesh, const std::vector<glm::dmat4>& places) {
         for (const GltfEntry& primitive : mesh.list("primitives"))
-            add_primitive(primitive, world);
+            add_primitive(primitive, places);
         if (mesh.list_size("weights") > 0)
             add_note(model_.notes, "shapes to blend with (morph targets) are left out");
     }
 
-    void add_primitive(const GltfEntry& primitive, const glm::dmat4& world) {
+    void add_primitive(const GltfEntry& primitive, const std::vector<glm::dmat4>& places) {
         const std::size_t mode = primitive.whole_or("mode", 4, 6);
         if (mode < 4) {
             add_note(model_.notes, "points and lines are left out");
@@ -126,36 +200,92 @@ class GltfReading {
         const GltfEntry attributes = primitive.require("attributes");
         if (primitive.find("targets"))
             add_note(model_.notes, "shapes to blend with (morph targets) are left out");
-        if (attributes.find("COLOR_0"))
-            add_note(model_.notes, "colours of vertices are left out");
         const auto position = attributes.find("POSITION");
         if (!position) {
             add_note(model_.notes, fmt::format("{} has no positions and is left out", primitive.way()));
             return;
         }
-        Corners corners;
-        corners.positions = accessors_.floats(*position, 3);
-        const std::size_t count = corners.positions.size() / 3;
-        const auto member = [&](const std::string& name, std::size_t width) {
+        const GltfLook& look = materials_.look(primitive.find("material"));
+        const Corners corners = corners_of(primitive, attributes, look, mode);
+        const std::size_t fresh = corners.indices.size() / 3 * (look.double_sided ? 2 : 1);
+        if (fresh * places.size() > max_model_triangles - soup_.triangles.size())
+            throw InputError({file_.path, 0, 0, primitive.way()}, fmt::format("more than {} triangles", max_model_triangles), "fewer");
+        for (const glm::dmat4& place : places)
+            add_triangles(corners, look, place, position->way());
+    }
+
+    Corners corners_of(const GltfEntry& primitive, const GltfEntry& attributes, const GltfLook& look, std::size_t mode) const {
+        const auto compressed = primitive.extension(compressed_by_draco);
+        const DracoMesh decoded = compressed ? decode(*compressed, primitive, attributes, look) : DracoMesh{};
+        const std::size_t count = compressed ? decoded.vertices : count_of(attributes.require("POSITION"));
+        const auto member = [&](const std::string& name) {
             const auto given = attributes.find(name);
-            std::vector<float> values = given ? accessors_.floats(*given, width) : std::vector<float>{};
-            if (given && values.size() != count * width)
+            if (!given)
+                return std::vector<float>{};
+            const std::size_t width = width_of(name, *given);
+            const auto id = compressed ? compressed->require("attributes").find(name) : std::nullopt;
+            if (id)
+                return std::ranges::find(decoded.attributes, id->whole(max_draco_id), &DracoMesh::Attribute::id)->values;
+            std::vector<float> values = accessors_.floats(*given, width);
+            if (values.size() != count * width)
                 given->refuse(fmt::format("{} of {} vertices", values.size() / width, count), "as many as there are positions");
             return values;
         };
-        const GltfLook& look = materials_.look(primitive.find("material"));
-        corners.normals = member("NORMAL", 3);
-        corners.uvs = member(fmt::format("TEXCOORD_{}", look.uv_set), 2);
+        Corners corners;
+        corners.positions = member("POSITION");
+        corners.normals = member("NORMAL");
+        corners.uvs = member(fmt::format("TEXCOORD_{}", look.uv_set));
+        corners.colours = member("COLOR_0");
+        if (!corners.colours.empty() && corners.colours.size() == 3 * count) { // opaque
+            std::vector<float> four(4 * count, 1.0F);
+            for (std::size_t i = 0; i < 3 * count; ++i)
+                four[i / 3 * 4 + i % 3] = corners.colours[i];
+            corners.colours = std::move(four);
+        }
+        if (compressed) {
+            corners.indices = decoded.indices;
+            return corners;
+        }
         if (const auto indices = primitive.find("indices"))
             corners.indices = accessors_.indices(*indices, count);
         else
             for (std::uint32_t i = 0; i < count; ++i)
                 corners.indices.push_back(i);
         corners.indices = by_three(std::move(corners.indices), mode);
-        const std::size_t fresh = corners.indices.size() / 3 * (look.double_sided ? 2 : 1);
-        if (fresh > max_model_triangles - soup_.triangles.size())
-            throw InputError({file_.path, 0, 0, primitive.way()}, fmt::format("more than {} triangles", max_model_triangles), "fewer");
-        add_triangles(corners, look, world, position->way());
+        return corners;
+    }
+
+    /// How many numbers a vertex an attribute has to have.
+    std::size_t width_of(const std::string& name, const GltfEntry& accessor) const {
+        if (name == "COLOR_0")
+            return accessors_.width(accessor) == 4 ? 4 : 3;
+        return name.starts_with("TEXCOORD") ? 2 : 3;
+    }
+
+    /// What KHR_draco_mesh_compression has in place of the accessors' bytes.
+    DracoMesh decode(const GltfEntry& compressed, const GltfEntry& primitive, const GltfEntry& attributes, const GltfLook& look) const {
+        DracoMesh mesh;
+        const GltfEntry ids = compressed.require("attributes");
+        mesh.most_vertices = count_of(attributes.require("POSITION"));
+        const auto indices = primitive.find("indices");
+        mesh.most_triangles = (indices ? count_of(*indices) : mesh.most_vertices) / 3;
+        for (const std::string& name :
+             {std::string("POSITION"), std::string("NORMAL"), fmt::format("TEXCOORD_{}", look.uv_set), std::string("COLOR_0")})
+            if (const auto given = attributes.find(name), id = ids.find(name); given && id)
+                mesh.attributes.push_back({static_cast<std::uint32_t>(id->whole(max_draco_id)),
+                                           width_of(name, *given),
+                                           accessors_.accessor(*given).flag_or("normalized", false),
+                                           {}});
+        static const auto decode_draco = reinterpret_cast<DecodeDraco*>(module_function("fernlicht-gltf", "fernlicht_decode_draco"));
+        try {
+            decode_draco(accessors_.view_bytes(compressed.require("bufferView")), mesh);
+        } catch (const std::invalid_argument& error) {
+            compressed.refuse(printable(error.what()), "a mesh compressed by Draco");
+        }
+        for (const DracoMesh::Attribute& attribute : mesh.attributes)
+            if (!std::ranges::all_of(attribute.values, [](float value) { return std::isfinite(value); }))
+                compressed.refuse("a number that is not finite", "finite numbers");
+        return mesh;
     }
 
     /// Strips (5) and fans (6) as single triangles (4).
@@ -194,7 +324,8 @@ class GltfReading {
             const glm::dvec3 flat = glm::cross(at[1] - at[0], at[2] - at[0]);
             if (!(glm::length(flat) > 0.0))
                 continue;
-            SoupTriangle triangle{{}, look.material};
+            const glm::vec4 colour = mean_colour(c, corner);
+            SoupTriangle triangle{{}, look.material, glm::vec3(colour)};
             for (std::size_t i = 0; i < 3; ++i) {
                 std::uint32_t& vertex = known[corner[i]];
                 if (vertex == ~std::uint32_t{0} || c.normals.empty()) {
@@ -206,9 +337,23 @@ class GltfReading {
             soup_.triangles.push_back(triangle);
             if (look.double_sided)
                 add_back(triangle);
+            const double opacity = look.opacity * static_cast<double>(colour.a), level = 256.0 * look.cutoff / std::max(opacity, 1e-3);
+            for (std::size_t sheets = look.double_sided ? 2 : 1; look.cutoff > 0.0 && sheets > 0; --sheets)
+                cut_outs_.add({soup_.triangles.size() - sheets, model_.materials[look.material].texture,
+                               static_cast<int>(std::lround(std::min(level, 257.0)))});
         }
         if (look.double_sided)
             add_note(model_.notes, "surfaces seen from both sides are two sheets, 0.5 mm apart");
+    }
+
+    /// Of a triangle, from its corners; white where vertices have none.
+    static glm::vec4 mean_colour(const Corners& c, const std::array<std::uint32_t, 3>& corners) {
+        if (c.colours.empty())
+            return glm::vec4(1.0F);
+        glm::vec4 sum(0.0F);
+        for (const std::uint32_t i : corners)
+            sum += glm::vec4(c.colours[4 * i], c.colours[4 * i + 1], c.colours[4 * i + 2], c.colours[4 * i + 3]);
+        return glm::clamp(sum / 3.0F, 0.0F, 1.0F);
     }
 
     static glm::dvec3 normal(const Corners& c, std::uint32_t i, const glm::dmat3& for_normals, const glm::dvec3& flat) {
@@ -254,6 +399,7 @@ class GltfReading {
     GltfAccessors accessors_;
     GltfMaterials materials_;
     TriangleSoup soup_;
+    CutOuts cut_outs_;
 };
 
 } // namespace
@@ -265,6 +411,7 @@ Model read_model(const std::filesystem::path& path) {
     model.notes = file.notes;
     GltfReading(file, model).read();
     std::ranges::sort(model.mounts, {}, &Mount::name);
+    add_doubts(model);
     model.opened = std::move(file.opened);
     return model;
 }

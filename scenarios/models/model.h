@@ -20,6 +20,12 @@ struct Mount {
     bool operator==(const Mount&) const = default;
 };
 
+/// What a material claims that no surface, or hardly any, does; one clause.
+struct MaterialDoubt {
+    std::uint32_t material = 0;
+    std::string text;
+};
+
 /// In the model's own frame: x forward, y left, z up, metres. For a car: on the road's surface under the rear axle.
 struct Model {
     std::string name;
@@ -29,6 +35,7 @@ struct Model {
     std::vector<Mount> mounts;            ///< by name
     glm::dvec3 low_m{0.0}, high_m{0.0};   ///< the box round it
     std::vector<std::string> notes;       ///< what of the file was left out or changed, one sentence each
+    std::vector<MaterialDoubt> doubts;    ///< by material
     FilesRead opened;
 
     std::size_t triangles() const;

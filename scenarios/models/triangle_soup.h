@@ -18,6 +18,7 @@ struct SoupVertex {
 struct SoupTriangle {
     std::array<std::uint32_t, 3> corners;
     std::uint32_t material = 0;
+    glm::vec3 tint{1.0F}; ///< the material's albedo is multiplied by it (colour_faces)
 };
 
 struct TriangleSoup {
@@ -33,6 +34,10 @@ Mesh mesh_of(const TriangleSoup& soup, const std::vector<std::size_t>& triangles
 
 /// Adds the soup to the model: as one mesh, or as one a cell of 64 m where it is larger than 128 m. Sets the model's box.
 void add_meshes(Model& model, const TriangleSoup& soup);
+
+/// Gives triangles whose tint is not white materials of their own, in 64 colours a material at most; the mean over a material's area is
+/// kept.
+void colour_faces(TriangleSoup& soup, std::vector<Material>& materials);
 
 /// A closed outline of points, the same number at every station of a loft.
 using Outline = std::vector<glm::dvec3>;

@@ -1,5 +1,7 @@
 #include "scenarios/studies/sobol.h"
 
+#include "scenarios/values/mixed_bits.h"
+
 #include <array>
 #include <bit>
 #include <fmt/format.h>
@@ -57,14 +59,6 @@ Directions directions_of(std::size_t dimension) {
     return v;
 }
 
-/// S. Vigna's splitmix64.
-std::uint64_t next_bits(std::uint64_t& state) {
-    std::uint64_t z = state += 0x9e3779b97f4a7c15U;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31);
-}
-
 } // namespace
 
 std::vector<std::vector<double>> sobol_points(std::size_t count, std::size_t dimensions, std::uint64_t seed) {
@@ -74,7 +68,7 @@ std::vector<std::vector<double>> sobol_points(std::size_t count, std::size_t dim
     std::uint64_t state = seed;
     for (std::size_t d = 0; d < dimensions; ++d) {
         const Directions v = directions_of(d);
-        std::uint32_t x = seed == 0 ? 0U : static_cast<std::uint32_t>(next_bits(state) >> 32);
+        std::uint32_t x = seed == 0 ? 0U : static_cast<std::uint32_t>(next_mixed(state) >> 32);
         for (std::size_t i = 0; i < count; ++i) {
             points[i][d] = static_cast<double>(x) / 4294967296.0; // 2^32
             x ^= v[static_cast<std::size_t>(std::countr_one(i)) % sobol_bits];

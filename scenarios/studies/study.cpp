@@ -7,6 +7,7 @@
 #include "scenarios/studies/axes_on_drive.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/glob.h"
+#include "scenarios/values/refusals.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -78,25 +79,29 @@ const Fields<StudyLamp>& study_lamp_fields() {
 
 void read_study_lamps(const YamlEntry& entry, Study& study) {
     LampCache cache;
-    for (const auto& [name, given] : entry.named(max_entries)) {
-        const YamlMap keys = given.map(keys_of(study_lamp_fields()));
+    EachRead each;
+    const auto read = [&](const std::string& name, const YamlEntry& given) {
         StudyLamp& lamp = study.lamps.emplace_back();
         lamp.name = name;
-        read_beams(keys, lamp);
-        lamp.source = read_source(keys).value_or(SourceKind::filament);
-        lamp.colour = read_colour(keys, lamp.source, cache, given);
-        read_field(study_lamp_fields(), "aim", keys, &lamp);
-        read_field(study_lamp_fields(), "file_aim_percent", keys, &lamp);
+        const YamlMap keys = given.map(keys_of(study_lamp_fields()));
+        EachRead part;
+        part([&] { read_beams(keys, lamp); });
+        part([&] {
+            lamp.source = read_source(keys).value_or(SourceKind::filament);
+            lamp.colour = read_colour(keys, lamp.source, cache, given);
+        });
+        for (const char* const key : {"aim", "file_aim_percent", "mirrors", "recipe", "reference_voltage_v", "function"})
+            part([&] { read_field(study_lamp_fields(), key, keys, &lamp); });
+        part.end();
         const YamlValue& place = keys.find("aim") ? keys.find("aim")->value() : given.value();
         lamp.line = place.line;
         lamp.column = place.column;
         if (const auto dip = keys.find("file_aim_percent"); dip && lamp.aim == BeamAim::automatic)
             dip->refuse("file_aim_percent beside aim: auto", "one of them: auto finds the cut-off in the file");
-        read_field(study_lamp_fields(), "mirrors", keys, &lamp);
-        read_field(study_lamp_fields(), "recipe", keys, &lamp);
-        for (const char* const key : {"reference_voltage_v", "function"})
-            read_field(study_lamp_fields(), key, keys, &lamp);
-    }
+    };
+    for (const auto& [name, given] : entry.named(max_entries))
+        each([&, &name = name, &given = given] { read(name, given); });
+    each.end();
     study.opened.insert(study.opened.end(), cache.opened().begin(), cache.opened().end());
 }
 
@@ -108,8 +113,10 @@ FieldOf<Struct> values_form(std::string_view key, std::vector<Value> Struct::*va
     made.read = [=](const YamlEntry& entry, void* whole) {
         std::vector<Value>& all = static_cast<Struct*>(whole)->*values;
         all.clear();
+        EachRead each;
         for (const YamlEntry& one : may_be_one && !entry.is_list() ? std::vector{entry} : entry.list(1, most))
-            all.push_back(read(one));
+            each([&] { all.push_back(read(one)); });
+        each.end();
         for (auto value = all.begin(); value != all.end(); ++value)
             if (const auto first = std::find(all.begin(), value, *value); first != value)
                 entry.refuse(fmt::format("value {} again, the same as value {}", value - all.begin() + 1, first - all.begin() + 1),
@@ -162,12 +169,15 @@ const Fields<StudyComparison>& comparison_fields() {
 }
 
 void read_comparisons(const YamlEntry& given, Study& study) {
-    for (const YamlEntry& entry : given.list(0, max_entries)) {
-        const YamlMap pair = entry.map(keys_of(comparison_fields()));
-        study.comparisons.push_back({lamp_name(pair.require("new"), study.lamps), lamp_name(pair.require("against"), study.lamps)});
-        if (study.comparisons.back().tested == study.comparisons.back().against)
-            entry.refuse("a lamp compared with itself", "two lamps");
-    }
+    EachRead each;
+    for (const YamlEntry& entry : given.list(0, max_entries))
+        each([&] {
+            const YamlMap pair = entry.map(keys_of(comparison_fields()));
+            study.comparisons.push_back({lamp_name(pair.require("new"), study.lamps), lamp_name(pair.require("against"), study.lamps)});
+            if (study.comparisons.back().tested == study.comparisons.back().against)
+                entry.refuse("a lamp compared with itself", "two lamps");
+        });
+    each.end();
 }
 
 const Fields<StudyLimit>& study_limit_fields() {
@@ -185,7 +195,8 @@ const Fields<StudyLimit>& study_limit_fields() {
 }
 
 void read_study_limits(const YamlEntry& given, Study& study) {
-    for (const YamlEntry& entry : given.list(0, max_entries)) {
+    EachRead each;
+    const auto read = [&](const YamlEntry& entry) {
         const YamlMap keys = entry.map(keys_of(study_limit_fields()));
         StudyLimit& limit = study.limits.emplace_back();
         limit.line = entry.value().line;
@@ -201,7 +212,10 @@ void read_study_limits(const YamlEntry& given, Study& study) {
             if (is_change)
                 lamp->refuse("a lamp beside a limit on a change", "none: it holds for every comparison");
         }
-    }
+    };
+    for (const YamlEntry& entry : given.list(0, max_entries))
+        each([&] { read(entry); });
+    each.end();
 }
 
 void read_study_resolution(const YamlEntry& entry, Study& study) {

@@ -11,7 +11,7 @@ namespace fernlicht {
 namespace {
 
 std::string sentence(const InputError::Where& where, const std::string& found, const std::string& expected) {
-    std::string text = printable(where.file.string(), 400);
+    std::string text = where.file == "-" ? "standard input" : printable(where.file.string(), 400);
     if (where.line > 0) {
         text += ":" + std::to_string(where.line);
         if (where.column > 0)

@@ -43,6 +43,34 @@ void append_code_point(std::string& out, unsigned code) {
     }
 }
 
+/// All of it, read once: several readers may look at it.
+const std::string& standard_input(std::size_t max_bytes) {
+    static const std::string content = [&] {
+        std::string all, piece(std::size_t{1} << 16, '\0');
+        while (const std::size_t got = std::fread(piece.data(), 1, piece.size(), stdin)) {
+            all.append(piece, 0, got);
+            if (all.size() > max_bytes)
+                throw InputError({"-", 0, 0, {}}, fmt::format("has more than {} bytes", max_bytes), "at most so many");
+        }
+        if (std::ferror(stdin))
+            throw InputError({"-", 0, 0, {}}, "cannot be read: " + reason(errno), "a readable file");
+        return all;
+    }();
+    return content;
+}
+
+/// Bytes that are no text leave a terminal in disorder.
+void print_all(const std::function<void(const TakePiece&)>& content) {
+    content([](std::string_view piece) {
+        if (::isatty(STDOUT_FILENO) == 1 && piece.find('\0') != std::string_view::npos)
+            throw InputError({{}, 0, 0, "-"}, "found a terminal, and what is written is no text", "a file or a pipe");
+        if (std::fwrite(piece.data(), 1, piece.size(), stdout) != piece.size())
+            throw DeviceError("standard output: cannot be written: " + reason(errno));
+    });
+    if (std::fflush(stdout) != 0)
+        throw DeviceError("standard output: cannot be written: " + reason(errno));
+}
+
 } // namespace
 
 std::size_t utf8_length(const unsigned char* p, std::size_t left) {
@@ -82,6 +110,13 @@ std::string content_hash(const void* data, std::size_t bytes) {
 }
 
 std::string read_file(const std::filesystem::path& path, FilesRead& opened, std::size_t max_bytes, bool may_be_empty) {
+    if (path == "-") {
+        const std::string& content = standard_input(max_bytes);
+        if (content.empty() && !may_be_empty)
+            throw InputError({path, 0, 0, {}}, "is empty", "content");
+        opened.push_back({path, content.size(), content_hash(content.data(), content.size())});
+        return content;
+    }
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0) {
         const int error = errno;
@@ -110,6 +145,8 @@ void write_file(const std::filesystem::path& path, const std::string& content) {
 }
 
 void write_file(const std::filesystem::path& path, const std::function<void(const TakePiece&)>& content) {
+    if (path == "-")
+        return print_all(content);
     const std::string part = path.string() + fmt::format(".part-{}", ::getpid());
     try {
         const auto fail = [&](int error) { throw DeviceError(path.string() + ": cannot be written: " + reason(error)); };

@@ -35,7 +35,8 @@ struct SurfaceTexture {
 };
 
 /// How a surface returns light. Diffuse: L = albedo E / pi. Retroreflecting: L = retro_rl * E_perp * falloff(observation angle), with
-/// E_perp on a plane perpendicular to the light (EN 1436's R_L, CIE 54.2's R_A / cos(view angle)).
+/// E_perp on a plane perpendicular to the light (EN 1436's R_L, CIE 54.2's R_A / cos(view angle)). Glossy, while dry: facets of GGX mirror
+/// with Fresnel's share, which at grazing angles sends light on to an oncoming eye (photometry.glsl: facet_mirrored).
 struct Material {
     std::string name;
     SurfaceKind kind = SurfaceKind::object;
@@ -53,6 +54,9 @@ struct Material {
     float glass_index = 0.0F; ///< refractive index against air, >= 1, of a closed body without albedo; 0: opaque. By rays alone, too
     /// Colour that the retroreflected part has in white light, linear sRGB, each >= 0, not all 0; its size says nothing (light.h).
     glm::vec3 retro_rgb{1.0F};
+    float gloss = 0.0F;           ///< share of the surface that facets cover, 0..1
+    float gloss_roughness = 0.5F; ///< GGX alpha of them, > 0
+    float retro_wet = 0.0F;       ///< share of retro_rl that is left under a film of water, 0..1
 
     bool operator==(const Material&) const = default;
 };

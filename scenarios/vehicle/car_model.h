@@ -1,5 +1,5 @@
 // The car as a system of 23 ordinary differential equations: single track with relaxing tyres, turning wheels, half a car on springs, a
-// driver; with roll they are 25. docs/vehicle.md derives them and names the sources. Angles are small where they are pitch, slope or
+// driver; with roll they are 25. docs/vehicle.md has them and names the sources. Angles are small where they are pitch, slope or
 // heading beside the lane.
 #pragma once
 

@@ -1,5 +1,7 @@
 #include "scenarios/vehicle/rough_road.h"
 
+#include "scenarios/values/mixed_bits.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,16 +12,11 @@ namespace {
 
 constexpr std::size_t wave_count = 96; ///< twelve an octave
 
-/// SplitMix64 (Steele, Lea & Flood 2014): the same on every machine. In [0, 1).
+/// In [0, 1).
 struct WaveChance {
     std::uint64_t state;
 
-    double next() {
-        std::uint64_t z = state += 0x9E3779B97F4A7C15ULL;
-        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-        z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-        return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
-    }
+    double next() { return static_cast<double>(next_mixed(state) >> 11) * 0x1.0p-53; }
 };
 
 /// From 0 to 1 over u in [0, 1] with two continuous derivatives, which are given too.

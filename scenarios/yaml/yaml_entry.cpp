@@ -2,6 +2,8 @@
 
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
+#include "scenarios/values/library_folders.h"
+#include "scenarios/values/refusals.h"
 #include "scenarios/yaml/old_names.h"
 
 #include <algorithm>
@@ -140,6 +142,12 @@ std::size_t YamlEntry::choice(std::span<const std::string_view> choices) const {
 
 std::filesystem::path YamlEntry::path() const {
     const std::filesystem::path given = text();
+    if (constexpr std::string_view ours = "fernlicht:"; given.string().starts_with(ours)) {
+        const std::filesystem::path found = shipped_path(given.string().substr(ours.size()));
+        if (found.empty())
+            refuse(fmt::format("'{}', which is not in {}", printable(given, 400), library_places()), "a file of fernlicht's own");
+        return std::filesystem::absolute(found).lexically_normal();
+    }
     refuse_windows_path(given, {*file_, value_->line, value_->column, key_path_});
     return std::filesystem::absolute(file_->parent_path() / given).lexically_normal();
 }
@@ -157,8 +165,10 @@ std::vector<YamlEntry> YamlEntry::list(std::size_t least, std::size_t most) cons
 
 std::vector<double> YamlEntry::numbers(std::size_t least, std::size_t most, double lowest, double highest) const {
     std::vector<double> result;
+    EachRead each;
     for (const YamlEntry& entry : list(least, most))
-        result.push_back(entry.number(lowest, highest));
+        each([&] { result.push_back(entry.number(lowest, highest)); });
+    each.end();
     return result;
 }
 
@@ -193,13 +203,19 @@ YamlMap::YamlMap(YamlEntry entry, std::span<const std::string_view> known_keys) 
     for (const YamlMember& member : entry_.value().members) {
         if (std::find(known_keys.begin(), known_keys.end(), member.key) != known_keys.end())
             continue;
+        const auto refuse = [&](const char* found, const std::string& expected, std::string_view meant) {
+            refuse_and_go_on({{entry_.file(), member.line, member.column, child_path(entry_.key_path(), member.key)}, found, expected},
+                             meant.empty() ? "" : child_path(entry_.key_path(), meant));
+        };
         if (const std::string_view now = name_of_today(member.key, known_keys); !now.empty())
-            throw InputError({entry_.file(), member.line, member.column, child_path(entry_.key_path(), member.key)}, "a key of version 0.1",
-                             fmt::format("'{}', its name today; `fernlicht migrate --in-place {}` writes the file so", now,
-                                         printable(entry_.file().string(), 400)));
-        const std::string near = meant_key(member.key, known_keys);
-        throw InputError({entry_.file(), member.line, member.column, child_path(entry_.key_path(), member.key)}, "unknown key",
-                         near.empty() ? fmt::format("one of {}", fmt::join(known_keys, ", ")) : "'" + near + "', the nearest known key");
+            refuse("a key of version 0.1",
+                   fmt::format("'{}', its name today; `fernlicht migrate --in-place {}` writes the file so", now,
+                               printable(entry_.file().string(), 400)),
+                   now);
+        else if (const std::string near = meant_key(member.key, known_keys); !near.empty())
+            refuse("unknown key", "'" + near + "', the nearest known key", near);
+        else
+            refuse("unknown key", fmt::format("one of {}", fmt::join(known_keys, ", ")), {});
     }
 }
 

@@ -3,6 +3,7 @@
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
 #include "scenarios/values/pose.h"
+#include "scenarios/values/refusals.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -137,7 +138,8 @@ class TreeBuilder : public YAML::EventHandler {
         if (key.kind != YamlValue::Kind::scalar)
             refuse(mark, "a key without text", "plain text");
         if (!parent.keys.insert(key.text).second)
-            refuse(mark, fmt::format("the key '{}' a second time", printable(key.text)), "each key once");
+            refuse_and_go_on(
+                {{file_, key.line, key.column, {}}, fmt::format("found the key '{}' a second time", printable(key.text)), "each key once"});
         parent.member = YamlMember{key.text, key.line, key.column, {}};
     }
 

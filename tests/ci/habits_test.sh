@@ -29,7 +29,8 @@ pages = sorted(root.glob("*.md")) + sorted(page for folder in folders for page i
 links = 0
 for page in pages:
     prose = re.sub(r"`[^`\n]*`", "", re.sub(r"^```.*?^```", "", page.read_text(), flags=re.M | re.S))
-    for target in re.findall(r"\]\(([^)\s]+)\)", prose):
+    for target in re.findall(r"\]\(([^)\s]+)[^)]*\)|^ *\[[^]]+\]: +(\S+)|\b(?:src|href)=\"([^\"]+)\"", prose, re.M):
+        target = "".join(target)
         if re.match(r"[a-z]+:", target): continue
         links += 1
         path, _, anchor = target.partition("#")
@@ -37,6 +38,18 @@ for page in pages:
         need(there.exists(), f"{page.relative_to(root)}: {target} leads nowhere")
         need(not anchor or anchor in anchors(there), f"{page.relative_to(root)}: {target}: the page has no such heading")
 need(links > 0, "no page has a link")
+
+# Pages that sources, scripts, schemas and help name by their paths.
+kinds = {".c", ".cff", ".cmake", ".cpp", ".css", ".glsl", ".h", ".html", ".js", ".json", ".md", ".mustache", ".py", ".sh", ".toml", ".txt", ".yaml", ""}
+named, out = 0, re.compile(r"/(build|out|\.git|\.cache|fuzz/(seeds|corpus)|baselines)/|tests/ci/\w+_test\.sh$")
+for file in sorted(root.rglob("*")):
+    if file.suffix not in kinds or not file.is_file() or out.search(f"/{file.relative_to(root)}"): continue
+    for path, anchor, decision in re.findall(r"\bdocs/(?:([\w/-]+\.md)(?:#([\w-]+))?|decisions/(\d{4})\b)", file.read_text(errors="replace")):
+        named += 1
+        there = root / "docs" / path if path else next(iter((root / "docs/decisions").glob(f"{decision}-*.md")), root / "none")
+        need(there.exists(), f"{file.relative_to(root)}: docs/{path or 'decisions/' + decision} is nowhere")
+        need(not anchor or anchor in anchors(there), f"{file.relative_to(root)}: docs/{path}#{anchor}: the page has no such heading")
+need(named > 0, "no source names a page")
 
 tests = "\n".join(test.read_text() for test in (root / "tests").rglob("*_test.cpp"))
 named = re.findall(r"`([A-Z]\w+)\.([A-Z]\w+|\*)`", text("CONTRIBUTING.md"))
@@ -85,8 +98,10 @@ planted() {
     if [[ $said != *"$3"* ]]; then echo "wrong words for $2 in $1: $said"; ((++failures)); fi
     cp --preserve "$whole" "$tree/$1"
 }
-planted CONTRIBUTING.md 's#(docs/readings.md)#(docs/reading.md)#' 'docs/reading.md leads nowhere'
+planted CONTRIBUTING.md 's#(docs/glossary.md)#(docs/glossaries.md)#' 'docs/glossaries.md leads nowhere'
 planted CONTRIBUTING.md 's/#adding-things/#adding/' 'no such heading'
+planted README.md 's#src="docs/images/film-country#src="docs/images/film-coast#' 'film-coast.webp leads nowhere'
+planted runner/findings/summary.h 's#docs/readings.md#docs/reading.md#' 'docs/reading.md is nowhere'
 planted CONTRIBUTING.md 's/EvennessOfOneLampAlone/EvennessOfLamps/' 'there is no test Seeing.EvennessOfLamps'
 planted CITATION.cff '/^title/d' 'a part is missing'
 planted CITATION.cff 's/^version: .*/version: 0.0.9/' 'another version'

@@ -15,7 +15,7 @@ fail() { echo "$*"; ((++failures)); }
 # below COMMAND...: the commands that --help lists.
 below() { "$program" "$@" --help | awk '/^Subcommands:/ { list = 1; next } list && /^  [a-z]/ { print $1 }'; }
 # flags COMMAND...: the long flags that --help lists.
-flags() { "$program" "$@" --help | grep --only-matching --extended-regexp '^ +(-[a-z],)?--[a-z0-9-]+' | sed 's/.*--/--/' | sort; }
+flags() { "$program" "$@" --help | grep --only-matching --extended-regexp '^  (-[a-z],)?--[a-z0-9-]+' | sed 's/.*--/--/' | sort; }
 
 mkdir man
 "$program" man --out man || fail "no pages"

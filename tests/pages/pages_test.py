@@ -88,7 +88,7 @@ def study_filters_and_sorts(browser, page):
     before = browser.run(shown)
     place = browser.run("document.querySelector('.chips button').textContent")
     browser.click(".chips button")
-    same(browser.run(shown), [one for one in before if one != place], "one route less")
+    same(browser.run(shown), [one for one in before if one.split(" | ") != [place]], "one route less")
     browser.run("document.querySelector('.chips button').focus()")
     browser.press(" ", 32)
     same(browser.run(shown), before, "and back, by the keyboard")

@@ -75,7 +75,7 @@ TEST(RegulationCommand, AFailedRowIsExitCode1AndNamed) {
 }
 
 TEST(RegulationCommand, TheAimTellsItsRuleItsBoundAndWhatItChanged) {
-    const json j = json::parse(run_program(lamp("halogen-low") + "--regulation r112-a --aim elbow --json").output);
+    const json j = json::parse(run_program(lamp("halogen-low") + "--regulation r112-a --aim-rule elbow --json").output);
     const json& aim = j["aim"][0];
     EXPECT_EQ(aim["rule"], "elbow");
     EXPECT_NEAR(aim["turned_deg"][0].get<double>(), 0.0, aim["bound_deg"][0].get<double>());
@@ -99,16 +99,16 @@ TEST(RegulationCommand, LeftHandTrafficIsTheMirrorImage) {
         EXPECT_EQ(r[i]["h_deg"].get<double>(), 0.0 - l[i]["h_deg"].get<double>());
     }
     EXPECT_THAT(left.output, AllOf(HasSubstr("\"B50R\""), HasSubstr("\"75L\""), Not(HasSubstr("\"75R\""))));
-    EXPECT_EQ(run_program(lamp("xenon-low") + "--regulation r98-d --left-hand-traffic --aim as-is").exit_code, 1);
+    EXPECT_EQ(run_program(lamp("xenon-low") + "--regulation r98-d --left-hand-traffic --aim-rule as-is").exit_code, 1);
 }
 
 TEST(RegulationCommand, TwoFilesAreHalfTheirSumWhereTheTableSaysSo) {
     const auto rows = [](const std::string& arguments) { return json::parse(run_program(arguments).output)["rows"]; };
-    const std::string table = "--regulation r123-c --aim as-is --json";
+    const std::string table = "--regulation r123-c --aim-rule as-is --json";
     const json one = rows(lamp("halogen-low") + table);
     const std::string halogen = "'" + library_file("lamps/halogen-low.ies") + "' ";
-    const json same = rows("lamp --add " + halogen + halogen + table);
-    const json both = rows(lamp("halogen-low") + "--add '" + library_file("lamps/xenon-low.ies") + "' " + table);
+    const json same = rows("lamp --other-side " + halogen + halogen + table);
+    const json both = rows(lamp("halogen-low") + "--other-side '" + library_file("lamps/xenon-low.ies") + "' " + table);
     const json other = rows(lamp("xenon-low") + table);
     const auto found = [](const json& all, const std::string& id) {
         for (const json& row : all)
@@ -132,7 +132,7 @@ TEST(RegulationCommand, ADrivingBeamKeepsThePassingBeamsAim) {
     EXPECT_NEAR(j["aim"][0]["turned_deg"][1].get<double>(), 0.011, 0.005);
     EXPECT_THAT(j["notes"][0].get<std::string>(),
                 HasSubstr("aimed as asked for, not in the regulation's own way: aimed by its own maximum"));
-    const std::string check = lamp("halogen-high") + "--regulation r112-driving-b --aim ";
+    const std::string check = lamp("halogen-high") + "--regulation r112-driving-b --aim-rule ";
     EXPECT_THAT(run_program(check + "as-is").output, ContainsRegex("\nnote +aimed as asked for, not in the regulation's own way: "));
     for (const char* own : {"auto", "maximum"})
         EXPECT_THAT(run_program(check + own).output, ContainsRegex("\nnote +aimed by its own maximum")) << own;
@@ -161,7 +161,7 @@ TEST(RegulationCommand, CutOffTellsItsFigures) {
     EXPECT_EQ(run_program(lamp("xenon-low") + "--cut-off --picture " + (folder / "edge.svg")).exit_code, 0);
     EXPECT_THAT(content_of(folder / "edge.svg"), AllOf(HasSubstr("fit: level, rise, shoulder"), HasSubstr("their inflections")));
     const Outcome high = run_program(lamp("halogen-high") + "--cut-off");
-    EXPECT_THAT(high.output, HasSubstr("not_measured"));
+    EXPECT_THAT(high.output, HasSubstr("not measured"));
 }
 
 TEST(RegulationCommand, RefusesWhatItCannotDoInOneSentence) {
@@ -172,16 +172,16 @@ TEST(RegulationCommand, RefusesWhatItCannotDoInOneSentence) {
         EXPECT_EQ(std::count(o.output.begin(), o.output.end(), '\n'), 1) << o.output;
     };
     refused(lamp("halogen-low") + "--regulation r112-x", "found 'r112-x', expected 'r112-");
-    refused(lamp("halogen-low") + "--regulation r112-b --aim sideways", "--aim: found 'sideways'");
+    refused(lamp("halogen-low") + "--regulation r112-b --aim-rule sideways", "--aim-rule: found 'sideways'");
     refused(lamp("halogen-low") + "--regulation fmvss108-lb2m --left-hand-traffic", "--left-hand-traffic");
     refused(lamp("halogen-low") + "--regulation r112-b --convert x.ies", "--convert together with --regulation");
     refused(lamp("halogen-low") + "--regulation r112-b --picture x.svg", "--picture: found together with --regulation");
     refused(lamp("halogen-low") + "--cut-off --detector -1", "--detector: found -1");
     refused(lamp("halogen-low") + "--cut-off --sharpness most", "--sharpness: found 'most'");
     refused("lamp --regulation r112-b", "found no lamp");
-    const std::string other = "--add '" + library_file("lamps/halogen-low.ies") + "' ";
-    refused(lamp("halogen-low") + "--regulation r123-c " + other + other, "--add: found 2 files");
-    refused(lamp("halogen-low") + "--aim as-is", "--regulation");
+    const std::string other = "--other-side '" + library_file("lamps/halogen-low.ies") + "' ";
+    refused(lamp("halogen-low") + "--regulation r123-c " + other + other, "--other-side: given twice, expected it once");
+    refused(lamp("halogen-low") + "--aim-rule as-is", "--regulation");
 }
 
 } // namespace

@@ -161,8 +161,9 @@ TEST(Run, AnotherLampGivesAnotherReach) {
 TEST(Run, AnInterruptedRunLeavesAValidReportThatSaysSo) {
     for (const int signals : {1, 2}) {
         const TemporaryFolder folder;
-        const Outcome run = run_interrupted("run " + library_file("drives/straight.yaml") + " --resolution 64x48 --out " + (folder / "out"),
-                                            " moments, ", signals);
+        const Outcome run =
+            run_interrupted("run " + library_file("drives/straight.yaml") + " --resolution 64x48 --log-json --out " + (folder / "out"),
+                            " moments", signals);
         EXPECT_EQ(run.exit_code, 1) << run.output;
         EXPECT_FALSE(report_of(folder / "out").at("complete").get<bool>());
         EXPECT_TRUE(std::filesystem::exists(folder / "out/report.html"));
@@ -216,9 +217,10 @@ TEST(Run, AShadowMethodThatTheTechniqueDoesNotUseIsAWarning) {
         const json report = report_of(out);
         std::string all;
         for (const json& warning : report.at("warnings"))
-            if (warning.get<std::string>().find("shadows by") != std::string::npos)
+            if (warning.get<std::string>().find("shadows by") != std::string::npos) {
                 all += warning.get<std::string>() + '\n';
-        EXPECT_THAT(run.output, testing::HasSubstr(all.empty() ? "" : "warning: " + all));
+                EXPECT_THAT(run.output, testing::HasSubstr("fernlicht: " + warning.get<std::string>() + '\n'));
+            }
         return all;
     };
     EXPECT_EQ(

@@ -131,7 +131,7 @@ TEST(StoryRun, WhatCannotBePlayedIsOneSentence) {
     EXPECT_THAT(with_entities("Othr"), HasSubstr("no entity 'Othr' in the storyboard, expected one of Ego, Other"));
     EXPECT_THAT(with_entities("Ego"), HasSubstr("the own car"));
 
-    const std::string play = "storyboard " + (folder / "told.xosc") + " --duration 1 --quiet --out ";
+    const std::string play = "storyboard " + (folder / "told.xosc") + " --duration 1 --brief --out ";
     printed(play + (folder / "told.xosc"), 2);
     EXPECT_EQ(content_of(folder / "told.xosc"), scenario_text(two_cars_apart, stop_at(10.0)));
     printed(play + (folder / "tracks.csv"));

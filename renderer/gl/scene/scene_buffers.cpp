@@ -25,7 +25,7 @@ struct GpuVertex {
 };
 
 struct GpuMaterial { // std430, as in scene.vert.glsl
-    glm::vec4 albedo, emission, retro, blend, tint;
+    glm::vec4 albedo, emission, retro, blend, tint, gloss;
 };
 
 glm::vec3 shown(const glm::vec3& c, bool encoded) {
@@ -39,12 +39,18 @@ GpuMaterial packed(const Material& m, bool encoded) {
             {m.retro_reference_rad, 1.0F / m.retro_falloff_rad, m.texture < 0 ? 0.0F : 1.0F + static_cast<float>(m.texture_mode),
              gets_wet(m.kind) ? 1.0F : 0.0F},
             {shown(m.blend_colour, encoded), 0.0F},
-            {glm::vec3(retro_tint(m)), 0.0F}};
+            {glm::vec3(retro_tint(m)), 0.0F},
+            {m.gloss, m.gloss_roughness, m.retro_wet, 0.0F}};
 }
 
 SurfaceClass class_of(const Material& m) {
-    return {m.texture < 0 ? 0 : 1 + static_cast<int>(m.texture_mode), m.retro_rl > 0.0F, m.emission_cdm2 != glm::vec3(0.0F), false,
-            is_tinted(m)};
+    return {m.texture < 0 ? 0 : 1 + static_cast<int>(m.texture_mode),
+            m.retro_rl > 0.0F,
+            m.emission_cdm2 != glm::vec3(0.0F),
+            false,
+            is_tinted(m),
+            m.gloss > 0.0F,
+            m.retro_rl > 0.0F && m.retro_wet > 0.0F};
 }
 
 std::int64_t cell_of(double m) { return static_cast<std::int64_t>(std::floor(m / cell_m)); }

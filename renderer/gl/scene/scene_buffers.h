@@ -20,8 +20,9 @@ namespace fernlicht::gl {
 struct SurfaceClass {
     int texture = 0; ///< 0: none, else 1 + TextureMode
     bool retroreflecting = false, emissive = false;
-    bool moving = false; ///< turned and placed by its body
-    bool tinted = false; ///< retroreflected light has a colour of its own
+    bool moving = false;                ///< turned and placed by its body
+    bool tinted = false;                ///< retroreflected light has a colour of its own
+    bool glossy = false, beads = false; ///< mirrors while dry; retroreflects while wet
 
     auto operator<=>(const SurfaceClass&) const = default;
 };

@@ -2,6 +2,7 @@
 
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/play/progress.h"
 #include "scenarios/can/can_frame.h"
 
@@ -154,9 +155,10 @@ int convert_log(const ConvertFlags& flags) {
 void add_can_convert(CLI::App& can, std::function<int()>& chosen) {
     const auto flags = std::make_shared<ConvertFlags>();
     CLI::App* sub = can.add_subcommand("convert", "convert a candump log to another of its forms, with candump's options");
-    sub->add_option("FILE", flags->file, "candump log in any form, or - for standard input")->required();
+    add_shared(*sub, "LOG", flags->file)->required();
     sub->add_flag("--screen", flags->screen, "candump's screen form instead of its log form (-L)");
-    sub->add_option("-t", flags->stamps, "timestamps to write: a(bsolute), A (with date), d(elta), z(ero), n(one)");
+    sub->add_option("-t", flags->stamps, "timestamps to write: a(bsolute), A (with date), d(elta), z(ero), n(one)")
+        ->option_text("a|A|d|z|n");
     sub->add_flag("-N", flags->nanoseconds, "write nanoseconds in timestamps");
     sub->add_flag("-a", flags->ascii, "add the data as text");
     sub->add_flag("-i", flags->binary, "bits instead of hexadecimal digits");
@@ -166,8 +168,8 @@ void add_can_convert(CLI::App& can, std::function<int()>& chosen) {
     sub->add_flag("-x", flags->directions, "sent or received, and CAN FD flags; frames without a direction count as received");
     sub->add_flag("-c", flags->colour, "colours, up to three times");
     sub->add_flag("--sort", flags->sort, "sort by timestamp, equal ones in file order; reads the whole log into memory");
-    sub->add_option("-o,--out", flags->out, "write to this file instead of standard output");
-    sub->add_flag("--force", flags->force, "let --out replace an existing file");
+    add_shared(*sub, "-o,--out", flags->out);
+    add_shared(*sub, "--force", flags->force);
     add_log_flags(*sub, flags->log);
     sub->callback([flags, &chosen] { chosen = [flags] { return convert_log(*flags); }; });
 }

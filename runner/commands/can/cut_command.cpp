@@ -2,6 +2,7 @@
 
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/files/log.h"
 #include "runner/play/progress.h"
 #include "scenarios/can/can_frame.h"
@@ -162,19 +163,22 @@ int cut_log(const CutFlags& flags) {
 void add_can_cut(CLI::App& can, std::function<int()>& chosen) {
     const auto flags = std::make_shared<CutFlags>();
     CLI::App* sub = can.add_subcommand("cut", "extract part of a candump log by time, identifier and channel");
-    sub->add_option("FILE", flags->file, "candump log, or - for standard input")->required();
-    sub->add_option("--from", flags->from, "first time to keep, in s on the timestamps' clock; +S: since the first frame");
-    sub->add_option("--to", flags->to, "last time to keep, likewise");
-    sub->add_option("--id", flags->ids, "identifiers to keep, e.g. 123 or 18FEF100 (8 digits: extended), comma-separated")
+    add_shared(*sub, "LOG", flags->file)->required();
+    sub->add_option("--from", flags->from, "first time to keep, in seconds on the timestamps' clock; +S: since the first frame")
+        ->option_text("S");
+    sub->add_option("--to", flags->to, "last time to keep, likewise")->option_text("S");
+    sub->add_option("--id", flags->ids, "identifiers to keep, such as 123 or 18FEF100 (8 digits: extended)")
+        ->option_text("ID,...")
         ->allow_extra_args(false);
-    sub->add_option("--filter", flags->filters,
-                    "candump's filters: ID:MASK, ID~MASK, #ERROR_MASK, j; of several, comma-separated, any may match")
+    sub->add_option("--filter", flags->filters, "candump's filters: ID:MASK, ID~MASK, #ERROR_MASK, j; of several any may match")
+        ->option_text("FILTER,...")
         ->allow_extra_args(false);
     sub->add_option("--channel", flags->channels, "channel to keep, with filters as for candump: can0 or can0,123:7FF,#FFFFFFFF")
+        ->option_text("NAME")
         ->allow_extra_args(false);
     sub->add_flag("--invert", flags->inverted, "keep what would be dropped");
-    sub->add_option("-o,--out", flags->out, "write to this file instead of standard output");
-    sub->add_flag("--force", flags->force, "let --out replace an existing file");
+    add_shared(*sub, "-o,--out", flags->out);
+    add_shared(*sub, "--force", flags->force);
     add_log_flags(*sub, flags->log);
     sub->callback([flags, &chosen] { chosen = [flags] { return cut_log(*flags); }; });
 }

@@ -3,6 +3,7 @@
 #include "runner/commands/can/decoded_text.h"
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/files/log.h"
 #include "runner/play/progress.h"
 #include "scenarios/can/can_database.h"
@@ -75,10 +76,13 @@ std::uint64_t lookup_key(std::uint32_t id, bool extended) { return id | (extende
 
 /// --dbc, --frame-id-mask
 void add_database_flags(CLI::App& command, DatabaseFlags& flags) {
-    command.add_option("--dbc", flags.files, "DBC file; may be given several times, the first that describes a frame wins")
+    command.add_option("--dbc", flags.files, "DBC file; of several the first that describes a frame wins")
+        ->option_text("FILE")
         ->required()
         ->allow_extra_args(false);
-    command.add_option("-m,--frame-id-mask", flags.id_mask, "identifier bits to compare, e.g. 0x00FFFF00 for J1939 (default: all)");
+    command.add_option("-m,--frame-id-mask", flags.id_mask, "identifier bits to compare, such as 0x00FFFF00 for J1939")
+        ->option_text("MASK")
+        ->default_str("all");
 }
 
 Databases::Databases(const DatabaseFlags& flags) {
@@ -129,7 +133,7 @@ struct DecodeFlags {
     std::string out;
     DatabaseFlags databases;
     LogFlags log;
-    bool single_line = false, json = false, csv = false, numbers = false, known = false, notes = false, force = false;
+    bool single_line = false, json = false, csv = false, numbers = false, skip_unknown = false, notes = false, force = false;
 };
 
 /// Writes frame after frame in one of the three forms.
@@ -202,7 +206,7 @@ void Decoder::write_row(const CandumpLine& line, const CanMessage& message) {
 
 // What is no frame stays between the frames where people read, and goes where programs do.
 void Decoder::pass_line(const CandumpStream& log) {
-    if (!flags_.json && !flags_.csv && selection_.everything() && !flags_.known) {
+    if (!flags_.json && !flags_.csv && selection_.everything() && !flags_.skip_unknown) {
         out_.text() += log.text();
         out_.text() += '\n';
     }
@@ -214,7 +218,7 @@ void Decoder::write_frame(const CandumpStream& log) {
     if (message == nullptr) {
         ++unknown_;
         unknown_ids_.emplace(line.frame.id, line.frame.extended);
-        if (flags_.known || flags_.csv || !selection_.everything())
+        if (flags_.skip_unknown || flags_.csv || !selection_.everything())
             return;
         if (flags_.json) {
             append_frame_json(out_.text(), line, nullptr, {});
@@ -261,7 +265,7 @@ bool Decoder::decode_log(const std::string& path) {
 
 void Decoder::finish() {
     out_.finish();
-    if (unknown_ > 0 && (flags_.known || flags_.csv))
+    if (unknown_ > 0 && (flags_.skip_unknown || flags_.csv))
         tell(LogLevel::warning, fmt::format("{} frame{} of {} identifier{} that no message describes left out", unknown_,
                                             unknown_ == 1 ? "" : "s", unknown_ids_.size(), unknown_ids_.size() == 1 ? "" : "s"));
 }
@@ -284,20 +288,21 @@ int decode_logs(const DecodeFlags& flags) {
 void add_can_decode(CLI::App& can, std::function<int()>& chosen) {
     const auto flags = std::make_shared<DecodeFlags>();
     CLI::App* sub = can.add_subcommand("decode", "decode the frames of a candump log with DBC files");
-    sub->add_option("LOG", flags->logs, "candump logs in any form, or - for standard input (default: -)");
+    add_shared(*sub, "LOGS", flags->logs)->default_str("-");
     add_database_flags(*sub, flags->databases);
     sub->add_flag("-s,--single-line", flags->single_line, "put signals on the frame's line");
     sub->add_flag("-c,--numbers", flags->numbers, "show numbers instead of labels");
-    sub->add_option("--only", flags->only,
-                    "comma-separated messages and signals to show: MESSAGE, SIGNAL or MESSAGE.SIGNAL, * and ? allowed")
-        ->allow_extra_args(false);
-    sub->add_flag("--known", flags->known, "skip frames that no message describes, and count them");
+    add_shared(*sub, "--only", flags->only);
+    sub->add_flag("--skip-unknown", flags->skip_unknown, "skip frames that no message describes, and count them");
     sub->add_flag("--notes", flags->notes, "report oddities of the DBC files and how they were read, on standard error");
-    sub->add_flag("--json", flags->json, "one JSON object per line");
-    sub->add_flag("--csv", flags->csv, "a table with a row per frame and a column per signal; numbers, not labels");
-    sub->add_option("-o,--out", flags->out, "write to this file instead of standard output");
-    sub->add_flag("--force", flags->force, "let --out replace an existing file");
+    add_shared(*sub, "--json", flags->json);
+    add_shared(*sub, "--csv", flags->csv);
+    add_shared(*sub, "-o,--out", flags->out);
+    add_shared(*sub, "--force", flags->force);
     add_log_flags(*sub, flags->log);
+    sub->footer(
+        "--only takes messages and signals: MESSAGE, SIGNAL or MESSAGE.SIGNAL. JSON has an object a line; CSV a row per frame and a column "
+        "per signal, with numbers, not labels.");
     sub->callback([flags, &chosen] { chosen = [flags] { return decode_logs(*flags); }; });
 }
 

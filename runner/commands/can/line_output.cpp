@@ -23,6 +23,13 @@ void LineOutput::fail(int error) const {
                       ": cannot be written: " + std::generic_category().message(error));
 }
 
+void LineOutput::refuse(int error) const {
+    if (error == ENOSPC || error == EIO || error == EMFILE || error == ENFILE)
+        fail(error);
+    throw InputError({{}, 0, 0, "--out"}, printable(path_.string(), 400) + " cannot be written: " + std::generic_category().message(error),
+                     "a new file in a folder that can be written to");
+}
+
 void LineOutput::open(bool force) {
     struct stat status {};
     const bool is_there = ::stat(path_.c_str(), &status) == 0;
@@ -30,7 +37,7 @@ void LineOutput::open(bool force) {
         file_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
     } else if (is_there && S_ISREG(status.st_mode) && force) {
         if (::access(path_.c_str(), W_OK) != 0)
-            fail(errno);
+            refuse(errno);
         std::error_code error;
         target_ = std::filesystem::canonical(path_, error); // behind links: those stay
         if (error)
@@ -46,7 +53,7 @@ void LineOutput::open(bool force) {
     if (file_ < 0 && errno == EEXIST)
         throw InputError({{}, 0, 0, "--out"}, printable(path_.string(), 400) + " is there already", "a new file, or --force");
     if (file_ < 0)
-        fail(errno);
+        refuse(errno);
 }
 
 LineOutput::~LineOutput() {

@@ -11,8 +11,8 @@ namespace fernlicht {
 /// a pipe and a device are written at once; where a tool fails, the lines before that come out, and a new file without any goes.
 class LineOutput {
   public:
-    /// "" is standard output. Throws InputError where a file of this name is there and `force` does not say to replace it,
-    /// DeviceError where it cannot be written.
+    /// "" and "-" are standard output. Throws InputError where a file of this name is there and `force` does not say to replace it, and
+    /// where none can be made; DeviceError where the disk refuses.
     explicit LineOutput(const std::filesystem::path& file, bool force = false);
     ~LineOutput();
     LineOutput(const LineOutput&) = delete;
@@ -29,6 +29,7 @@ class LineOutput {
     static constexpr std::size_t enough = std::size_t{1} << 16;
     void open(bool force);
     [[noreturn]] void fail(int error) const;
+    [[noreturn]] void refuse(int error) const; ///< a name under which nothing can be written
 
     std::filesystem::path path_, part_, target_; ///< as asked for; "" or what is written in place of `target_`
     int file_;

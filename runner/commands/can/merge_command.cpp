@@ -2,6 +2,7 @@
 
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/files/log.h"
 #include "runner/play/progress.h"
 
@@ -137,7 +138,7 @@ void name_source(MergeSource& source, const std::string& file, const MergeFlags&
                          sign == std::string::npos ? *value : value->substr(sign + 1), flag};
         const auto is_bad = [](unsigned char c) { return c <= ' ' || c == 0x7f; };
         if (name.to.empty() || name.to.size() > 15 || std::ranges::any_of(name.to, is_bad) || sign == 0)
-            refuse_flag("--channel", text, "CHANNEL, OLD=NEW, FILE=CHANNEL or FILE=OLD=NEW, with names of at most 15 bytes");
+            refuse_flag("--rename-channel", text, "CHANNEL, OLD=NEW, FILE=CHANNEL or FILE=OLD=NEW, with names of at most 15 bytes");
         source.names.push_back(std::move(name));
     }
     for (const std::string& text : flags.offsets)
@@ -150,7 +151,7 @@ void check_names_used(const std::vector<std::unique_ptr<MergeSource>>& sources, 
     for (std::size_t flag = 0; flag < flags.channels.size(); ++flag) {
         const auto is_used = [&](const ChannelName& name) { return name.flag == flag && (name.used || name.from.empty()); };
         if (std::ranges::none_of(sources, [&](const auto& source) { return std::ranges::any_of(source->names, is_used); }))
-            refuse_flag("--channel", flags.channels[flag], "one of the files or a channel of theirs before =");
+            refuse_flag("--rename-channel", flags.channels[flag], "one of the files or a channel of theirs before =");
     }
 }
 
@@ -191,11 +192,15 @@ int merge_logs(const MergeFlags& flags) {
 void add_can_merge(CLI::App& can, std::function<int()>& chosen) {
     const auto flags = std::make_shared<MergeFlags>();
     CLI::App* sub = can.add_subcommand("merge", "merge candump logs in time order; equal timestamps in file order");
-    sub->add_option("FILE", flags->files, "candump logs, or - for standard input")->required();
-    sub->add_option("--channel", flags->channels, "rename channels: NEW, OLD=NEW, FILE=NEW or FILE=OLD=NEW")->allow_extra_args(false);
-    sub->add_option("--offset", flags->offsets, "seconds to add to timestamps: S or FILE=S, e.g. -0.25")->allow_extra_args(false);
-    sub->add_option("-o,--out", flags->out, "write to this file instead of standard output");
-    sub->add_flag("--force", flags->force, "let --out replace an existing file");
+    add_shared(*sub, "LOGS", flags->files)->required();
+    sub->add_option("--rename-channel", flags->channels, "rename channels: NEW, OLD=NEW, FILE=NEW or FILE=OLD=NEW")
+        ->option_text("[FILE=][OLD=]NEW")
+        ->allow_extra_args(false);
+    sub->add_option("--offset", flags->offsets, "seconds to add to timestamps, such as -0.25")
+        ->option_text("[FILE=]S")
+        ->allow_extra_args(false);
+    add_shared(*sub, "-o,--out", flags->out);
+    add_shared(*sub, "--force", flags->force);
     add_log_flags(*sub, flags->log);
     sub->callback([flags, &chosen] { chosen = [flags] { return merge_logs(*flags); }; });
 }

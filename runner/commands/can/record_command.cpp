@@ -2,6 +2,7 @@
 
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/flag_values.h"
+#include "runner/commands/shared_flags.h"
 #include "runner/files/log.h"
 #include "runner/play/stage.h"
 #include "scenarios/can/candump_log.h"
@@ -20,7 +21,7 @@ struct RecordFlags {
 };
 
 int record_drive(const RecordFlags& flags) {
-    const std::int64_t start_ns = nanoseconds_of("--start", flags.start);
+    const std::int64_t start_ns = nanoseconds_of("--can-start", flags.start);
     DriveEdits edits;
     edits.can_log = std::filesystem::path(); // by its script
     Stage stage(read_drive(named_file("drive", flags.drive, "DRIVE"), edits));
@@ -45,11 +46,11 @@ int record_drive(const RecordFlags& flags) {
 void add_can_record(CLI::App& can, std::function<int()>& chosen) {
     const auto flags = std::make_shared<RecordFlags>();
     CLI::App* sub = can.add_subcommand("record", "write the candump log that a bus would carry if the drive's own script were the car");
-    sub->add_option("DRIVE", flags->drive, "drive file (YAML) with `can`")->required();
-    sub->add_option("--lamp-set", flags->lamp_set, "lamp set whose script is recorded (default: the first)");
-    sub->add_option("--start", flags->start, "timestamp of the drive's 0 s, in s");
-    sub->add_option("-o,--out", flags->out, "write to this file instead of standard output");
-    sub->add_flag("--force", flags->force, "let --out replace an existing file");
+    add_shared(*sub, "DRIVE", flags->drive)->required();
+    add_shared(*sub, "--lamp-set", flags->lamp_set)->default_str("the first");
+    add_shared(*sub, "--can-start", flags->start)->capture_default_str();
+    add_shared(*sub, "-o,--out", flags->out);
+    add_shared(*sub, "--force", flags->force);
     sub->callback([flags, &chosen] { chosen = [flags] { return record_drive(*flags); }; });
 }
 

@@ -207,7 +207,7 @@ bool compare_flows(Session& s, const std::vector<Image<float>>& drawn, const std
 bool measure_row(Session& s, AliasingRow& row) {
     const Technique& technique = technique_named(row.configuration.technique);
     if (!s.request.displayed && !technique.luminance) {
-        row.why_not = fmt::format("technique {} computes no luminance; --picture display measures what it shows", technique.name);
+        row.why_not = fmt::format("technique {} computes no luminance; --values display measures what it shows", technique.name);
         return true;
     }
     if (!draw_references(s, technique))

@@ -180,13 +180,13 @@ int factor_of(const std::filesystem::path& folder, const SequenceFrames& drawn, 
     const int factor = large.width() / small.width();
     if (factor < 4 || factor > largest_factor || factor % 2 != 0 || large.width() != factor * small.width() ||
         large.height() != factor * small.height())
-        throw InputError({folder, 0, 0, "--against"}, fmt::format("found {} x {} pixels", large.width(), large.height()),
+        throw InputError({folder, 0, 0, "--supersampled"}, fmt::format("found {} x {} pixels", large.width(), large.height()),
                          fmt::format("4, 6, 8 ... or {} times {} x {}", largest_factor, small.width(), small.height()));
     if (fine.displayed != drawn.displayed)
-        throw InputError({folder, 0, 0, "--against"}, fine.displayed ? "found PNG" : "found EXR",
+        throw InputError({folder, 0, 0, "--supersampled"}, fine.displayed ? "found PNG" : "found EXR",
                          drawn.displayed ? "PNG, as the sequence" : "EXR, as the sequence");
     if (fine.numbers != drawn.numbers)
-        throw InputError({folder, 0, 0, "--against"}, fmt::format("found frames {} to {}", fine.numbers.front(), fine.numbers.back()),
+        throw InputError({folder, 0, 0, "--supersampled"}, fmt::format("found frames {} to {}", fine.numbers.front(), fine.numbers.back()),
                          fmt::format("{} to {}, as in the sequence", drawn.numbers.front(), drawn.numbers.back()));
     return factor;
 }
@@ -234,7 +234,7 @@ AliasingResult run_sequence_aliasing(const SequenceRequest& request) {
     result.notes = drawn.notes;
     result.notes.insert(result.notes.end(), fine.notes.begin(), fine.notes.end());
     if (request.against && drawn.displayed)
-        if (const std::string note = check_shown_alike({drawn.first, "the sequence"}, {fine.first, "--against"}, "the sequence");
+        if (const std::string note = check_shown_alike({drawn.first, "the sequence"}, {fine.first, "--supersampled"}, "the sequence");
             !note.empty())
             result.notes.push_back(note);
     result.pixels_per_degree =

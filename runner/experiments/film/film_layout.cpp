@@ -40,7 +40,7 @@ FilmLayout film_layout(FilmArrangement arrangement, int panels, int width_px, in
     if (two && panels != 2)
         refuse(arrangement == FilmArrangement::wipe ? "--wipe" : "--side-by-side", found, "two; --lamp-set chooses");
     if (panels > most_film_panels)
-        refuse("--lamp-set", found, fmt::format("at most {}", most_film_panels));
+        refuse("--lamp-sets", found, fmt::format("at most {}", most_film_panels));
     FilmLayout layout{.width_px = width_px, .height_px = height_px, .wipe = arrangement == FilmArrangement::wipe};
     const int columns = layout.wipe                                    ? 1
                         : arrangement == FilmArrangement::side_by_side ? 2

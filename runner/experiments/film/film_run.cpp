@@ -127,7 +127,8 @@ std::vector<FilmedPanel> panels_of(const std::deque<Stage>& stages, const std::v
     }
     for (const std::string& name : wanted)
         if (!known.contains(name))
-            throw InputError({{}, 0, 0, "--lamp-set"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(known, ", ")));
+            throw InputError({{}, 0, 0, "--lamp-sets"}, "found '" + printable(name) + "'",
+                             fmt::format("one of {}", fmt::join(known, ", ")));
     return panels;
 }
 
@@ -321,6 +322,9 @@ FilmFound run_film(const FilmRequest& request) {
     if (found.planned <= 0)
         throw InputError({{}, 0, 0, "--frames"}, fmt::format("found a range from {} on", first),
                          fmt::format("frames of the film, which has 0 to {}", all - 1));
+    if (request.frames.last >= all && request.frames.last != TickRange{}.last)
+        found.notes.push_back(fmt::format("--frames: {} of the {} frames asked for, as the film ends with frame {}", found.planned,
+                                          request.frames.last - first + 1, all - 1));
     Device device = open_device(request.backend);
     check_sanity(device);
     RendererSettings settings = settings_for(device, false);

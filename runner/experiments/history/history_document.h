@@ -29,9 +29,9 @@ void add_frames(HistoryFindings& findings, std::size_t most = 6);
 /// times.
 std::vector<Plot> sparklines(const HistoryFindings& findings, std::size_t most = 4);
 
-/// The readings whose names fit the pattern (glob.h), "frame_s" for times: since which night they stand where, with the causes. `cells` is
-/// a pattern, too. Throws InputError, naming the nearest, where none fits.
-Document trend_document(const std::vector<Night>& nights, const std::string& reading, const std::string& cells);
+/// The readings whose names fit the pattern (glob.h), "frame_s" for times: since which night they stand where, with the causes. `cells` are
+/// patterns, too. Throws InputError, naming the nearest, where none fits.
+Document trend_document(const std::vector<Night>& nights, const std::string& reading, const std::vector<std::string>& cells);
 
 /// Tidy CSV (RFC 4180): one line a night, cell and reading, with what it was read under; times are `frame_s`. `take` gets it night by
 /// night.

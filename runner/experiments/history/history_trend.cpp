@@ -103,14 +103,15 @@ void add_times(Table& table, const std::vector<Night>& nights, const std::string
 
 } // namespace
 
-Document trend_document(const std::vector<Night>& nights, const std::string& reading, const std::string& cells) {
+Document trend_document(const std::vector<Night>& nights, const std::string& reading, const std::vector<std::string>& patterns) {
+    const std::string cells = fmt::format("{}", fmt::join(patterns, ","));
     const Night& last = nights.back();
     Table table = trend_table();
     std::set<std::string> names{timed_frame}, cell_names;
     bool any_cell = false;
     for (const NightCell& cell : last.cells) {
         cell_names.insert(cell.name);
-        if (!matches(cells, cell.name))
+        if (std::ranges::none_of(patterns, [&](const std::string& pattern) { return matches(pattern, cell.name); }))
             continue;
         any_cell = true;
         for (const auto& [name, value] : *cell.readings)
@@ -123,7 +124,7 @@ Document trend_document(const std::vector<Night>& nights, const std::string& rea
     }
     if (!any_cell) {
         const std::string near = nearest_name(cells, cell_names);
-        throw InputError({{}, 0, 0, "--cells"}, fmt::format("found '{}', which fits no cell of {}", printable(cells), last.date()),
+        throw InputError({{}, 0, 0, "--only"}, fmt::format("found '{}', which fits no cell of {}", printable(cells), last.date()),
                          "a name or a pattern, such as " + (near.empty() ? *cell_names.begin() : near));
     }
     if (table.rows.empty() && reading == timed_frame)

@@ -162,7 +162,10 @@ Document document(const InstallationFound& found) {
     Document document{"Low beams on the car, modelled on UN R48", {{"", {facts}}}};
     for (const InstalledLamp& lamp : found.lamps)
         document.sections.push_back({"Inclination of " + lamp.lamp, {band_text(lamp), loads_table(found, lamp)}});
-    document.sections.push_back({"Bend light's kink", {kinks_table(found)}});
+    if (found.kink() == InstallationVerdict::not_applicable)
+        document.sections.push_back({"Bend light's kink", {kink_text(found)}});
+    else
+        document.sections.push_back({"Bend light's kink", {kinks_table(found)}});
     Table verdict{"verdict", "", {{.head = "", .words = true}, {.head = "", .words = true}}, {}};
     verdict.rows = {{"inclination", in_words(found.inclination()) + worst_text(found)}, {"kink", kink_text(found)}};
     document.sections.push_back({"Verdict; no approval", {verdict}});

@@ -279,7 +279,7 @@ std::vector<std::string> basis(const MasksFound& found) {
             found.moments, found.step_s),
         fmt::format(
             "Others: photometers and limits of rating `{}`: eyes of oncoming, mirrors of preceding road users, from 15 m before "
-            "the lamps on; of each road user but pedestrians the brightest, as if he sat in a car. Limits hold where the rating has "
+            "the lamps on; of each road user but pedestrians the brightest, as if each sat in a car. Limits hold where the rating has "
             "some",
             short_text(found.limits, 40)),
         fmt::format("On foot: `{}` at the edges of the road as the driver sees them, level with the front of an oncoming road user; "

@@ -134,7 +134,8 @@ std::size_t place_of_full(const std::vector<MaskedDrive>& drives, const std::str
     for (const MaskedDrive& one : drives)
         if (one.as_it_is)
             names.push_back(one.lamp_set);
-    throw InputError({drive.file, 0, 0, "--against"}, "found '" + printable(name) + "'", fmt::format("one of {}", fmt::join(names, ", ")));
+    throw InputError({drive.file, 0, 0, "--full-light"}, "found '" + printable(name) + "'",
+                     fmt::format("one of {}", fmt::join(names, ", ")));
 }
 
 } // namespace
@@ -146,7 +147,7 @@ MasksFound run_masks(const MasksRequest& request) {
         throw InputError({drive.file, 0, 0, "lamp_sets"}, "found none that masks others", "one with control: {glare_free: ...}");
     found.drives = set_out(drive, request.margins_deg);
     if (std::ranges::none_of(request.limits.photometers, is_carried_eye))
-        throw InputError({request.limits.file, 0, 0, "--limits"},
+        throw InputError({request.limits.file, 0, 0, "--rating"},
                          fmt::format("rating '{}' has no photometer on road users that faces forward or backward", request.limits.name),
                          "one that has eyes and mirrors, as adb-track");
     const std::size_t full = place_of_full(found.drives, request.against, drive);

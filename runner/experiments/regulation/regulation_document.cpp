@@ -85,7 +85,7 @@ Table rows_table(const std::string& name, const std::vector<RowResult>& rows) {
     for (const RowResult& row : rows) {
         const std::string text = remark(row);
         if (row.verdict == RowVerdict::not_measured)
-            table.rows.push_back({row.id, "", limits_of(row), unit_of_row(row.unit), "", "", "not_measured: " + text});
+            table.rows.push_back({row.id, "", limits_of(row), unit_of_row(row.unit), "", "", "not measured: " + text});
         else
             table.rows.push_back({row.id,
                                   {number(row.found, row.unit), row.found},
@@ -108,16 +108,16 @@ std::string verdict_text(const RegulationCheck& check) {
     std::string text = check.verdict == RowVerdict::pass ? fmt::format("pass: meets all {} rows of our table", check.rows.size())
                        : check.verdict == RowVerdict::fail
                            ? fmt::format("fail: {} of {} rows of our table", failed, check.rows.size())
-                           : fmt::format("not_measured: {} of {} rows of our table", open, check.rows.size());
+                           : fmt::format("not measured: {} of {} rows of our table", open, check.rows.size());
     if (check.verdict == RowVerdict::fail && open > 0)
         text += fmt::format(", {} not measured", open);
     return text;
 }
 
 std::string scan_text(const CutOffScan& s, const char* axis) {
-    std::string text = s.sharpness ? fmt::format("G {:.3f}", *s.sharpness) : "G not_measured";
+    std::string text = s.sharpness ? fmt::format("G {:.3f}", *s.sharpness) : "G not measured";
     text += s.inflection_deg ? fmt::format(", inflection at {} {:.3f} +- {:.3f}", axis, *s.inflection_deg, s.uncertainty_deg())
-                             : ", inflection not_measured";
+                             : ", inflection not measured";
     return s.reason.empty() ? text : text + " (" + s.reason + ")";
 }
 
@@ -231,18 +231,18 @@ Document document(const CutOffFound& found) {
                                 left_hand_traffic ? "; left-hand traffic" : ""));
     for (const CutOffScan* scan : {&c.level_inner, &c.level, &c.level_outer})
         tell_scan(*scan);
-    tell("linearity", c.linearity_deg ? fmt::format("{:.3f} degrees over 1.5, 2.5 and 3.5 degrees", *c.linearity_deg) : "not_measured");
+    tell("linearity", c.linearity_deg ? fmt::format("{:.3f} degrees over 1.5, 2.5 and 3.5 degrees", *c.linearity_deg) : "not measured");
     for (const CutOffScan& scan : c.rise)
         tell_scan(scan);
     tell("kink", c.kink_h_deg ? fmt::format("H {:.3f} +- {}, where the line through these meets the level part", sign * *c.kink_h_deg + 0.0,
                                             bound_text(c.kink_uncertainty_deg))
-                              : "not_measured: " + c.kink_reason);
-    tell("rise", c.rise_angle_deg ? fmt::format("{:.1f} degrees", *c.rise_angle_deg) : "not_measured: " + c.kink_reason);
+                              : "not measured: " + c.kink_reason);
+    tell("rise", c.rise_angle_deg ? fmt::format("{:.1f} degrees", *c.rise_angle_deg) : "not measured: " + c.kink_reason);
     tell("elbow", elbow.at ? fmt::format("H {:.3f} +- {}, V {:.3f} +- {}, by a fit over {} columns; from there {:.1f} degrees up{}",
                                          sign * elbow.at->h_deg + 0.0, bound_text(elbow.uncertainty.h_deg), elbow.at->v_deg,
                                          bound_text(elbow.uncertainty.v_deg), elbow.points.size(), elbow.rise_angle_deg,
                                          elbow.rise_to_h_deg ? fmt::format(" to H {:.2f}", sign * *elbow.rise_to_h_deg) : "")
-                           : "not_measured: " + elbow.reason);
+                           : "not measured: " + elbow.reason);
     CutOffScan shoulder = c.shoulder;
     if (shoulder.inflection_deg)
         *shoulder.inflection_deg *= sign;
@@ -271,6 +271,26 @@ Document regulation_list() {
         {"A lamp's rows",
          {"A lamp's table has more rows where it is aimed by its cut-off (sharpness, linearity or level of the cut-off), and fewer where "
           "one file is given and rows are for two lamps."}});
+    return document;
+}
+
+Document regulation_reference() {
+    Document document{
+        "Regulations",
+        {{"",
+          {"For `--regulation`; [regulations.md](../regulations.md) says how lamps are held against these tables. In brackets: rows "
+           "in the text, and the rule of aim."}}}};
+    std::string known;
+    for (const Regulation& r : listed_regulations()) {
+        if (document.sections.back().title != r.edition) {
+            known = in_words(r.sureness);
+            document.sections.push_back({r.edition, {fmt::format("Source: {} ({}).", r.source, known), Listing{}}});
+        }
+        std::get<Listing>(document.sections.back().blocks.back())
+            .items.emplace_back(fmt::format("`{}` ({}{}): {}{}", r.id, r.rows.empty() ? "" : fmt::format("{}, ", r.rows.size()),
+                                            name_of(r.aim), r.title,
+                                            known == in_words(r.sureness) ? "" : std::string("; ") + in_words(r.sureness)));
+    }
     return document;
 }
 

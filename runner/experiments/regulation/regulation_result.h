@@ -31,6 +31,8 @@ Document document(const CutOffFound& found);
 std::vector<Regulation> listed_regulations();
 /// All ids with edition, source and what is in them.
 Document regulation_list();
+/// The same, shorter: docs/reference/regulations.md.
+Document regulation_reference();
 
 std::string regulation_json(const RegulationFound& found);
 std::string cut_off_json(const CutOffFound& found);

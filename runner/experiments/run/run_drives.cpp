@@ -387,8 +387,8 @@ void repeat(const std::deque<Stage>& stages, Device& device, const RendererSetti
 void add_warnings(const std::deque<Stage>& stages, const std::vector<Drive>& drives, const TickRange& ticks, Report& report) {
     for (const Stage& stage : stages)
         if (const int asked = ticks_to_play(stage.drive, ticks), all = tick_count(stage.drive); asked < all)
-            report.warnings.push_back(fmt::format("{}: {} of {} moments were to be played (--frames), and readings are of these alone",
-                                                  stage.drive.name, asked, all));
+            report.warnings.push_back(
+                fmt::format("{}: {} of {} moments, as --frames asks; readings are of these alone", stage.drive.name, asked, all));
     for (const Stage& stage : stages)
         if (const auto& tolerances = stage.drive.seeing.tolerances;
             tolerances && !stage.drive.vehicle && tolerance_of(*tolerances, ToleranceKind::load).counts())

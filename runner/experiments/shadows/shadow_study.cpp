@@ -65,7 +65,7 @@ ShadowResult run_shadow_study(const ShadowRequest& request) {
     FilesRead opened;
     if (request.scenes != std::vector<std::string>{"none"}) {
         if (!std::filesystem::exists(request.lamp))
-            throw InputError({request.lamp, 0, 0, "--lamp"}, "is not there", "a lamp file");
+            throw InputError({request.lamp, 0, 0, "--scene-lamp"}, "is not there", "a lamp file");
         const auto beam = std::make_shared<const LampFile>(read_lamp(request.lamp, {.recipe = request.recipe}));
         add_inputs(opened, beam->opened);
         scenes = chosen_scenes(stress_scenes(beam, request.vertical_fov_rad), request.scenes);

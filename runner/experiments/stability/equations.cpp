@@ -59,7 +59,11 @@ std::vector<Equation> of_sky_and_weather() {
             {36, "wet_albedo", "", "albedo 1e-4 to 1, cosines 0.01 to 1",
              std::vector{logarithmic(0, 1e-4, 1.0), linear(1, 0.01, 1.0), linear(2, 0.01, 1.0)}, 1, own},
             {37, "wet_mirrored", "", "alpha 0.1 to 1, both directions above the surface by a sine of 0.001",
-             std::vector{direction(0), linear(3, 0.1, 1.0), direction(4), direction(8)}, 1, own, above}};
+             std::vector{direction(0), linear(3, 0.1, 1.0), direction(4), direction(8)}, 1, own, above},
+            {39, "dielectric_reflectance", "", "cosines 1e-6 to 1, index 1.2 to 2.5",
+             std::vector{logarithmic(0, 1e-6, 1.0), linear(1, 1.2, 2.5)}, 1, one},
+            {40, "facet_mirrored", "", "the same, index 1.2 to 2.5",
+             std::vector{direction(0), linear(3, 0.1, 1.0), direction(4), direction(8), linear(12, 1.2, 2.5)}, 1, own, above}};
 }
 
 std::vector<Equation> make() {
@@ -184,6 +188,8 @@ constexpr EquationBound bounds[] = {
      "peak's, and the way's at sines of 0.99"},
     {"facet_cosine", 3e-7, "of 1", 1.0, "a sum of products that is at most 1, 4 u, and a root"},
     {"water_reflectance", 3e-6, "of 1", 2.0, "differences of cosine and index, which stay apart, GLSL's quotient 5 u, squared: 30 u"},
+    {"dielectric_reflectance", 3e-6, "of 1", 2.0, "as water_reflectance"},
+    {"facet_mirrored", 5e-4, "relative", 1000.0, "as wet_mirrored"},
     {"wet_albedo", 3e-5, "relative", 4.0, "1 - F is 0.05 at a cosine of 0.01, for two directions: 20 times what water_reflectance rounds"},
     {"wet_mirrored", 5e-4, "relative", 1000.0,
      "the facet's sine by a cross product, 6 u of 1 over a lobe of width 0.1, to the fourth power; dot products of 0.001 with 3 u"},

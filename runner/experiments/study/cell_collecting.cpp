@@ -102,7 +102,7 @@ void judge_cell(const Study& study, const PlannedCell& planned, const StudyOptio
     judge(drive, planned, options, folder, report);
     write_file(folder / planned.resolved_file, write_drive(drive));
     options.judge_cell(report, folder);
-    PlayedResult played = played_result(report.played.front(), read_moments(folder, report, 0), folder_name_of(planned));
+    PlayedResult played = played_result(report.played.front(), read_moments(folder, report, 0), folder_name_of(planned), study.decide);
     for (StoredFrame& frame : played.frames)
         if (!frame.png.empty())
             frame.shown_by = read_png_tags(options.folder / frame.png).shown_by;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <set>
 #include <tuple>
 
@@ -33,12 +34,6 @@ std::string signed_words(const Change& change, bool backward) {
     const Value told = backward ? difference(0.0, change.change(), unit_of(change.reading)) : change.change();
     const double found = told.figure().value_or(0.0);
     return with_bound(told, (found > 0.0 ? "+" : "") + short_figure(found)) + unit_suffix(change.unit());
-}
-
-std::string capital(std::string words) {
-    if (!words.empty() && words.front() >= 'a' && words.front() <= 'z')
-        words.front() = static_cast<char>(words.front() - 'a' + 'A');
-    return words;
 }
 
 /// Of a cell against the lamp that it is compared with first.
@@ -182,9 +177,10 @@ Answer answer_of(const StudyResult& result, const Groups& groups, const ReadingK
         drives.insert(result.cells[group.front()].cell.drive);
     const char* const places = drives.size() == groups.size() ? (groups.size() == 1 ? "route" : "routes") : "places";
     const std::string over =
-        groups.size() == 1 ? fmt::format("{}; on {}", reading_label(key), place_name(result, groups.front().front()))
-                           : fmt::format("{}, median over {}{} {}", reading_label(key),
-                                         ranked_places < groups.size() ? fmt::format("{} of ", ranked_places) : "", groups.size(), places);
+        groups.size() == 1 ? "On " + place_name(result, groups.front().front())
+                           : fmt::format("Median over {}{} {}", ranked_places < groups.size() ? fmt::format("{} of ", ranked_places) : "",
+                                         groups.size(), places);
+    const std::string reading = capitalised(reading_label(key)) + ": ";
     bool forward = true;
     std::vector<const Change*> changes = changes_of_lamps(result, best, worst, key);
     if (changes.empty()) {
@@ -200,8 +196,8 @@ Answer answer_of(const StudyResult& result, const Groups& groups, const ReadingK
     const std::string figures =
         fmt::format("{} against {}{}", value_words(best_value, key), value_words(worst_value, key), by.empty() ? "" : " (" + by + ")");
     if (changes.empty())
-        return {fmt::format("Best: {}, worst: {}: {}", best_name, worst_name, figures),
-                capital(over) + ". The study does not compare these two, so noise and aim are not told."};
+        return {reading + fmt::format("{} is best, {} worst: {}", best_name, worst_name, figures),
+                over + ". The study does not compare these two, so noise and aim are not told."};
     const auto better = std::ranges::count_if(
         changes, [&](const Change* change) { return real_gain(*change) != 0.0 && (real_gain(*change) > 0.0) == forward; });
     const auto worse = std::ranges::count(changes, ChangeKind::real, &Change::kind) - better;
@@ -218,7 +214,31 @@ Answer answer_of(const StudyResult& result, const Groups& groups, const ReadingK
         heading = fmt::format("{} is best, {} worst: {}", best_name, worst_name, figures);
     else
         heading = fmt::format("{} is better than {}: {}", best_name, worst_name, figures);
-    return {heading, capital(over) + ": " + where_words(result, changes, forward, places) + "."};
+    return {reading + heading, over + ": " + where_words(result, changes, forward, places) + "."};
+}
+
+/// What speaks against the headline: the other deciding readings, and what `decide:` asks for and no cell measured.
+std::string against_words(const StudyResult& result, const std::vector<Decision>& decisions) {
+    std::string text;
+    for (const Decision& decision : decisions) {
+        text += (text.empty() ? "" : " ") + decision_count(result, decision) + ".";
+        for (const std::string& part : decision_parts(result, decision, DecisionParts::doubts))
+            text += " " + part + ".";
+    }
+    std::vector<std::string> kinds; // "reach", "glare": the first words of the names, in their order
+    std::set<std::string> measured;
+    for (const std::string& name : result.study.decide) {
+        const std::string kind = name.substr(0, name.find('_'));
+        if (std::ranges::find(kinds, kind) == kinds.end())
+            kinds.push_back(kind);
+        if (!measured.contains(kind) && std::ranges::any_of(result.cells, [&](const CellResult& cell) {
+                return std::ranges::any_of(
+                    cell.readings, [&](const auto& read) { return read.second.value.measured() && place_among(read.first, {name}); });
+            }))
+            measured.insert(kind);
+    }
+    std::erase_if(kinds, [&](const std::string& kind) { return measured.contains(kind); });
+    return kinds.empty() ? text : fmt::format("{} Not measured: {}.", text, fmt::join(kinds, ", "));
 }
 
 } // namespace
@@ -244,12 +264,12 @@ std::optional<double> gain_among(const StudyResult& result, const std::vector<st
 
 std::optional<plots::DotPlot> ranking_of(const StudyResult& result, const Decision& decision) {
     const StudyComparison& pair = result.study.comparisons[decision.comparison];
-    plots::DotPlot dots{.title =
-                            fmt::format("What decides, ranked: {} against {}", short_text(pair.tested, 24), short_text(pair.against, 24)),
-                        .subtitle = "dot: median change; line: ± calculation, noise and 0.1° of aim; ticks: routes; hollow: within",
-                        .left = "worse",
-                        .right = "better",
-                        .unit = "%"};
+    plots::DotPlot dots{
+        .title = fmt::format("What decides, ranked: {} against {}", short_text(pair.tested, 24), short_text(pair.against, 24)),
+        .subtitle = "dot: the median route; line: ± calculation, noise and 0.1° of aim; ticks: the other routes; hollow: no real change",
+        .left = "worse",
+        .right = "better",
+        .unit = "%"};
     for (const DecidedReading& decided : decision.readings) {
         const Change& change = result.changes[decided.told];
         const double better = better_is(decided.reading);
@@ -288,6 +308,8 @@ Section answer_section(const StudyResult& result, const std::vector<Decision>& d
     section.is_answer = true;
     if (!answer.where.empty())
         section.blocks.emplace_back(answer.where);
+    if (std::string against = against_words(result, decisions); !against.empty())
+        section.blocks.emplace_back(std::move(against));
     section.blocks.emplace_back(matrix_of(result, groups, *key));
     for (const Decision& decision : decisions)
         if (const std::optional<plots::DotPlot> dots = ranking_of(result, decision)) {
@@ -297,12 +319,6 @@ Section answer_section(const StudyResult& result, const std::vector<Decision>& d
                                              .scale = 2.0,
                                              .beside = true});
         }
-    for (const Decision& decision : decisions) { // what speaks against it belongs beside it
-        std::string text = decision_count(result, decision) + ".";
-        for (const std::string& part : decision_parts(result, decision, DecisionParts::doubts))
-            text += " " + part + ".";
-        section.blocks.emplace_back(std::move(text));
-    }
     return section;
 }
 

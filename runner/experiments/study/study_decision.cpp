@@ -212,7 +212,7 @@ std::vector<std::string> decision_parts(const StudyResult& result, const Decisio
     if (all)
         parts.push_back(undecided(result, decision));
     if (const std::size_t within = all ? decision.count(DecisionOutcome::within_aim) : 0)
-        parts.push_back(fmt::format("{} changed by less than 0.1° of aim would do: {}", counted(within, "reading"), within_aim(decision)));
+        parts.push_back(fmt::format("In {} 0.1° of aim would change as much: {}", counted(within, "reading"), within_aim(decision)));
     if (const std::size_t same = all ? decision.count(DecisionOutcome::same) : 0)
         parts.push_back(fmt::format("{} without a difference", counted(same, "reading")));
     if (decision.aim_alone)
@@ -271,7 +271,7 @@ std::vector<std::string> same_results(const StudyResult& result, const std::vect
 Table decision_table(const StudyResult& result, const std::vector<Decision>& decisions) {
     const bool several = decisions.size() > 1;
     Table table{.name = "decision",
-                .caption = "",
+                .caption = "Old, new and change: on the route whose change is the median of those that count",
                 .columns = columns_of(std::string(several ? "new / old<|" : "") +
                                       "reading<|is<|old|new|change|%|± 0.1° of aim|unit<|results|where<"),
                 .rows = {},

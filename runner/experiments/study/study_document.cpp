@@ -233,10 +233,12 @@ Section largest_section(const StudyResult& result) {
     Cards cards;
     for (const std::size_t i : result.largest)
         cards.push_back(card_of(result, result.changes[i]));
-    return {"The largest changes",
-            {std::move(cards),
-             "Of each deciding reading its largest real change, then the largest of these; size is the change over the larger of both "
-             "values. Real is what exceeds numerical uncertainty and the noise of the candela tables, and what 0.1° of aim would do."}};
+    return {
+        "The largest changes",
+        {std::move(cards),
+         "Each deciding reading on the route that it changes most on, not on the median one as above; size is the change over the larger "
+         "of "
+         "both values. Real is what exceeds numerical uncertainty and the noise of the candela tables, and what 0.1° of aim would do."}};
 }
 
 Section lamps_section(const StudyResult& result) {
@@ -275,7 +277,7 @@ Section views_section(const StudyResult& result) {
                         const std::string what = fmt::format("{}, after {:.1f} s ({})", result.cells[tested].title, now.time_s,
                                                              result.cells[tested].cell.condition);
                         if (now.shown_by == before.shown_by)
-                            section.blocks.emplace_back(PictureOverlay{what, {pair.tested, pair.against}, {now.png, before.png}});
+                            section.blocks.emplace_back(PictureOverlay{what, {pair.against, pair.tested}, {before.png, now.png}});
                         else
                             section.blocks.emplace_back(fmt::format(
                                 "{}: pictures of {} and {} are not laid over each other, as they have no common exposure, "
@@ -319,7 +321,7 @@ Document document(const StudyResult& result, const std::vector<std::string>& pap
             maps{"Lux from above", {"All maps in one scale, 0.1 to 100 lx; below each pair the ratio of new to old."}}, cells{"Cells", {}};
     for (const StudyFigure& figure : result.figures)
         for (const auto& [beginning, section] : {std::pair("figures/lamps_", &lamps),
-                                                 {"figures/reach-", &reach},
+                                                 {"figures/reach_", &reach},
                                                  {"figures/glare-", &glare},
                                                  {"figures/lux", &maps},
                                                  {"figures/work-precision", &cells}})
@@ -357,6 +359,8 @@ Document document(const StudyResult& result, const std::vector<std::string>& pap
     Section answer = answer_section(result, decisions);
     if (was_judged(result) && overall(result) != VerdictKind::pass && !answer.blocks.empty())
         answer.blocks.emplace_back(verdict_words(result) + ": what and where stands below.");
+    if (!result.played_in_part.empty() && !answer.blocks.empty())
+        answer.blocks.emplace_back(result.played_in_part + ".");
     if (!result.warnings.empty() && !answer.blocks.empty())
         answer.blocks.emplace_back(counted(result.warnings.size(), "warning") + ": " + result.warnings.front() + ".");
     add(std::move(answer), false);

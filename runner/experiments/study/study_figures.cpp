@@ -64,7 +64,7 @@ StudyFigure small_figure(const StudyResult& result, const std::string& name, plo
     const std::string title = figure.title + ": " + figure.subtitle;
     StudyFigure small = with_files(name, title, std::move(figure), cells);
     small.plot.beside = true;
-    small.plot.place = place_name(result, cells.front());
+    small.plot.places = {place_name(result, cells.front())};
     return small;
 }
 
@@ -78,7 +78,7 @@ void share_axes(std::vector<StudyFigure>& figures) {
     constexpr double most_of_shortest = 2.0;
     std::map<std::string, std::vector<plots::Figure*>> alike;
     for (StudyFigure& drawn : figures)
-        if (auto* const figure = std::get_if<plots::Figure>(&drawn.plot.figure); figure && !drawn.plot.place.empty())
+        if (auto* const figure = std::get_if<plots::Figure>(&drawn.plot.figure); figure && !drawn.plot.places.empty())
             alike[figure->title].push_back(figure);
     for (auto& [title, group] : alike) {
         plots::Axis x = group.front()->x, y = group.front()->y;
@@ -119,14 +119,12 @@ struct GroupLines {
     }
 };
 
-/// The reach plotted of what the deciding readings ask for: on a target and on the road, at the limits that they name.
-std::set<std::pair<Surface, double>> plotted_reaches(const StudyResult& result) {
-    std::set<std::pair<Surface, double>> keys;
+/// Those of the deciding readings, the most important first.
+std::set<std::pair<std::size_t, ReadingKey>> plotted_reaches(const StudyResult& result) {
+    std::set<std::pair<std::size_t, ReadingKey>> keys;
     for (const CellResult& cell : result.cells)
-        for (const ReachOverDrive& reach : cell.reaches) {
-            if (place_among(reach.key(), result.study.decide))
-                keys.emplace(reach.surface, reach.threshold_lx);
-        }
+        for (const ReachOverDrive& reach : cell.reaches)
+            keys.emplace(*place_among(reach.key, result.study.decide), reach.key);
     return keys;
 }
 
@@ -145,13 +143,11 @@ bool is_same_flat(const plots::Figure& a, const plots::Figure& b, double within_
 }
 
 /// Places that draw one and the same flat line have it once.
-void add_reach(const StudyResult& result, const std::vector<std::size_t>& group, Surface surface, double threshold_lx,
-               std::vector<StudyFigure>& figures) {
-    GroupLines lines(result, group,
-                     fmt::format("Reach at {:g} lx {}, own lane", threshold_lx, surface == Surface::road ? "on the road" : "on a target"));
+void add_reach(const StudyResult& result, const std::vector<std::size_t>& group, const ReadingKey& key, std::vector<StudyFigure>& figures) {
+    GroupLines lines(result, group, capitalised(reading_label(key)));
     for (const std::size_t cell : group)
         for (const ReachOverDrive& reach : result.cells[cell].reaches)
-            if (reach.surface == surface && reach.threshold_lx == threshold_lx)
+            if (reach.key == key)
                 lines.add(cell, reach.distance_m, reach.reach_m);
     if (lines.figure.series.empty())
         return;
@@ -159,6 +155,7 @@ void add_reach(const StudyResult& result, const std::vector<std::size_t>& group,
     for (StudyFigure& drawn : figures)
         if (auto* const same = std::get_if<plots::Figure>(&drawn.plot.figure); same && is_same_flat(*same, lines.figure, within_m)) {
             const std::string also = "; the same: " + result.cells[group.front()].drive;
+            drawn.plot.places.push_back(place_name(result, group.front()));
             same->subtitle += also;
             drawn.title += also;
             drawn.cells.insert(drawn.cells.end(), group.begin(), group.end());
@@ -166,9 +163,7 @@ void add_reach(const StudyResult& result, const std::vector<std::size_t>& group,
         }
     lines.figure.x = plots::axis_around("along the route", "m", lines.xs);
     lines.figure.y = plots::axis_around("reach", "m", lines.ys, plots::Scale::linear, true);
-    figures.push_back(small_figure(result,
-                                   fmt::format("reach-{:g}lx-{}_{}", threshold_lx, surface_name(surface), group_name(result, group)),
-                                   std::move(lines.figure), group));
+    figures.push_back(small_figure(result, name_of(key) + "_" + group_name(result, group), std::move(lines.figure), group));
 }
 
 /// A line a lamp for each eye that the drive has.
@@ -291,15 +286,15 @@ std::vector<StudyFigure> study_figures(const StudyResult& result, const std::fil
     add_lamp_differences(result, figures);
     std::vector<std::vector<std::size_t>> groups = groups_of(result);
     groups.resize(std::min(groups.size(), max_pictured_places));
-    for (const auto& [surface, threshold_lx] : plotted_reaches(result))
+    for (const auto& [place, key] : plotted_reaches(result))
         for (const std::vector<std::size_t>& group : groups)
-            add_reach(result, group, surface, threshold_lx, figures);
+            add_reach(result, group, key, figures);
     for (const std::vector<std::size_t>& group : groups)
         add_glares(result, group, figures);
     share_axes(figures);
     if (const std::optional<ReadingKey> first = first_deciding(result))
         for (StudyFigure& drawn : figures)
-            if (!drawn.plot.place.empty())
+            if (!drawn.plot.places.empty())
                 drawn.plot.rank = gain_among(result, drawn.cells, *first);
     for (const std::vector<std::size_t>& group : groups)
         add_maps(result, group, folder, figures);

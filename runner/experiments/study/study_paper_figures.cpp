@@ -75,7 +75,7 @@ std::vector<PaperFigure> paper_figures(const StudyResult& result) {
                  two_columns_mm, decision_table(result, {decision})});
         }
     for (const StudyFigure& drawn : result.figures)
-        if (!drawn.plot.place.empty() && std::holds_alternative<plots::Figure>(drawn.plot.figure))
+        if (!drawn.plot.places.empty() && std::holds_alternative<plots::Figure>(drawn.plot.figure))
             figures.push_back(lines_for_paper(result, drawn));
     return figures;
 }

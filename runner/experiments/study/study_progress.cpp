@@ -1,9 +1,9 @@
 #include "runner/experiments/study/study_progress.h"
 
 #include "runner/files/log.h"
+#include "runner/play/progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace fernlicht {
 namespace {
@@ -17,8 +17,7 @@ std::string minutes_text(double seconds) {
 } // namespace
 
 StudyProgress::StudyProgress(std::size_t cells, bool quiet)
-    : cells_(cells), quiet_(quiet || !is_told(LogLevel::info)), terminal_(::isatty(STDERR_FILENO) == 1 && !log_settings().json),
-      start_(std::chrono::steady_clock::now()) {}
+    : cells_(cells), quiet_(quiet || !is_told(LogLevel::info)), terminal_(is_for_eyes()), start_(std::chrono::steady_clock::now()) {}
 
 StudyProgress::~StudyProgress() {
     if (!quiet_ && terminal_ && cells_ > 0)

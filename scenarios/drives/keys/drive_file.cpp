@@ -11,6 +11,7 @@
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/fields/write_fields.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/refusals.h"
 #include "scenarios/values/version.h"
 
 #include <algorithm>
@@ -24,15 +25,20 @@ constexpr std::size_t max_bytes = std::size_t{4} << 20;
 constexpr double max_ticks = 1.0e7;
 
 void read_time(const YamlMap& keys, Drive& drive) {
-    drive.step_s = read_step_s(keys);
+    EachRead each;
+    each([&] { drive.step_s = read_step_s(keys); });
     if (drive.storyboard)
-        return;
-    drive.speed = read_speed(keys);
-    const YamlEntry duration = keys.require("duration_s");
-    read_field(drive_fields(), "duration_s", keys, &drive);
+        return each.end();
+    each([&] { drive.speed = read_speed(keys); });
+    each([&] {
+        keys.require("duration_s");
+        read_field(drive_fields(), "duration_s", keys, &drive);
+    });
+    each.end();
     if (drive.duration_s / drive.step_s > max_ticks)
-        duration.refuse(fmt::format("{:.0f} steps of {} s", drive.duration_s / drive.step_s, drive.step_s),
-                        fmt::format("at most {:.0f}", max_ticks));
+        keys.require("duration_s")
+            .refuse(fmt::format("{:.0f} steps of {} s", drive.duration_s / drive.step_s, drive.step_s),
+                    fmt::format("at most {:.0f}", max_ticks));
 }
 
 /// Libraries of plug-ins and FMUs decide results as any input does: each is among what was opened, once.
@@ -64,42 +70,49 @@ YamlMap lamp_sets_map(const YamlValue& document, const std::filesystem::path& pa
 /// `of_car`: the keys of lamp_sets_keys, the drive's own or another file's.
 Drive read_all(const YamlMap& keys, const YamlMap& of_car, const std::filesystem::path& path, const DriveEdits& edits, LampCache& cache) {
     Drive drive;
+    EachRead each;
     const auto read = [&](std::initializer_list<const char*> described) {
         for (const char* const key : described)
-            read_field(drive_fields(), key, keys, &drive);
+            each([&] { read_field(drive_fields(), key, keys, &drive); });
     };
     drive.file = path;
     drive.name = name_from(path);
     read({"name"});
     drive.title = drive.name;
     read({"title"});
-    read_storyboard_keys(keys, edits, drive);
-    if (const auto road = keys.find("road"); road || !drive.storyboard) {
-        const YamlEntry given = keys.require("road");
-        drive.road_file = given.path();
-        check_file(drive.road_file, given);
-    }
-    if (drive.road_file.empty() && !edits.road)
-        keys.require("storyboard").refuse("a scenario that names no road", "road: the OpenDRIVE file, or --road FILE");
+    const bool has_way = each([&] { read_storyboard_keys(keys, edits, drive); });
+    const bool has_road = each([&] {
+        if (const auto road = keys.find("road"); road || (!drive.storyboard && has_way)) {
+            const YamlEntry given = keys.require("road");
+            drive.road_file = given.path();
+            check_file(drive.road_file, given);
+        }
+    });
+    if (drive.road_file.empty() && !edits.road && has_way && has_road)
+        each([&] { keys.require("storyboard").refuse("a scenario that names no road", "road: the OpenDRIVE file, or --road FILE"); });
     read({"mirrored_road", "route"});
-    read_time(keys, drive);
+    if (has_way)
+        each([&] { read_time(keys, drive); });
     if (drive.storyboard) {
         drive.storyboard->own_daylight = keys.find("daylight").has_value();
         drive.storyboard->own_weather = keys.find("weather").has_value();
     }
     read({"daylight", "weather"});
-    drive.street_lamps = read_street_lamps(keys, cache);
-    const Car car = read_car(of_car, drive);
-    read_field(drive_fields(), "vehicle", of_car, &drive);
-    drive.lamp_sets = read_lamp_sets(of_car, car, cache);
-    note_plugin_libraries(drive);
-    read_can(keys, edits, drive);
-    read_traffic(keys, cache, drive);
-    check_entities(keys, drive);
-    drive.views = read_views(keys, drive.opened);
+    each([&] { drive.street_lamps = read_street_lamps(keys, cache); });
+    Car car;
+    const bool has_car = each([&] { car = read_car(of_car, drive); });
+    const bool has_vehicle = each([&] { read_field(drive_fields(), "vehicle", of_car, &drive); });
+    if (has_car && has_vehicle && each([&] { drive.lamp_sets = read_lamp_sets(of_car, car, cache); })) {
+        each([&] { note_plugin_libraries(drive); });
+        each([&] { read_can(keys, edits, drive); });
+    }
+    if (each([&] { read_traffic(keys, cache, drive); }) && has_way)
+        each([&] { check_entities(keys, drive); });
+    each([&] { drive.views = read_views(keys, drive.opened); });
     drive.extent = ExtentParameters{};
     read({"capture", "tone_mapper", "display", "technique", "scenery", "measure", "limits", "shadows", "beams", "textures", "dressing",
-          "seed"});
+          "road_surface", "seed"});
+    each.end();
     return drive;
 }
 

@@ -98,7 +98,7 @@ const Fields<Route::Start>& start_fields() {
 }
 
 std::string name_from(const std::filesystem::path& path) {
-    std::string name = path.stem().string().substr(0, 64);
+    std::string name = path == "-" ? "stdin" : path.stem().string().substr(0, 64);
     for (char& c : name)
         if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_'))
             c = '-';
@@ -251,6 +251,8 @@ const Fields<Drive>& drive_fields() {
                     return std::string(drive.dressing == Dressing::plain ? "" : words[static_cast<std::size_t>(drive.dressing)]);
                 },
                 R"({"enum": ["none", "plain", "dressed"]})", "how the road's objects look: left out, plain shapes, or houses, trees and cars (default: plain)"),
+            field("road_surface", 43, &Drive::road_surface, road_surface_fields(),
+                  "what roads are paved and marked with (docs/roads.md)").written_off_default(),
             own<Drive>(
                 "seed", 41, [](const YamlEntry& entry, Drive& drive) { drive.seed = entry.count(); },
                 [](const Drive& drive) { return fmt::format("{}", drive.seed); }, R"({"type": "integer", "minimum": 0})",

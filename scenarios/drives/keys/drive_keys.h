@@ -68,6 +68,7 @@ std::vector<View> read_views(const YamlMap& drive, FilesRead& opened);
 inline constexpr std::string_view needs_model = R"({"anyOf": [{"required": ["model"]}, {"allOf": [
     {"not": {"required": ["yaw_deg"]}}, {"not": {"required": ["yaw_rad"]}}, {"not": {"required": ["scale"]}}]}]})";
 const Fields<PlacedModel>& body_fields(); ///< a car's body, in its frame
+const Fields<RoadSurface>& road_surface_fields();
 const Fields<PlacedModel>& scenery_fields();
 /// Models with their places. Each file is read once; what of it is left out goes to the drive's notes.
 void read_scenery(const YamlEntry& given, Drive& drive);

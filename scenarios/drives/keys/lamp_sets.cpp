@@ -5,6 +5,7 @@
 #include "scenarios/drives/keys/lamp_keys.h"
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/refusals.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -42,13 +43,17 @@ void read_lamp_place(const YamlMap& keys, const Car& car, const YamlEntry& asked
 MountedLamp build_lamp(const std::string& name, const YamlMap& keys, const Car& car, LampCache& cache, const YamlEntry& asked_by) {
     MountedLamp lamp;
     lamp.name = name;
-    read_lamp_place(keys, car, asked_by, lamp);
-    lamp.file = read_lamp_keys(keys, cache);
-    if (!lamp.file)
-        asked_by.refuse("a lamp without a file", "file, in the lamp or in its lamp set");
+    EachRead each;
+    each([&] { read_lamp_place(keys, car, asked_by, lamp); });
+    each([&] {
+        lamp.file = read_lamp_keys(keys, cache);
+        if (!lamp.file)
+            asked_by.refuse("a lamp without a file", "file, in the lamp or in its lamp set");
+    });
     for (const char* const key :
          {"aim", "level", "voltage_v", "reference_voltage_v", "function", "photometric_distance_m", "flux_factor", "source", "levels"})
-        read_field(lamp_fields(), key, keys, &lamp);
+        each([&] { read_field(lamp_fields(), key, keys, &lamp); });
+    each.end();
     if (const auto levels = keys.find("levels"))
         lamp.levels = cache.levels(lamp, *levels);
     lamp.colour = read_colour(keys, lamp.source, cache, asked_by);
@@ -67,8 +72,10 @@ MountedLamp read_mounted_lamp(const std::string& name, const YamlEntry& entry, c
 
 std::vector<MountedLamp> read_lamps(const YamlEntry& entry, const YamlMap* behind, const Car& car, LampCache& cache) {
     std::vector<MountedLamp> lamps;
+    EachRead each;
     for (const auto& [name, lamp] : entry.named(max_lamps))
-        lamps.push_back(read_mounted_lamp(name, lamp, behind, car, cache));
+        each([&, &name = name, &lamp = lamp] { lamps.push_back(read_mounted_lamp(name, lamp, behind, car, cache)); });
+    each.end();
     return lamps;
 }
 
@@ -105,10 +112,12 @@ void read_change(const YamlEntry& entry, LampSet& lamp_set, LampCache& cache) {
 
 /// Changes of the drive hold for every lamp set; the lamp set's own come after them. By time; at one time in the order of the file.
 void read_changes(std::initializer_list<const YamlMap*> maps, LampSet& lamp_set, LampCache& cache) {
+    EachRead each;
     for (const YamlMap* const keys : maps)
         if (const auto given = keys ? keys->find("changes") : std::nullopt)
             for (const YamlEntry& entry : given->list(0, max_lamp_changes))
-                read_change(entry, lamp_set, cache);
+                each([&] { read_change(entry, lamp_set, cache); });
+    each.end();
     std::ranges::stable_sort(lamp_set.changes, {}, &LampChange::time_s);
 }
 
@@ -157,9 +166,11 @@ void check_pixels_stay(const YamlMap& drive, const YamlMap* keys, const LampSet&
 
 /// Of the one lamp set of a drive without lamp sets `keys` are nullptr.
 LampSet whole_lamp_set(LampSet lamp_set, const YamlMap& drive, const YamlMap* keys, LampCache& cache) {
-    read_changes({&drive, keys}, lamp_set, cache);
-    read_actuators(drive, keys, lamp_set);
-    read_control(drive, keys, lamp_set, cache);
+    EachRead each;
+    each([&] { read_changes({&drive, keys}, lamp_set, cache); });
+    each([&] { read_actuators(drive, keys, lamp_set); });
+    each([&] { read_control(drive, keys, lamp_set, cache); });
+    each.end();
     check_pixels_stay(drive, keys, lamp_set);
     return lamp_set;
 }
@@ -312,10 +323,13 @@ std::vector<LampSet> read_lamp_sets(const YamlMap& drive, const Car& car, LampCa
     if (!named)
         drive.refuse_missing("lamp_sets", "named lamp sets, or car.lamps for just one");
     std::vector<LampSet> lamp_sets;
-    for (const auto& [name, entry] : named->named(max_lamp_sets)) {
-        const YamlMap keys = entry.map(keys_of(lamp_set_fields()));
-        lamp_sets.push_back(whole_lamp_set(read_lamps_of_set(name, keys, car, cache), drive, &keys, cache));
-    }
+    EachRead each;
+    for (const auto& [name, entry] : named->named(max_lamp_sets))
+        each([&, &name = name, &entry = entry] {
+            const YamlMap keys = entry.map(keys_of(lamp_set_fields()));
+            lamp_sets.push_back(whole_lamp_set(read_lamps_of_set(name, keys, car, cache), drive, &keys, cache));
+        });
+    each.end();
     return lamp_sets;
 }
 

@@ -26,6 +26,9 @@ std::string along_text(const PlacedModel& placed) {
 bool stands_along(const void* placed) { return static_cast<const PlacedModel*>(placed)->along_route; }
 bool stands_in_world(const void* placed) { return !stands_along(placed); }
 
+bool is_of_type(const void* markings) { return static_cast<const Markings*>(markings)->type != MarkingType::standard; }
+bool is_of_type_2(const void* markings) { return static_cast<const Markings*>(markings)->type == MarkingType::type_2; }
+
 std::shared_ptr<const Model> model_of(const YamlEntry& asked_by, Drive& drive) {
     const std::filesystem::path path = asked_by.path();
     for (const PlacedModel& known : drive.scenery)
@@ -76,6 +79,27 @@ const Fields<PlacedModel>& scenery_fields() {
         }
             .block()
             .in_schema(R"({"oneOf": [{"required": ["position_m"]}, {"required": ["along"]}]})");
+    return fields;
+}
+
+const Fields<RoadSurface>& road_surface_fields() {
+    static const Fields<RoadSurface> fields =
+        Fields<RoadSurface>{
+            field("pavement", 1, &RoadSurface::pavement, words({"standard", "asphalt-worn", "asphalt-new", "concrete"}),
+                  "of lanes; all but standard mirror at grazing angles"),
+            field("wheel_tracks", 2, &RoadSurface::wheel_tracks, any(), "each driving lane has two, polished by tyres"),
+            field("markings", 3, &RoadSurface::markings,
+                  Fields<Markings>{
+                      field("type", 1, &Markings::type, words({"standard", "type-1", "type-2"}),
+                            "of EN 1436; type 2 retroreflects when it is wet, too"),
+                      field("r_class", 2, &Markings::r_class, range(1, 5), "dry, by headlamps: R1 to R5").heard_if(is_of_type),
+                      field("rw_class", 3, &Markings::rw_class, range(1, 6), "wet, by headlamps: RW1 to RW6").heard_if(is_of_type_2),
+                      field("q_class", 4, &Markings::q_class, range(1, 5), "in diffuse light: Q1 to Q5").heard_if(is_of_type),
+                  },
+                  "paint; its type alone, or with classes")
+                .short_for("type"),
+        }
+            .block();
     return fields;
 }
 

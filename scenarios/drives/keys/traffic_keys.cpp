@@ -3,6 +3,7 @@
 #include "scenarios/drives/keys/lamp_keys.h"
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/models/model.h"
+#include "scenarios/values/refusals.h"
 #include "scenarios/yaml/yaml_tree.h"
 
 #include <algorithm>
@@ -124,8 +125,10 @@ TrafficRow read_row(const std::string& name, const YamlEntry& entry, LampCache& 
         row.lamps = std::move(lamps.lamps);
         row.changes = std::move(lamps.changes);
     }
+    EachRead each;
     for (const char* const key : {"face_m", "tail_cd", "brake_cd", "repeat"})
-        read_field(fields, key, keys, &row);
+        each([&] { read_field(fields, key, keys, &row); });
+    each.end();
     return row;
 }
 
@@ -174,15 +177,18 @@ const Fields<TrafficRow>& traffic_fields() {
 }
 
 void read_traffic(const YamlMap& keys, LampCache& cache, Drive& drive) {
-    read_field(drive_fields(), "traffic_light", keys, &drive);
+    EachRead each;
+    each([&] { read_field(drive_fields(), "traffic_light", keys, &drive); });
     int users = 0;
     if (const auto rows = keys.find("traffic"))
-        for (const auto& [name, entry] : rows->named(max_traffic_rows)) {
-            drive.traffic_rows.push_back(read_row(name, entry, cache));
-            users += drive.traffic_rows.back().count;
-            if (users > max_users)
-                entry.refuse(fmt::format("{} road users", users), fmt::format("at most {}", max_users));
-        }
+        for (const auto& [name, entry] : rows->named(max_traffic_rows))
+            each([&, &name = name, &entry = entry] {
+                drive.traffic_rows.push_back(read_row(name, entry, cache));
+                users += drive.traffic_rows.back().count;
+                if (users > max_users)
+                    entry.refuse(fmt::format("{} road users", users), fmt::format("at most {}", max_users));
+            });
+    each.end();
 }
 
 } // namespace fernlicht

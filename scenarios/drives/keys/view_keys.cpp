@@ -4,6 +4,7 @@
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/field_bits.h"
 #include "scenarios/fields/read_fields.h"
+#include "scenarios/values/refusals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -111,8 +112,10 @@ std::vector<View> read_view_set(const YamlEntry& set, FilesRead& opened) {
     const YamlMap keys(YamlEntry(document, path, ""), {"fernlicht_views", "views"});
     keys.require("fernlicht_views").whole(1, 1);
     std::vector<View> views;
+    EachRead each;
     for (const auto& [name, entry] : keys.require("views").named(max_views))
-        views.push_back(read_view(name, entry));
+        each([&, &name = name, &entry = entry] { views.push_back(read_view(name, entry)); });
+    each.end();
     return views;
 }
 
@@ -148,14 +151,17 @@ std::vector<View> read_views(const YamlMap& drive, FilesRead& opened) {
     if (!given && !set)
         return {driver_view(), map_view()};
     std::vector<View> views;
+    EachRead each;
     if (set)
-        views = read_view_set(*set, opened);
+        each([&] { views = read_view_set(*set, opened); });
     if (given)
-        for (const auto& [name, entry] : given->named(max_views)) {
-            View view = read_view(name, entry);
-            const auto known = std::ranges::find(views, view.name, &View::name);
-            known == views.end() ? views.push_back(std::move(view)) : void(*known = std::move(view));
-        }
+        for (const auto& [name, entry] : given->named(max_views))
+            each([&, &name = name, &entry = entry] {
+                View view = read_view(name, entry);
+                const auto known = std::ranges::find(views, view.name, &View::name);
+                known == views.end() ? views.push_back(std::move(view)) : void(*known = std::move(view));
+            });
+    each.end();
     if (set && std::ranges::find(views, Projection::map, &View::projection) == views.end())
         views.push_back(map_view());
     if (views.size() > max_views)

@@ -74,7 +74,7 @@ void dress(Scene& scene, Drive& drive, const RoadNetwork& network, const Route& 
 } // namespace
 
 Scene staged_scene(Drive& drive, const RoadNetwork& network, const Route& route) {
-    RoadMeshOptions options{.textures = drive.textured, .seed = drive.seed};
+    RoadMeshOptions options{.textures = drive.textured, .seed = drive.seed, .surface = drive.road_surface};
     if (drive.dressing == Dressing::none)
         options.leave_out = [](const RoadObject&) { return true; };
     else if (drive.dressing == Dressing::dressed)

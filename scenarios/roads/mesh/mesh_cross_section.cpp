@@ -103,7 +103,8 @@ double Strip::height_at(double t_m) const {
     return right_h_m + (left_h_m - right_h_m) * std::clamp((t_m - right_t_m) / width, 0.0, 1.0);
 }
 
-SectionProfile::SectionProfile(const Road& road, const LaneSection& section) : road_(&road), section_(&section) {
+SectionProfile::SectionProfile(const Road& road, const LaneSection& section, bool wheel_tracks)
+    : road_(&road), section_(&section), wheel_tracks_(wheel_tracks) {
     const Lane* right_neighbour = nullptr;
     const Lane* centre = nullptr;
     const auto add_edge = [&](const Lane* right, const Lane* left) {
@@ -194,7 +195,9 @@ void SectionProfile::append_lane(std::vector<Strip>& out, const Lane& lane, cons
                                  double s_m) const {
     const Strip base = whole_lane(lane, s_m);
     double t = base.right_t_m;
-    const auto add = [&](double to_t, RoadMaterial material) {
+    const bool tracks = wheel_tracks_ && lane.type == "driving";
+    const double middle = 0.5 * (base.right_t_m + base.left_t_m);
+    const auto add_plain = [&](double to_t, RoadMaterial material) {
         Strip strip = base;
         strip.right_t_m = t;
         strip.left_t_m = std::max(t, to_t);
@@ -203,6 +206,16 @@ void SectionProfile::append_lane(std::vector<Strip>& out, const Lane& lane, cons
         strip.material = material;
         out.push_back(strip);
         t = strip.left_t_m;
+    };
+    const auto add = [&](double to_t, RoadMaterial material) {
+        if (!tracks || material != RoadMaterial::asphalt)
+            return add_plain(to_t, material);
+        int level = 0; // every border in every row, though of no width, so that both ends of a stretch have the same strips
+        for (const TrackBorder& border : track_borders()) {
+            add_plain(std::clamp(middle + border.from_middle_m, t, std::max(t, to_t)), track_material(level));
+            level = border.level;
+        }
+        add_plain(to_t, track_material(level));
     };
     const auto add_paint = [&](const Paint& stripe) {
         add(std::clamp(stripe.right_t_m, base.right_t_m, base.left_t_m), base.material);

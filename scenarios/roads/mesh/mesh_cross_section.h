@@ -37,7 +37,7 @@ struct Strip {
 /// A lane section with its marks placed: ready to be cut anywhere.
 class SectionProfile {
   public:
-    SectionProfile(const Road& road, const LaneSection& section);
+    SectionProfile(const Road& road, const LaneSection& section, bool wheel_tracks = false);
 
     const LaneSection& section() const { return *section_; }
     bool has_heights() const { return has_heights_; }
@@ -75,7 +75,7 @@ class SectionProfile {
     const Road* road_;
     const LaneSection* section_;
     std::vector<Edge> edges_;
-    bool has_heights_ = false;
+    bool has_heights_ = false, wheel_tracks_ = false;
 };
 
 } // namespace fernlicht

@@ -2,6 +2,7 @@
 
 #include "scenarios/photometry.h"
 #include "scenarios/roads/mesh/road_mesh.h"
+#include "scenarios/values/mixed_bits.h"
 
 #include <algorithm>
 #include <array>
@@ -22,13 +23,92 @@ double luminance_of(const glm::vec3& rgb) { // Y of linear sRGB, IEC 61966-2-1
 
 Material diffuse(const char* name, SurfaceKind kind, const glm::vec3& albedo) { return {.name = name, .kind = kind, .albedo = albedo}; }
 
+glm::dvec3 raised_by(double degrees) { return {-std::cos(radians(degrees)), 0.0, std::sin(radians(degrees))}; }
+
 /// A surface whose R_L in EN 1436's geometry is `total_mcd` (mcd/m2/lx) in all: the diffuse part has rho sin(1.24 deg) / pi of it,
-/// since E on the surface is E_perp times that sine; the retroreflecting part has what is left.
-Material road_surface(const char* name, SurfaceKind kind, const glm::vec3& albedo, double total_mcd) {
+/// since E on the surface is E_perp times that sine; the facets have their part, and the retroreflecting part has what is left.
+Material road_surface(const char* name, SurfaceKind kind, const glm::vec3& albedo, double total_mcd, double gloss = 0.0,
+                      double roughness = 0.5) {
     const double diffuse_rl = luminance_of(albedo) * std::sin(radians(en1436_illumination_deg)) / pi;
+    const double facets_rl = gloss > 0.0
+                                 ? gloss * photometry::facet_mirrored({0.0, 0.0, 1.0}, raised_by(en1436_illumination_deg),
+                                                                      raised_by(en1436_observation_deg), roughness, photometry::facet_index)
+                                 : 0.0;
     Material material = diffuse(name, kind, albedo);
-    material.retro_rl = static_cast<float>(std::max(0.0, total_mcd * 1e-3 - diffuse_rl));
+    material.retro_rl = static_cast<float>(std::max(0.0, total_mcd * 1e-3 - diffuse_rl - facets_rl));
     material.retro_reference_rad = static_cast<float>(radians(en1436_observation_deg - en1436_illumination_deg));
+    material.gloss = static_cast<float>(gloss);
+    material.gloss_roughness = static_cast<float>(roughness);
+    return material;
+}
+
+/// Gloss and roughness: fitted to the r-table (CIE 144:2001, dry, 1 degree of observation) by the logarithm, over light from up to 10
+/// degrees beside the mirror's plane that falls on the road at 9.5 degrees or less (tan gamma 6 to 12); rms 12 % for R3, 18 % for R4, 14 %
+/// for R1 (tests/scenarios/roads/mesh/road_surface_test.cpp). Exchanging light and eye, such a table says what an oncoming driver sees.
+/// Albedo: r at tan gamma 0, where light falls straight down, less what the facets mirror there. R_L: worn as before; new asphalt at the
+/// lower end of 10..20 [M].
+Material pavement(Pavement which) {
+    using enum Pavement;
+    switch (which) {
+    case asphalt_worn:
+        return road_surface("asphalt", SurfaceKind::road, glm::vec3(0.077F), 15.0, 0.51, 0.44); // R3
+    case asphalt_new:
+        return road_surface("asphalt", SurfaceKind::road, glm::vec3(0.065F), 10.0, 0.65, 0.36); // R4
+    case concrete:
+        return road_surface("concrete-pavement", SurfaceKind::road, glm::vec3(0.192F), 20.0, 0.42, 0.54); // R1
+    case standard:
+        break;
+    }
+    // Dry asphalt 10..20 mcd/m2/lx [M]; rho 0.08 alone gives 0.55 of them.
+    return road_surface("asphalt", SurfaceKind::road, glm::vec3(0.08F), 15.0);
+}
+
+/// EN 1436:2018 [M], mcd/(m2 lx), by class from 1: tables of R_L dry, R_L wet, Qd.
+constexpr std::array<double, 5> r_classes{80.0, 100.0, 150.0, 200.0, 300.0};
+constexpr std::array<double, 6> rw_classes{25.0, 35.0, 50.0, 75.0, 100.0, 150.0};
+constexpr std::array<double, 5> q_classes{80.0, 100.0, 130.0, 160.0, 200.0};
+
+/// Paint at the lower bound of its classes: Qd is its albedo over pi; wet, R_L is what the film leaves of the diffuse light, and beads.
+Material paint(const char* name, const glm::vec3& hue, double of_class, const Markings& markings) {
+    const auto figure = [of_class](const auto& classes, int number) { return of_class * classes.at(static_cast<std::size_t>(number - 1)); };
+    const double albedo = 1e-3 * pi * figure(q_classes, markings.q_class);
+    const glm::vec3 colour = hue * static_cast<float>(albedo / luminance_of(hue));
+    Material material = road_surface(name, SurfaceKind::marking, colour, figure(r_classes, markings.r_class));
+    if (markings.type == MarkingType::type_1)
+        return material;
+    const glm::dvec3 up(0.0, 0.0, 1.0), in = raised_by(en1436_illumination_deg), out = raised_by(en1436_observation_deg);
+    const double film_rl = photometry::wet_mirrored(up, in, out, wet_roughness) +
+                           in.z / pi *
+                               photometry::wet_albedo(albedo, photometry::facet_cosine(in.z, wet_roughness),
+                                                      photometry::facet_cosine(out.z, wet_roughness)),
+                 beads_rl = 1e-3 * figure(rw_classes, markings.rw_class) - film_rl;
+    material.retro_wet = static_cast<float>(std::clamp(beads_rl / static_cast<double>(material.retro_rl), 0.0, 1.0));
+    return material;
+}
+
+/// Polish in quarters of its peak, at the middle of each step.
+constexpr double polish_of(int level) { return level / (track_levels - 1.0); }
+// What tyres do at the peak, against a lane between its tracks: estimates. They grind the texture that retroreflects and bare the stones.
+constexpr double track_rl = -0.20, track_gloss = 0.50;
+constexpr double tyres_beside_m = 0.75, tyres_wander_m = 0.254, common_lane_m = 3.5;
+
+/// Mean polish of a lane 3.5 m wide.
+double mean_polish() {
+    double sum = 0.0;
+    for (std::size_t i = 0; i + 1 < track_borders().size(); ++i)
+        sum += polish_of(track_borders()[i].level) * (track_borders()[i + 1].from_middle_m - track_borders()[i].from_middle_m);
+    return sum / common_lane_m;
+}
+
+/// The mean over a lane of 3.5 m is the pavement itself.
+Material polished(const Material& pavement, int level) {
+    Material material = pavement;
+    material.name = "asphalt-track-" + std::to_string(level);
+    const auto changed = [&](float mean, double at_peak) {
+        return static_cast<float>(static_cast<double>(mean) * (1.0 + at_peak * polish_of(level)) / (1.0 + at_peak * mean_polish()));
+    };
+    material.retro_rl = changed(pavement.retro_rl, track_rl);
+    material.gloss = changed(pavement.gloss, track_gloss);
     return material;
 }
 
@@ -44,17 +124,20 @@ Material sheeting(const char* name, const glm::vec3& albedo, float ra) {
 
 } // namespace
 
-std::vector<Material> road_materials() {
+std::vector<Material> road_materials(const RoadSurface& surface) {
     std::vector<Material> all(static_cast<std::size_t>(RoadMaterial::count));
     const auto set = [&](RoadMaterial which, Material material) { all[index_of(which)] = std::move(material); };
     using enum RoadMaterial;
-    // Dry asphalt 10..20 mcd/m2/lx [M]; rho 0.08 alone gives 0.55 of them.
-    set(asphalt, road_surface("asphalt", SurfaceKind::road, glm::vec3(0.08F), 15.0));
+    set(asphalt, pavement(surface.pavement));
     set(concrete, road_surface("concrete", SurfaceKind::road, glm::vec3(0.25F, 0.25F, 0.24F), 20.0)); // brighter than asphalt [M]
     set(kerb, road_surface("kerb", SurfaceKind::road, glm::vec3(0.30F), 20.0));                       // granite or concrete stone [M]
     // EN 1436 classes R2..R5 are 100, 150, 200, 300 [M]: white in service R3; yellow lies about a fifth lower.
     set(marking_white, road_surface("marking-white", SurfaceKind::marking, glm::vec3(0.50F), 150.0));
     set(marking_yellow, road_surface("marking-yellow", SurfaceKind::marking, glm::vec3(0.45F, 0.35F, 0.05F), 120.0));
+    if (surface.markings.type != MarkingType::standard) {
+        set(marking_white, paint("marking-white", glm::vec3(1.0F), 1.0, surface.markings));
+        set(marking_yellow, paint("marking-yellow", glm::vec3(0.45F, 0.35F, 0.05F), 0.8, surface.markings));
+    }
     // Grass: about 0.12 in the visible [M]; blades have a weak opposition peak, here 5 mcd/m2/lx [estimate].
     set(verge, road_surface("verge", SurfaceKind::verge, glm::vec3(0.105F, 0.130F, 0.060F), 5.0));
     set(terrain, road_surface("terrain", SurfaceKind::terrain, glm::vec3(0.105F, 0.130F, 0.060F), 5.0));
@@ -66,6 +149,29 @@ std::vector<Material> road_materials() {
     set(object, diffuse("object", SurfaceKind::object, glm::vec3(0.30F)));
     set(trunk, diffuse("trunk", SurfaceKind::object, glm::vec3(0.12F, 0.09F, 0.06F)));   // bark [estimate]
     set(leaves, diffuse("leaves", SurfaceKind::object, glm::vec3(0.06F, 0.12F, 0.04F))); // green canopy, about 0.1 [M]
+    for (int level = 0; surface.wheel_tracks && level < track_levels; ++level)
+        all.push_back(polished(all[index_of(asphalt)], level));
+    return all;
+}
+
+const Material& pavement_material(Pavement which) {
+    static const std::vector<Material> all{pavement(Pavement::standard), pavement(Pavement::asphalt_worn), pavement(Pavement::asphalt_new),
+                                           pavement(Pavement::concrete)};
+    return all[static_cast<std::size_t>(which)];
+}
+
+const std::vector<TrackBorder>& track_borders() {
+    static const std::vector<TrackBorder> all = [] {
+        std::vector<TrackBorder> borders;
+        for (const double middle : {-tyres_beside_m, tyres_beside_m})
+            for (int k = 1 - track_levels; k < track_levels - 1; ++k) { // up to the peak and down again
+                const int level = k < 0 ? track_levels + k : track_levels - 2 - k;
+                const double halfway = polish_of(k < 0 ? level : level + 1) - 0.5 * polish_of(1); // between two levels
+                const double beside = tyres_wander_m * std::sqrt(-2.0 * std::log(halfway));
+                borders.push_back({middle + (k < 0 ? -beside : beside), level});
+            }
+        return borders;
+    }();
     return all;
 }
 
@@ -239,15 +345,6 @@ void put_on(Material& material, const std::vector<SurfaceTexture>& textures, Roa
     material.retro_rl = static_cast<float>(static_cast<double>(material.retro_rl) * luminance(own) / luminance(wanted));
 }
 
-/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014).
-std::uint64_t mixed(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    return z ^ (z >> 31);
-}
-
-constexpr std::uint64_t golden = 0x9E3779B97F4A7C15ULL;
-
 /// Perlin's fade of 2002: first and second derivative are 0 at both ends.
 double fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
 
@@ -270,7 +367,11 @@ void add_road_textures(Scene& scene, std::uint64_t seed) {
     const auto put = [&](RoadMaterial material, RoadTexture texture, TextureMode mode) {
         put_on(scene.materials[index_of(material)], scene.textures, texture, mode, known);
     };
-    put(RoadMaterial::asphalt, RoadTexture::asphalt, TextureMode::modulate);
+    const RoadTexture paved =
+        scene.materials[index_of(RoadMaterial::asphalt)].name == "asphalt" ? RoadTexture::asphalt : RoadTexture::concrete;
+    put(RoadMaterial::asphalt, paved, TextureMode::modulate);
+    for (int level = 0; index_of(track_material(level)) < scene.materials.size() && level < track_levels; ++level)
+        put(track_material(level), paved, TextureMode::modulate);
     put(RoadMaterial::concrete, RoadTexture::concrete, TextureMode::modulate);
     put(RoadMaterial::object, RoadTexture::concrete, TextureMode::modulate);
     put(RoadMaterial::verge, RoadTexture::grass, TextureMode::modulate);
@@ -279,11 +380,11 @@ void add_road_textures(Scene& scene, std::uint64_t seed) {
     put(RoadMaterial::marking_yellow, RoadTexture::paint_wear, TextureMode::decal);
 }
 
-TilingNoise::TilingNoise(std::uint64_t seed, std::uint64_t stream) : key_(mixed(mixed(seed + golden) + stream * golden)) {}
+TilingNoise::TilingNoise(std::uint64_t seed, std::uint64_t stream) : key_(mixed(mixed(seed + mixing_step) + stream * mixing_step)) {}
 
 double TilingNoise::uniform(int x, int y) const {
     const std::uint64_t place = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32) | static_cast<std::uint32_t>(y);
-    return static_cast<double>(mixed(key_ ^ mixed(place + golden)) >> 11) * 0x1p-53;
+    return static_cast<double>(mixed(key_ ^ mixed(place + mixing_step)) >> 11) * 0x1p-53;
 }
 
 double TilingNoise::gradient(double u, double v, int cells) const {

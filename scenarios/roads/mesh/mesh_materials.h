@@ -5,6 +5,7 @@
 #pragma once
 
 #include "scenarios/roads/road_network.h"
+#include "scenarios/roads/road_surface.h"
 #include "scenarios/values/scene.h"
 
 #include <cstdint>
@@ -33,6 +34,26 @@ enum class RoadMaterial : std::uint32_t {
 
 constexpr std::uint32_t index_of(RoadMaterial material) { return static_cast<std::uint32_t>(material); }
 
+/// What lanes are paved with; with wheel tracks the mean across a lane.
+const Material& pavement_material(Pavement pavement);
+
+/// How far tyres have polished a lane, from 0 to track_levels - 1; materials beyond RoadMaterial::count.
+inline constexpr int track_levels = 5;
+constexpr RoadMaterial track_material(int level) {
+    return static_cast<RoadMaterial>(index_of(RoadMaterial::count) + static_cast<std::uint32_t>(level));
+}
+/// Asphalt, polished or not.
+constexpr bool is_asphalt(RoadMaterial material) { return material == RoadMaterial::asphalt || material >= RoadMaterial::count; }
+
+/// Where the polish of a lane changes its level: m from its middle, and the level from there on to the left.
+struct TrackBorder {
+    double from_middle_m = 0.0;
+    int level = 0;
+};
+/// From right to left; the bare lane lies beyond both ends. Tyres run 0.75 m beside the lane's middle, with a standard deviation of 0.254 m
+/// (NCHRP 1-37A's wander of 10 inches); the polish goes as their density, in steps of a quarter of its peak.
+const std::vector<TrackBorder>& track_borders();
+
 /// What a lane of this OpenDRIVE type is made of. Types that are not known are asphalt: something to drive on.
 RoadMaterial lane_material(const std::string& lane_type);
 /// Yellow and orange paint is yellow, all other colours are white: no other mark has a coefficient of its own in EN 1436.
@@ -50,8 +71,8 @@ std::vector<SurfaceTexture> road_textures(std::uint64_t seed);
 /// Mean reflectance of a surface of colour `own` under the texture. `blend_colour` counts for blend only.
 glm::dvec3 mean_reflectance(const SurfaceTexture& texture, TextureMode mode, const glm::dvec3& own, const glm::dvec3& blend_colour);
 
-/// Gives the materials of build_scene (road_materials()) their textures: asphalt; concrete and objects; verge and terrain; both kinds of
-/// paint. Albedo and retro_rl become such that their means over a repetition are what they were.
+/// Gives the materials of build_scene (road_materials(), with the same surface) their textures: asphalt; concrete and objects; verge and
+/// terrain; both kinds of paint. Albedo and retro_rl become such that their means over a repetition are what they were.
 void add_road_textures(Scene& scene, std::uint64_t seed);
 
 class TilingNoise {

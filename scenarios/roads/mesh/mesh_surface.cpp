@@ -228,7 +228,7 @@ SurfacePlan plan_surface(const RoadNetwork& network, const Road& road, const Roa
     SurfacePlan plan;
     plan.road = &road;
     for (const LaneSection& section : road.sections)
-        plan.profiles.emplace_back(road, section);
+        plan.profiles.emplace_back(road, section, options.surface.wheel_tracks);
     plan.crown = crown_lines(network, road, options.chord_error_m);
     plan.stretches = stretches_of(network, road, plan.profiles, plan.crown, options);
     return plan;

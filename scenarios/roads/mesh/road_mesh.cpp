@@ -14,7 +14,7 @@ constexpr double overlap_margin_m = 0.02;
 /// same: whatever lies level with another road's paved surface is asphalt too, paint and verge of connecting roads included.
 RoadMaterial junction_paint(const Footprints& footprints, std::size_t road, const StripEnd& from, const StripEnd& to) {
     const Strip& strip = from.strip;
-    if (strip.material == RoadMaterial::asphalt || strip.kerb_face)
+    if (is_asphalt(strip.material) || strip.kerb_face)
         return strip.material;
     const auto place = [](const StripEnd& end, std::size_t point) { return end.row.points[point].pose.position_m; };
     const PlanQuad ground =
@@ -33,7 +33,7 @@ RoadMaterial junction_paint(const Footprints& footprints, std::size_t road, cons
 
 Scene build_scene(const RoadNetwork& network, const RoadMeshOptions& options) {
     Scene scene;
-    scene.materials = road_materials();
+    scene.materials = road_materials(options.surface);
     if (options.textures)
         add_road_textures(scene, options.seed);
     std::vector<SurfacePlan> plans;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenarios/roads/road_network.h"
+#include "scenarios/roads/road_surface.h"
 #include "scenarios/values/scene.h"
 
 #include <cstdint>
@@ -18,6 +19,7 @@ struct RoadMeshOptions {
     double verge_width_m = 30.0;  ///< terrain beside the outermost lane on each side
     bool textures = true;         ///< pictures of asphalt, concrete, grass and worn paint (mesh_materials.h); mean reflectances stay
     std::uint64_t seed = 1;       ///< of the textures
+    RoadSurface surface = {};
     /// Objects that are left out, because there are to be none or somebody else builds them. Empty: none are.
     std::function<bool(const RoadObject&)> leave_out = {};
     bool signals = true;        ///< false: left out, because somebody else builds them
@@ -39,7 +41,7 @@ Pose standing(const RoadNetwork& network, const Road& road, const RoadObject& ob
 double ground_drop_m(double out_m);
 
 /// The materials that build_scene uses, untextured, by name: asphalt, concrete, kerb, marking-white, marking-yellow, verge, terrain, board,
-/// board-back, post, delineator, object, trunk, leaves.
-std::vector<Material> road_materials();
+/// board-back, post, delineator, object, trunk, leaves; with wheel tracks then asphalt-track-0 to 4, the bare lane first.
+std::vector<Material> road_materials(const RoadSurface& surface = {});
 
 } // namespace fernlicht

@@ -1,5 +1,6 @@
 #include "scenarios/roads/opendrive/opendrive_parts.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/refusals.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -83,12 +84,15 @@ RoadNetwork read_opendrive(const std::filesystem::path& path) {
     RoadNetwork network;
     XmlFile xml(path, network.opened, "OpenDRIVE", "an OpenDRIVE file");
     read_header(xml, network);
-    for (const pugi::xml_node node : xml.root().children("road")) {
-        Road road = read_road(xml, node, network);
-        if (network.find(road.id))
-            xml.refuse(node, "id", fmt::format("found a second {}", named("road", road.id)), "each id once");
-        network.roads.push_back(std::move(road));
-    }
+    EachRead each;
+    for (const pugi::xml_node node : xml.root().children("road"))
+        each([&] {
+            Road road = read_road(xml, node, network);
+            if (network.find(road.id))
+                xml.refuse(node, "id", fmt::format("found a second {}", named("road", road.id)), "each id once");
+            network.roads.push_back(std::move(road));
+        });
+    each.end();
     if (network.roads.empty())
         xml.refuse(xml.root(), {}, "holds no road", "at least one road");
     read_junctions(xml, network);

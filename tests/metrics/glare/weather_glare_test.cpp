@@ -3,6 +3,8 @@
 #include "metrics/seeing/visibility.h"
 #include "scenarios/light/fog_light.h"
 #include "scenarios/light/light.h"
+#include "scenarios/roads/mesh/mesh_materials.h"
+#include "scenarios/roads/mesh/road_mesh.h"
 #include "tests/lamps.h"
 
 #include <cmath>
@@ -55,7 +57,7 @@ TEST(WeatherGlare, ASmoothFilmShowsTheMirrorImageTimesFresnel) {
     const double share = fresnel(incidence);
     EXPECT_NEAR(share, 0.80, 0.01);
     const auto patches = [&](const Weather& weather, double roughness, CandelaTable table = tests::even_table(1000.0)) {
-        return lamps_in_road(with_weather(weather, std::move(table)).lamps, weather, level, eye, roughness);
+        return lamps_in_road(with_weather(weather, std::move(table)).lamps, weather, level, eye, Pavement::standard, roughness);
     };
     const Weather wet{.wetness = 1.0};
     EXPECT_NEAR(sum_lx(patches(wet, 1e-4)), share * 1000.0 / (way * way), 2e-3 * share * 1000.0 / (way * way));
@@ -92,11 +94,35 @@ TEST(WeatherGlare, ARoughFilmGivesWhatTheRoadsLuminanceAddsUpTo) {
                     wet_light(glm::dvec3(0.0), {0.0, 0.0, 1.0}, glm::normalize(to_lamp), glm::normalize(to_eye), e_perp);
                 truth += film.x * to_eye.z / std::sqrt(r2) / r2 * step * step;
             }
-        const double by_road = sum_lx(lamps_in_road(lamps, wet, level, eye)), smooth = sum_lx(lamps_in_road(lamps, wet, level, eye, 1e-3));
+        const double by_road = sum_lx(lamps_in_road(lamps, wet, level, eye)),
+                     smooth = sum_lx(lamps_in_road(lamps, wet, level, eye, Pavement::standard, 1e-3));
         EXPECT_NEAR(by_road, truth, 0.03 * truth) << cut_off;
         EXPECT_GT(smooth, 5.0 * by_road) << "standing water glares far more";
         RecordProperty(cut_off > 0.0 ? "beam_smooth_times_rough" : "even_smooth_times_rough", static_cast<int>(smooth / by_road));
     }
+}
+
+/// The facets of a dry pavement, in the same way; none under water.
+TEST(WeatherGlare, AGlossyPavementMirrorsWhileItIsDry) {
+    const Facets facets = facets_of(pavement_material(Pavement::asphalt_worn));
+    const std::vector<LitLamp> lamps = with_weather({}).lamps;
+    double truth = 0.0;
+    constexpr double step = 0.05;
+    for (double x = 0.5 * step; x < 50.0; x += step)
+        for (double y = -12.0; y < 16.0; y += step) {
+            const glm::dvec3 at(x, y, 0.0), to_lamp = lamps[0].pose.position_m - at, to_eye = eye - at;
+            const double r2 = glm::dot(to_eye, to_eye);
+            truth +=
+                gloss_light(facets, {0.0, 0.0, 1.0}, glm::normalize(to_lamp), glm::normalize(to_eye), 1000.0 / glm::dot(to_lamp, to_lamp)) *
+                to_eye.z / std::sqrt(r2) / r2 * step * step;
+        }
+    const double by_road = sum_lx(lamps_in_road(lamps, {}, level, eye, Pavement::asphalt_worn));
+    EXPECT_NEAR(by_road, truth, 0.1 * truth);
+    EXPECT_GT(by_road, 0.01 * facing_lx(seen_lamps(with_weather({}), eye)));
+    EXPECT_TRUE(lamps_in_road(lamps, {}, level, eye, Pavement::standard).empty());
+    const Weather wet{.wetness = 1.0};
+    EXPECT_EQ(sum_lx(lamps_in_road(lamps, wet, level, eye, Pavement::asphalt_worn)), sum_lx(lamps_in_road(lamps, wet, level, eye)));
+    EXPECT_TRUE(mirrors({}, Pavement::concrete) && mirrors(wet, Pavement::standard) && !mirrors({}, Pavement::standard));
 }
 
 TEST(WeatherGlare, ARoadThatBendsOrLiesAboveMirrorsNothingThatIsKnown) {
@@ -163,6 +189,32 @@ TEST(WeatherSeeing, AWetRoadLosesItsRetroreflection) {
     EXPECT_NEAR(seen(0.3), 0.3 * wet + 0.7 * seen(0.0), 1e-12);
     road.kind = SurfaceKind::board;
     EXPECT_EQ(seen(1.0), seen(0.0)) << "upright things stay as they are";
+}
+
+/// What the driver of the lamp sees is little changed by gloss; what comes towards him sees the road before the lamp, 0.4 cd/m2 a lux.
+TEST(WeatherSeeing, AGlossyRoadIsBrightForTheOncomingEye) {
+    const Material &worn = pavement_material(Pavement::asphalt_worn), &standard = pavement_material(Pavement::standard);
+    const glm::dvec3 point(20.0, 0.0, 0.0), up(0.0, 0.0, 1.0), driver(-2.1, 0.35, 1.2), oncoming(60.0, 0.0, 1.2);
+    const double e_perp = 1000.0 / (400.0 + 0.65 * 0.65);
+    const auto seen = [&](const Material& road, const glm::dvec3& from) {
+        return surface_luminance(with_weather({}), point, up, road, from).photopic_cdm2;
+    };
+    EXPECT_NEAR(seen(worn, driver) / seen(standard, driver), 1.0, 0.05);
+    EXPECT_NEAR(seen(standard, oncoming) / e_perp, 0.08 / pi * 0.65 / std::hypot(20.0, 0.65), 1e-6); // 0.83 mcd, R_L being behind
+    EXPECT_NEAR(seen(worn, oncoming) / e_perp, 0.413, 0.005);
+}
+
+/// Beads that shine through the film: type II keeps its class, at half wetness the half of it.
+TEST(WeatherSeeing, WetMarkingsKeepWhatTheirBeadsReturn) {
+    const Material paint = road_materials({.markings = {MarkingType::type_2, 4, 3, 3}})[index_of(RoadMaterial::marking_white)];
+    const glm::dvec3 point(30.0, 0.0, 0.0), up(0.0, 0.0, 1.0), driver(0.0, 0.0, 1.2);
+    const auto rl_mcd = [&](double wetness) {
+        return 1000.0 * surface_luminance(with_weather({.wetness = wetness}), point, up, paint, driver).photopic_cdm2 /
+               (1000.0 / (900.0 + 0.65 * 0.65));
+    };
+    EXPECT_NEAR(rl_mcd(0.0), 200.0, 1.0);
+    EXPECT_NEAR(rl_mcd(0.5), 125.0, 1.0);
+    EXPECT_NEAR(rl_mcd(1.0), 50.0, 0.5);
 }
 
 /// A surface in fog: exp(-sigma d) from the lamp, exp(-sigma d') to the eye, and the light in the air before it, of lamp and sky.

@@ -143,7 +143,7 @@ TEST(ReferenceWet, FilmIsSampledAsItMirrors) {
         const int count = 1 << 16, rings = 1500;
         const reference::PointNet net(7);
         for (int i = 0; i < count; ++i) {
-            const reference::FilmSample sample = reference::sample_film(n, out, net.point(static_cast<std::uint32_t>(i), 0));
+            const reference::FacetSample sample = reference::sample_film(n, out, net.point(static_cast<std::uint32_t>(i), 0));
             EXPECT_LE(sample.weight, 1.0);
             mean += sample.weight / count;
         }

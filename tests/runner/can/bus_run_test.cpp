@@ -65,7 +65,7 @@ class BusRun : public testing::Test {
 
 TEST_F(BusRun, TheShippedRecordingIsWhatTheToolMakesOfTheScript) {
     const std::string made = folder / "again.log";
-    EXPECT_EQ(run_program("can record " + shipped_drive() + " --lamp-set bend-light --start 1000 --out " + made).exit_code, 0);
+    EXPECT_EQ(run_program("can record " + shipped_drive() + " --lamp-set bend-light --can-start 1000 --out " + made).exit_code, 0);
     EXPECT_TRUE(content_of(made) == content_of(library_file("can/s-bend.log")));
     EXPECT_LT(content_of(made).size(), 1'000'000U);
 }

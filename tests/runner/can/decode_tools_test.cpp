@@ -91,7 +91,7 @@ TEST_F(CanCodecTools, ShowsOnlyWhatIsAskedFor) {
         "(1700000000.000003) can1 18FEF1FE##1FFFFFFFFFFFFFFFF000000000000E03FDEADBEEF :: Big(Counter: 18446744073709551615, Ratio: 0.5)\n");
     EXPECT_EQ(refusal("can decode --only Spede " + dbc()),
               "--only: found 'Spede', expected a message, a signal or MESSAGE.SIGNAL of the databases, * and ? allowed\n");
-    const Outcome known = run_program("can decode -s --known " + dbc() + " " + log());
+    const Outcome known = run_program("can decode -s --skip-unknown " + dbc() + " " + log());
     EXPECT_THAT(known.output, HasSubstr("3 frames of 3 identifiers that no message describes left out"));
     EXPECT_THAT(known.output, testing::Not(HasSubstr("7FF")));
 }

@@ -108,8 +108,8 @@ TEST(CanCut, RefusesInOneSentence) {
     refused("cut --from +5 --to +3 " + log, "--to: found '+3'");
     const std::string good = written(folder, "good.log", "(1.000000) can0 123#11\n");
     for (const std::string name : {"ome.log=can1", "foo=bar"})
-        refused("merge " + good + " --channel " + name,
-                "--channel: found '" + name + "', expected one of the files or a channel of theirs");
+        refused("merge " + good + " --rename-channel " + name,
+                "--rename-channel: found '" + name + "', expected one of the files or a channel of theirs");
     refused("cut " + written(folder, "junk.log", "\x80\xff \xc3\xa4\n"), "junk.log:1:1: found '\\x80\\xff");
 }
 
@@ -168,10 +168,10 @@ TEST(CanMerge, IsStableByTime) {
               "(0000000002.000000) can0 003#\n(0000000002.000000) can0 004#\n(0000000003.000000) can0 005# R\n");
     EXPECT_THAT(told(folder, "can merge " + b + " - < " + a),
                 HasSubstr("001#\n(0000000002.000000) can0 004#\n(0000000002.000000) can0 002#\n"));
-    const std::string renamed = told(folder, "can merge " + a + " " + b + " --channel " + b + "=can1 --offset " + b + "=-1.5 -o - ");
+    const std::string renamed = told(folder, "can merge " + a + " " + b + " --rename-channel " + b + "=can1 --offset " + b + "=-1.5 -o - ");
     EXPECT_EQ(renamed, "# begins\n(0000000000.500000) can1 004#\n(0000000001.000000) can0 001#\n(0000000001.500000) can1 005# R\n"
                        "(0000000002.000000) can0 002#\n(0000000002.000000) can0 003#\n");
-    EXPECT_EQ(run_program("can merge -o '" + (folder / "out.log") + "' " + a + " --channel can0=vcan3").exit_code, 0);
+    EXPECT_EQ(run_program("can merge -o '" + (folder / "out.log") + "' " + a + " --rename-channel can0=vcan3").exit_code, 0);
     EXPECT_EQ(content_of(folder / "out.log"),
               "(0000000001.000000) vcan3 001#\n(0000000002.000000) vcan3 002#\n(0000000002.000000) vcan3 003#\n");
 }

@@ -106,7 +106,7 @@ TEST_F(BaselinesCommand, ComparesWithARunAndWithAnotherResult) {
     EXPECT_THAT(other.output, HasSubstr("DIFFERS    10 driver: illuminance.lx: maximum 1.48 at pixel 63, 0"));
     EXPECT_THAT(other.output, HasSubstr("1 of 2 readings agree\n"));
     EXPECT_THAT(other.output, HasSubstr("0 of 4 channels of pictures agree\n"));
-    ASSERT_EQ(accept(brighter, "--add --note 'another driver'").exit_code, 0);
+    ASSERT_EQ(accept(brighter, "--also --note 'another driver'").exit_code, 0);
     const std::string first = id_of("halogen");
     std::string second;
     for (const json& entry : listed())
@@ -165,9 +165,9 @@ TEST_F(BaselinesCommand, OtherResultsNeedADecisionAndSeveralNeedAReason) {
     ASSERT_EQ(accept(run).exit_code, 0);
     const Outcome undecided = accept(brighter);
     EXPECT_EQ(undecided.exit_code, 2);
-    EXPECT_THAT(undecided.output, HasSubstr("--replace, if these are right in their place, or --add, if either is right"));
-    EXPECT_THAT(accept(brighter, "--add").output, HasSubstr("found no --note"));
-    EXPECT_EQ(accept(brighter, "--add --replace --note both").exit_code, 2);
+    EXPECT_THAT(undecided.output, HasSubstr("--replace, if these are right in their place, or --also, if either is right"));
+    EXPECT_THAT(accept(brighter, "--also").output, HasSubstr("found no --note"));
+    EXPECT_EQ(accept(brighter, "--also --replace --note both").exit_code, 2);
     EXPECT_EQ(listed().size(), 2U);
     EXPECT_THAT(accept(run).output, HasSubstr("straight/halogen/photometric: accepted before"));
     const Outcome replaced = accept(brighter, "--replace --note 'brighter lamps'");
@@ -180,7 +180,7 @@ TEST_F(BaselinesCommand, OtherResultsNeedADecisionAndSeveralNeedAReason) {
 TEST_F(BaselinesCommand, AtOnceIsOneAfterTheOther) {
     std::string line;
     for (const StoredRun* one : {&run, &brighter, &run, &brighter})
-        line += "'" FERNLICHT_BINARY "' accept '" + one->folder.string() + "' --baselines '" + store + "' --add --note race & ";
+        line += "'" FERNLICHT_BINARY "' accept '" + one->folder.string() + "' --baselines '" + store + "' --also --note race & ";
     EXPECT_EQ(run_shell("(" + line + " wait)").exit_code, 0);
     EXPECT_EQ(listed().size(), 4U) << "two lamp sets, two results each";
     for (const json& entry : listed())

@@ -6,6 +6,7 @@
 #include "tests/runner/program.h"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 namespace fernlicht {
 namespace {
@@ -70,13 +71,21 @@ TEST_F(HistoryCommand, FromTheFirstNightToTheCause) {
     EXPECT_THAT(printed("history explain" + flag_),
                 AllOf(HasSubstr("1 change since"), HasSubstr("2026-01-03: inputs: lamp xenon-low.ies"), HasSubstr("(+5 %)")));
     EXPECT_THAT(printed("history explain 2026-01-02" + flag_), HasSubstr("Nothing changed"));
-    EXPECT_THAT(printed("history trend 'reach_5lx*' --cells straight_xenon" + flag_),
+    EXPECT_THAT(printed("history trend 'reach_5lx*' --only straight_xenon" + flag_),
                 AllOf(HasSubstr("2026-01-01  2026-01-02"), HasSubstr("inputs: lamp xenon-low.ies")));
+    const nlohmann::json nights = nlohmann::json::parse(printed("history show --json" + flag_)),
+                         third = nlohmann::json::parse(printed("history show 3 --json" + flag_)),
+                         explained = nlohmann::json::parse(printed("history explain --json" + flag_));
+    EXPECT_EQ(nights.at(0).at("note"), "as bought");
+    EXPECT_EQ(nights.at(2).at("readings"), 24);
+    EXPECT_EQ(third.at("cells").size(), 6U);
+    EXPECT_EQ(third.at("cells").at(0).at("readings").size(), 4U);
+    EXPECT_THAT(explained.dump(), HasSubstr("xenon-low.ies"));
     EXPECT_EQ(run_program("history explain --fail-on-change" + flag_).exit_code, 1);
     printed("history accept last" + flag_);
     EXPECT_THAT(printed("history explain" + flag_), AllOf(HasSubstr("1 change since"), HasSubstr("This night is accepted itself")));
     EXPECT_EQ(run_program("history explain --fail-on-change" + flag_).exit_code, 0) << "who accepts a night accepts its changes";
-    EXPECT_THAT(printed("history prune --keep 0 --dry-run" + flag_),
+    EXPECT_THAT(printed("history prune --keep-nights 0 --dry-run" + flag_),
                 HasSubstr("would remove 1 night, kept 2 older ones that are accepted"));
     EXPECT_THAT(printed("history prune --before 2026-01-03" + flag_), HasSubstr("removed night 2 of planted, 2026-01-02"));
 }
@@ -143,7 +152,7 @@ TEST_F(HistoryCommand, NightsFollowEachOtherAsTheyWereAddedWhateverTheirClocksSa
     const Outcome changed = run_program("history explain --fail-on-change" + flag_);
     EXPECT_EQ(changed.exit_code, 1);
     EXPECT_THAT(changed.output, HasSubstr("(+5 %)")) << "from before to after";
-    EXPECT_THAT(printed("history trend 'reach_5lx*' --cells straight_xenon" + flag_), HasSubstr("2026-02-02        2026-02-01 12:00"));
+    EXPECT_THAT(printed("history trend 'reach_5lx*' --only straight_xenon" + flag_), HasSubstr("2026-02-02        2026-02-01 12:00"));
 }
 
 TEST_F(HistoryCommand, AnAcceptanceIsTakenBack) {
@@ -197,15 +206,15 @@ TEST_F(HistoryCommand, WhatCannotBeUsedGivesOneSentence) {
     EXPECT_THAT(printed("history explain --study standard" + flag_, 2), HasSubstr("expected one of planted"));
     for (const char* action : {"show", "export --csv"})
         EXPECT_THAT(printed(std::string("history ") + action + " --study standard" + flag_, 2), HasSubstr("expected one of planted"));
-    EXPECT_THAT(printed("history prune" + flag_, 2), HasSubstr("found neither --keep nor --before"));
+    EXPECT_THAT(printed("history prune" + flag_, 2), HasSubstr("found neither --keep-nights nor --before"));
     EXPECT_THAT(printed("history export" + flag_, 2), HasSubstr("expected --csv"));
     EXPECT_THAT(printed("history trend reach_5lx_target_own" + flag_, 2), HasSubstr("such as reach_5lx_target_own_m"));
-    EXPECT_THAT(printed("history trend 'reach*' --cells strait_xenon" + flag_, 2), HasSubstr("such as straight_xenon"));
+    EXPECT_THAT(printed("history trend 'reach*' --only strait_xenon" + flag_, 2), HasSubstr("such as straight_xenon"));
     write_file(folder_ / "n1/INCOMPLETE", "");
     EXPECT_THAT(printed("history add " + night(1) + flag_, 2), HasSubstr("holds a study that did not end"));
     EXPECT_THAT(printed("history", 2), Not(HasSubstr("bug")));
     EXPECT_THAT(printed("history forget last", 2), HasSubstr("'forget' is no command of history, expected one of add, accept, show"));
-    EXPECT_THAT(printed("history prune --keep -1" + flag_, 2), HasSubstr("not in range 0 to 1000000"));
+    EXPECT_THAT(printed("history prune --keep-nights -1" + flag_, 2), HasSubstr("expected a whole number from 0 to 1000000"));
 }
 
 TEST_F(HistoryCommand, TheDefaultFileFollowsXdg) {

@@ -86,7 +86,7 @@ TEST_F(Installed, WithoutDataSaysWhereItLooked) {
 }
 
 TEST_F(Installed, PartsLieInLibOfItsPrefixAlsoWhenCalledByALink) {
-    const std::string plot = "lamp --model halogen-low --force --picture " + at("beam.png");
+    const std::string plot = "lamp --lamp-model halogen-low --force --picture " + at("beam.png");
     const Outcome missing = run(plot);
     EXPECT_EQ(missing.exit_code, 3);
     EXPECT_THAT(missing.output, HasSubstr(at("lib/fernlicht/modules/fernlicht-svg.so") + " is not installed"));

@@ -43,8 +43,8 @@ TEST(LampCheckCommand, AFindingIsAnErrorWhereStrict) {
 }
 
 TEST(LampCheckCommand, RefusesWhatItDoesNotDo) {
-    for (const char* flags :
-         {"--cut-off", "--regulation r98-d", "--spots 2", "--convert x.ies", "--picture x.png", "--function dim", "--voltage 24"})
+    for (const char* flags : {"--cut-off", "--regulation r98-d", "--spots 2", "--convert x.ies", "--picture x.png", "--function dim",
+                              "--voltage 24", "--add x.ies"})
         checked_lamp(flags, 2);
     for (const char* flags : {"--strict", "--function low", "--voltage 12.8"})
         EXPECT_THAT(printed("lamp " + library_file("lamps/xenon-low.ies") + " " + flags, 2), HasSubstr("without --check"));
@@ -90,7 +90,7 @@ class LampCheckOfARun : public testing::Test {
 TEST_F(LampCheckOfARun, AMeaninglessFileIsAWarningAndStandsOnThePage) {
     const Outcome outcome = run("");
     EXPECT_LE(outcome.exit_code, 1) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr("warning: lamp file other-side.ies ("));
+    EXPECT_THAT(outcome.output, HasSubstr("fernlicht: lamp file other-side.ies ("));
     const json report = json::parse(content_of(folder_ / "out/report.json"));
     const json& files = report.at("lamp_files");
     ASSERT_EQ(files.size(), 1u) << "once, on both sides of both lamp sets, which are one: " << files.dump(2);
@@ -116,7 +116,7 @@ TEST_F(LampCheckOfARun, AHighBeamOnALowBeamsMountIsAWarningAndStrictTellsOfEvery
                               " --quiet --no-accuracy --frames 0:1 --resolution 64x48 --out " + (folder_ / "high") + " ";
     EXPECT_THAT(
         run_program(start + "--lamp " + high).output,
-        HasSubstr("warning: lamp file xenon-high.ies (xenon-high: left; xenon-high: right), function: it is a high beam by its light "
+        HasSubstr("fernlicht: lamp file xenon-high.ies (xenon-high: left; xenon-high: right), function: it is a high beam by its light "
                   "(no cut-off, and 100 % of its maximum straight ahead), on the mount of a low beam; readings with it are "
                   "meaningless"));
     std::filesystem::remove_all(folder_ / "high");

@@ -280,7 +280,7 @@ TEST_F(LampCommand, NamesTheFlagOfAnAdaptiveBeamThatIsWrong) {
 TEST_F(LampCommand, MakesTheStateThatEuropesLinesJudge) {
     const std::string check = "lamp '" + library_file("lamps/pixels-16384.yaml") + "' --regulation r149-adb-oncoming-50m";
     EXPECT_EQ(run_program(check).exit_code, 1);
-    const std::string both = check + " --add '" + library_file("lamps/pixels-16384.yaml") + "' --other 50 3";
+    const std::string both = check + " --other-side '" + library_file("lamps/pixels-16384.yaml") + "' --other 50 3";
     const Outcome spared = run_program(both + " --other-size 3 1.5");
     EXPECT_EQ(spared.exit_code, 0) << spared.output;
     EXPECT_THAT(spared.output, testing::AllOf(HasSubstr("50 m ahead of the lamp and 3 m left of the car's middle"),
@@ -294,7 +294,7 @@ TEST_F(LampCommand, TurnsALampAndWhereItIsDimmedByTheSameAim) {
         v_deg += 1.0;
     write_lamp(low, folder_ / "low.csv");
     const std::string check = "lamp '" + library_file("lamps/led-high.ies") + "' --regulation fmvss108-adb --dimmed -5 -1 -1 2 --aim-by '" +
-                              (folder_ / "low.csv") + "' --aim ";
+                              (folder_ / "low.csv") + "' --aim-rule ";
     const std::string text = run_program(check + "auto").output;
     EXPECT_THAT(text, HasSubstr("V -2.00 to 1.00, by fmvss108-lb2v-vol")) << "a degree down, as the low beam";
     for (const char* rule : {"as-is", "maximum"})

@@ -1,5 +1,5 @@
 // Files in JSON come back as they were written, and their schemas are what the descriptions of their members say.
-// FERNLICHT_WRITE_KEYS=1 writes the schemas (ci/write-keys), and the test fails once more.
+// FERNLICHT_WRITE_SCHEMAS=1 writes the schemas (ci/write-reference), and the test fails once more.
 #include "runner/experiments/accuracy/accuracy_result.h"
 #include "runner/experiments/aliasing/aliasing_result.h"
 #include "runner/experiments/compare/lamps/lamp_comparison.h"
@@ -216,9 +216,9 @@ void expect_schema(const std::string& file, const std::string& described) {
     Json schema{{"$schema", old.at("$schema")}, {"title", old.at("title")}, {"description", old.at("description")}};
     schema.update(Json::parse(described));
     keep_words(schema, old);
-    if (found.str() != json_text(schema) && std::getenv("FERNLICHT_WRITE_KEYS"))
+    if (found.str() != json_text(schema) && std::getenv("FERNLICHT_WRITE_SCHEMAS"))
         std::ofstream(path) << json_text(schema);
-    EXPECT_TRUE(found.str() == json_text(schema)) << path << " is not what the descriptions say: ci/write-keys writes it";
+    EXPECT_TRUE(found.str() == json_text(schema)) << path << " is not what the descriptions say: ci/write-reference writes it";
 }
 
 TEST(DescribedJson, IsTheSchema) {

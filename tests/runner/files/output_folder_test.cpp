@@ -87,16 +87,16 @@ TEST_F(OutputFolderTest, GoesOnOnlyWithARunThatDidNotEnd) {
 TEST_F(OutputFolderTest, RefusesAFile) {
     put(root / "file", "text");
     EXPECT_THAT(refusal(root / "file"), HasSubstr("is not a folder"));
-    EXPECT_THAT(refusal(root / "file" / "below"), HasSubstr("device: "));
+    EXPECT_THAT(refusal(root / "file" / "below"), HasSubstr("input: "));
 }
 
 TEST_F(OutputFolderTest, RefusesAReadOnlyPlace) {
     // /proc refuses new folders even to root, for whom permissions do not count.
-    EXPECT_THAT(refusal("/proc/fernlicht"), HasSubstr("device: /proc/fernlicht: cannot be made"));
+    EXPECT_THAT(refusal("/proc/fernlicht"), HasSubstr("input: /proc/fernlicht: --out: cannot be made"));
     if (::geteuid() == 0)
         return;
     fs::permissions(root, fs::perms::owner_read | fs::perms::owner_exec);
-    EXPECT_THAT(refusal(root / "new"), HasSubstr("device: "));
+    EXPECT_THAT(refusal(root / "new"), HasSubstr("input: "));
 }
 
 TEST_F(OutputFolderTest, DefaultNameIsPlainAndNew) {

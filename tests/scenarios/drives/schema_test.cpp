@@ -64,6 +64,9 @@ TEST_F(Schema, AgreesWithTheReader) {
                "{date: 2026-06-21, time: 12:00, utc_offset_h: 2, latitude_deg: 48}|"
                "{date: 2026-06-21, time: 12:00, utc_offset_h: 2, latitude_deg: 48, longitude_deg: 181}|"
                "{date: 2026-06-21, time: 12:00, utc_offset_h: 2, latitude_deg: 48, longitude_deg: 11, sky: foggy}"},
+              {"road_surface", "{}|{pavement: concrete}|{pavement: gravel}|{wheel_tracks: true}|{markings: type-2}|{markings: type-3}|"
+                               "{markings: {type: type-2, rw_class: 6}}|{markings: {type: type-2, rw_class: 7}}|"
+                               "{markings: {type: type-1, q_class: 1}}"},
               {"weather", "{fog: {visibility_m: 100}}|{fog: {visibility_m: 100, contrast: 0.02}, rain: light, wetness: 0.3}"},
               {"street_lamps",
                "{a: {file: low.ies}}|{a: {file: low.ies, every_m: 25, tilt_deg: 5, level: 0.5, temperature_k: 4000}}|"

@@ -1,6 +1,6 @@
 // A struct that is described once is read, refused, written, checked by editors and documented from that.
 #include "scenarios/fields/field.h"
-#include "scenarios/fields/key_table.h"
+#include "scenarios/fields/key_list.h"
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/fields/schema.h"
 #include "scenarios/fields/write_fields.h"
@@ -138,10 +138,15 @@ TEST(Fields, TellsEditorsAndReaders) {
         "description": "radius of its corners"})"));
     EXPECT_TRUE(schema["properties"].contains("tilt_deg") && schema["properties"].contains("tilt_rad"));
     EXPECT_EQ(schema["properties"]["own_cup"]["anyOf"][0]["type"], "boolean");
-    const std::string tables = key_tables("table", table_fields(), table_fields().usual.get());
-    EXPECT_THAT(tables, HasSubstr("| `corner_m` | m | 0 to 0.1 | 0.02 | radius of its corners |\n"));
-    EXPECT_THAT(tables, HasSubstr("| `tilt_deg` or `tilt_rad` | °, rad | -10 to 10 ° | 0 rad | to the north |\n"));
-    EXPECT_THAT(tables, HasSubstr("## table.cups.NAME\n"));
+    const std::vector<KeyList> lists = key_lists("table", table_fields(), table_fields().usual.get());
+    const auto line = [&](const std::string& name) {
+        return *std::ranges::find_if(lists[0].lines, [&](const KeyLine& one) { return one.names.front() == name; });
+    };
+    EXPECT_EQ(line("corner_m"), (KeyLine{{"corner_m"}, "0..0.1 m", {}, "", "0.02", false, "radius of its corners"}));
+    EXPECT_EQ(line("tilt_deg"), (KeyLine{{"tilt_deg", "tilt_rad"}, "-10..10 °", {}, "", "0", false, "to the north"}));
+    EXPECT_EQ(line("cups").below, "table.cups.NAME");
+    ASSERT_EQ(lists.size(), 3U);
+    EXPECT_EQ(lists[2].path, "table.cups.NAME");
 }
 
 } // namespace

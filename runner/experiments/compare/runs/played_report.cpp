@@ -18,18 +18,11 @@ std::vector<double> figures_in(const CsvFile& moments, std::size_t column) {
     return figures;
 }
 
-void read_reaches(const CsvFile& moments, PlayedResult& result) {
-    for (std::size_t column = 0; column < moments.heads.size(); ++column) {
-        const auto key = key_of(moments.heads[column]);
-        if (!key)
-            continue;
-        ReachOverDrive reach{key->surface == ReadingSurface::road ? Surface::road : Surface::target, key->threshold.value, {}, {}};
-        if (reach.key() != *key)
-            continue;
-        reach.distance_m = figures_in(moments, moments.column("car.distance_m"));
-        reach.reach_m = figures_in(moments, column);
-        result.reaches.push_back(std::move(reach));
-    }
+void read_reaches(const CsvFile& moments, const std::vector<std::string>& decide, PlayedResult& result) {
+    for (std::size_t column = 0; column < moments.heads.size(); ++column)
+        if (const auto key = key_of(moments.heads[column]); key && key->quantity == Quantity::reach && key->aspect == Aspect::value &&
+                                                            key->statistic == Statistic::median && place_among(*key, decide))
+            result.reaches.push_back({*key, figures_in(moments, moments.column("car.distance_m")), figures_in(moments, column)});
 }
 
 /// Over the moments in which there is a distance; only drives with eyes to glare have any.
@@ -58,14 +51,6 @@ std::string file_below(const std::string& folder, const std::string& file) {
 
 } // namespace
 
-ReadingKey ReachOverDrive::key() const {
-    return {.quantity = Quantity::reach,
-            .surface = surface == Surface::road ? ReadingSurface::road : ReadingSurface::target,
-            .lane = "own",
-            .threshold = {threshold_lx, ThresholdUnit::lx},
-            .statistic = Statistic::median};
-}
-
 ReadingsOfCell whole_drive_readings(const PlayedCell& played) {
     ReadingsOfCell result;
     for (const Reading& reading : played.readings)
@@ -77,7 +62,8 @@ ReadingsOfCell whole_drive_readings(const PlayedCell& played) {
     return result;
 }
 
-PlayedResult played_result(const PlayedCell& played, const CsvFile& moments, const std::string& folder) {
+PlayedResult played_result(const PlayedCell& played, const CsvFile& moments, const std::string& folder,
+                           const std::vector<std::string>& decide) {
     PlayedResult result;
     static_cast<ReadingsOfCell&>(result) = whole_drive_readings(played);
     result.drive = played.drive;
@@ -87,7 +73,7 @@ PlayedResult played_result(const PlayedCell& played, const CsvFile& moments, con
     result.verdicts = played.verdicts;
     for (const StoredFrame& frame : played.frames)
         result.frames.push_back({frame.tick, frame.time_s, frame.view, file_below(folder, frame.png), file_below(folder, frame.exr)});
-    read_reaches(moments, result);
+    read_reaches(moments, decide, result);
     read_glares(played, moments, result);
     if (const std::optional<PixelErrors>& road = played.error.road; road && road->pixels > 0) {
         result.error_share = road->error.p95;

@@ -7,12 +7,10 @@
 
 namespace fernlicht {
 
-/// Reach on the own lane's centre over a drive; NaN where it was not measured.
+/// Reach along a line of a lane over a drive; NaN where it was not measured.
 struct ReachOverDrive {
-    Surface surface = Surface::road;
-    double threshold_lx = 0.0;
+    ReadingKey key; ///< of its median
     std::vector<double> distance_m, reach_m;
-    ReadingKey key() const; ///< of its median
 };
 
 /// Illuminance in an oncoming eye, facing the lamps, or through mirrors, over the distance to it; NaN where it was not measured.
@@ -37,7 +35,9 @@ struct PlayedResult : ReadingsOfCell {
 /// Of one that was played: steps of the drive apart, which a report does not hold.
 ReadingsOfCell whole_drive_readings(const PlayedCell& played);
 
-/// Of one that was played; its frames' paths begin with `folder` ("" for none), its moments are those of read_moments().
-PlayedResult played_result(const PlayedCell& played, const CsvFile& moments, const std::string& folder);
+/// Of one that was played; its frames' paths begin with `folder` ("" for none), its moments are those of read_moments(). Reaches are of the
+/// readings that decide, by name or pattern.
+PlayedResult played_result(const PlayedCell& played, const CsvFile& moments, const std::string& folder,
+                           const std::vector<std::string>& decide);
 
 } // namespace fernlicht

@@ -221,7 +221,10 @@ Section drive_section(const RunComparison& runs, const DriveComparison& drive) {
     if (!drive.frames.empty())
         blocks.emplace_back(worst_frames_table(drive));
     if (!drive.frames.empty() && std::ranges::all_of(drive.frames, &FramePair::is_equal))
-        blocks.emplace_back("No pixel of any stored frame differs.");
+        blocks.emplace_back(
+            fmt::format("No pixel of any stored {} differs.", std::ranges::all_of(drive.frames, &FramePair::is_display)    ? "PNG"
+                                                              : std::ranges::none_of(drive.frames, &FramePair::is_display) ? "EXR"
+                                                                                                                           : "frame"));
     for (const FramePair& frame : drive.frames)
         if (!runs.strictness_name.empty() && !frame.comparison.passed()) {
             blocks.emplace_back(

@@ -1,3 +1,4 @@
+#include "metrics/readings/reading_labels.h"
 #include "runner/experiments/compare/runs/lux_ratio.h"
 #include "runner/experiments/compare/runs/run_pairs.h"
 #include "runner/files/clean_text.h"
@@ -45,15 +46,10 @@ plots::Polyline line_of(const std::vector<double>& x, const std::vector<double>&
 
 void add_reaches(DriveComparison& drive) {
     for (const ReachOverDrive& now : drive.now.reaches) {
-        const auto old = std::ranges::find_if(
-            drive.before.reaches, [&](const ReachOverDrive& r) { return r.surface == now.surface && r.threshold_lx == now.threshold_lx; });
-        if (old == drive.before.reaches.end() || !place_among(now.key(), decides_by_default()))
-            continue;
-        add_lines(
-            drive, fmt::format("reach-{:g}lx-{}", now.threshold_lx, surface_name(now.surface)),
-            fmt::format("Reach at {:g} lx {}, own lane", now.threshold_lx, now.surface == Surface::road ? "on the road" : "on a target"),
-            line_of(old->distance_m, old->reach_m), line_of(now.distance_m, now.reach_m), "along the route", "reach", "m",
-            plots::Scale::linear);
+        const auto old = std::ranges::find(drive.before.reaches, now.key, &ReachOverDrive::key);
+        if (old != drive.before.reaches.end())
+            add_lines(drive, name_of(now.key), capitalised(reading_label(now.key)), line_of(old->distance_m, old->reach_m),
+                      line_of(now.distance_m, now.reach_m), "along the route", "reach", "m", plots::Scale::linear);
     }
 }
 

@@ -5,6 +5,7 @@
 #include "runner/files/output_folder.h"
 #include "runner/play/capture.h"
 #include "scenarios/drives/keys/drive_keys.h"
+#include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
@@ -60,7 +61,7 @@ void read_resolved(const fs::path& folder, RunDrive& drive) {
 RunDrive read_drive_of(const fs::path& folder, const PlayedCell& played, const CsvFile& moments,
                        const std::map<std::string, std::string>& hashes) {
     RunDrive drive;
-    static_cast<PlayedResult&>(drive) = played_result(played, moments, "");
+    static_cast<PlayedResult&>(drive) = played_result(played, moments, "", decides_by_default());
     drive.folder = folder;
     drive.technique = played.technique;
     drive.hashes = hashes;

@@ -156,7 +156,7 @@ TEST(AccuracyRun, OneRoundMakesNobodySurelyFaster) {
 json interrupted(const TemporaryFolder& folder, const std::string& flags, const std::string& sign) {
     const Outcome run = run_interrupted(
         "accuracy --count 3 --max-samples 16 --resolutions 64x48 --shadow-maps 256x128 --beams float --techniques full,photometric " +
-            flags + " --out " + (folder / "out ") + library_file("drives/straight.yaml"),
+            flags + " --log-json --out " + (folder / "out ") + library_file("drives/straight.yaml"),
         sign);
     EXPECT_EQ(run.exit_code, 1) << run.output;
     EXPECT_THAT(run.output, HasSubstr("missing: drive straight-1: "));
@@ -170,7 +170,7 @@ json interrupted(const TemporaryFolder& folder, const std::string& flags, const 
 TEST(AccuracyRun, InterruptedKeepsWhatWasCompared) {
     const TemporaryFolder folder;
     // Steps of a moment: from above, from the seat, two ways. After six the second moment's ways are next.
-    const json accuracy = interrupted(folder, "--rounds 8", " 6/20 ");
+    const json accuracy = interrupted(folder, "--rounds 8", ": 6/20 ");
     const json& drive = accuracy.at("drives").at(0);
     ASSERT_EQ(drive.at("configurations").size(), 2U);
     for (const json& found : drive.at("configurations")) {

@@ -31,7 +31,7 @@ double contrast(const json& row) { return row.at("aliasing").at("contrast_percen
 
 TEST(AliasingCommand, ACarOnSpringsIsSimulatedAsInRun) {
     const TemporaryFolder folder;
-    printed("aliasing --quiet --moment 1 --resolution 64x48 --beams float --samples 1 --filter trilinear --out " + (folder / "out") + " " +
+    printed("aliasing --quiet --moment 1 --resolution 64x48 --beams float --samples 1 --texture-filters trilinear --out " + (folder / "out") + " " +
             library_file("drives/braking.yaml"));
     EXPECT_EQ(checked_aliasing(folder / "out/aliasing.json").at("rows").size(), 1U);
 }
@@ -40,7 +40,7 @@ TEST(AliasingCommand, RanksWhatIsKnown) {
     const TemporaryFolder folder;
     const std::string said =
         printed("aliasing --quiet --moment 2 --resolution 256x192 --supersample 8 --beams float,512x128x8 --samples 1,4 "
-                "--filter trilinear,none --out " +
+                "--texture-filters trilinear,none --out " +
                 (folder / "out") + " " + library_file("drives/first-light.yaml"));
     const json found = checked_aliasing(folder / "out/aliasing.json");
     const json& fine = row_with(found, "float", "trilinear", 1);
@@ -92,7 +92,7 @@ json over_time(const TemporaryFolder& folder, const std::string& speed_kmh) {
         for (std::size_t at = drive.find(lamps); at != std::string::npos; at = drive.find(lamps))
             drive.replace(at, lamps.size(), library_file("lamps/"));
     std::ofstream(folder / (speed_kmh + ".yaml")) << drive;
-    printed("aliasing --quiet --flow --frames 4:11 --resolution 96x72 --beams float --samples 1 --filter none,trilinear --out " +
+    printed("aliasing --quiet --flow --frames 4:11 --resolution 96x72 --beams float --samples 1 --texture-filters none,trilinear --out " +
             (folder / speed_kmh) + " " + (folder / (speed_kmh + ".yaml")));
     const json found = json::parse(content_of(folder / (speed_kmh + "/aliasing.json")));
     json row = found.at("rows").at(0).at("temporal");
@@ -127,7 +127,7 @@ TEST(AliasingCommand, RefusesWhatItCannotDoInOneSentence) {
                    {{"--supersample 5", "--supersample: found '5', expected an even number, 4 to 16"},
                     {"--samples 1,3", "--samples: found '3', expected 1, 4, 9 or 16"},
                     {"--samples 4,4", "--samples: found '4 twice', expected each value once"},
-                    {"--filter linear", "--filter: found 'linear', expected none, mipmapped or trilinear"},
+                    {"--texture-filters linear", "--texture-filters: found 'linear', expected none, mipmapped or trilinear"},
                     {"--moment 1 --frames 1:9", "--moment: found --frames too, expected one of the two"},
                     {"--frames 1:3", "found 1:3, expected 8 to 64 frames in a row"},
                     {"--moment 1e9", "expected 0 to "},
@@ -186,7 +186,7 @@ TEST(AliasingCommand, MeasuresFramesOfOthersByOpticalFlow) {
     const json pattern = sequence_found(folder, "--sequence '" + (folder / "step/frame_*.exr") + "'", "pattern");
     EXPECT_EQ(pattern.at("temporal"), alone.at("temporal")); // the same frames, the same bytes
     std::filesystem::remove(folder / "step/other_1003.exr");
-    const json against = sequence_found(folder, "--sequence " + (folder / "step") + " --against " + (folder / "fine"), "against");
+    const json against = sequence_found(folder, "--sequence " + (folder / "step") + " --supersampled " + (folder / "fine"), "against");
     EXPECT_TRUE(alone.at("aliasing").contains("not_measured"));
     EXPECT_TRUE(alone.at("temporal").at("crawl_percent").is_null());
     EXPECT_NEAR(alone.at("temporal").at("motion").at("median_motion_px"), 0.618, 0.05);
@@ -244,11 +244,11 @@ TEST(AliasingCommand, RefusesFramesThatAreNoSequence) {
                         {ours + " --ppd 20", "--rate: is missing"},
                         {ours + " --rate 7 --ppd 20", "--rate: found '7', expected 8 to 10000"},
                         {ours + " --rate 30", "--ppd: is missing"},
-                        {ours + rate + " --view-fov 30", "--ppd: found --view-fov too"},
+                        {ours + rate + " --vertical-fov 30", "--ppd: found --vertical-fov too"},
                         {ours + rate + " --frames 1000:1020", "has no frame 1009"},
-                        {ours + rate + " --against " + (folder / "png"), "expected 4, 6, 8 ... or 16 times"},
+                        {ours + rate + " --supersampled " + (folder / "png"), "expected 4, 6, 8 ... or 16 times"},
                         {ours + rate + " " + library_file("drives/straight.yaml"), "DRIVE: found --sequence too"},
-                        {ours + rate + " --samples 4", "--sequence excludes --samples"},
+                        {ours + rate + " --samples 4", "--sequence: found beside --samples, expected one of them"},
                         {"--quiet", "DRIVE: is missing"}});
 }
 
@@ -273,7 +273,7 @@ TEST(AliasingCommand, RefusesFramesThatWereShownInDifferentWays) {
     write_shown_ring(folder / "profile", 1,
                      {usual.shown_by, icc_profile(read_display_profile(library_file("displays/projector.yaml"), opened))});
     expect_refused("--rate 30 --ppd 20 --out " + (folder / "refused") + " --sequence ",
-                   {{(folder / "usual") + " --against " + (folder / "fine-linear"),
+                   {{(folder / "usual") + " --supersampled " + (folder / "fine-linear"),
                      "frame_1000.png: was shown by 'linear white=50 cd/m2; display srgb', expected 'rational s=20 white=100 cd/m2; "
                      "display srgb' as the sequence, or the EXRs of the same moments"},
                     {folder / "mixed", "frame_1005.png: was shown by 'linear white=50 cd/m2; display srgb', expected 'rational s=20 "
@@ -284,22 +284,22 @@ TEST(AliasingCommand, RefusesFramesThatWereShownInDifferentWays) {
     EXPECT_THAT(printed("compare " + (folder / "usual/frame_1000.png") + " " + (folder / "mixed/frame_1008.png"), 2),
                 HasSubstr("was shown by 'linear white=50 cd/m2; display srgb', expected 'rational s=20 white=100 cd/m2; "
                           "display srgb' as the reference, or the EXRs of the same moments"));
-    sequence_found(folder, "--sequence " + (folder / "usual") + " --against " + (folder / "fine"), "alike");
-    sequence_found(folder, "--sequence " + (folder / "usual") + " --against " + (folder / "fine-unknown"), "unknown");
+    sequence_found(folder, "--sequence " + (folder / "usual") + " --supersampled " + (folder / "fine"), "alike");
+    sequence_found(folder, "--sequence " + (folder / "usual") + " --supersampled " + (folder / "fine-unknown"), "unknown");
     const auto notes = [&](const std::string& out) { return json::parse(content_of(folder / (out + "/aliasing.json"))).at("notes"); };
     EXPECT_EQ(notes("alike").size(), 0U);
     ASSERT_EQ(notes("unknown").size(), 1U);
-    EXPECT_THAT(notes("unknown").at(0).get<std::string>(), HasSubstr("--against does not tell (no fernlicht:shown_by)"));
-    EXPECT_THAT(content_of(folder / "unknown/aliasing.html"), HasSubstr("--against does not tell"));
+    EXPECT_THAT(notes("unknown").at(0).get<std::string>(), HasSubstr("--supersampled does not tell (no fernlicht:shown_by)"));
+    EXPECT_THAT(content_of(folder / "unknown/aliasing.html"), HasSubstr("--supersampled does not tell"));
 }
 
 TEST(AliasingCommand, WhatHasNoLuminanceIsNotMeasuredUnlessAsDisplayed) {
     const TemporaryFolder folder;
-    const std::string common = "aliasing --quiet --moment 1 --resolution 64x48 --techniques full --beams float --samples 1 --filter none "
+    const std::string common = "aliasing --quiet --moment 1 --resolution 64x48 --techniques full --beams float --samples 1 --texture-filters none "
                                "--out ";
     EXPECT_THAT(printed(common + (folder / "none") + " " + library_file("drives/straight.yaml"), 1),
                 HasSubstr("technique full computes no luminance"));
-    printed(common + (folder / "shown") + " --picture display " + library_file("drives/straight.yaml"));
+    printed(common + (folder / "shown") + " --values display " + library_file("drives/straight.yaml"));
     const json row = json::parse(content_of(folder / "shown/aliasing.json")).at("rows").at(0);
     EXPECT_GT(row.at("aliasing").at("contrast_percent"), 0.1);
 }

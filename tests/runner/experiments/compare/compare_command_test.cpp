@@ -145,7 +145,7 @@ TEST_F(CompareCommand, DrawsIntoANewFolderOnly) {
 TEST_F(CompareCommand, PixelsPerDegree) {
     EXPECT_THAT(compare("a.png", "b.png").output, HasSubstr("67.0206 pixels per degree"));
     // 24 pixels are tan 10 degrees: 24 / tan(10 degrees) * pi / 180 = 2.3756.
-    EXPECT_THAT(compare("a.png", "b.png", "--view-fov 20").output, HasSubstr("2.3756 pixels per degree"));
+    EXPECT_THAT(compare("a.png", "b.png", "--vertical-fov 20").output, HasSubstr("2.3756 pixels per degree"));
 }
 
 TEST_F(CompareCommand, WrongInputIsOneSentenceAndTwo) {
@@ -157,7 +157,7 @@ TEST_F(CompareCommand, WrongInputIsOneSentenceAndTwo) {
     };
     refused("a.png", "small.png", "", "64 x 47 pixels, expected 64 x 48");
     refused("a.png", "b.png", "--ppd 0", "1 to 1000");
-    refused("a.png", "b.png", "--view-fov 180", "below 180");
+    refused("a.png", "b.png", "--vertical-fov 180", "below 180");
 }
 
 template <class Read> std::string refusal(const Read& read) {

@@ -112,7 +112,7 @@ TEST_F(LampCompare, ALampThatFailsGivesOne) {
 TEST_F(LampCompare, BeamTexturesAreLampsWhereTheUserSaysSo) {
     const std::string texture = folder / "beam.exr";
     ASSERT_EQ(run_program("lamp " + xenon + " --convert " + texture).exit_code, 0);
-    EXPECT_EQ(run_program("compare " + xenon + " " + texture + " --lamps").exit_code, 0);
+    EXPECT_EQ(run_program("compare " + xenon + " " + texture + " --as-lamps").exit_code, 0);
     EXPECT_EQ(run_program("compare " + xenon + " " + texture).exit_code, 2);
 }
 

@@ -104,7 +104,7 @@ TEST_F(RunCompare, EveryChangeIsThatOfTheReports) {
         EXPECT_EQ(time.at("kind"), "not known") << "too few frames";
     // The frames' figures are those of comparing the files themselves.
     const json picture = json::parse(compare("halogen/frames/straight-1-halogen-low/driver-000000.exr",
-                                             "xenon/frames/straight-1-xenon-low/driver-000000.exr", "--view-fov 40 --json")
+                                             "xenon/frames/straight-1-xenon-low/driver-000000.exr", "--vertical-fov 40 --json")
                                          .output);
     bool seen = false;
     for (const json& frame : drive.at("frames"))
@@ -280,7 +280,7 @@ TEST_F(RunCompare, WrongInputIsOneSentenceAndTwo) {
     refused("halogen", "unfinished", "", "a run that did not end");
     refused("halogen", "halogen/frames/straight-1-halogen-low/driver-000000.png", "", "is a picture, expected a folder as A is");
     refused("halogen/frames/straight-1-halogen-low/driver-000000.png", "halogen", "", "is a folder, expected a picture as A is");
-    refused("halogen", "xenon", "--view-fov 40", "the drives say what their views see");
+    refused("halogen", "xenon", "--vertical-fov 40", "the drives say what their views see");
     refused("halogen", "xenon", "--pictures some", "all, or a number of moments");
     EXPECT_EQ(run_program("compare " + at("halogen") + " " + library_file("lamps/halogen-low.ies")).exit_code, 2);
 }

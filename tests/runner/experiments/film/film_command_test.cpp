@@ -64,11 +64,12 @@ TEST(FilmCommand, SameFramesTwiceWithEverythingOverThem) {
 TEST(FilmCommand, PanelsStandWhereTheArrangementHasThem) {
     const TemporaryFolder folder;
     film_frames(folder, "beside", "--frames 2:2");
-    film_frames(folder, "swapped", "--frames 2:2 --side-by-side --lamp-set xenon,halogen");
-    film_frames(folder, "grid", "--frames 2:2 --grid --lamp-set xenon --lamp-set halogen,xenon");
+    film_frames(folder, "swapped", "--frames 2:2 --side-by-side --lamp-sets xenon,halogen");
+    std::ofstream(folder / "again.yaml") << std::regex_replace(content_of(filmed_drive), std::regex("[.][.]/"), library_file(""));
+    film_frames(folder, "grid", "--frames 2:2 --grid --lamp-sets xenon,halogen " + (folder / "again.yaml"));
     film_frames(folder, "wipe", "--frames 2:2 --wipe");
-    film_frames(folder, "halogen", "--frames 2:2 --lamp-set halogen");
-    film_frames(folder, "xenon", "--frames 2:2 --lamp-set xenon");
+    film_frames(folder, "halogen", "--frames 2:2 --lamp-sets halogen");
+    film_frames(folder, "xenon", "--frames 2:2 --lamp-sets xenon");
     const Image<Rgb8> beside = frame_of(folder, "beside", 2), swapped = frame_of(folder, "swapped", 2);
     const FilmLayout two = film_layout(FilmArrangement::side_by_side, 2, film_width, film_height, {});
     const PixelBox &left = two.panels[0].picture, &right = two.panels[1].picture;
@@ -76,10 +77,10 @@ TEST(FilmCommand, PanelsStandWhereTheArrangementHasThem) {
     EXPECT_EQ(box_of(beside, right), box_of(swapped, left));
     EXPECT_NE(box_of(beside, left), box_of(beside, right));
     const Image<Rgb8> grid = frame_of(folder, "grid", 2);
-    const FilmLayout three = film_layout(FilmArrangement::grid, 3, film_width, film_height, {});
-    EXPECT_EQ(box_of(grid, three.panels[0].picture), box_of(grid, three.panels[2].picture));
-    EXPECT_NE(box_of(grid, three.panels[0].picture), box_of(grid, three.panels[1].picture));
-    EXPECT_GT(three.panels[2].picture.y, three.panels[1].picture.y);
+    const FilmLayout four = film_layout(FilmArrangement::grid, 4, film_width, film_height, {});
+    EXPECT_EQ(box_of(grid, four.panels[0].picture), box_of(grid, four.panels[2].picture));
+    EXPECT_NE(box_of(grid, four.panels[0].picture), box_of(grid, four.panels[1].picture));
+    EXPECT_GT(four.panels[2].picture.y, four.panels[1].picture.y);
 
     const Image<Rgb8> wipe = frame_of(folder, "wipe", 2);
     const FilmLayout one = film_layout(FilmArrangement::wipe, 2, film_width, film_height, {});
@@ -216,9 +217,12 @@ TEST(FilmCommand, RefusesInOneSentence) {
     refused(film, "", 3, "install Debian's package ffmpeg", "PATH=" + folder.path().string());
     refused(film, "--overlay lux,fog", 2, "found 'fog', expected some of lux, isolux, readings, speed");
     refused(film, "--rate 0", 2, "frames a second");
+    refused(film, "--rate abc", 2, "--rate: found 'abc', expected");
+    refused(film, "--lamp-sets xenon,halogen,xenon", 2, "--lamp-sets: found 'xenon twice', expected each lamp set once");
+    refused(folder / "nowhere/film.webm", "--technique magic", 2, "--technique: "); // inputs first
     refused(film, "--resolution 321x240", 2, "even numbers");
-    refused(film, "--lamp-set laser", 2, "one of halogen, xenon");
-    refused(film, "--wipe --lamp-set xenon", 2, "--wipe: found 1 panel");
+    refused(film, "--lamp-sets laser", 2, "one of halogen, xenon");
+    refused(film, "--wipe --lamp-sets xenon", 2, "--wipe: found 1 panel");
     refused(film, "--frames 100000:", 2, "frames of the film");
     refused(film, "--technique plain --overlay lux", 2, "does not compute an illuminance");
     const std::string other = folder / "other.yaml";
@@ -241,7 +245,7 @@ TEST(FilmCommand, InterruptedItKeepsWhatWasFilmed) {
         GTEST_SKIP() << "ffmpeg is not installed";
     const TemporaryFolder folder;
     const Outcome run = run_interrupted(
-        fmt::format("film {} --film {} --resolution 160x120 --backend software --frames 0:199", filmed_drive, folder / "film.mp4"),
+        fmt::format("film {} --film {} --resolution 160x120 --backend software --log-json --frames 0:199", filmed_drive, folder / "film.mp4"),
         "film of straight");
     EXPECT_EQ(run.exit_code, 1) << run.output;
     EXPECT_THAT(run.output, HasSubstr("incomplete: interrupted by the user"));

@@ -212,7 +212,7 @@ TEST(FitCommand, RefusesWrongFilesByLineAndColumn) {
                 HasSubstr("points.csv:2: time_s: found 10 s, expected 0 to 9.900 s, the drive's moments"));
     EXPECT_THAT(refused(heads + good, " --hold hight"),
                 HasSubstr("--hold: found 'hight', expected some of pitch, yaw, flux, height, left.pitch"));
-    EXPECT_THAT(printed("fit " + straight, 2), HasSubstr("--points is required"));
+    EXPECT_THAT(printed("fit " + straight, 2), HasSubstr("found no --points, expected fernlicht fit [options] DRIVE --points FILE"));
 }
 
 TEST(LuxPoints, ReadWhatSpreadsheetsWrite) {

@@ -418,7 +418,7 @@ TEST(HistoryTimes, NightsOnAnotherCpuTellNothingOfThisOne) {
         EXPECT_EQ(change.night, 25U);
         EXPECT_NEAR(change.ratio, 1.2, 0.02);
     }
-    EXPECT_THAT(document_text(trend_document(nights, "frame_s", "straight_xenon")), HasSubstr("2026-01-12  2026-01-24       7"));
+    EXPECT_THAT(document_text(trend_document(nights, "frame_s", {"straight_xenon"})), HasSubstr("2026-01-12  2026-01-24       7"));
     nights.pop_back();
     EXPECT_THAT(changes_of_times(nights, 0, 0.01).changes, IsEmpty());
 }
@@ -471,13 +471,13 @@ TEST(HistoryTrend, LevelsWithTheirNightsAndCauses) {
     std::vector<Night> nights;
     for (int night = 0; night < nights_played; ++night)
         nights.push_back(night_of_study(planted.play(night, world_of(night)), "/n"));
-    const std::string text = document_text(trend_document(nights, "reach_5lx_target_own_m", "straight_xenon"));
+    const std::string text = document_text(trend_document(nights, "reach_5lx_target_own_m", {"straight_xenon"}));
     EXPECT_THAT(text, HasSubstr("2026-01-01  2026-01-06"));
     EXPECT_THAT(text, HasSubstr("inputs: lamp xenon-low.ies"));
     EXPECT_THAT(text, HasSubstr("machine: driver Mesa 22.3.6 → Mesa 25.0.1"));
-    EXPECT_THAT(document_text(trend_document(nights, "frame_s", "straight_xenon")),
+    EXPECT_THAT(document_text(trend_document(nights, "frame_s", {"straight_xenon"})),
                 AllOf(HasSubstr("2026-01-11  2026-01-30"), HasSubstr("program: sources in renderer")));
-    EXPECT_THAT(tests::refusal_of([&] { trend_document(nights, "reach_5lx_target_own", "*"); }),
+    EXPECT_THAT(tests::refusal_of([&] { trend_document(nights, "reach_5lx_target_own", {"*"}); }),
                 HasSubstr("such as reach_5lx_target_own_m"));
 }
 

@@ -15,7 +15,7 @@ const std::string importance_of_straight = "importance " + library_file("drives/
 
 TEST(ImportanceCommand, SaysWhereAReachIsDecidedAndThatTheGradientHolds) {
     const TemporaryFolder folder;
-    const std::string said = printed(importance_of_straight + "reach_5lx_target_own_m --frames 10:10 --check 10 --out " + (folder / "out"));
+    const std::string said = printed(importance_of_straight + "reach_5lx_target_own_m --frames 10:10 --trials 10 --out " + (folder / "out"));
     EXPECT_THAT(said, HasSubstr("reach_5lx_target_own_m"));
     const json found = tests::checked(content_of(folder / "out/importance.json"), importance_members);
     EXPECT_NEAR(found.at("value"), 45.4, 0.2); // of the README
@@ -54,7 +54,7 @@ TEST(ImportanceCommand, RefusesOtherReadingsAndFailsWhereThereIsNoNumber) {
 TEST(ImportanceCommand, TellsTheMarginOfARatingsRow) {
     const TemporaryFolder folder;
     const std::string margin = "importance " + library_file("lamp_sets/halogen.yaml") + " --rating adb-track --row ";
-    printed(margin + "7 --photometer mirror-right --check 5 --out " + (folder / "out"));
+    printed(margin + "7 --photometer mirror-right --trials 5 --out " + (folder / "out"));
     const json found = tests::checked(content_of(folder / "out/importance.json"), importance_members);
     EXPECT_EQ(found.at("unit"), "%");
     EXPECT_NEAR(found.at("value"), 100.0 * (1.0 - 3.2 / 4.0), 100.0 * 0.05 / 4.0 + 1e-9); // docs/ratings.md, where light is rounded to 0.1

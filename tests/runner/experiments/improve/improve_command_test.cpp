@@ -14,7 +14,7 @@ const std::string improve_xenon = "improve " + library_file("lamps/xenon-low.ies
 
 TEST(ImproveCommand, ProposesALampAndProvesIt) {
     const TemporaryFolder folder;
-    const std::string asked = improve_xenon + "--study " + library_file("studies/standard.yaml") +
+    const std::string asked = improve_xenon + "--cells-of " + library_file("studies/standard.yaml") +
                               " --only 'straight*' --frames 30:40 --gain 'reach_5lx_target_own_right_edge_m by 5 m' --keep "
                               "glare_oncoming_facing_max_lx --regulation r149-c --out ";
     const std::string said = printed(asked + (folder / "out"));
@@ -36,7 +36,7 @@ TEST(ImproveCommand, ProposesALampAndProvesIt) {
     EXPECT_EQ(content_of(folder / "out/xenon-low-improved.ies"), content_of(folder / "again/xenon-low-improved.ies"));
     EXPECT_THAT(printed("lamp " + (folder / "out/xenon-low-improved.ies") + " --regulation r149-c"), HasSubstr("meets all 25 rows"));
     printed("importance " + library_file("drives/straight.yaml") + " --lamp " + (folder / "out/xenon-low-improved.ies") +
-            " --frames 30:40 --check 0 --reading reach_5lx_target_own_right_edge_m --out " + (folder / "read"));
+            " --frames 30:40 --trials 0 --reading reach_5lx_target_own_right_edge_m --out " + (folder / "read"));
     EXPECT_NEAR(json::parse(content_of(folder / "read/importance.json")).at("value").get<double>(), reach.at("found").get<double>(), 1e-9);
 }
 
@@ -55,7 +55,7 @@ TEST(ImproveCommand, RefusesWhatItCannotSeek) {
     const TemporaryFolder folder;
     const auto refusal = [&](const std::string& flags) { return printed(improve_xenon + flags + " --out " + (folder / "a"), 2); };
     const std::string straight = "--drive " + library_file("drives/straight.yaml") + " --frames 30:30 ";
-    EXPECT_THAT(refusal("--gain 'reach_5lx_target_own_m by 5 m'"), HasSubstr("neither --drive nor --study"));
+    EXPECT_THAT(refusal("--gain 'reach_5lx_target_own_m by 5 m'"), HasSubstr("neither --drive nor --cells-of"));
     EXPECT_THAT(refusal(straight), HasSubstr("at least one reading to be gained"));
     EXPECT_THAT(refusal(straight + "--gain reach_5lx_target_own_m"), HasSubstr("READING by AMOUNT"));
     EXPECT_THAT(refusal(straight + "--gain 'reach_5lx_target_own_m by 5 lx'"), HasSubstr("reach_5lx_target_own_m in m"));
@@ -65,7 +65,7 @@ TEST(ImproveCommand, RefusesWhatItCannotSeek) {
     EXPECT_THAT(refusal(straight + "--gain 'reach_5lx_target_own_m by 5' --keep glare_oncoming_facing_max_lx"),
                 HasSubstr("a drive with oncoming drivers"));
     EXPECT_THAT(refusal(straight + "--gain 'width_0.01lx_target_all_at_20m_m by 5'"), HasSubstr("only known to be beyond a bound"));
-    EXPECT_THAT(refusal("--study " + library_file("studies/aim-alone.yaml") + " --gain 'reach_5lx_target_own_m by 5'"),
+    EXPECT_THAT(refusal("--cells-of " + library_file("studies/aim-alone.yaml") + " --gain 'reach_5lx_target_own_m by 5'"),
                 HasSubstr("has no cell with this lamp"));
     EXPECT_THAT(refusal(straight + "--gain 'reach_5lx_target_own_m by 5' --keep-row 'zone III'"),
                 HasSubstr("--regulation, whose row it is"));

@@ -56,7 +56,7 @@ TEST(MasksCommand, SaysWhatItDidNotMeasure) {
         "  cut: {{lamps: {{high-left: {{file: \"{}\", position_m: [3.4, 0.6, 0.65]}}}}, "
         "control: {{high_beam: automatic, glare_free: {{windows_deg: {{high-left: pixels}}}}}}}}\n",
         library_file("roads/straight.xodr"), low, low, library_file("lamps/matrix-84.yaml"));
-    const std::string said = printed("masks " + (folder / "alone.yaml") + " --against dark --margins 1 --out " + (folder / "out"));
+    const std::string said = printed("masks " + (folder / "alone.yaml") + " --full-light dark --margins 1 --out " + (folder / "out"));
     EXPECT_THAT(said, HasSubstr("low: dark gives no light on own lane and verge. Others get 0 lx s"));
     EXPECT_THAT(said, HasSubstr("there is nobody to spare"));
     const json found = tests::checked(content_of(folder / "out/masks.json"), masks_members);
@@ -75,9 +75,9 @@ TEST(MasksCommand, SaysWhatItDidNotMeasure) {
 
 TEST(MasksCommand, RefusesWhatItCannotTell) {
     EXPECT_THAT(printed("masks " + drive_file("straight"), 2), HasSubstr("lamp_sets: found none that masks others"));
-    EXPECT_THAT(printed("masks " + drive_file("adaptive-crest") + " --against full", 2),
-                HasSubstr("--against: found 'full', expected one of low, high, matrix, pixels"));
-    EXPECT_THAT(printed("masks " + drive_file("adaptive-crest") + " --limits iihs", 2),
+    EXPECT_THAT(printed("masks " + drive_file("adaptive-crest") + " --full-light full", 2),
+                HasSubstr("--full-light: found 'full', expected one of low, high, matrix, pixels"));
+    EXPECT_THAT(printed("masks " + drive_file("adaptive-crest") + " --rating iihs", 2),
                 HasSubstr("rating 'iihs' has no photometer on road users that faces forward or backward"));
     for (const char* margins : {"-1", "x", "0,11", "0,,1"})
         EXPECT_THAT(printed("masks " + drive_file("adaptive-crest") + " --margins=" + margins, 2), HasSubstr("--margins"));

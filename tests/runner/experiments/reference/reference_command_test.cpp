@@ -69,7 +69,7 @@ TEST(ReferenceCommand, GoesOnAfterAnInterruptionAndEndsInTheSameBytes) {
     const std::string command =
         "reference " + library_file("drives/straight.yaml") + " --integrator path --target-error 1% --resolution 96x72 --moment 1";
     ASSERT_EQ(run_program(command + " --quiet --out " + (folder / "whole")).exit_code, 0);
-    const Outcome stopped = run_interrupted(command + " --out " + (folder / "parts"), " pixels, ");
+    const Outcome stopped = run_interrupted(command + " --log-json --out " + (folder / "parts"), " pixels");
     ASSERT_EQ(stopped.exit_code, 1) << stopped.output;
     EXPECT_TRUE(std::filesystem::exists(folder / "parts/INCOMPLETE"));
     EXPECT_FALSE(json_of(folder / "parts").at("complete"));

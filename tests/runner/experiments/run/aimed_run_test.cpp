@@ -61,7 +61,7 @@ TEST_F(AimedRun, AFileWithItsCutOffElsewhereReadsLikeTheOriginal) {
     const std::string page = content_of(folder_ / "out/report.html");
     EXPECT_THAT(page, HasSubstr("Aim of the lamps"));
     EXPECT_THAT(page, HasSubstr("auto to -1 %"));
-    EXPECT_THAT(run.output, HasSubstr("warning: aimed: low, left and right: the cut-off lies at -2.00 %"));
+    EXPECT_THAT(run.output, HasSubstr("fernlicht: aimed: low, left and right: the cut-off lies at -2.00 %"));
     EXPECT_THAT(run.output, Not(HasSubstr("original, left")));
     const json report = json::parse(content_of(folder_ / "out/report.json"));
     EXPECT_THAT(tests::complaints(report, "run/report"), testing::IsEmpty());
@@ -91,8 +91,8 @@ TEST_F(AimedRun, AStudySaysHowItAimedAndFindsNoDifference) {
     ASSERT_EQ(run.exit_code, 0) << run.output;
     EXPECT_THAT(run.output, HasSubstr("new against production: the whole beam is aimed 0.57 degrees higher"));
     EXPECT_THAT(run.output, HasSubstr("turned by `aim: auto`"));
-    EXPECT_THAT(run.output, HasSubstr("warning: new, left and right: the cut-off lies at -0.40 %"));
-    EXPECT_THAT(run.output, HasSubstr("warning: wrong, left and right: the cut-off lies at -0.0")) << "its dip was taken for granted";
+    EXPECT_THAT(run.output, HasSubstr("fernlicht: new, left and right: the cut-off lies at -0.40 %"));
+    EXPECT_THAT(run.output, HasSubstr("fernlicht: wrong, left and right: the cut-off lies at -0.0")) << "its dip was taken for granted";
     const json study = tests::checked(content_of(folder_ / "out/study.json"), study_members);
     std::size_t compared = 0;
     for (const json& change : study.at("changes"))

@@ -14,7 +14,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string small = "shadows --quiet --resolution 96x72 --lamp " + library_file("lamps/xenon-low.ies") + " ";
+const std::string small = "shadows --quiet --resolution 96x72 --scene-lamp " + library_file("lamps/xenon-low.ies") + " ";
 
 json checked_shadows(const std::filesystem::path& file) { return tests::checked(content_of(file), shadow_members); }
 
@@ -23,7 +23,7 @@ const json& row_of(const json& scene, const std::string& method) { return tests:
 TEST(ShadowsCommand, HoldsMethodsAgainstRays) {
     const TemporaryFolder folder;
     EXPECT_THAT(printed(small +
-                        "--rounds 3 --map-texels 512x256 --count 1 --methods none,map,under-car,volumes --scenes post-5,kerb --out " +
+                        "--rounds 3 --shadow-map 512x256 --count 1 --methods none,map,under-car,volumes --scenes post-5,kerb --out " +
                         (folder / "out ") + library_file("drives/straight.yaml")),
                 HasSubstr("   30 m "));
     const json found = checked_shadows(folder / "out/shadows.json");
@@ -100,7 +100,7 @@ TEST(ShadowsCommand, SoftMapsAreNearerToDiscs) {
 TEST(ShadowsCommand, CountsFromTheFloorOn) {
     const TemporaryFolder folder;
     const auto found = [&](const std::string& floor) {
-        printed(small + "--rounds 1 --lamp-radius 0 --methods none --scenes post-20 --floor " + floor + " --out " + (folder / floor));
+        printed(small + "--rounds 1 --lamp-radius 0 --methods none --scenes post-20 --floor-lx " + floor + " --out " + (folder / floor));
         const json all = json::parse(content_of(folder / (floor + "/shadows.json")));
         EXPECT_EQ(all.at("floor_lx"), std::stod(floor));
         EXPECT_THAT(content_of(folder / (floor + "/shadows.html")), HasSubstr(floor + " lx"));
@@ -131,7 +131,7 @@ TEST(ShadowsCommand, TakesEveryMethodThereIs) {
 TEST(ShadowsCommand, NamesTheMethodWhoseMapsAreTooLarge) {
     const TemporaryFolder folder;
     EXPECT_THAT(printed(small +
-                        "--backend software --rounds 1 --lamp-radius 0 --map-texels 8192x8192 --scenes post-5 "
+                        "--backend software --rounds 1 --lamp-radius 0 --shadow-map 8192x8192 --scenes post-5 "
                         "--methods soft-map,volumes --out " +
                         (folder / "out")),
                 AllOf(HasSubstr("soft-map: not measured, shadows: found 16 maps of 8192 x 8192 texels for each lamp by 'soft-map', "
@@ -161,10 +161,10 @@ TEST(ShadowsCommand, RefusesWhatIsNotThere) {
     EXPECT_THAT(refused("--methods mop"), HasSubstr("--methods: found 'mop'"));
     EXPECT_THAT(refused("--methods mop"), HasSubstr("expected one of none, under-car, "));
     EXPECT_THAT(refused("--methods auto"), HasSubstr("by their names"));
-    EXPECT_THAT(refused("--floor 0"), HasSubstr("--floor: found '0', expected 0.001 to 10 lx"));
+    EXPECT_THAT(refused("--floor-lx 0"), HasSubstr("--floor-lx: found '0', expected 0.001 to 10 lx"));
     EXPECT_THAT(refused("--scenes none,post-5"), HasSubstr("--scenes: found 'none,post-5', expected none alone"));
-    EXPECT_THAT(printed("shadows --lamp nowhere.ies --out " + (folder / "out"), 2),
-                HasSubstr("nowhere.ies: --lamp: is not there, expected a lamp file"));
+    EXPECT_THAT(printed("shadows --scene-lamp nowhere.ies --out " + (folder / "out"), 2),
+                HasSubstr("nowhere.ies: --scene-lamp: is not there, expected a lamp file"));
     for (const std::string sides : {"0x0", "16385x1"}) {
         EXPECT_THAT(printed("shadows --resolution " + sides + " --out " + (folder / "out"), 2),
                     HasSubstr("--resolution: found '" + sides + "', expected sides from 1 to 16384 pixels"));
@@ -172,7 +172,7 @@ TEST(ShadowsCommand, RefusesWhatIsNotThere) {
     EXPECT_THAT(refused("--methods map,map"), HasSubstr("each method once"));
     EXPECT_THAT(refused("--scenes past-5"), HasSubstr("fits no scene"));
     EXPECT_THAT(refused("--scenes none"), HasSubstr("DRIVE"));
-    EXPECT_THAT(refused("--map-texels 8x8"), HasSubstr("16 to 8192"));
+    EXPECT_THAT(refused("--shadow-map 8x8"), HasSubstr("16 to 8192"));
     EXPECT_THAT(refused("--vertical-fov 0"), HasSubstr("1 to 120 degrees"));
     EXPECT_THAT(refused("--lamp-radius 0.7"), HasSubstr("0.001 to 0.5 m"));
     EXPECT_THAT(refused("--scenes none --count 99 " + library_file("drives/shelter.yaml")), HasSubstr("1 to 50"));
@@ -181,8 +181,8 @@ TEST(ShadowsCommand, RefusesWhatIsNotThere) {
 
 TEST(ShadowsCommand, WritesWhatThereIsWhenInterrupted) {
     const TemporaryFolder folder;
-    const Outcome run = run_interrupted("shadows --rounds 100000 --lamp-radius 0 --resolution 96x72 --lamp " +
-                                            library_file("lamps/xenon-low.ies") + " --scenes 'post-*' --out " + (folder / "out"),
+    const Outcome run = run_interrupted("shadows --rounds 100000 --lamp-radius 0 --resolution 96x72 --scene-lamp " +
+                                            library_file("lamps/xenon-low.ies") + " --scenes 'post-*' --log-json --out " + (folder / "out"),
                                         "steps");
     EXPECT_EQ(run.exit_code, 1) << run.output;
     EXPECT_THAT(run.output, HasSubstr("incomplete: interrupted by the user"));

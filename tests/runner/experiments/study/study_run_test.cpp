@@ -131,7 +131,7 @@ TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
     EXPECT_THAT(content_of(folder / "out/study.tex"), HasSubstr("\\toprule"));
     EXPECT_THAT(content_of(folder / "out/study.md"),
                 testing::AllOf(testing::StartsWith("# Two cells\n\n## No limits were set\n\n"), HasSubstr("| new / old | straight-1 |")));
-    for (const char* const name : {"ranking_new-old", "reach-5lx-target_straight"}) {
+    for (const char* const name : {"ranking_new-old", "reach_5lx_target_own_m_straight"}) {
         const std::string paper = folder / (std::string("out/paper/") + name);
         EXPECT_THAT(content_of(paper + ".pdf"), testing::StartsWith("%PDF-"));
         EXPECT_THAT(content_of(paper + ".svg"), testing::AllOf(HasSubstr("<svg"), Not(HasSubstr("<text"))))
@@ -413,7 +413,7 @@ TEST_F(StudyProgram, AFinishedStudyIsReportedAgainFromItsCells) {
     const std::string page = content_of(folder / "out/report.html");
     EXPECT_THAT(page, HasSubstr("No limits were set"));
     EXPECT_THAT(page, HasSubstr("6 of 100 moments of each drive were asked for (--frames 0:5)"));
-    EXPECT_THAT(content_of(folder / "out/cells/straight_old/report.html"), HasSubstr("6 of 100 moments were to be played"));
+    EXPECT_THAT(content_of(folder / "out/cells/straight_old/report.html"), HasSubstr("6 of 100 moments, as --frames asks"));
     const std::string first = content_of(folder / "out/study.csv"),
                       cell = without_command(content_of(folder / "out/cells/straight_old/report.json"));
     const Outcome again = run_program("study " + (folder / "study.yaml") + quick + out + " --resume");

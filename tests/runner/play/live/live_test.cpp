@@ -138,7 +138,7 @@ TEST_F(Live, WarnsOfLampFilesAsRunDoes) {
         fmt::format("live {} --can-log {} --duration 0.5 --no-wait --out {}", folder / "high.yaml", folder / "bus.log", folder / "high"));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     EXPECT_THAT(outcome.output,
-                HasSubstr("warning: lamp file xenon-high.ies (bend-light: left; bend-light: right), function: it is a high beam"));
+                HasSubstr("fernlicht: lamp file xenon-high.ies (bend-light: left; bend-light: right), function: it is a high beam"));
     EXPECT_THAT(content("high/report.html"), HasSubstr("on the mount of a low beam"));
 }
 

@@ -1,8 +1,8 @@
-// Schema, reference and example of drive files say what the descriptions of their keys say. FERNLICHT_WRITE_KEYS=1 writes the first two
-// (ci/write-keys), and the test fails once more.
+// Schemas and examples of files say what the descriptions of their keys say. FERNLICHT_WRITE_SCHEMAS=1 writes the first
+// (ci/write-reference), and the test fails once more.
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/fields/field.h"
-#include "scenarios/fields/key_table.h"
+#include "scenarios/fields/key_list.h"
 #include "scenarios/fields/schema.h"
 #include "scenarios/lamps/grid_recipe.h"
 #include "scenarios/lamps/pixel_lamp_file.h"
@@ -32,25 +32,9 @@ std::string content(const std::filesystem::path& file) {
 /// The file's text as it is, or after it was written.
 void expect_file(const std::filesystem::path& file, const std::string& text) {
     const std::string found = content(file);
-    if (found != text && std::getenv("FERNLICHT_WRITE_KEYS"))
+    if (found != text && std::getenv("FERNLICHT_WRITE_SCHEMAS"))
         std::ofstream(file) << text;
-    EXPECT_TRUE(found == text) << file << " is not what the descriptions say: ci/write-keys writes it";
-}
-
-/// Groups that stand in several places, by name.
-void find_definitions(const Group& group, std::map<std::string_view, const Group*>& found) {
-    for (const Field& field : group.fields)
-        if (field.group) {
-            if (!field.group->definition.empty())
-                found.emplace(field.group->definition, field.group.get());
-            find_definitions(*field.group, found);
-        }
-}
-
-std::map<std::string_view, const Group*> definitions(const Group& group) {
-    std::map<std::string_view, const Group*> found;
-    find_definitions(group, found);
-    return found;
+    EXPECT_TRUE(found == text) << file << " is not what the descriptions say: ci/write-reference writes it";
 }
 
 /// `measure` is a drive's.
@@ -75,28 +59,6 @@ TEST(DescribedKeys, AreTheSchemas) {
     expect_schema(source / "scenarios/recipe.schema.json", grid_recipe_fields(), definitions(grid_recipe_fields()));
     expect_schema(source / "scenarios/rating.schema.json", rating_fields(), {});
     expect_schema(source / "scenarios/pixel-lamp.schema.json", pixel_lamp_fields(), {});
-}
-
-TEST(DescribedKeys, AreTheReference) {
-    Drive usual;
-    usual.extent.emplace();
-    std::string text =
-        "# Keys of drive and study files, ratings, recipes and pixel lamps\n\nWritten by `ci/write-keys` from the descriptions of the "
-        "keys. "
-        "[drives.md](drives.md) explains drives, `scenarios/drive.example.yaml` shows one; "
-        "[studies.md](studies.md) explains studies, [ratings.md](ratings.md) ratings, [lamps.md](lamps.md) the recipes of lamp files, "
-        "[pixel-lamps.md](pixel-lamps.md) pixel lamps.\n\n";
-    text += key_tables("", drive_fields(), &usual);
-    for (const auto& [name, group] : definitions(drive_fields()))
-        text += key_tables(std::string(name), *group, group->usual.get());
-    text += key_tables("study", keys_of_study(), study_fields().usual.get());
-    text += key_tables("rating", rating_fields(), rating_fields().usual.get());
-    text += key_tables("recipe", grid_recipe_fields(), grid_recipe_fields().usual.get());
-    for (const auto& [name, group] : definitions(grid_recipe_fields()))
-        text += key_tables(std::string(name), *group, group->usual.get());
-    text += key_tables("pixel lamp", pixel_lamp_fields(), pixel_lamp_fields().usual.get());
-    text.pop_back();
-    expect_file(source / "docs/keys.md", text);
 }
 
 void expect_in(const std::string& example, const Group& group) {

@@ -151,6 +151,14 @@ TEST_F(DriveFile, DaylightStepSpeedAndTheRest) {
     EXPECT_EQ(read(minimal + "weather: {rain: heavy, wetness: 0.2}").weather.wetness, 0.2);
     EXPECT_EQ(read(minimal + "rate_hz: 60").step_s, 1.0 / 60.0);
     EXPECT_EQ(read(minimal + "step_s: 0.25").step_s, 0.25);
+    EXPECT_EQ(read(minimal).road_surface, RoadSurface{});
+    EXPECT_EQ(read(minimal + "road_surface: {pavement: asphalt-worn, wheel_tracks: true, markings: type-1}").road_surface,
+              (RoadSurface{Pavement::asphalt_worn, true, {MarkingType::type_1}}));
+    EXPECT_EQ(read(minimal + "road_surface: {markings: {type: type-2, r_class: 5, rw_class: 6, q_class: 1}}").road_surface.markings,
+              (Markings{MarkingType::type_2, 5, 6, 1}));
+    EXPECT_THROW(read(minimal + "road_surface: {markings: {type: type-1, rw_class: 2}}"), InputError);
+    EXPECT_THROW(read(minimal + "road_surface: {markings: {type: type-2, r_class: 6}}"), InputError);
+    EXPECT_THROW(read(minimal + "road_surface: {pavement: gravel}"), InputError);
     EXPECT_TRUE(read(minimal).textured);
     EXPECT_TRUE(read(minimal + "textures: shipped").textured);
     EXPECT_FALSE(read(minimal + "textures: none").textured);

@@ -87,6 +87,13 @@ TEST(RoadMesh, LibraryRoadsAreSound) {
         const Scene scene = build_scene(network);
         expect_well_formed(scene);
         expect_sound(network, scene);
+        const Scene tracked = build_scene(network, {.surface = {.wheel_tracks = true}});
+        expect_well_formed(tracked);
+        expect_sound(network, tracked);
+        EXPECT_TRUE(std::ranges::any_of(tracked.meshes, [](const Mesh& mesh) {
+            return std::ranges::any_of(mesh.batches,
+                                       [](const Batch& batch) { return batch.material == index_of(track_material(track_levels - 1)); });
+        }));
     }
 }
 

@@ -1,0 +1,13 @@
+// A document for programs: what an experiment without findings of its own in JSON has to say.
+#pragma once
+
+#include "runner/findings/document.h"
+
+#include <nlohmann/json.hpp>
+
+namespace fernlicht {
+
+/// {"title", "sections": [{"title", "text": [paragraphs], "tables": {name: [{head: figure or words}]}}]}; what is not there is left out.
+nlohmann::ordered_json document_json(const Document& document);
+
+} // namespace fernlicht
