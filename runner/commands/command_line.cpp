@@ -1,7 +1,7 @@
 // The command line: options end here; below are plain values.
 #include "runner/commands/commands.h"
-#include "runner/commands/help.h"
 #include "runner/commands/exit_codes.h"
+#include "runner/commands/help.h"
 #include "runner/commands/old_flags.h"
 #include "runner/commands/parse_errors.h"
 #include "runner/files/log.h"
@@ -11,9 +11,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <exception>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
+#include <system_error>
 #include <utility>
 
 namespace {
@@ -77,20 +80,23 @@ void add_message_flags(CLI::App& command) {
 
 void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& line, std::size_t at = 1) {
     const std::string& word = line[at];
-    std::string commands;
+    std::vector<std::string> commands;
     bool known = word.starts_with('-'); // a flag
     const CLI::App* called = nullptr;
     for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
         called = command->check_name(word) ? command : called;
         known = known || called;
         if (!command->get_group().empty()) // else hidden
-            commands += (commands.empty() ? "" : ", ") + command->get_name();
+            commands.push_back(command->get_name());
     }
     if (const std::string old = known ? "" : fernlicht::old_word_in({line[0], word}); !old.empty())
         throw fernlicht::InputError({}, old);
-    if (!known)
-        throw fernlicht::InputError(
-            {}, fmt::format("'{}' is no command{}", fernlicht::printable(word), at > 1 ? " of " + line[at - 1] : ""), "one of " + commands);
+    if (!known) {
+        const std::string near = fernlicht::nearest_name(word, commands);
+        throw fernlicht::InputError({},
+                                    fmt::format("'{}' is no command{}", fernlicht::printable(word), at > 1 ? " of " + line[at - 1] : ""),
+                                    near.empty() ? fmt::format("one of {}", fmt::join(commands, ", ")) : "perhaps " + near);
+    }
     if (called && called->get_require_subcommand_min() > 0 && at + 1 < line.size())
         refuse_unknown_command(*called, line, at + 1);
 }
@@ -117,7 +123,10 @@ int fernlicht::command_line(int argc, char** argv) {
         app.parse(argc, argv);
         if (std::exchange(log_settings().github, log_settings().github && !log_settings().json) && log_settings().json)
             throw InputError({{}, 0, 0, "--annotate"}, "found beside --log-json", "one of them: both write lines to standard error");
-        return chosen();
+        const int code = chosen();
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) // a full disk, say; a reader that is gone ended the program by SIGPIPE
+            throw DeviceError("standard output cannot be written");
+        return code;
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) { // --help, --version
             app.exit(error);
@@ -127,6 +136,8 @@ int fernlicht::command_line(int argc, char** argv) {
     } catch (const fernlicht::InputError& error) {
         return complain(users_input, error);
     } catch (const fernlicht::DeviceError& error) {
+        return complain(device, error);
+    } catch (const std::system_error& error) { // of what is printed
         return complain(device, error);
     } catch (const std::exception& error) {
         return complain(ours, error);

@@ -123,7 +123,7 @@ int add(const HistoryFlags& flags) {
                counted(night.cells.size(), "cell"), counted(readings_in(night), "reading"), flags.accept ? "accepted; " : "",
                added.is_new ? "added to" : "was there already, as it is, in", file.string());
     if (!part.empty())
-        tell(LogLevel::warning, fmt::format("this night is a part of its study. {}.", part));
+        tell(LogLevel::warning, fmt::format("this night played only part of the study. {}.", part));
     return 0;
 }
 

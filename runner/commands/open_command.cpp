@@ -64,7 +64,7 @@ int open(const fs::path& given) {
     const std::string browser = open_page(page);
     fmt::print("{}\n", file_url(page));
     if (browser.empty())
-        tell(LogLevel::info, "no browser took it: $BROWSER would name one; this is its address");
+        tell(LogLevel::info, "no browser could be started; set $BROWSER, or open this address:");
     return 0;
 }
 

@@ -34,6 +34,9 @@ std::vector<std::string> names_of_flags(const CLI::App& command) {
 InputError unknown_flag(const CLI::App& command, const std::string& typed) {
     const std::string flag = typed.substr(0, typed.find('='));
     std::string near = nearest_name(flag, names_of_flags(command));
+    if (near.size() < 3 || flag.size() < 3 || near[2] != flag[2] ||
+        std::max(near.size(), flag.size()) - std::min(near.size(), flag.size()) > 3)
+        near.clear();                                       // meant is what at least begins alike
     for (const std::string& name : names_of_flags(command)) // what was cut short
         if (near.empty() && flag.size() > 3 && name.starts_with(flag))
             near = name;

@@ -94,7 +94,7 @@ void remember(const StudyFlags& flags, const StudyResult& result, const StudyOpt
     take_replays(tonight, findings.replays);
     History(flags.history, History::For::collecting).add(tonight);
     if (!result.played_in_part.empty())
-        tell(LogLevel::warning, fmt::format("{}: this night is a part of its study. {}.", flags.history, result.played_in_part));
+        tell(LogLevel::warning, fmt::format("{}: this night played only part of the study. {}.", flags.history, result.played_in_part));
 }
 
 /// Before somebody plans hours of work on it. A store that is not there yet is not made: its name may be mistyped.
@@ -327,6 +327,9 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command, Watc
         return all_there ? 0 : 1;
     }
     const StudyResult result = flags.collect ? collect_study(study, options) : run_study(study, options);
+    for (const std::vector<std::string>& warnings : {lamp_warnings(result.lamp_files), result.warnings})
+        for (const std::string& warning : warnings)
+            tell(LogLevel::warning, warning);
     Document summary = study_summary(result);
     if (findings)
         summary.sections.insert(summary.sections.begin(), changes_section(*findings));

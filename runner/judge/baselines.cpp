@@ -80,7 +80,7 @@ MovedReadings moved_readings(const Baseline& run, const Baseline& accepted, cons
     });
     return {differences.size(),
             fmt::format("of {} readings {} differ, {}: {}, {}", all, differences.size(),
-                        place_among(*farthest.reading, decides_by_default()) ? "largest deviation of those that usually decide"
+                        place_among(*farthest.reading, decides_by_default()) ? "largest deviation among deciding readings"
                                                                              : "largest deviation",
                         farthest.what, farthest.text)};
 }

@@ -42,7 +42,8 @@ void add_doubts(Model& model) {
     for (std::uint32_t i = 0; i < model.materials.size(); ++i) {
         const Material& m = model.materials[i];
         const auto doubt = [&](std::string text) { model.doubts.push_back({i, std::move(text)}); };
-        const double diffuse = mean_reflectance(model, m), returned = returned_share(m), emitted = luminance_of(glm::dvec3(m.emission_cdm2));
+        const double diffuse = mean_reflectance(model, m), returned = returned_share(m),
+                     emitted = luminance_of(glm::dvec3(m.emission_cdm2));
         if (diffuse > lightest)
             doubt(fmt::format("reflects {:.2f}: white paint has 0.85", diffuse));
         else if (diffuse + returned > 1.0)

@@ -193,6 +193,11 @@ void check_lamp_file(const fs::path& path, FileLook& look) {
         const LampFile lamp = read_lamp(path);
         const Intake intake = check_intake(lamp);
         look.kind = fmt::format("{} ({})", look.kind, name_of(intake.function));
+        for (const std::string& note : lamp.notes)
+            warn_as_told(look, path, note);
+        if (intake.function == BeamFunction::other)
+            look.warn({path, 0, 0, name_of(IntakeFault::function)},
+                      "its light is neither a low nor a high beam's, so nothing else of it was checked");
         for (const IntakeFinding& finding : intake.findings)
             look.warn({path, 0, 0, name_of(finding.fault)},
                       fmt::format("{}: {}{}", name_of(finding.fault), finding.text,

@@ -210,7 +210,8 @@ Document document(const RegulationFound& found) {
     for (const RowResult* row : narrowest(check, 3))
         names.push_back(fmt::format("{} {:+.1f} %", row->id, 100.0 * row->margin));
     if (!names.empty())
-        verdict.rows.push_back({"narrowest", fmt::format("{}", fmt::join(names, ", "))});
+        verdict.rows.push_back(
+            {narrowest(check, 1).front()->margin < 0.0 ? "worst" : "narrowest", fmt::format("{}", fmt::join(names, ", "))});
     if (check.verdict_as_filed.value_or(check.verdict) != check.verdict)
         verdict.rows.push_back({"as filed", name_of(*check.verdict_as_filed) + std::string(": the aim changes the verdict")});
     verdict.rows.push_back({"verdict", verdict_text(check) + "; no approval"});

@@ -263,7 +263,7 @@ std::vector<std::string> same_results(const StudyResult& result, const std::vect
     std::vector<std::string> sentences;
     for (const auto& [drives, readings] : alike)
         if (drives.first != drives.second)
-            sentences.push_back(fmt::format("{} and {} give one result in {}; it counts once", drives.first, drives.second,
+            sentences.push_back(fmt::format("{} and {} give the same result in {}, so it counts once", drives.first, drives.second,
                                             counted(readings, "deciding reading")));
     return sentences;
 }

@@ -389,10 +389,6 @@ Document study_summary(const StudyResult& result) {
         }
     };
     say(result.study.title + (was_judged(result) ? std::string(": ") + verdict_text(overall(result)) : ""));
-    for (const std::string& warning : lamp_warnings(result.lamp_files))
-        say("warning: " + warning);
-    for (const std::string& warning : result.warnings)
-        say("warning: " + warning);
     for (const Decision& decision : decide(result))
         say(decision_count(result, decision));
     say(study_sentence(result));

@@ -176,7 +176,8 @@ TEST(SpatialAliasing, OfAStepItsPartFoldedBackIsUnderstatedByWhatTheReferenceDoe
         return 1.0 + ((x - 64.0) * nx + (y - 64.0) * ny > 0.0 ? 0.5 : 0.0);
     };
     double share_before = 0.0, whole_before = 0.0;
-    for (const auto& [fine, least] : {std::pair(4, 0.74), std::pair(8, 0.83), std::pair(16, 0.91)}) { // docs/aliasing.md tells the first and the last
+    for (const auto& [fine, least] :
+         {std::pair(4, 0.74), std::pair(8, 0.83), std::pair(16, 0.91)}) { // docs/aliasing.md tells the first and the last
         const SpatialAliasing found =
             measure_spatial_aliasing(drawn(128, 128, 1, step), split_bands(drawn(128, 128, fine, step), fine), 20.0);
         const double share = found.folded.rms / found.aliasing.rms;

@@ -165,20 +165,20 @@ TEST(Messages, AnnotationsNameFileAndLineOfALimit) {
     EXPECT_THAT(run_program("run " + drive + " --annotate github").output, HasSubstr("::error file="));
 }
 
-/// The one place that documents them.
-TEST(ExitCodes, AreThoseOfReadme) {
-    const std::string readme = content_of(FERNLICHT_SOURCE_DIR "/README.md");
+/// The one page that documents them.
+TEST(ExitCodes, AreThoseOfTheReference) {
+    const std::string page = content_of(FERNLICHT_SOURCE_DIR "/docs/reference/exit-codes.md");
     const TemporaryFolder folder;
     std::map<int, std::string> lines{{0, "techniques"},
                                      {1, "lamp " + library_file("lamps/halogen-low.ies") + " --regulation r112-b --mirror"},
                                      {2, "run nothing.yaml"},
                                      {3, "bench --backend egl-device=99"}};
     for (const auto& [code, line] : lines) {
-        EXPECT_THAT(readme, HasSubstr(fmt::format("\n| {} | ", code)));
+        EXPECT_THAT(page, HasSubstr(fmt::format("\n- **{}**: ", code)));
         printed(line, code);
     }
     for (const int code : {4, 130})
-        EXPECT_THAT(readme, HasSubstr(fmt::format("\n| {} | ", code)));
+        EXPECT_THAT(page, HasSubstr(fmt::format("\n- **{}**: ", code)));
 }
 
 } // namespace

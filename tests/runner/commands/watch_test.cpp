@@ -126,11 +126,11 @@ TEST(Watch, PlaysOnlyCellsOfAStudyThatChanged) {
     Watching study("study " + (folder / "s.yaml") + " --frames 0:1 --no-accuracy --backend software --quiet --watch --store " +
                        (folder / "store") + " --out " + (folder / "out"),
                    folder / "log");
-    study.until("2 played");
+    study.until("0 of 2 cells came from the store");
     study.until("watching");
     printed("lamp '" + (folder / "other.ies") + "' --scale 0.5 --force --convert " + (folder / "o.ies"));
     std::filesystem::rename(folder / "o.ies", folder / "other.ies");
-    study.until("1 played");
+    study.until("1 of 2 cells came from the store");
     study.until("watching");
     EXPECT_EQ(study.end(), 130);
     EXPECT_THAT(content_of(folder / "out/report.html"), HasSubstr("fernlicht_turn"));

@@ -31,8 +31,8 @@ double contrast(const json& row) { return row.at("aliasing").at("contrast_percen
 
 TEST(AliasingCommand, ACarOnSpringsIsSimulatedAsInRun) {
     const TemporaryFolder folder;
-    printed("aliasing --quiet --moment 1 --resolution 64x48 --beams float --samples 1 --texture-filters trilinear --out " + (folder / "out") + " " +
-            library_file("drives/braking.yaml"));
+    printed("aliasing --quiet --moment 1 --resolution 64x48 --beams float --samples 1 --texture-filters trilinear --out " +
+            (folder / "out") + " " + library_file("drives/braking.yaml"));
     EXPECT_EQ(checked_aliasing(folder / "out/aliasing.json").at("rows").size(), 1U);
 }
 
@@ -295,8 +295,9 @@ TEST(AliasingCommand, RefusesFramesThatWereShownInDifferentWays) {
 
 TEST(AliasingCommand, WhatHasNoLuminanceIsNotMeasuredUnlessAsDisplayed) {
     const TemporaryFolder folder;
-    const std::string common = "aliasing --quiet --moment 1 --resolution 64x48 --techniques full --beams float --samples 1 --texture-filters none "
-                               "--out ";
+    const std::string common =
+        "aliasing --quiet --moment 1 --resolution 64x48 --techniques full --beams float --samples 1 --texture-filters none "
+        "--out ";
     EXPECT_THAT(printed(common + (folder / "none") + " " + library_file("drives/straight.yaml"), 1),
                 HasSubstr("technique full computes no luminance"));
     printed(common + (folder / "shown") + " --values display " + library_file("drives/straight.yaml"));

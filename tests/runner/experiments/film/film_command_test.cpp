@@ -104,7 +104,8 @@ TEST(FilmCommand, DressedSceneryIsAsFineAsTheFilmShowsIt) {
                                                               object);
     const auto film_with = [&](const char* name, double fov_deg) {
         std::ofstream(folder / (std::string(name) + ".yaml")) << fmt::format(
-            "fernlicht: 1\nroad: road.xodr\nroute: {{s_m: 110}}\nspeed_kmh: 36\nduration_s: 1\ndressing: dressed\n"
+            "fernlicht: 1\nname: house\ntone_mapper: {{kind: linear, l_max_cdm2: 10000}}\nroad: road.xodr\nroute: {{s_m: 110}}\nspeed_kmh: "
+            "36\nduration_s: 1\ndressing: dressed\n"
             "daylight: {{name: day, date: 2026-06-18, time: 12:00, utc_offset_h: 2, latitude_deg: 48, longitude_deg: 11, sky: clear}}\n"
             "lamp_sets: {{one: {{file: {}}}}}\nviews: {{driver: {{yaw_deg: 90, pitch_deg: 0.5, vertical_fov_deg: {}, resolution_px: [320, "
             "240]}}}}\n",
@@ -243,9 +244,9 @@ TEST(FilmCommand, InterruptedItKeepsWhatWasFilmed) {
     if (!has_ffmpeg())
         GTEST_SKIP() << "ffmpeg is not installed";
     const TemporaryFolder folder;
-    const Outcome run = run_interrupted(
-        fmt::format("film {} --film {} --resolution 160x120 --backend software --log-json --frames 0:199", filmed_drive, folder / "film.mp4"),
-        "film of straight");
+    const Outcome run = run_interrupted(fmt::format("film {} --film {} --resolution 160x120 --backend software --log-json --frames 0:199",
+                                                    filmed_drive, folder / "film.mp4"),
+                                        "film of straight");
     EXPECT_EQ(run.exit_code, 1) << run.output;
     EXPECT_THAT(run.output, HasSubstr("incomplete: interrupted by the user"));
     const Outcome counted = run_shell("ffprobe -v error -select_streams v -count_frames -show_entries stream=nb_read_frames -of csv=p=0 " +

@@ -15,7 +15,8 @@ const std::string importance_of_straight = "importance " + library_file("drives/
 
 TEST(ImportanceCommand, SaysWhereAReachIsDecidedAndThatTheGradientHolds) {
     const TemporaryFolder folder;
-    const std::string said = printed(importance_of_straight + "reach_5lx_target_own_m --frames 10:10 --trials 10 --out " + (folder / "out"));
+    const std::string said =
+        printed(importance_of_straight + "reach_5lx_target_own_m --frames 10:10 --trials 10 --out " + (folder / "out"));
     EXPECT_THAT(said, HasSubstr("reach_5lx_target_own_m"));
     const json found = tests::checked(content_of(folder / "out/importance.json"), importance_members);
     EXPECT_NEAR(found.at("value"), 45.4, 0.2); // of the README
