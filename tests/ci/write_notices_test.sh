@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# ci/write-notices on a tree of two packages: writes their table, and refuses what is not listed, not used, out of date, or licensed otherwise by
+# ci/write-notices on a tree of two packages: writes their list, and refuses what is not listed, not used, out of date, or licensed otherwise by
 # what Debian says of it (bash and coreutils are installed wherever this runs).
 set -uo pipefail
 source_tree=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -13,7 +13,7 @@ lawful() {
     cp "$source_tree/ci/write-notices" "$tree/ci"
     printf '# a word\nbash  build  the shell\ncoreutils run? small | tools\nothers test no notice\n' >"$tree/ci/packages"
     printf '# a word\nbash | linked | GPL-3.0-or-later | GPL-9|GPL-3\ncoreutils | tool\n' >"$tree/ci/licences"
-    printf 'before\n<!-- table: begin -->\nold\n<!-- table: end -->\nafter\n' >"$tree/docs/third-party.md"
+    printf 'before\n<!-- list: begin -->\nold\n<!-- list: end -->\nafter\n' >"$tree/docs/third-party.md"
 }
 # refused WORDS [OPTION]
 refused() {
@@ -27,11 +27,9 @@ refused 'is not up to date' --check
 if ! "$tree/ci/write-notices" || ! "$tree/ci/write-notices" --check; then ((++failures)); fi
 diff "$tree/docs/third-party.md" - <<'END' || ((++failures))
 before
-<!-- table: begin -->
-| package | what becomes of it | licence | what for |
-|---|---|---|---|
-| bash | linked | GPL-3.0-or-later | the shell |
-<!-- table: end -->
+<!-- list: begin -->
+- bash (linked; GPL-3.0-or-later): the shell
+<!-- list: end -->
 after
 END
 lawful; echo 'dash build another shell' >>"$tree/ci/packages"; refused 'in one of ci/licences and ci/packages alone:  dash'
