@@ -233,10 +233,7 @@ void add_model_command(CLI::App& app, const std::vector<std::string>&, std::func
         ->option_text("M")
         ->check(CLI::Range(1.0, 300.0))
         ->capture_default_str();
-    command->add_option("--yaw", request->yaw_deg, "turn the model left, in degrees: 0 drives away, 180 comes towards you")
-        ->option_text("DEG")
-        ->check(CLI::Range(-360.0, 360.0))
-        ->capture_default_str();
+    add_shared(*command, "--yaw", request->yaw_deg)->check(CLI::Range(-360.0, 360.0))->capture_default_str();
     command->add_option("--metres-per-unit", request->scale, "size of the file's unit")
         ->option_text("M")
         ->check(CLI::Range(1.0e-4, 1.0e4))
@@ -246,7 +243,8 @@ void add_model_command(CLI::App& app, const std::vector<std::string>&, std::func
     add_shared(*command, "--backend", request->backend)->capture_default_str();
     add_shared(*command, "--json", request->json);
     add_shared(*command, "--force", request->force);
-    command->footer("The picture is a PNG: the model on a level road, lit by two lamps, seen by the driver.");
+    command->footer("The picture is a PNG: the model on a level road, lit by two lamps, seen by the driver. With a yaw of 0 it drives "
+                    "away, with 180 it comes towards you.");
     command->callback([request, &chosen] { chosen = [request] { return model_command(*request); }; });
     add_town_command(app, chosen);
 }

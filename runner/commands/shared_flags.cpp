@@ -20,6 +20,7 @@ constexpr SharedFlag flags[] = {
     {"--lamp", "[SIDE=]FILE", "use this lamp file for all low beams, or for the lamps whose name contains SIDE (left, right, high)"},
     {"--lamp-model", "NAME", "built-in lamp: halogen-low, halogen-high, xenon-low or xenon-high"},
     {"--low-beams", "NAME|FILE", "lamp of both sides: a file, or built-in: halogen-low, halogen-high, xenon-low or xenon-high"},
+    {"--yaw", "DEG", "turn the model left, in degrees"},
     {"--lamp-set", "NAME", "lamp set to take"},
     {"--lamps", "FILE", "take the lamp sets, mounts, vehicle and control of this file: lamp sets (YAML), or a drive"},
     {"--recipe", "NAME|FILE", "how lamp files that are text grids are laid out: a YAML file or one of ours by name (docs/lamps.md)"},

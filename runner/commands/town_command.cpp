@@ -68,14 +68,17 @@ void add_town_command(CLI::App& app, std::function<int()>& chosen) {
     const auto flags = std::make_shared<TownFlags>();
     CLI::App* sub = app.add_subcommand("town", "a car with two lamps at night in a model of streets, which needs no road");
     sub->add_option("MODEL", flags->model, "glTF: .gltf or .glb")->required();
-    sub->add_option("--at", flags->at,
-                    "x,y of the rear axle in the model's frame, in metres (x along glTF's z); else where the way ahead is longest")
+    sub->add_option("--start", flags->at,
+                    "place of the rear axle in the model, in metres, x along glTF's z (default: where the way ahead is longest)")
+        ->option_text("X,Y")
         ->delimiter(',')
         ->expected(2);
-    sub->add_option("--heading", flags->heading_deg, "where the car looks, in degrees to the left of x; else along the longest free way")
+    sub->add_option("--heading", flags->heading_deg,
+                    "where the car looks, in degrees to the left of x (default: along the longest free way)")
+        ->option_text("DEG")
         ->check(CLI::Range(-360.0, 360.0));
     add_shared(*sub, "--low-beams", flags->request.lamp)->capture_default_str();
-    sub->add_option("--yaw", flags->yaw_deg, "turn the model left, in degrees")->check(CLI::Range(-360.0, 360.0))->capture_default_str();
+    add_shared(*sub, "--yaw", flags->yaw_deg)->check(CLI::Range(-360.0, 360.0))->capture_default_str();
     sub->add_option("--metres-per-unit", flags->request.scale, "size of the file's unit")
         ->option_text("M")
         ->check(CLI::Range(1.0e-4, 1.0e4))

@@ -224,6 +224,10 @@ std::string against_words(const StudyResult& result, const std::vector<Decision>
         text += (text.empty() ? "" : " ") + decision_count(result, decision) + ".";
         for (const std::string& part : decision_parts(result, decision, DecisionParts::doubts))
             text += " " + part + ".";
+        if (const std::size_t open = decision.count(DecisionOutcome::undecided)) {
+            const auto first = std::ranges::find(decision.readings, DecisionOutcome::undecided, &DecidedReading::outcome);
+            text += fmt::format(" Not known: {}{}.", reading_label(first->reading), open > 1 ? fmt::format(", and {} more", open - 1) : "");
+        }
     }
     std::vector<std::string> kinds; // "reach", "glare": the first words of the names, in their order
     std::set<std::string> measured;
@@ -264,12 +268,12 @@ std::optional<double> gain_among(const StudyResult& result, const std::vector<st
 
 std::optional<plots::DotPlot> ranking_of(const StudyResult& result, const Decision& decision) {
     const StudyComparison& pair = result.study.comparisons[decision.comparison];
-    plots::DotPlot dots{
-        .title = fmt::format("What decides, ranked: {} against {}", short_text(pair.tested, 24), short_text(pair.against, 24)),
-        .subtitle = "dot: the median route; line: ± calculation, noise and 0.1° of aim; ticks: the other routes; hollow: no real change",
-        .left = "worse",
-        .right = "better",
-        .unit = "%"};
+    plots::DotPlot dots{.title =
+                            fmt::format("What decides, ranked: {} against {}", short_text(pair.tested, 24), short_text(pair.against, 24)),
+                        .subtitle = "dot: median route; ticks: others; line: ± calculation, noise, 0.1° of aim; hollow: not real",
+                        .left = "worse",
+                        .right = "better",
+                        .unit = "%"};
     for (const DecidedReading& decided : decision.readings) {
         const Change& change = result.changes[decided.told];
         const double better = better_is(decided.reading);

@@ -150,7 +150,7 @@ TEST_F(LampCheckOfARun, AStudyDoesTheSame) {
     const std::string study = "study " + file + " --frames 0:1 --quiet --no-accuracy --out " + (folder_ / "study");
     EXPECT_THAT(printed(study + " --strict", 2), HasSubstr("other-side.ies: --strict"));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "study"));
-    EXPECT_THAT(printed(study), HasSubstr("warning: lamp file other-side.ies (theirs: left; theirs: right), rise: "));
+    EXPECT_THAT(printed(study), HasSubstr("fernlicht: lamp file other-side.ies (theirs: left; theirs: right), rise: "));
     const json found = json::parse(content_of(folder_ / "study/study.json"));
     ASSERT_EQ(found.at("lamp_files").size(), 2u);
     EXPECT_EQ(found["lamp_files"][0]["function_stated"], true);

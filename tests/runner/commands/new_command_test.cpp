@@ -22,7 +22,8 @@ TEST(New, WritesFilesThatPlayAsTheyStand) {
     EXPECT_THAT(here("new lamp"), HasSubstr("run first-light --lamp lamp.csv"));
     here("new lamp mine.ies");
     here("new lamp --kind pixels matrix");
-    EXPECT_THAT(here("check --strict drive.yaml nights.yaml lamp.csv mine.ies matrix.yaml"), HasSubstr("5 files, 0 errors, 0 warnings"));
+    EXPECT_THAT(here("check --fail-on-warning drive.yaml nights.yaml lamp.csv mine.ies matrix.yaml"),
+                HasSubstr("5 files, 0 errors, 0 warnings"));
     here(std::string("run drive.yaml --resolution 64x48 --out drive") + shortly);
     here(std::string("study nights.yaml --out nights --store store") + shortly);
     for (const char* const lamp : {"lamp.csv", "mine.ies", "high=matrix.yaml"})

@@ -60,7 +60,7 @@ Image<float> lux_of(const std::filesystem::path& file) {
 }
 
 TEST_F(StudyMirror, ReadsAsTheDriveInAMirror) {
-    for (const char* drive : {"s-bend", "village"}) { // with bends, with kerbs and houses
+    for (const char* drive : {"s-bend", "village"}) { // with bends and fences, with kerbs and houses
         SCOPED_TRACE(drive);
         const std::map<std::string, Cell> cells = played(drive);
         ASSERT_EQ(cells.size(), 4U);
@@ -73,15 +73,12 @@ TEST_F(StudyMirror, ReadsAsTheDriveInAMirror) {
             if (name.find("_grid_error") != std::string::npos || name.find("_twin_difference") != std::string::npos)
                 continue; // of every second sample, which are not the images of one another; of shadows, which the twin has not
             // Calculated in double precision, or drawn: reaches along lines of the grid, which is its own image. Areas are summed over
-            // triangles whose diagonals are not, and in the village shadows of posts and trees end on other pixels.
+            // triangles whose diagonals are not, and shadows of trees and houses end on other pixels: reaches across all lanes by less than
+            // half a cell of 0.25 m.
             const bool drawn = !name.starts_with("glare_") && !name.starts_with("sensor_") && !name.starts_with("mirror_") &&
                                !name.starts_with("board_") && !name.starts_with("marking_");
-            const bool shadowed = drive == std::string("village");
             const double off = std::abs(left.readings.at(other_side(name)) - value), size = std::abs(value);
-            const double allowed = !drawn                       ? 1e-9 * size
-                                   : name.starts_with("reach_") ? (shadowed ? 0.05 : 2e-3)
-                                   : shadowed                   ? 0.05 * size + 0.1
-                                                                : 2e-3 * size + 0.06;
+            const double allowed = !drawn ? 1e-9 * size : name.starts_with("reach_") ? 0.12 : 0.05 * size + 0.1;
             EXPECT_LE(off, allowed) << name << " " << value;
             exact += drawn ? 0U : 1U;
         }
