@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <tuple>
@@ -119,6 +120,9 @@ int film(const FilmFlags& flags) {
     };
     const FilmFound found = run_film(request);
     file->finish();
+    if (film_kind(flags.film) == FilmKind::png)
+        if (const auto rest = numbered_file_there(flags.film, request.frames.first + found.filmed, std::numeric_limits<int>::max()))
+            tell(LogLevel::warning, fmt::format("{} and what follows it are pictures of an earlier film", printable(rest->string(), 400)));
     for (const std::string& note : found.notes)
         tell(LogLevel::info, note);
     if (!found.interrupted.empty())

@@ -5,6 +5,7 @@
 #include "tests/runner/program.h"
 
 #include <fmt/format.h>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <regex>
 
@@ -185,7 +186,9 @@ TEST(FilmCommand, VideosHoldEachFrameAtItsTime) {
                                                   ::testing::DoubleNear(0.24, 1e-6)))
             << extension;
         // Colours come back: what a video keeps of a PNG's levels, on average.
-        printed(film_line(folder / "still-%06d.png", "--rate 50/3 --force"));
+        std::ofstream(folder / "still-000005.png") << "of a longer film";
+        EXPECT_THAT(printed(film_line(folder / "still-%06d.png", "--rate 50/3 --force")),
+                    HasSubstr("still-000005.png and what follows it are pictures of an earlier film"));
         ASSERT_EQ(
             run_shell(fmt::format("ffmpeg -v error -i {} -vf scale=in_color_matrix=bt709 {}", film, folder / (extension + "-%06d.png")))
                 .exit_code,
