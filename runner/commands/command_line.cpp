@@ -92,10 +92,12 @@ void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>&
     if (const std::string old = known ? "" : fernlicht::old_word_in({line[0], word}); !old.empty())
         throw fernlicht::InputError({}, old);
     if (!known) {
-        const std::string near = fernlicht::nearest_name(word, commands);
+        std::string near = fernlicht::nearest_name(word, commands);
+        if (!near.starts_with(word.substr(0, 1)))
+            near.clear();
         throw fernlicht::InputError({},
                                     fmt::format("'{}' is no command{}", fernlicht::printable(word), at > 1 ? " of " + line[at - 1] : ""),
-                                    near.empty() ? fmt::format("one of {}", fmt::join(commands, ", ")) : "perhaps " + near);
+                                    near.empty() ? fmt::format("one of {}", fmt::join(commands, ", ")) : near);
     }
     if (called && called->get_require_subcommand_min() > 0 && at + 1 < line.size())
         refuse_unknown_command(*called, line, at + 1);

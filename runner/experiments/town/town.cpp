@@ -33,7 +33,7 @@ Pose place_of(const SceneGround& ground, const TownRequest& request) {
     if (!request.at_m) {
         const std::optional<Pose> found = ground.longest_free_way();
         if (!found)
-            throw InputError({{}, 0, 0, "--start"}, "no ground that a car could stand on",
+            throw InputError({{}, 0, 0, "--place"}, "no ground that a car could stand on",
                              "X,Y in the model's frame, or a model with ground");
         if (!request.heading_rad)
             return *found;
@@ -42,7 +42,7 @@ Pose place_of(const SceneGround& ground, const TownRequest& request) {
     const glm::dvec2 at = *request.at_m;
     const std::optional<Pose> there = ground.car_at(at.x, at.y, request.heading_rad ? *request.heading_rad : longest_heading(ground, at));
     if (!there)
-        throw InputError({{}, 0, 0, "--start"}, fmt::format("no ground at {:g}, {:g}", at.x, at.y), "a place over the model's ground");
+        throw InputError({{}, 0, 0, "--place"}, fmt::format("no ground at {:g}, {:g}", at.x, at.y), "a place over the model's ground");
     return *there;
 }
 

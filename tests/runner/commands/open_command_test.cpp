@@ -43,7 +43,7 @@ TEST(Open, PathsOfPagesAreLinksOnTerminalsAlone) {
     const TemporaryFolder folder;
     const std::string ies = "'" + library_file("lamps/led-low.ies") + "'";
     const auto compare = [&](const std::string& out) {
-        return "'" FERNLICHT_BINARY "' compare --lamps " + ies + " " + ies + " --out " + (folder / out);
+        return "'" FERNLICHT_BINARY "' compare --as-lamps " + ies + " " + ies + " --out " + (folder / out);
     };
     const std::string link = "\033]8;;file://" + (folder / "a/report.html") + "\033\\" + (folder / "a/report.html") + "\033]8;;\033\\";
     const auto on_terminal = [&](const std::string& out, const std::string& variables) {

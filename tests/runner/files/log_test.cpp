@@ -75,16 +75,16 @@ TEST_F(Log, AnErrorOfInputHasItsPlace) {
 /// As GitHub documents its workflow commands: % \r \n escaped in the message, : and , too in properties.
 TEST_F(Log, AnnotationsAreGitHubsWorkflowCommands) {
     const InputError::Where where{"a,b/./drive.yaml", 12, 0, ""};
-    EXPECT_EQ(printed([&] { annotate(where, "title", "text"); }), "") << "unless they are asked for";
+    EXPECT_EQ(said([&] { annotate(where, "title", "text"); }), "") << "unless they are asked for";
     log_settings().github = true;
-    EXPECT_EQ(printed([&] { annotate(where, "FAIL x: 5%", "50 %, limit: 60\nrepeat with: y\r"); }),
+    EXPECT_EQ(said([&] { annotate(where, "FAIL x: 5%", "50 %, limit: 60\nrepeat with: y\r"); }),
               "::error file=a%2Cb/drive.yaml,line=12,title=FAIL x%3A 5%25::50 %25, limit: 60%0Arepeat with: y%0D\n");
-    EXPECT_EQ(printed([] { annotate({}, "t", "m"); }), "::error title=t::m\n");
-    EXPECT_EQ(printed([] {
+    EXPECT_EQ(said([] { annotate({}, "t", "m"); }), "::error title=t::m\n");
+    EXPECT_EQ(said([] {
                   annotate({std::filesystem::current_path() / "d/e.yaml", 0, 0, ""}, "t", "m");
               }),
               "::error file=d/e.yaml,title=t::m\n");
-    EXPECT_EQ(printed([] {
+    EXPECT_EQ(said([] {
                   tell_end(InputError({"d.yaml", 3, 7, "k"}, "found 1"), 2);
               }),
               "::error file=d.yaml,line=3,col=7,title=fernlicht::" + std::string(InputError({"d.yaml", 3, 7, "k"}, "found 1").what()) +

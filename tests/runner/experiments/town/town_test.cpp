@@ -53,7 +53,7 @@ TEST(Town, LuxOnTheGroundIsThatOfTheLamps) {
 TEST(Town, WhereNoCarCanStandIsSaid) {
     TownRequest request = small_request();
     request.at_m = glm::dvec2(500.0, 0.0);
-    EXPECT_THAT(tests::refusal_of([&] { look_at_town(town(), request); }), testing::HasSubstr("--start: no ground at 500, 0"));
+    EXPECT_THAT(tests::refusal_of([&] { look_at_town(town(), request); }), testing::HasSubstr("--place: no ground at 500, 0"));
     Model wall;
     wall.materials = {{.name = "wall"}};
     TriangleSoup soup;
