@@ -270,7 +270,7 @@ TEST(ProgramCommandLine, AWordThatIsNoCommandIsNamed) {
     const std::string unknown = printed("diference a.png b.png", 2);
     EXPECT_THAT(unknown, testing::StartsWith(
                              "fernlicht: 'diference' is no command, expected one of new, check, open, run, live, film, study, bench, "));
-    EXPECT_THAT(unknown, testing::EndsWith("history, migrate\n")) << "man and completions are hidden";
+    EXPECT_THAT(unknown, testing::EndsWith("history, migrate, docs\n")) << "man and completions are hidden";
     EXPECT_EQ(run_program("").exit_code, 2);
     EXPECT_EQ(run_program("--version").exit_code, 0);
     EXPECT_EQ(run_program("run --help").exit_code, 0);

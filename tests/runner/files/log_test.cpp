@@ -87,8 +87,9 @@ TEST_F(Log, AnnotationsAreGitHubsWorkflowCommands) {
     EXPECT_EQ(said([] {
                   tell_end(InputError({"d.yaml", 3, 7, "k"}, "found 1"), 2);
               }),
-              "::error file=d.yaml,line=3,col=7,title=fernlicht::" + std::string(InputError({"d.yaml", 3, 7, "k"}, "found 1").what()) +
-                  "\n");
+              "fernlicht: d.yaml:3:7: k: found 1\n"
+              "::error file=d.yaml,line=3,col=7,title=fernlicht::" +
+                  std::string(InputError({"d.yaml", 3, 7, "k"}, "found 1").what()) + "\n");
 }
 
 } // namespace
