@@ -112,7 +112,8 @@ TEST(Check, WarnsOfLamps) {
     printed("lamp '" + library_file("lamps/halogen-low.ies") + "' --scale 0.01 --convert " + weak);
     EXPECT_THAT(printed("check " + weak), HasSubstr(weak + ": warning: units: "));
     printed("check --fail-on-warning " + weak, 1);
-    EXPECT_THAT(printed("check --fail-on-warning '" + library_file("lamps/halogen-low.ies") + "'"), HasSubstr("1 file, 0 errors, 0 warnings"));
+    EXPECT_THAT(printed("check --fail-on-warning '" + library_file("lamps/halogen-low.ies") + "'"),
+                HasSubstr("1 file, 0 errors, 0 warnings"));
 }
 
 TEST(Check, TakesAnythingForAFile) {

@@ -106,8 +106,7 @@ TEST(Decision, WarningsOfTheAimStandOnTheFirstScreen) {
     study.result.study.decide = {reach};
     study.on(0, reach, 40.0, 50.0).decided();
     study.result.warnings = {"new, left and right: the cut-off lies at -0.30 %"};
-    EXPECT_THAT(document_text(study_summary(study.result)),
-                testing::StartsWith("by hand\nnew is better"));
+    EXPECT_THAT(document_text(study_summary(study.result)), testing::StartsWith("by hand\nnew is better"));
     const std::string page = document_html(document(study.result), study.result);
     EXPECT_LT(page.find("the cut-off lies at -0.30 %"), page.find("The largest changes"));
 }
