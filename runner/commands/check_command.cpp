@@ -4,6 +4,7 @@
 #include "runner/experiments/check/check_files.h"
 #include "runner/files/json_text.h"
 #include "runner/files/log.h"
+#include "runner/findings/figures.h"
 #include "scenarios/values/files.h"
 
 #include <CLI/CLI.hpp>
@@ -83,8 +84,6 @@ void check_input(FileChecks& checks) {
     std::ranges::move(of_input.files, std::back_inserter(checks.files));
     std::ranges::move(of_input.problems, std::back_inserter(checks.problems));
 }
-
-std::string counted(std::size_t count, const char* what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
 
 std::string as_json(const FileChecks& checks) {
     nlohmann::ordered_json json{{"files", nlohmann::ordered_json::array()}, {"problems", nlohmann::ordered_json::array()}};

@@ -139,7 +139,7 @@ int fernlicht::command_line(int argc, char** argv) {
         return complain(users_input, error);
     } catch (const fernlicht::DeviceError& error) {
         return complain(device, error);
-    } catch (const std::system_error& error) { // of what is printed
+    } catch (const std::system_error& error) { // output, files, threads
         return complain(device, error);
     } catch (const std::exception& error) {
         return complain(ours, error);

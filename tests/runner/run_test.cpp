@@ -271,6 +271,8 @@ TEST(ProgramCommandLine, AWordThatIsNoCommandIsNamed) {
     EXPECT_THAT(unknown, testing::StartsWith(
                              "fernlicht: 'diference' is no command, expected one of new, check, open, run, live, film, study, bench, "));
     EXPECT_THAT(unknown, testing::EndsWith("history, migrate, docs\n")) << "man and completions are hidden";
+    EXPECT_EQ(printed("stdy", 2), "fernlicht: 'stdy' is no command, expected study\n");
+    EXPECT_EQ(run_shell("'" FERNLICHT_BINARY "' techniques > /dev/full").exit_code, 3) << "a full disk";
     EXPECT_EQ(run_program("").exit_code, 2);
     EXPECT_EQ(run_program("--version").exit_code, 0);
     EXPECT_EQ(run_program("run --help").exit_code, 0);
