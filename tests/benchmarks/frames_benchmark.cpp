@@ -116,7 +116,7 @@ BENCHMARK(frame_with_traffic)
     }) -> Unit(benchmark::kMillisecond) -> MeasureProcessCPUTime() -> UseRealTime();
 
 // A frame of a standard route, plain or dressed, or on another pavement: the mean over 12 moments spread over the drive. Run with
-// --benchmark_filter=frame_dressed --benchmark_repetitions=9 --benchmark_enable_random_interleaving=true --benchmark_min_time=0.05.
+// --benchmark_filter=frame_(dressed|paved) --benchmark_repetitions=9 --benchmark_enable_random_interleaving=true --benchmark_min_time=0.05.
 
 using Edits = decltype(DriveEdits::values);
 
@@ -188,7 +188,7 @@ void frame_paved(benchmark::State& state) {
         stage->draw();
 }
 BENCHMARK(frame_paved)
-    ->ArgName("none_gloss_tracks")
+    ->ArgName("surface") // plain; glossy; with tracks and beads
     ->DenseRange(0, 2)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
