@@ -399,7 +399,7 @@ TEST_F(StudyProgram, TheHistoryHasTimesAndTellsLampAndProgramApart) {
     // A report that cannot be written makes no night: its readings may be a part.
     std::filesystem::remove(folder / "red/study.md");
     std::filesystem::create_directories(folder / "red/study.md/taken");
-    const auto nights = [&] { return printed("history export --csv --history " + (folder / "once.db")); };
+    const auto nights = [&] { return printed("history export --history " + (folder / "once.db")); };
     EXPECT_EQ(run_program(red + " --resume --history " + (folder / "once.db")).exit_code, 3);
     EXPECT_EQ(std::ranges::count(nights(), '\n'), 1) << "the heads";
     std::filesystem::remove_all(folder / "red/study.md");
