@@ -115,6 +115,7 @@ void write_model_picture(const Model& model, const ModelRequest& request) {
     RendererSettings settings;
     settings.technique = request.technique;
     settings.tone_mapper.l_max_cdm2 = 20.0;
+    settings.white = white_of(moment);
     Renderer renderer(device, scene, settings);
     const Frame frame = renderer.draw(moment, towards(model, request), {.colour = true});
     write_png(frame.colour, request.picture);
