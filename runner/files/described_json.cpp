@@ -76,9 +76,9 @@ JsonPart::JsonPart(const JsonMembers& members)
               return object;
           },
           [members](const CheckedJson& json) {
-              for (const int turn : {0, 1, 2})
+              for (const int now : {0, 1, 2})
                   for (const auto& [key, part] : members)
-                      if (part.turn == turn && part.read && (!part.may_lack || json.has(key)))
+                      if (part.turn == now && part.read && (!part.may_lack || json.has(key)))
                           part.read(json.at(key));
           },
           [members] {
