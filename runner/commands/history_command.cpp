@@ -40,7 +40,7 @@ struct HistoryFlags {
 };
 
 std::filesystem::path file_of(const HistoryFlags& flags) {
-    const std::filesystem::path file = flags.history.empty() ? default_history_file() : std::filesystem::path(flags.history);
+    std::filesystem::path file = flags.history.empty() ? default_history_file() : std::filesystem::path(flags.history);
     if (file.empty())
         throw InputError({{}, 0, 0, "--history"}, "found none, and neither XDG_DATA_HOME nor HOME", "a file for the history");
     return file;

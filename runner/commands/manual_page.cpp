@@ -131,7 +131,7 @@ std::vector<std::string> choices_of(const CLI::Option& option) {
         between = ',';
     }
     const bool is_list = words.find(between) != std::string::npos && std::ranges::all_of(words, [&](unsigned char c) {
-                             return std::islower(c) || std::isdigit(c) || c == '-' || c == between;
+                             return std::islower(c) || std::isdigit(c) || c == '-' || c == static_cast<unsigned char>(between);
                          });
     return is_list ? CLI::detail::split(words, between) : std::vector<std::string>{};
 }

@@ -308,7 +308,7 @@ Table cells_table(const StudyResult& result) {
 std::string study_sentence(const StudyResult& result) {
     if (result.study.comparisons.empty())
         return "Nothing was to be compared.";
-    if (const std::string nothing = nothing_compared(result); !nothing.empty())
+    if (std::string nothing = nothing_compared(result); !nothing.empty())
         return nothing;
     std::vector<std::string> sentences;
     for (const Decision& decision : decide(result))

@@ -20,7 +20,7 @@ struct StudyAxesProgram : testing::Test {
     TemporaryFolder folder;
 
     std::string study_file(const std::string& more) {
-        const std::string file = folder / "axes.yaml";
+        std::string file = folder / "axes.yaml";
         std::ofstream(file) << "fernlicht_study: 1\nlamps:\n  old: {low: " << library_file("lamps/halogen-low.ies")
                             << "}\n  new: {low: " << library_file("lamps/xenon-low.ies") << ", source: arc}\ndrives: ["
                             << library_file("drives/straight.yaml") << "]\npictured_moments: 1\nresolution_px: [96, 72]\n"

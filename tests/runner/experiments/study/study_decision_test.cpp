@@ -28,7 +28,7 @@ struct MadeStudy {
         result.study.conditions.times_of_day = {{}};
     }
     /// Of one drive; nudged aim moves it by `by_aim`.
-    MadeStudy& on(std::size_t drive, const char* name, Value before, Value now, std::optional<double> by_aim = 0.0) {
+    MadeStudy& on(std::size_t drive, const char* name, const Value& before, const Value& now, std::optional<double> by_aim = 0.0) {
         while (result.cells.size() < 2 * (drive + 1)) {
             CellResult cell;
             cell.cell.drive = result.cells.size() / 2;
