@@ -106,7 +106,7 @@ void print_verdicts(const Report& report, const std::vector<Drive>& drives) {
     std::string line;
     const auto add = [&](std::size_t count, const char* what) {
         if (count > 0)
-            line += fmt::format("{}{} {}", line.empty() ? "" : ", ", count, what);
+            line += fmt::format("{}{} {}", line.empty() ? "verdicts: " : ", ", count, what);
     };
     add(counts.pass, "passed");
     add(counts.fail, "failed");
