@@ -1,6 +1,7 @@
 // Axes of a study through the program: what is played at each point, and where its values stand.
 #include "runner/experiments/study/study_document.h"
 #include "runner/experiments/study/study_plan.h"
+#include "runner/experiments/study/study_run.h"
 #include "scenarios/models/road_user_bodies.h"
 #include "scenarios/values/files.h"
 #include "tests/runner/program.h"
