@@ -1,7 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "metrics/readings/reading_key.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/files/durable_files.h"
 #include "runner/files/log.h"
 #include "runner/judge/old_baselines.h"

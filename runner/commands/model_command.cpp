@@ -4,7 +4,7 @@
 #include "renderer/renderer.h"
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/town/two_lamps.h"
 #include "runner/files/json_text.h"
 #include "runner/files/picture_file.h"

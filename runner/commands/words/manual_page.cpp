@@ -1,7 +1,7 @@
-#include "runner/commands/exit_codes.h"
-#include "runner/commands/manual.h"
+#include "runner/commands/words/exit_codes.h"
+#include "runner/commands/words/manual.h"
 
-#include "runner/commands/help.h"
+#include "runner/commands/words/help.h"
 #include "scenarios/values/version.h"
 
 #include <CLI/CLI.hpp>
