@@ -15,8 +15,8 @@ constexpr double sampled_every_s = 0.1;
 constexpr double braking_mps2 = 0.7; // what drivers brake with rather than coast [estimate]
 constexpr double wheelbase_share = 0.6;
 
-[[noreturn]] void refuse(const Drive& drive, const TrafficRow& row, std::string found, std::string expected) {
-    throw InputError({drive.file, 0, 0, "traffic." + row.name}, std::move(found), std::move(expected));
+[[noreturn]] void refuse(const Drive& drive, const TrafficRow& row, const std::string& found, const std::string& expected) {
+    throw InputError({drive.file, 0, 0, "traffic." + row.name}, found, expected);
 }
 
 /// The driving lane of the other direction that lies nearest to the own one.

@@ -12,7 +12,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr int width_px = 64, height_px = 48;
+constexpr int small_width_px = 64, small_height_px = 48;
 constexpr double never = 1e-9; // a target that no pixel meets: each gets all samples
 
 /// Root mean square of the errors in shares, where the truth has at least 0.05 lx, with the noise of the truth itself.
@@ -39,7 +39,7 @@ Deviation deviation(const ReferenceImage& tested, const ReferenceImage& truth, d
 std::vector<WorkPrecision> reference_study(const Stage& stage, const LampSet& lamp_set, std::uint64_t seed, const StudyGoesOn& go_on) {
     const int ticks = tick_count(stage.drive);
     const Moment moment = moments_at({ticks / 2}, stage, lamp_set).front();
-    const View view = at_size(*driver_view(stage.drive), width_px, height_px);
+    const View view = at_size(*driver_view(stage.drive), small_width_px, small_height_px);
     const Reference reference(stage.scene);
     const auto draw = [&](Integrator integrator, int samples, std::uint64_t from_seed) {
         ReferenceSettings settings;
@@ -64,7 +64,7 @@ std::vector<WorkPrecision> reference_study(const Stage& stage, const LampSet& la
             "noise of the finest",
             {fmt::format(
                 "{} x {} pixels of the driver's view with at least 0.05 lx; against {} samples of another seed; bars over four seeds",
-                width_px, height_px, 4 * most)},
+                small_width_px, small_height_px, 4 * most)},
             {}};
         const ReferenceImage truth = draw(integrator, 4 * most, seed + 1000);
         std::vector<std::pair<double, double>> by_samples;
