@@ -172,8 +172,7 @@ class HouseBuilder {
         const bool lit = h.pane == Stuff::room, low = h.drawn > 0.8 && !lit;
         const Stuff cloth = lit ? Stuff::curtain : Stuff::net;
         const double hem = low && h.pane == Stuff::glass ? 0.5 * (b + t) : b + frame_wide_m, top = blind < t ? blind : t - frame_wide_m,
-                     before = d - 0.005,
-                     hangs = !low && h.pane != Stuff::curtain && h.drawn > 0.45 ? 0.12 : 0.0;
+                     before = d - 0.005, hangs = !low && h.pane != Stuff::curtain && h.drawn > 0.45 ? 0.12 : 0.0;
         for (const double side : {-1.0, 1.0}) {
             const double inner = middle + side * bar, outer = middle + side * (0.5 * (r - l) - frame_wide_m), edge = outer - side * hangs;
             flat(p, std::min(inner, edge), std::max(inner, edge), hem, top, before, h.pane);

@@ -220,8 +220,7 @@ DressedObject dressed_tree(double height_m, double radius_m, Dice dice, Detail d
     append_tube(out.low, trunk, near ? 8 : 6, Stuff::bark);
     const double lean_x = 0.1 * radius_m * dice.between(-1, 1), lean_y = 0.1 * radius_m * dice.between(-1, 1);
     const glm::dvec3 fork(0, 0, free_m), top(lean_x, lean_y, 0.8 * height_m);
-    append_tube(out.high, {{fork, 0.80 * foot_m, 0.10}, {0.5 * (fork + top), 0.55 * foot_m}, {top, 0.2 * foot_m}}, 5,
-                Stuff::bark);
+    append_tube(out.high, {{fork, 0.80 * foot_m, 0.10}, {0.5 * (fork + top), 0.55 * foot_m}, {top, 0.2 * foot_m}}, 5, Stuff::bark);
     if (spruce) {
         append_spruce(out, height_m, radius_m, dice);
         return out;

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace fernlicht {
@@ -50,8 +52,8 @@ void keep_shown_faces(Scene& scene, const Route& route, bool ahead, std::size_t 
     std::size_t last = 0; ///< what saw one triangle often sees the next
     for (std::size_t m = first; m < scene.meshes.size(); ++m) {
         Mesh& mesh = scene.meshes[m];
-        if (!mesh.casts || mesh.body >= 0)
-            continue; // sheets that are seen from both sides, and what moves
+        if (mesh.body >= 0)
+            continue;
         const auto is_shown = [&](std::uint32_t k) {
             const auto at = [&](std::uint32_t i) { return mesh.origin_m + glm::dvec3(mesh.vertices[mesh.indices[k + i]].position_m); };
             const std::array<glm::dvec3, 3> p{at(0), at(1), at(2)};
@@ -59,9 +61,10 @@ void keep_shown_faces(Scene& scene, const Route& route, bool ahead, std::size_t 
             const double twice_m2 = glm::length(across);
             if (twice_m2 == 0.0)
                 return false;
+            if (std::abs(glm::dot(glm::dvec3(mesh.vertices[mesh.indices[k]].normal), across)) < 0.3 * twice_m2)
+                return true; // a blade of grass, lit on both sides
             for (std::size_t n = 0; n < abodes.size(); ++n)
-                if (const Abode& abode = abodes[(last + n) % abodes.size()];
-                    abode.sees(p, across / twice_m2, ahead)) {
+                if (const Abode& abode = abodes[(last + n) % abodes.size()]; abode.sees(p, across / twice_m2, ahead)) {
                     last = (last + n) % abodes.size();
                     return true;
                 }
@@ -82,6 +85,12 @@ void keep_shown_faces(Scene& scene, const Route& route, bool ahead, std::size_t 
     scene.meshes.erase(std::remove_if(scene.meshes.begin() + static_cast<std::ptrdiff_t>(first), scene.meshes.end(),
                                       [](const Mesh& mesh) { return mesh.indices.empty(); }),
                        scene.meshes.end());
+}
+
+void leave_out_shadows(Scene& scene, std::span<const std::string> shading, std::size_t first) {
+    for (std::size_t m = first; m < scene.meshes.size(); ++m)
+        if (Mesh& mesh = scene.meshes[m]; mesh.name.starts_with("bush, road ") || mesh.name.starts_with("field fence, road "))
+            mesh.casts = mesh.casts && std::ranges::find(shading, mesh.name) != shading.end();
 }
 
 } // namespace fernlicht

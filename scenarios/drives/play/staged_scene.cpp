@@ -47,8 +47,7 @@ bool stays_on_route(const Drive& drive) {
 bool looks_ahead(const Drive& drive) {
     const auto ahead = [](const View& view) {
         const double widest = std::hypot(1.0, static_cast<double>(view.width_px) / view.height_px) * std::tan(0.5 * view.vertical_fov_rad);
-        return view.projection == Projection::map ||
-               std::atan(widest) + std::abs(view.yaw_rad) + std::abs(view.pitch_rad) < radians(85.0);
+        return view.projection == Projection::map || std::atan(widest) + std::abs(view.yaw_rad) + std::abs(view.pitch_rad) < radians(85.0);
     };
     return drive.daylight == Daylight{} && drive.street_lamps.empty() && drive.traffic_rows.empty() && !drive.storyboard &&
            std::ranges::all_of(drive.views, ahead);
@@ -86,10 +85,13 @@ void dress(Scene& scene, Drive& drive, const RoadNetwork& network, const Route& 
     } else {
         add_dressing(scene, network, route, settings);
     }
-    if (stays_on_route(drive))
-        keep_shown_faces(scene, route, looks_ahead(drive), before);
+    const bool on_route = stays_on_route(drive), ahead = on_route && looks_ahead(drive);
+    if (on_route)
+        keep_shown_faces(scene, route, ahead, before);
     constexpr std::size_t most_told = 40;
     std::vector<std::string> names = shades_of_lane(scene, route, before);
+    if (ahead)
+        leave_out_shadows(scene, names, before);
     const std::size_t more = names.size() > most_told ? names.size() - most_told : 0;
     names.resize(names.size() - more);
     if (!names.empty())
