@@ -34,7 +34,7 @@ void dress_ground(RoadMeshOptions& options, bool mirrored = false);
 void add_dressing(Scene& scene, const RoadNetwork& network, const Route& route, const DressingSettings& settings);
 
 /// Where eyes and lamps of a car on the route are, in its frame.
-inline constexpr glm::dvec3 eyes_low_m(-1.0, -1.5, 0.0), eyes_high_m(5.0, 1.5, 2.5);
+inline constexpr glm::dvec3 eyes_low_m(-1.0, -1.5, 0.2), eyes_high_m(5.0, 1.5, 2.5);
 
 /// Leaves out, from the mesh `first` on, the faces that turn their backs to all such places of the route; `ahead`: to those that have them
 /// before them. Pictures from there and shadows of lamps there do not change by it.

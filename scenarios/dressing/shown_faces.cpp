@@ -38,9 +38,9 @@ struct Abode {
         }
         return glm::dot(normal, middle_m - corners_m[0]) + std::max(along * foremost_m, along * -half_m.x) +
                    half_m.y * std::abs(glm::dot(normal, left)) + half_m.z * std::abs(glm::dot(normal, up)) >
-               -rounding_m;
+               least_m;
     }
-    static constexpr double rounding_m = 1e-3;
+    static constexpr double least_m = 1e-3; ///< before the face: nearer, it is a line
 };
 
 } // namespace
