@@ -215,10 +215,11 @@ std::optional<Place> stepped(const Step& step, const Place& at) {
 
 /// Weights of the pixels floor(at) - 7 ... floor(at) + 8; their sum is 1.
 std::array<double, taps> sinc_weights(double at) {
+    constexpr int half = taps / 2;
     std::array<double, taps> weights{};
     double sum = 0.0;
     for (int i = 0; i < taps; ++i) {
-        const double x = i - (taps / 2 - 1) - (at - std::floor(at)), angle = std::numbers::pi * x, share = x / (taps / 2);
+        const double x = i - (half - 1) - (at - std::floor(at)), angle = std::numbers::pi * x, share = x / half;
         const double sinc = angle == 0.0 ? 1.0 : std::sin(angle) / angle;
         weights[static_cast<std::size_t>(i)] = sinc * (0.5 + 0.5 * std::cos(std::numbers::pi * share));
         sum += weights[static_cast<std::size_t>(i)];

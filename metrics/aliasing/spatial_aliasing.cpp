@@ -115,10 +115,10 @@ std::vector<Block> symmetric_shifts(const Image<double>& picture, int left, int 
 void remove_slope(Block& block) {
     // The weights are symmetric about the block's middle: level, slope along x and slope along y are orthogonal.
     const Block& w = weights();
-    const double middle = 0.5 * (block_side_px - 1);
+    const auto from_middle = [](std::size_t place) { return static_cast<double>(place) - 0.5 * (block_side_px - 1); };
     double weight = 0.0, square = 0.0, level = 0.0, along_x = 0.0, along_y = 0.0;
     for (std::size_t i = 0; i < block.size(); ++i) {
-        const double x = static_cast<double>(i % side) - middle, y = static_cast<double>(i / side) - middle;
+        const double x = from_middle(i % side), y = from_middle(i / side);
         weight += w[i];
         square += w[i] * x * x;
         level += w[i] * block[i];
@@ -126,7 +126,7 @@ void remove_slope(Block& block) {
         along_y += w[i] * y * block[i];
     }
     for (std::size_t i = 0; i < block.size(); ++i) {
-        const double x = static_cast<double>(i % side) - middle, y = static_cast<double>(i / side) - middle;
+        const double x = from_middle(i % side), y = from_middle(i / side);
         block[i] -= level / weight + (along_x * x + along_y * y) / square;
     }
 }

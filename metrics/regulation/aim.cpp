@@ -139,7 +139,7 @@ bool leaves_elbow(const Aim& by_line, const CutOffElbow& elbow) {
 
 /// The first rule that finds what it aims by and agrees with the elbow; without any, the text's own with its reason.
 Aim automatic(const CandelaTable& lamp, const CutOffElbow& elbow) {
-    const Aim first = by_cut_off(lamp, AimRule::cut_off, elbow);
+    Aim first = by_cut_off(lamp, AimRule::cut_off, elbow);
     if (first.found || !usable(first.cut_off->level))
         return first;
     std::string passed_over = "not by the kink: " + first.cut_off->kink_reason;

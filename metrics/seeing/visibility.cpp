@@ -96,7 +96,7 @@ Value threshold_difference_cdm2(double background_cdm2, double size_arcmin, bool
 }
 
 Value visibility_level(double target_cdm2, double background_cdm2, double adaptation_cdm2, double size_arcmin, const Onlooker& onlooker) {
-    const Value threshold = threshold_difference_cdm2(adaptation_cdm2, size_arcmin, target_cdm2 >= background_cdm2, onlooker);
+    Value threshold = threshold_difference_cdm2(adaptation_cdm2, size_arcmin, target_cdm2 >= background_cdm2, onlooker);
     if (!threshold.measured())
         return threshold;
     return std::abs(target_cdm2 - background_cdm2) / *threshold.number();

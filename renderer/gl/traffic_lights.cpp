@@ -314,8 +314,9 @@ void TrafficLights::list_cells(const Moment& moment, const std::vector<std::uint
         const Cell& cell = ground[i];
         if (cell.high < cell.low)
             continue;
-        const double a = (static_cast<double>(i % traffic_cells_ahead) + 0.5) * traffic_cell_m - traffic_behind_m,
-                     b = (static_cast<double>(i / traffic_cells_ahead) + 0.5) * traffic_cell_m - traffic_beside_m;
+        const std::size_t column = i % traffic_cells_ahead, row = i / traffic_cells_ahead;
+        const double a = (static_cast<double>(column) + 0.5) * traffic_cell_m - traffic_behind_m,
+                     b = (static_cast<double>(row) + 0.5) * traffic_cell_m - traffic_beside_m;
         const glm::dvec2 at = ahead_ * a + left * b;
         const double half = 0.5 * traffic_cell_m + 0.01, up = 0.5 * (cell.high - cell.low);
         const glm::dvec3 centre(at, 0.5 * (cell.low + cell.high));

@@ -118,9 +118,9 @@ std::vector<Facet> facets_within(const EmbreeScene& embree, const glm::dvec3& ce
         std::uint32_t triangle = 0;
         for (const Batch& batch : embree.scene().meshes[m].batches)
             for (std::uint32_t i = 0; i + 2 < batch.count; i += 3, ++triangle) {
-                Facet facet = facet_of(embree, m, triangle, batch, batch.first + i);
+                const Facet facet = facet_of(embree, m, triangle, batch, batch.first + i);
                 if (facet.area_m2 > min_area_m2 && within(facet, centre_m, reach_m))
-                    facets.push_back(std::move(facet));
+                    facets.push_back(facet);
             }
     }
     return facets;

@@ -249,10 +249,13 @@ class FirstRounds {
         for (std::size_t q = 0; q < 3; ++q) {
             const auto value = [&](int k) { return look_at(x + k % 3 - 1, y + k / 3 - 1).result[q].mean; };
             double mean = 0.0, across = 0.0, down = 0.0, least = no_look, low = no_look, high = -no_look;
-            for (const int k : around)
-                mean += value(k) / 8.0, across += value(k) * (k % 3 - 1) / 6.0, down += value(k) * (k / 3 - 1) / 6.0;
             for (const int k : around) {
-                const double beside = value(k) - mean - across * (k % 3 - 1) - down * (k / 3 - 1);
+                const int x_of = k % 3 - 1, y_of = k / 3 - 1;
+                mean += value(k) / 8.0, across += value(k) * x_of / 6.0, down += value(k) * y_of / 6.0;
+            }
+            for (const int k : around) {
+                const int x_of = k % 3 - 1, y_of = k / 3 - 1;
+                const double beside = value(k) - mean - across * x_of - down * y_of;
                 low = std::min(low, beside), high = std::max(high, beside), least = std::min(least, value(k));
             }
             samples = std::max(samples, (high - low) / target_of(shot_, q, least));

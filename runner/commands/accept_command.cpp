@@ -1,6 +1,7 @@
 #include "runner/commands/accept_command.h"
 
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/commands.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/run/run_report.h"
 #include "runner/files/output_folder.h"
 #include "runner/judge/baselines.h"

@@ -2,7 +2,7 @@
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/aliasing/aliasing_run.h"
 #include "runner/files/log.h"
 #include "runner/files/page_link.h"

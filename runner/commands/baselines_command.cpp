@@ -1,7 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/accept_command.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/files/durable_files.h"
 #include "runner/files/json_text.h"
 #include "runner/files/value_json.h"

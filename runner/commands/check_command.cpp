@@ -1,6 +1,6 @@
 #include "runner/commands/commands.h"
 
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/check/check_files.h"
 #include "runner/files/json_text.h"
 #include "runner/files/log.h"

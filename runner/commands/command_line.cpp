@@ -1,9 +1,9 @@
 // The command line: options end here; below are plain values.
 #include "runner/commands/commands.h"
-#include "runner/commands/exit_codes.h"
-#include "runner/commands/help.h"
-#include "runner/commands/old_flags.h"
-#include "runner/commands/parse_errors.h"
+#include "runner/commands/words/exit_codes.h"
+#include "runner/commands/words/help.h"
+#include "runner/commands/words/old_flags.h"
+#include "runner/commands/words/parse_errors.h"
 #include "runner/files/log.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/version.h"

@@ -3,7 +3,7 @@
 #include "metrics/images/flip.h"
 #include "metrics/strictness/strictness.h"
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/compare/lamps/lamp_comparison.h"
 #include "runner/experiments/compare/picture_comparison.h"
 #include "runner/experiments/compare/runs/run_comparison.h"

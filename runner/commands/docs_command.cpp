@@ -1,5 +1,5 @@
 // The reference as pages, out of what the program knows.
-#include "runner/commands/manual.h"
+#include "runner/commands/words/manual.h"
 #include "runner/experiments/regulation/regulation_result.h"
 #include "runner/files/durable_files.h"
 #include "runner/findings/key_reference.h"

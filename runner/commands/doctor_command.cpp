@@ -2,7 +2,7 @@
 
 #include "renderer/gpu_timer.h"
 #include "renderer/renderer.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/files/json_text.h"
 #include "runner/findings/library_versions.h"
 #include "runner/findings/run_context.h"

@@ -3,7 +3,7 @@
 #include "renderer/device.h"
 #include "renderer/technique.h"
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/film/film_run.h"
 #include "runner/files/film_file.h"
 #include "runner/files/log.h"

@@ -1,6 +1,6 @@
 #include "runner/commands/flag_values.h"
 
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/files/log.h"
 #include "runner/files/output_folder.h"
 #include "runner/findings/run_context.h"

@@ -1,7 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/history/history_document.h"
 #include "runner/experiments/history/night_of_study.h"
 #include "runner/files/json_text.h"
@@ -35,12 +35,12 @@ struct HistoryFlags {
     std::string history, folder, study, night, reading, note, drift = "0.5%", before, out;
     std::optional<std::size_t> keep;
     const OutputFormat* tables = nullptr;
-    bool accept = false, withdraw = false, fails_on_change = false, dry = false, csv = false, json = false, force = false;
+    bool accept = false, withdraw = false, fails_on_change = false, dry = false, json = false, force = false;
     std::vector<std::string> command, only{"*"};
 };
 
 std::filesystem::path file_of(const HistoryFlags& flags) {
-    const std::filesystem::path file = flags.history.empty() ? default_history_file() : std::filesystem::path(flags.history);
+    std::filesystem::path file = flags.history.empty() ? default_history_file() : std::filesystem::path(flags.history);
     if (file.empty())
         throw InputError({{}, 0, 0, "--history"}, "found none, and neither XDG_DATA_HOME nor HOME", "a file for the history");
     return file;
@@ -306,8 +306,6 @@ int prune(const HistoryFlags& flags) {
 }
 
 int export_nights(const HistoryFlags& flags) {
-    if (!flags.csv)
-        throw InputError({{}, 0, 0, "export"}, "found no format", "--csv");
     const std::vector<Night> nights = nights_named(flags);
     if (flags.out.empty() || flags.out == "-") {
         export_csv(nights, [](const std::string& lines) { fmt::print("{}", lines); });
@@ -370,7 +368,6 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
     for (CLI::App* sub : {showing, trending, explaining, pruning})
         add_shared(*sub, "--json", flags->json);
     CLI::App* exporting = add_action("export", "every reading of every night, one line each, as tidy CSV (RFC 4180)", export_nights);
-    add_shared(*exporting, "--csv", flags->csv);
     add_shared(*exporting, "-o,--out", flags->out);
     add_shared(*exporting, "--force", flags->force);
     add_study(exporting, "all");

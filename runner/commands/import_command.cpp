@@ -2,7 +2,7 @@
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
 #include "runner/commands/model_command.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/program_module.h"
 

@@ -1,7 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/importance/importance_run.h"
 #include "runner/files/page_link.h"
 #include "runner/write/document.h"

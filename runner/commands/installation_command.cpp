@@ -1,6 +1,6 @@
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/installation/installation_run.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"

@@ -2,7 +2,7 @@
 
 #include "metrics/beam/intake.h"
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/files/described_json.h"
 #include "runner/files/json_text.h"
 #include "runner/findings/lamp_checks.h"

@@ -2,8 +2,8 @@
 
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
 #include "runner/commands/watch.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/compare/lamps/lamp_description.h"
 #include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/json_text.h"

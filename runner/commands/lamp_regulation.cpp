@@ -1,6 +1,6 @@
 #include "runner/commands/lamp_command.h"
 
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/pose.h"

@@ -2,7 +2,7 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/findings/lists.h"
 #include "runner/write/document.h"
 #include "scenarios/control/control_parameters.h"

@@ -1,10 +1,10 @@
 #include "runner/commands/commands.h"
 
 #include "renderer/device.h"
-#include "runner/commands/exit_codes.h"
 #include "runner/commands/flag_values.h"
 #include "runner/commands/run_files.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/exit_codes.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/live/live_run.h"
 #include "runner/files/log.h"
 #include "runner/files/output_folder.h"

@@ -1,7 +1,7 @@
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
-#include "runner/commands/manual.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/manual.h"
+#include "runner/commands/words/shared_flags.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
 

@@ -1,7 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "metrics/readings/reading_key.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/files/durable_files.h"
 #include "runner/files/log.h"
 #include "runner/judge/old_baselines.h"
@@ -128,7 +128,7 @@ fs::path target(const MigrateFlags& flags, const fs::path& file) {
         return file;
     if (flags.out.empty()) // printed
         return {};
-    const fs::path target = fs::path(flags.out) / fs::absolute(file).lexically_normal().filename();
+    fs::path target = fs::path(flags.out) / fs::absolute(file).lexically_normal().filename();
     if (fs::exists(target))
         throw InputError({target, 0, 0, {}}, "is there already", "a folder without it");
     return target;

@@ -4,7 +4,7 @@
 #include "renderer/renderer.h"
 #include "runner/commands/commands.h"
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/town/two_lamps.h"
 #include "runner/files/json_text.h"
 #include "runner/files/picture_file.h"
@@ -51,10 +51,10 @@ void add_road(Scene& scene, double length_m) {
     Mesh road;
     road.name = "road";
     scene.materials.push_back({.name = "asphalt", .kind = SurfaceKind::road, .albedo = glm::vec3(0.07F)});
-    const int along = static_cast<int>(std::ceil(length_m / 4.0)), across = 16;
+    const int along = static_cast<int>(std::ceil(length_m / 4.0)), across = 16, middle = across / 2;
     for (int i = 0; i <= along; ++i)
         for (int k = 0; k <= across; ++k)
-            road.vertices.push_back({{4.0F * static_cast<float>(i), 4.0F * static_cast<float>(k - across / 2), 0.0F}, {0.0F, 0.0F, 1.0F}});
+            road.vertices.push_back({{4.0F * static_cast<float>(i), 4.0F * static_cast<float>(k - middle), 0.0F}, {0.0F, 0.0F, 1.0F}});
     const auto at = [&](int i, int k) { return static_cast<std::uint32_t>(i * (across + 1) + k); };
     for (int i = 0; i < along; ++i)
         for (int k = 0; k < across; ++k)
@@ -115,6 +115,7 @@ void write_model_picture(const Model& model, const ModelRequest& request) {
     RendererSettings settings;
     settings.technique = request.technique;
     settings.tone_mapper.l_max_cdm2 = 20.0;
+    settings.white = white_of(moment);
     Renderer renderer(device, scene, settings);
     const Frame frame = renderer.draw(moment, towards(model, request), {.colour = true});
     write_png(frame.colour, request.picture);

@@ -1,7 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/findings/run_context.h"
 #include "scenarios/lamps/lamp_file.h"
 #include "scenarios/values/library_folders.h"

@@ -51,7 +51,7 @@ fs::path page_of(const fs::path& given) {
     refuse_windows_path(given, {{}, 0, 0, "RUN"});
     if (!fs::exists(given, ignored))
         throw InputError({given, 0, 0, {}}, "is not there", "the folder of a run, study or comparison, or its page");
-    const fs::path page = fs::is_directory(given, ignored) ? page_in(given) : given;
+    fs::path page = fs::is_directory(given, ignored) ? page_in(given) : given;
     if (!fs::is_regular_file(page, ignored))
         throw InputError({given, 0, 0, {}}, "holds no report", "the folder of a run, study or comparison");
     if (page.extension() != ".html")

@@ -1,7 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/accuracy/drive_error.h"
 #include "runner/experiments/reference/reference_run.h"
 #include "runner/files/log.h"

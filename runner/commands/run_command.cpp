@@ -4,8 +4,8 @@
 #include "renderer/technique.h"
 #include "runner/commands/flag_values.h"
 #include "runner/commands/run_files.h"
-#include "runner/commands/shared_flags.h"
 #include "runner/commands/watch.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/run/run_drives.h"
 #include "runner/files/log.h"
 #include "runner/files/page_link.h"
@@ -106,7 +106,7 @@ void print_verdicts(const Report& report, const std::vector<Drive>& drives) {
     std::string line;
     const auto add = [&](std::size_t count, const char* what) {
         if (count > 0)
-            line += fmt::format("{}{} {}", line.empty() ? "" : ", ", count, what);
+            line += fmt::format("{}{} {}", line.empty() ? "verdicts: " : ", ", count, what);
     };
     add(counts.pass, "passed");
     add(counts.fail, "failed");

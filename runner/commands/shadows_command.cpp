@@ -2,7 +2,7 @@
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/run/run_drives.h"
 #include "runner/experiments/shadows/shadow_study.h"
 #include "runner/files/log.h"

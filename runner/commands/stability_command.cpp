@@ -2,7 +2,7 @@
 
 #include "renderer/device.h"
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/stability/stability_case.h"
 #include "runner/write/document.h"
 #include "scenarios/values/errors.h"

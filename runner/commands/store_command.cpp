@@ -1,7 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/files/json_text.h"
 #include "runner/findings/figures.h"
 #include "runner/store/store_upkeep.h"

@@ -1,7 +1,7 @@
 #include "runner/commands/commands.h"
 
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "scenarios/openscenario/play_story.h"
 #include "scenarios/openscenario/reader/read_storyboard.h"
 #include "scenarios/values/errors.h"

@@ -1,6 +1,6 @@
 #include "runner/commands/flag_values.h"
 #include "runner/commands/model_command.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/town/town.h"
 #include "runner/files/picture_file.h"
 #include "runner/findings/lux_figure.h"

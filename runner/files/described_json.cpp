@@ -66,7 +66,7 @@ JsonPart json_constant(Json value) {
             }};
 }
 
-JsonPart::JsonPart(JsonMembers members)
+JsonPart::JsonPart(const JsonMembers& members)
     : JsonPart(
           [members] {
               Json object = Json::object();
@@ -76,9 +76,9 @@ JsonPart::JsonPart(JsonMembers members)
               return object;
           },
           [members](const CheckedJson& json) {
-              for (const int turn : {0, 1, 2})
+              for (const int now : {0, 1, 2})
                   for (const auto& [key, part] : members)
-                      if (part.turn == turn && part.read && (!part.may_lack || json.has(key)))
+                      if (part.turn == now && part.read && (!part.may_lack || json.has(key)))
                           part.read(json.at(key));
           },
           [members] {
@@ -157,7 +157,7 @@ Json nullable(Json schema) {
     return schema;
 }
 
-JsonPart null_unless(bool there, JsonPart part) {
+JsonPart null_unless(bool there, const JsonPart& part) {
     return {[=] { return there ? part.write() : Json(nullptr); },
             [=](const CheckedJson& json) {
                 if (!json.is_null())
@@ -166,7 +166,7 @@ JsonPart null_unless(bool there, JsonPart part) {
             [=] { return nullable(part.schema()); }};
 }
 
-JsonPart or_why(JsonPart optional, const std::string& why, std::string* back) {
+JsonPart or_why(const JsonPart& optional, const std::string& why, std::string* back) {
     return {[=] {
                 const Json value = optional.write();
                 return value.is_null() ? Json{{"not_measured", why}} : value;

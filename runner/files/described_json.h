@@ -24,7 +24,7 @@ using JsonTexts = std::vector<std::pair<std::string, std::string>>; ///< an obje
 /// A value: each function looks at it only when called. Without `read`: derived.
 struct JsonPart {
     using Json = nlohmann::ordered_json;
-    JsonPart(JsonMembers members);
+    JsonPart(const JsonMembers& members);
     JsonPart(std::function<Json()> writes, std::function<void(const CheckedJson&)> reads, std::function<Json()> describes)
         : write(std::move(writes)), read(std::move(reads)), schema(std::move(describes)) {}
 
@@ -105,7 +105,7 @@ template <class T, class... Inner> JsonPart json_part(T&& value, Inner... inner)
 
 struct JsonMember {
     JsonMember(std::string name, JsonPart value) : key(std::move(name)), part(std::move(value)) {}
-    JsonMember(std::string name, JsonMembers members) : JsonMember(std::move(name), JsonPart(std::move(members))) {}
+    JsonMember(std::string name, const JsonMembers& members) : JsonMember(std::move(name), JsonPart(members)) {}
     template <class T, class... Inner>
     requires(!std::is_same_v<std::remove_cvref_t<T>, JsonPart> && !std::is_same_v<std::remove_cvref_t<T>, JsonMembers>)
         JsonMember(std::string name, T&& value, Inner... inner)
@@ -150,10 +150,10 @@ template <class T> JsonPart or_null(T& value, T none = T{}) {
 JsonPart in_turn(int turn, JsonPart part);
 
 /// null unless it is there.
-JsonPart null_unless(bool there, JsonPart part);
+JsonPart null_unless(bool there, const JsonPart& part);
 
 /// Of an optional value: {"not_measured": why} rather than null, read back into `back`.
-JsonPart or_why(JsonPart optional, const std::string& why, std::string* back = nullptr);
+JsonPart or_why(const JsonPart& optional, const std::string& why, std::string* back = nullptr);
 
 /// One for each element of `list`, which another member of the JSON, `of`, made before.
 template <class List, class Inner> JsonPart one_for_each(List& list, Inner inner, const std::string& of) {

@@ -46,7 +46,7 @@ bool holds_object(const std::filesystem::path& store, const std::string& hash) {
 }
 
 std::string put_object(const std::filesystem::path& store, const std::string& content) {
-    const std::string hash = content_hash(content.data(), content.size());
+    std::string hash = content_hash(content.data(), content.size());
     const std::filesystem::path path = object_path(store, hash);
     if (content.size() > max_object_bytes)
         throw DeviceError(fmt::format("{}: {} bytes cannot be kept, at most {}", path.string(), content.size(), max_object_bytes));

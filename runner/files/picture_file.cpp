@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <lcms2.h>
 #include <memory>
@@ -198,7 +199,7 @@ cmsToneCurve* curve_of(const DisplayProfile& display) {
     std::vector<cmsUInt16Number> table(curve_points);
     for (std::size_t i = 0; i < curve_points; ++i) {
         const double share = decoded(display, static_cast<double>(i) / (curve_points - 1));
-        table[i] = static_cast<cmsUInt16Number>(65535.0 * std::clamp(share, 0.0, 1.0) + 0.5);
+        table[i] = static_cast<cmsUInt16Number>(std::floor(65535.0 * std::clamp(share, 0.0, 1.0) + 0.5));
     }
     return cmsBuildTabulatedToneCurve16(nullptr, curve_points, table.data());
 }

@@ -166,10 +166,10 @@ std::vector<std::string> lamp_warnings(const std::vector<CheckedLampFile>& files
     std::vector<std::string> warnings;
     for (const CheckedLampFile& file : files)
         for (const IntakeFinding& finding : file.findings)
-            if (finding.meaningless)
-                warnings.push_back(fmt::format("lamp file {} ({}), {}: {}; readings with it are meaningless", printable(file.file),
+            if (finding.meaningless || finding.fault == IntakeFault::function)
+                warnings.push_back(fmt::format("lamp file {} ({}), {}: {}{}", printable(file.file),
                                                printable(fmt::format("{}", fmt::join(file.used_as, "; ")), 80), name_of(finding.fault),
-                                               finding.text));
+                                               finding.text, finding.meaningless ? "; readings with it are meaningless" : ""));
     return warnings;
 }
 

@@ -44,7 +44,7 @@ class LampFileChecks {
 /// For --strict: throws InputError naming `file` where any of the findings makes readings meaningless; tells all that do.
 void refuse_meaningless(const std::filesystem::path& file, const std::vector<IntakeFinding>& findings, const char* without);
 
-/// One sentence for each finding that makes readings meaningless.
+/// One sentence for each finding that makes readings meaningless, and for each file that is no headlamp's on a headlamp's mount.
 std::vector<std::string> lamp_warnings(const std::vector<CheckedLampFile>& files);
 /// The same of the lamps of one lamp set alone.
 std::vector<std::string> lamp_warnings(const Drive& drive, const LampSet& lamp_set, bool left_hand_traffic);

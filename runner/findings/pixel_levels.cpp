@@ -81,10 +81,10 @@ std::optional<plots::Figure> levels_figure(const PixelLevels& lamp, const std::s
     figure.subtitle = fmt::format("{} parts; seen as by the driver, time runs downwards", lamp.count);
     figure.width_px = 640.0;
     figure.height_px = 440.0;
-    const std::size_t each = moments_a_line(lamp);
+    const std::size_t each = moments_a_line(lamp), lines = (lamp.rows.size() + each - 1) / each;
     const double first_s = lamp.rows.front().time_s,
                  step_s = lamp.rows.size() > 1 ? (lamp.rows.back().time_s - first_s) / static_cast<double>(lamp.rows.size() - 1) : 1.0,
-                 end_s = first_s + step_s * static_cast<double>((lamp.rows.size() + each - 1) / each * each);
+                 end_s = first_s + step_s * static_cast<double>(lines * each);
     figure.x = {"H", "deg", lamp.columns_deg.front().first, lamp.columns_deg.back().second};
     figure.y = {"time", "s", end_s, first_s};
     figure.grid = false;
@@ -98,12 +98,13 @@ std::optional<plots::Figure> levels_figure(const PixelLevels& lamp, const std::s
             if (std::ranges::find(users, std::pair(other.name, other.oncoming)) == users.end())
                 users.emplace_back(other.name, other.oncoming);
     bool named[2] = {};
-    for (const auto& [name, oncoming] : users) {
+    for (const auto& user : users) {
+        const bool oncoming = user.second;
         plots::Series edges[2];
         for (std::size_t i = 0; i < lamp.rows.size(); i += each) {
             const PixelLevels::Row& row = lamp.rows[i];
-            const auto other = std::ranges::find_if(
-                row.others, [&](const PixelLevels::Other& one) { return one.name == name && one.oncoming == oncoming; });
+            const auto other =
+                std::ranges::find_if(row.others, [&](const PixelLevels::Other& one) { return std::pair(one.name, one.oncoming) == user; });
             const bool there = other != row.others.end();
             edges[0].points.push_back({there ? other->left_deg : gap, row.time_s + 0.5 * step_s});
             edges[1].points.push_back({there ? other->right_deg : gap, row.time_s + 0.5 * step_s});

@@ -78,7 +78,7 @@ std::string repeat_command(const std::vector<std::string>& call, const std::vect
 }
 
 std::string os_name() {
-    const std::string pretty = value_of("/etc/os-release", "PRETTY_NAME", "=");
+    std::string pretty = value_of("/etc/os-release", "PRETTY_NAME", "=");
     utsname names{};
     if (::uname(&names) != 0)
         return pretty;

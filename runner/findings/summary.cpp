@@ -42,7 +42,7 @@ Value in_moment(const ExtentFigure& figure, const LaneMoment& moment, double las
         return {};
     if (distance_m)
         return width_at(*rendered, *distance_m);
-    const Value value = in_picture(figure, *rendered, last_row_m);
+    Value value = in_picture(figure, *rendered, last_row_m);
     if (figure.aspect == Aspect::value)
         return value;
     const Value gap = difference(value, in_picture(figure, *twin, last_row_m), row_of(figure.quantity).unit);

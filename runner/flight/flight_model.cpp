@@ -361,7 +361,8 @@ FlightModel read_flight(const std::filesystem::path& path, FlightForward forward
     out.model.name = printable(path.stem().string());
     FilesRead opened;
     check_openflight(path, read_file(path, opened));
-    osg::setNotifyHandler(new Listening(out.model.notes));
+    const osg::ref_ptr<Listening> listening = new Listening(out.model.notes);
+    osg::setNotifyHandler(listening);
     osg::setNotifyLevel(osg::WARN);
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
     options->getDatabasePathList().push_front(path.parent_path().empty() ? "." : path.parent_path().string());
@@ -376,7 +377,8 @@ FlightModel read_flight(const std::filesystem::path& path, FlightForward forward
     } catch (const InputError& error) {
         throw InputError({path, 0, 0, {}}, error.what());
     }
-    osg::setNotifyHandler(new osg::StandardNotifyHandler);
+    const osg::ref_ptr<osg::NotifyHandler> usual = new osg::StandardNotifyHandler;
+    osg::setNotifyHandler(usual);
     if (walking.soup().triangles.empty())
         throw InputError({path, 0, 0, {}}, "no triangles", "a model");
     add_meshes(out.model, walking.soup());

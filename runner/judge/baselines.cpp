@@ -88,7 +88,7 @@ MovedReadings moved_readings(const Baseline& run, const Baseline& accepted, cons
 /// Why there is nothing to judge by. Where all but the inputs is known, which of them are others, and what that came to.
 std::string nothing_accepted(const std::filesystem::path& store, const std::vector<StoredBaseline>& entries, const Baseline& run,
                              const BaselineTolerance& tolerance) {
-    const std::string text = fmt::format("nothing accepted in {} for {}", store.string(), key_text(run.key));
+    std::string text = fmt::format("nothing accepted in {} for {}", store.string(), key_text(run.key));
     std::string nearest;
     std::pair<std::size_t, std::size_t> fewest; // inputs, and readings where these are as many
     for (const StoredBaseline& entry : entries) {

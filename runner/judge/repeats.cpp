@@ -39,12 +39,12 @@ std::string difference(const Json& first, const Json& again, const std::string& 
         for (const auto& [key, value] : first.items()) {
             if (!again.contains(key))
                 break;
-            if (const std::string found = difference(value, again.at(key), place.empty() ? key : place + "." + key); !found.empty())
+            if (std::string found = difference(value, again.at(key), place.empty() ? key : place + "." + key); !found.empty())
                 return found;
         }
     if (first.is_array() && again.is_array() && first.size() == again.size())
         for (std::size_t i = 0; i < first.size(); ++i)
-            if (const std::string found = difference(first[i], again[i], fmt::format("{}[{}]", place, i)); !found.empty())
+            if (std::string found = difference(first[i], again[i], fmt::format("{}[{}]", place, i)); !found.empty())
                 return found;
     return fmt::format("{}: {}, at first {}", place, shown(again), shown(first));
 }

@@ -39,7 +39,7 @@ DracoHead edgebreaker_head(draco::DecoderBuffer buffer) { // a copy: reading it 
     head.whole = draco::DecodeVarint(&corners, &buffer) && draco::DecodeVarint(&head.triangles, &buffer) && buffer.Decode(&seams) &&
                  draco::DecodeVarint(&symbols, &buffer) && draco::DecodeVarint(&splits, &buffer) && seams >= 0 &&
                  corners <= 3 * std::uint64_t{head.triangles} && symbols <= head.triangles && splits <= symbols;
-    head.seams = static_cast<std::uint32_t>(std::max<std::int8_t>(seams, 0));
+    head.seams = static_cast<std::uint32_t>(std::max<int>(seams, 0));
     return head;
 }
 

@@ -123,12 +123,13 @@ extern "C" __attribute__((visibility("default"))) void fernlicht_solve_by_ipopt(
     solution.by = "Ipopt " IPOPT_VERSION;
     const Ipopt::SmartPtr<Ipopt::IpoptApplication> solver = IpoptApplicationFactory();
     const Ipopt::SmartPtr<Ipopt::TNLP> asked = new Programme(programme, solution);
-    solver->Options()->SetIntegerValue("print_level", 0);
-    solver->Options()->SetStringValue("sb", "yes");            // no banner
-    solver->Options()->SetStringValue("option_file_name", ""); // nothing that lies in the folder
+    const Ipopt::SmartPtr<Ipopt::OptionsList> options = solver->Options();
+    options->SetIntegerValue("print_level", 0);
+    options->SetStringValue("sb", "yes");            // no banner
+    options->SetStringValue("option_file_name", ""); // nothing that lies in the folder
     for (const char* constant : {"hessian_constant", "jac_c_constant", "jac_d_constant"})
-        solver->Options()->SetStringValue(constant, "yes");
-    solver->Options()->SetStringValue("nlp_scaling_method", "none"); // all is near 1 but what a miss costs
+        options->SetStringValue(constant, "yes");
+    options->SetStringValue("nlp_scaling_method", "none"); // all is near 1 but what a miss costs
     if (solver->Initialize() != Ipopt::Solve_Succeeded)
         return;
     const Ipopt::ApplicationReturnStatus status = solver->OptimizeTNLP(asked);

@@ -56,7 +56,9 @@ class Pictures {
             if (view->projection == Projection::map)
                 keep_map(frame, moment, *view);
             else if (view == &drive_.views.front() && !frame.illuminance_lx.empty())
-                lux_views_.add(captured_, [&] { return LuxView{lux_codes(frame.illuminance_lx, lux_view_px), view->name, moment.tick}; });
+                lux_views_.add(captured_, [&, &lx = frame.illuminance_lx, &name = view->name] {
+                    return LuxView{lux_codes(lx, lux_view_px), name, moment.tick};
+                });
             StoredFrame stored = store_frame(writers_, options_.folder, drive_.name + "-" + played_.lamp_set, drive_.capture,
                                              std::move(frame), moment, *view, display_.writer(moment));
             played_.frames.push_back(std::move(stored));

@@ -142,9 +142,8 @@ std::vector<Moment> distinct_moments(const Drive& drive, const Route& route, con
             lamps.emplace_back(lamp.file->state_of ? lamp.file->state_of.get() : lamp.file.get(), lamp.intensity_factor > 0.0);
         const int around = (moment.daylight.horizontal_illuminance_lx > 0.0 ? 1 : 0) + (moment.daylight.direct() ? 2 : 0) +
                            (moment.weather.extinction_per_m > 0.0 ? 4 : 0) + (moment.weather.wetness > 0.0 ? 8 : 0);
-        if (drive.shadows.method == ShadowMethod::planar) // it refuses moments on ground that is not one plane, before the first frame
-            moments.push_back(std::move(moment));
-        else if (seen.emplace(around, !moment.other_lamps.empty(), std::move(lamps)).second)
+        // Planar shadows refuse moments on ground that is not one plane, before the first frame.
+        if (drive.shadows.method == ShadowMethod::planar || seen.emplace(around, !moment.other_lamps.empty(), std::move(lamps)).second)
             moments.push_back(std::move(moment));
     });
     for (std::size_t i = 0, count = moments.size(); i < count; ++i) // reach is measured without lamps of others

@@ -88,7 +88,7 @@ std::string value_in(const std::string& text, const std::string& key) {
             std::size_t from = text.find('=', at);
             if (from == std::string::npos)
                 break;
-            from = text.find_first_not_of(" ", from + 1);
+            from = text.find_first_not_of(' ', from + 1);
             return text.substr(from, text.find_first_of(" \n", from) - from);
         }
     return {};
@@ -122,7 +122,7 @@ std::string submit_array(const std::string& name, const std::vector<std::string>
         words.push_back("--gres=" + resources.gpus);
     words.insert(words.end(), {script.string(), list.string()});
     const Answer answer = ask(words);
-    const std::string id = answer.said.substr(0, answer.said.find_first_of(";\n"));
+    std::string id = answer.said.substr(0, answer.said.find_first_of(";\n"));
     if (answer.code != 0 || id.empty())
         throw DeviceError(fmt::format("sbatch refused the job array: {}", first_line(answer.complained)));
     return id;
@@ -137,8 +137,8 @@ std::optional<SlurmTasks> active_tasks(const std::vector<SlurmArray>& arrays) {
         return tasks;
     const Answer answer =
         ask_again_later({"squeue", "--noheader", "--array",
-                         "--states=PENDING,RUNNING,SUSPENDED,COMPLETING,CONFIGURING,REQUEUED,REQUEUE_HOLD,REQUEUE_FED,RESIZING,"
-                         "SIGNALING,STAGE_OUT,STOPPED,SPECIAL_EXIT,RESV_DEL_HOLD",
+                         ("--states=PENDING,RUNNING,SUSPENDED,COMPLETING,CONFIGURING,REQUEUED,REQUEUE_HOLD,REQUEUE_FED,RESIZING,"
+                          "SIGNALING,STAGE_OUT,STOPPED,SPECIAL_EXIT,RESV_DEL_HOLD"),
                          fmt::format("--name={}", fmt::join(names, ",")), "--format=%F %K %T %r"});
     if (answer.code != 0)
         return std::nullopt;

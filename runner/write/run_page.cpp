@@ -86,10 +86,10 @@ data cell_of(const StoredFrame* frame, const std::filesystem::path& folder, std:
     try {
         FilesRead opened;
         const std::string bytes = read_file(folder / frame->png, opened, largest_picture_bytes);
-        std::string picture = embedded_picture(bytes, most_px);
+        const std::string picture = embedded_picture(bytes, most_px);
         if (picture.size() <= budget_bytes) {
             budget_bytes -= picture.size();
-            part.set("embedded", std::move(picture));
+            part.set("embedded", picture);
         } else
             missing("not in this page");
     } catch (const std::exception&) {

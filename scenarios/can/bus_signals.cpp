@@ -31,7 +31,7 @@ std::string said_by(const UnitConversion& conversion, const CanSignal& signal, c
         return "a value that means nothing";
     const SignalKind* const kind = known_signal(input.name);
     const std::string_view unit = kind && kind->unit != "1" ? std::string_view(kind->unit) : std::string_view();
-    const std::string in_ours = fmt::format("{:g}{}{}", value, unit.empty() ? "" : " ", unit);
+    std::string in_ours = fmt::format("{:g}{}{}", value, unit.empty() ? "" : " ", unit);
     if (!input.values.empty() || signal.unit.empty() || signal.unit == unit)
         return in_ours;
     return fmt::format("{} ({:g} {} on the bus)", in_ours, conversion.to_physical(input.opposite ? -value : value), printable(signal.unit));

@@ -23,6 +23,7 @@
 #include <optional>
 #include <span>
 #include <type_traits>
+#include <utility>
 
 namespace fernlicht {
 
@@ -33,7 +34,7 @@ template <class F> std::shared_ptr<const Group> shared_group(F&& fields) {
     if constexpr (std::is_lvalue_reference_v<F>)
         return {std::shared_ptr<void>(), &fields};
     else
-        return std::make_shared<const Group>(std::move(fields));
+        return std::make_shared<const Group>(std::forward<F>(fields));
 }
 template <class F>
 concept Description = std::derived_from<std::remove_cvref_t<F>, Group>;
@@ -205,10 +206,10 @@ FieldRule speed(std::string_view key);
 FieldRule units(FieldUnit first, FieldUnit own);
 
 template <class Struct, class M>
-FieldOf<Struct> field(std::string_view key, int id, M Struct::*member, FieldRule rule, std::string_view meaning) {
+FieldOf<Struct> field(std::string_view key, int id, M Struct::*member, const FieldRule& rule, std::string_view meaning) {
     constexpr FieldKind kind = field_parts::kind_of<typename field_parts::Plain<M>::type>();
     FieldOf<Struct> made{key, id, rule.kind.value_or(kind), field_parts::member_of(member), meaning};
-    made.rule = std::move(rule);
+    made.rule = rule;
     return made;
 }
 
@@ -274,10 +275,10 @@ template <class Struct> FieldOf<Struct> own(std::string_view key, int id, void (
 }
 
 /// Another way to give what other keys say: never written. It is read by `read`, or by whoever calls.
-template <class Struct> FieldOf<Struct> form(std::string_view key, FieldKind kind, FieldRule rule, std::string_view meaning,
+template <class Struct> FieldOf<Struct> form(std::string_view key, FieldKind kind, const FieldRule& rule, std::string_view meaning,
                                              void (*read)(const YamlEntry&, Struct&) = nullptr) {
     FieldOf<Struct> made{key, 0, kind, {}, meaning};
-    made.rule = std::move(rule);
+    made.rule = rule;
     made.is_form = true;
     return read ? std::move(made).read_by(read) : made;
 }

@@ -47,9 +47,8 @@ ordered_json of_value(const Field& field);
 
 /// A struct, and the scalars that may stand in its place.
 ordered_json of_inner(const Field& field) {
-    const ordered_json map = field.group->definition.empty()
-                                 ? of_group(*field.group)
-                                 : ordered_json{{"$ref", fmt::format("#/definitions/{}", field.group->definition)}};
+    ordered_json map = field.group->definition.empty() ? of_group(*field.group)
+                                                       : ordered_json{{"$ref", fmt::format("#/definitions/{}", field.group->definition)}};
     ordered_json scalar;
     if (field.may_be_flag)
         scalar["type"] = "boolean";

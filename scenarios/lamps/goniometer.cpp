@@ -190,8 +190,10 @@ Axes first_axes(const Native& native) {
 double native_light(const Native& native, double h0, double h1, double v0, double v1, bool outside) {
     constexpr int parts = 8, looks = 3;
     bool empty = outside;
-    for (int i = 0; empty && i < looks * looks; ++i)
-        empty = !native.at(h0 + (h1 - h0) * (i % looks + 0.5) / looks, v0 + (v1 - v0) * (i / looks + 0.5) / looks).known;
+    for (int i = 0; empty && i < looks * looks; ++i) {
+        const int column = i % looks, row = i / looks;
+        empty = !native.at(h0 + (h1 - h0) * (column + 0.5) / looks, v0 + (v1 - v0) * (row + 0.5) / looks).known;
+    }
     if (empty)
         return 0.0;
     double sum = 0.0;

@@ -72,7 +72,8 @@ class LevelTrack {
 /// pixel or `picture`, the name of a picture (EXR, PNG) of one pixel each, from the file's folder. Separators comma, semicolon, tab or
 /// blanks; lines that begin with # and one line of names are skipped. Times ascend, levels are 0 to 1; each holds until the next. Throws
 /// InputError with file and line.
-std::shared_ptr<const LevelTrack> read_levels(const std::filesystem::path& path, std::shared_ptr<const LampFile> lamp, FilesRead& opened);
+std::shared_ptr<const LevelTrack> read_levels(const std::filesystem::path& path, const std::shared_ptr<const LampFile>& lamp,
+                                              FilesRead& opened);
 
 /// A pixel lamp as a run's levels-*.csv tells of it (findings/pixel_levels.h): as it shone, its delays done with.
 struct ShownLevels {

@@ -74,7 +74,8 @@ std::vector<float> levels_of_line(const std::vector<std::string_view>& cells, bo
 
 } // namespace
 
-std::shared_ptr<const LevelTrack> read_levels(const std::filesystem::path& path, std::shared_ptr<const LampFile> lamp, FilesRead& opened) {
+std::shared_ptr<const LevelTrack> read_levels(const std::filesystem::path& path, const std::shared_ptr<const LampFile>& lamp,
+                                              FilesRead& opened) {
     FilesRead own;
     const std::string text = lamp_text(read_file(path, own, max_lamp_text_bytes), path);
     const PixelLamp& pixels = *lamp->pixels;

@@ -149,8 +149,8 @@ AngleBox PixelLamp::lights(std::size_t pixel) const {
         return parts_.segments[pixel].lights;
     const PixelRaster& raster = parts_.raster.front();
     const RasterAxis across = axis_across(raster), up = axis_up(raster);
-    const auto columns = static_cast<std::size_t>(raster.columns);
-    const double column = static_cast<double>(pixel % columns), row_up = raster.rows - 1.0 - static_cast<double>(pixel / columns);
+    const auto columns = static_cast<std::size_t>(raster.columns), row = pixel / columns;
+    const double column = static_cast<double>(pixel % columns), row_up = raster.rows - 1.0 - static_cast<double>(row);
     const double left = across.from_deg + column * across.pixel_deg, bottom = up.from_deg + row_up * up.pixel_deg;
     return {left, left + across.pixel_deg, bottom, bottom + up.pixel_deg};
 }

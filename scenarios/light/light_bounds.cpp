@@ -184,8 +184,8 @@ template <class Bound> void LightBounds::bound(const SurfacePlaces& places, std:
     light.lamps = lamps_.data();
     light.lamp_count = lamps_.size();
     packs::FoundBounds found;
-    for (std::size_t done = 0; done < bounds.size(); done += found.count) {
-        const std::size_t count = std::min(found.count, bounds.size() - done), at = first + done;
+    for (std::size_t done = 0; done < bounds.size(); done += packs::FoundBounds::count) {
+        const std::size_t count = std::min(packs::FoundBounds::count, bounds.size() - done), at = first + done;
         bound_places(light,
                      packs::BoundedPlaces{&places.x_m[at], &places.y_m[at], &places.z_m[at], &places.normal_x[at], &places.normal_y[at],
                                           &places.normal_z[at], static_cast<float>(raised_m)},

@@ -177,8 +177,8 @@ std::optional<Pose> SceneGround::longest_free_way() const {
     double best = 0.0, nearest = 0.0;
     std::optional<Pose> found;
     for (std::size_t p = 0; p < places.size(); p += stride) {
-        const double across = (static_cast<double>(places[p] % columns) + 0.5) * cell_m_,
-                     along = (static_cast<double>(places[p] / columns) + 0.5) * cell_m_;
+        const std::size_t column = places[p] % columns, row = places[p] / columns;
+        const double across = (static_cast<double>(column) + 0.5) * cell_m_, along = (static_cast<double>(row) + 0.5) * cell_m_;
         const double from_middle = std::hypot(across - 0.5 * across_ * cell_m_, along - 0.5 * along_ * cell_m_);
         for (int h = 0; h < headings; ++h) {
             const double yaw = 2.0 * pi * h / headings, way = free_way_m(low_x_m_ + across, low_y_m_ + along, yaw);

@@ -21,7 +21,8 @@ glm::dvec3 mean_texel(const SurfaceTexture& texture) {
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i + 3 < texture.rgba.size(); i += 4)
         sum += glm::dvec3(texture.rgba[i], texture.rgba[i + 1], texture.rgba[i + 2]) / 255.0;
-    return sum / std::max(static_cast<double>(texture.rgba.size() / 4), 1.0);
+    const std::size_t texels = std::max<std::size_t>(texture.rgba.size() / 4, 1);
+    return sum / static_cast<double>(texels);
 }
 
 } // namespace

@@ -57,7 +57,7 @@ std::string OscNode::text(const char* attribute) const {
 std::string OscNode::text_or(const char* attribute, const std::string& otherwise) const { return if_given(attribute).value_or(otherwise); }
 
 std::string OscNode::name() const {
-    const std::string written = node_.attribute("name").value();
+    std::string written = node_.attribute("name").value();
     try {
         return resolve(written, *scope_);
     } catch (const std::invalid_argument&) {

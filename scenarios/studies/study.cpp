@@ -150,7 +150,7 @@ const Fields<StudyConditions>& condition_fields() {
 }
 
 std::string lamp_name(const YamlEntry& entry, const std::vector<StudyLamp>& lamps) {
-    const std::string name = entry.name();
+    std::string name = entry.name();
     std::vector<std::string> known;
     for (const StudyLamp& lamp : lamps) {
         if (lamp.name == name)

@@ -29,7 +29,7 @@ std::string sentence(const InputError::Where& where, const std::string& found, c
 
 } // namespace
 
-InputError::InputError(Where where, std::string found, std::string expected)
+InputError::InputError(Where where, const std::string& found, const std::string& expected)
     : std::runtime_error(sentence(where, found, expected)), where_(std::move(where)) {}
 
 std::string printable(const std::string& text, std::size_t max_chars) {
@@ -49,7 +49,7 @@ std::string printable(const std::string& text, std::size_t max_chars) {
     return out;
 }
 
-std::size_t edit_distance(const std::string& a, const std::string& b) {
+std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 1; i <= a.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace fernlicht {
 
@@ -19,7 +20,7 @@ class InputError : public std::runtime_error {
         std::string key;        ///< YAML key path, XML element, IES keyword ...
     };
     /// `found` and `expected` are fragments without a full stop: "found 'abc', expected a number above 0".
-    InputError(Where where, std::string found, std::string expected = {});
+    InputError(Where where, const std::string& found, const std::string& expected = {});
     const Where& where() const { return where_; }
 
   private:
@@ -37,13 +38,13 @@ std::string printable(const std::string& text, std::size_t max_chars = 60);
 
 /// The candidate nearest to `word` by edit distance, or "" when none is near enough to be meant.
 template <class Names> std::string nearest_name(const std::string& word, const Names& candidates);
-std::size_t edit_distance(const std::string& a, const std::string& b);
+std::size_t edit_distance(std::string_view a, std::string_view b);
 
 template <class Names> std::string nearest_name(const std::string& word, const Names& candidates) {
     std::string best;
     std::size_t best_distance = word.size() / 2 + 1;
     for (const auto& candidate : candidates) {
-        const std::string name(candidate);
+        const std::string_view name = candidate;
         if (const std::size_t d = edit_distance(word, name); d < best_distance) {
             best_distance = d;
             best = name;

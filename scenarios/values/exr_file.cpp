@@ -219,7 +219,7 @@ std::vector<std::string> ordered(const Imf::ChannelList& list) {
 }
 
 ExrHead head_of(const Imf::Header& header) {
-    const Imath::Box2i window = header.dataWindow();
+    const Imath::Box2i& window = header.dataWindow();
     ExrHead head{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, ordered(header.channels()), {}, {}};
     static constexpr const char* types[] = {"uint", "half", "float"};
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {

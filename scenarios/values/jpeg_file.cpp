@@ -1,6 +1,7 @@
 #include "scenarios/values/jpeg_file.h"
 
 #include <array>
+#include <cmath>
 #include <cstdio> // jpeglib.h wants FILE
 #include <cstdlib>
 
@@ -64,7 +65,7 @@ class JpegReader {
                 for (std::size_t c = 0; c < 3; ++c) {
                     constexpr float scale = 1.0F / 255.0F;
                     const float light = static_cast<float>(cmyk[i + c]) * scale * (static_cast<float>(cmyk[i + 3]) * scale);
-                    row[i / 4 * 3 + c] = static_cast<std::uint8_t>(light * 255.0F + 0.5F);
+                    row[i / 4 * 3 + c] = static_cast<std::uint8_t>(std::floor(light * 255.0F + 0.5F));
                 }
         }
     }

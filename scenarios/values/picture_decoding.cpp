@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <stdexcept>
@@ -47,7 +48,7 @@ EightBits eight_bits(PngPicture picture) {
     }
     out.levels.resize(picture.bytes.size() / 2);
     std::ranges::transform(parts_of_white(picture), out.levels.begin(),
-                           [](float part) { return static_cast<std::uint8_t>(part * 255.0F + 0.5F); });
+                           [](float part) { return static_cast<std::uint8_t>(std::floor(part * 255.0F + 0.5F)); });
     return out;
 }
 

@@ -280,7 +280,7 @@ std::vector<double> steady_car(const CarModel& model, double distance_m) {
     return x;
 }
 
-OdeProblem car_problem(std::shared_ptr<const CarModel> model) {
+OdeProblem car_problem(const std::shared_ptr<const CarModel>& model) {
     OdeProblem problem;
     problem.derivative = [model](double t_s, const double* x, double* dxdt) { car_rates(*model, t_s, x, dxdt); };
     problem.jacobian = [model](double t_s, const double* x, double* jacobian, double* dfdt) {

@@ -107,6 +107,6 @@ void car_jacobian(const CarModel& model, double t_s, const double* x, double* ja
 std::vector<double> steady_car(const CarModel& model, double distance_m);
 
 /// The problem for an integrator. Holds on to `model`, whose wish may be exchanged between two calls of the integrator.
-OdeProblem car_problem(std::shared_ptr<const CarModel> model);
+OdeProblem car_problem(const std::shared_ptr<const CarModel>& model);
 
 } // namespace fernlicht

@@ -28,7 +28,7 @@ std::vector<std::string> library_names(const std::string& kind) {
 
 std::filesystem::path library_file(const std::string& kind, const std::string& given, const std::filesystem::path& folder,
                                    const InputError::Where& where) {
-    const std::filesystem::path here = std::filesystem::absolute(folder / given).lexically_normal();
+    std::filesystem::path here = std::filesystem::absolute(folder / given).lexically_normal();
     std::error_code ignored; // what cannot be looked at is not there
     if (std::filesystem::is_regular_file(here, ignored))
         return here;

@@ -122,7 +122,7 @@ std::string YamlEntry::text() const {
 }
 
 std::string YamlEntry::name() const {
-    const std::string result = text();
+    std::string result = text();
     const auto allowed = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
     };

@@ -115,11 +115,13 @@ BENCHMARK(frame_with_traffic)
             frames->Args(arguments);
     }) -> Unit(benchmark::kMillisecond) -> MeasureProcessCPUTime() -> UseRealTime();
 
-// A frame of a standard route, plain or dressed: the mean over 12 moments spread over the drive. Run with
-// --benchmark_filter=frame_dressed --benchmark_repetitions=9 --benchmark_enable_random_interleaving=true --benchmark_min_time=0.05.
+// A frame of a standard route, plain or dressed, or on another pavement: the mean over 12 moments spread over the drive. Run with
+// --benchmark_filter=frame_(dressed|paved) --benchmark_repetitions=9 --benchmark_enable_random_interleaving=true --benchmark_min_time=0.05.
 
-struct DressedStage {
-    DressedStage(Device& device, const char* name, bool dressed) : drive(read(name, dressed)) {
+using Edits = decltype(DriveEdits::values);
+
+struct RouteStage {
+    RouteStage(Device& device, const char* name, const Edits& edits) : drive(read(name, edits)) {
         const RoadNetwork network = read_opendrive(drive.road_file);
         const Route route(network, drive.start, drive.via);
         scene = staged_scene(drive, network, route);
@@ -134,9 +136,9 @@ struct DressedStage {
         renderer->prepare(moments, drive.views.front(), {.colour = true});
         draw();
     }
-    static Drive read(const std::string& name, bool dressed) {
+    static Drive read(const std::string& name, const Edits& values) {
         DriveEdits edits;
-        edits.values = {{"dressing", dressed ? "dressed" : "plain"}};
+        edits.values = values;
         return read_drive(library_path("drives/" + name + ".yaml"), edits);
     }
     void draw() {
@@ -152,12 +154,12 @@ struct DressedStage {
 
 void frame_dressed(benchmark::State& state) {
     static Device device = open_device("auto");
-    static std::map<std::pair<std::int64_t, std::int64_t>, std::unique_ptr<DressedStage>> stages;
+    static std::map<std::pair<std::int64_t, std::int64_t>, std::unique_ptr<RouteStage>> stages;
     static constexpr std::array<const char*, 5> routes{"straight", "s-bend", "country", "motorway", "village"};
     const char* const route = routes[static_cast<std::size_t>(state.range(0))];
-    std::unique_ptr<DressedStage>& stage = stages[{state.range(0), state.range(1)}];
+    std::unique_ptr<RouteStage>& stage = stages[{state.range(0), state.range(1)}];
     if (!stage)
-        stage = std::make_unique<DressedStage>(device, route, state.range(1) != 0);
+        stage = std::make_unique<RouteStage>(device, route, Edits{{"dressing", state.range(1) != 0 ? "dressed" : "plain"}});
     for (auto _ : state)
         stage->draw();
     std::size_t triangles = 0;
@@ -169,6 +171,25 @@ void frame_dressed(benchmark::State& state) {
 BENCHMARK(frame_dressed)
     ->ArgNames({"route", "dressed"})
     ->ArgsProduct({{0, 1, 2, 3, 4}, {0, 1}})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+
+void frame_paved(benchmark::State& state) {
+    static Device device = open_device("auto");
+    static std::map<std::int64_t, std::unique_ptr<RouteStage>> stages;
+    static const std::array<Edits, 3> surfaces{
+        Edits{}, Edits{{"road_surface.pavement", "asphalt-worn"}},
+        Edits{{"road_surface.pavement", "asphalt-worn"}, {"road_surface.wheel_tracks", "true"}, {"road_surface.markings.type", "type-2"}}};
+    std::unique_ptr<RouteStage>& stage = stages[state.range(0)];
+    if (!stage)
+        stage = std::make_unique<RouteStage>(device, "oncoming", surfaces[static_cast<std::size_t>(state.range(0))]);
+    for (auto _ : state)
+        stage->draw();
+}
+BENCHMARK(frame_paved)
+    ->ArgName("surface") // plain; glossy; with tracks and beads
+    ->DenseRange(0, 2)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();

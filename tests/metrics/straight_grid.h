@@ -3,6 +3,8 @@
 
 #include "metrics/road/extent.h"
 
+#include <cmath>
+
 namespace fernlicht::tests {
 
 struct StraightGrid {
@@ -21,7 +23,8 @@ inline CrossSection two_lanes() {
 inline ExtentGrid straight_grid(const StraightGrid& size) {
     ExtentGrid grid;
     grid.target_height_m = size.target_height_m;
-    const int rows = static_cast<int>(size.ahead_m / size.along_m + 0.5), half = static_cast<int>(size.beside_m / size.across_m + 0.5);
+    const int rows = static_cast<int>(std::lround(size.ahead_m / size.along_m)),
+              half = static_cast<int>(std::lround(size.beside_m / size.across_m));
     for (int column = -half; column <= half; ++column)
         grid.offset_m.push_back(column * size.across_m);
     for (int row = 0; row <= rows; ++row) {

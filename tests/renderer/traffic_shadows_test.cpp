@@ -43,9 +43,9 @@ TEST_F(Traffic, CastsShadowsAsTheTwinsRays) {
         if (least < 0.0 || most - least > 0.1)
             continue;
         ++compared;
-        const auto is_off = [&](const Frame& f) {
-            return std::abs(static_cast<double>(f.illuminance_lx.at(x, y)) - lx.at(x, y)) >
-                   allowed + 4.0 * bound.at(x, y) + 0.02 * lx.at(x, y);
+        const auto is_off = [&, u = x, v = y](const Frame& f) {
+            return std::abs(static_cast<double>(f.illuminance_lx.at(u, v)) - lx.at(u, v)) >
+                   allowed + 4.0 * bound.at(u, v) + 0.02 * lx.at(u, v);
         };
         in_shadow += least > 0.1 ? 1 : 0;
         wrong += is_off(frame) ? 1 : 0;
@@ -89,8 +89,8 @@ TEST_F(Traffic, CastsShadowsOfStreetLampsAsTheReferencesRays) {
             continue;
         ++compared;
         in_shadow += least > 0.05 ? 1 : 0;
-        const auto is_off = [&](const Frame& f) {
-            return std::abs(static_cast<double>(f.illuminance_lx.at(x, y)) - truth) > 0.05 * truth + 0.1;
+        const auto is_off = [&, u = x, v = y](const Frame& f) {
+            return std::abs(static_cast<double>(f.illuminance_lx.at(u, v)) - truth) > 0.05 * truth + 0.1;
         };
         off += is_off(frame) ? 1 : 0;
         off_before += is_off(lit) ? 1 : 0;

@@ -47,8 +47,9 @@ struct StoredRun {
         frame.illuminance_lx = Image<float>(64, 48);
         frame.luminance_cdm2 = Image<float>(64, 48);
         for (std::size_t i = 0; i < frame.illuminance_lx.size(); ++i) {
+            const std::size_t row = i / 64;
             frame.illuminance_lx.pixels()[i] = static_cast<float>(light * (1.0 + static_cast<double>(i % 64) + tick));
-            frame.luminance_cdm2.pixels()[i] = static_cast<float>(light * 0.05 * static_cast<double>(i / 64));
+            frame.luminance_cdm2.pixels()[i] = static_cast<float>(light * 0.05 * static_cast<double>(row));
         }
         View view;
         view.name = "driver";

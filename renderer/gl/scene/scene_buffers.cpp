@@ -187,7 +187,7 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded, b
             highest = std::max(highest, piece.highest_m);
             piece.first_plane = planes_.size();
             for (std::size_t k = 0; ground && k + 2 < corners.size(); k += 3) {
-                const auto at = [&](std::size_t i) { return mesh.vertices[corners[k + i].first].position_m; };
+                const auto at = [&, &of = corners](std::size_t i) { return mesh.vertices[of[k + i].first].position_m; };
                 const glm::vec3 n = glm::cross(at(1) - at(0), at(2) - at(0));
                 if (const float length = glm::length(n); length > 0.0F) {
                     planes_.emplace_back(n / length, -glm::dot(n / length, at(0)));

@@ -3,7 +3,7 @@
 #include "runner/commands/can/decoded_text.h"
 #include "runner/commands/can/line_output.h"
 #include "runner/commands/flag_values.h"
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 #include "runner/files/log.h"
 #include "runner/play/progress.h"
 #include "scenarios/can/can_database.h"

@@ -253,9 +253,9 @@ bool measure_row(Session& s, AliasingRow& row) {
 std::vector<int> ticks_of(const AliasingRequest& request) {
     if (request.flow && !request.frames)
         throw InputError({request.drive.file, 0, 0, "--flow"}, "found no --frames", "frames to follow motion through");
-    const int count = tick_count(request.drive);
+    const int count = tick_count(request.drive), middle = count / 2;
     if (!request.frames) {
-        const double time_s = request.moment_s.value_or(count / 2 * request.drive.step_s), tick = std::round(time_s / request.drive.step_s);
+        const double time_s = request.moment_s.value_or(middle * request.drive.step_s), tick = std::round(time_s / request.drive.step_s);
         if (!(tick >= 0.0 && tick < count))
             throw InputError({request.drive.file, 0, 0, "--moment"}, fmt::format("found {} s", time_s),
                              fmt::format("0 to {:.3f} s, the drive's moments", (count - 1) * request.drive.step_s));

@@ -117,7 +117,7 @@ std::string label_of(const BenchRow& row) {
 }
 
 std::string value_of(const BenchRow& row) {
-    const std::string ms = fmt::format("{:.2f} ms", 1e3 * row.frame.median);
+    std::string ms = fmt::format("{:.2f} ms", 1e3 * row.frame.median);
     if (!row.ratio)
         return ms;
     const bool open = row.ratio->difference == Difference::not_distinguishable && row.benched->row.name != reference_technique;

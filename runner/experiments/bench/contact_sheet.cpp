@@ -37,7 +37,10 @@ plots::Axis lux_axis() { return {.label = "illuminance", .unit = "lx", .from = 0
 struct SheetGround {
     double tile_width = 0.0, tile_height = 0.0, top = 0.0;
     double left_of(std::size_t tile) const { return edge_px + static_cast<double>(tile % across) * (tile_width + between_px); }
-    double top_of(std::size_t tile) const { return top + static_cast<double>(tile / across) * (tile_height + caption_px); }
+    double top_of(std::size_t tile) const {
+        const std::size_t row = tile / across;
+        return top + static_cast<double>(row) * (tile_height + caption_px);
+    }
 };
 
 /// "as published, row 4"
@@ -156,9 +159,9 @@ void add_all_techniques(std::vector<ContactSheet>& sheets, const Stage& stage, D
 }
 
 Plot contact_sheet(const ContactSheet& sheet) {
-    const auto rows = static_cast<double>((sheet.tiles.size() + across - 1) / across);
+    const std::size_t rows = (sheet.tiles.size() + across - 1) / across;
     SheetGround ground{static_cast<double>(sheet.view.width_px), static_cast<double>(sheet.view.height_px), head_px};
-    const double part_px = head_px + rows * (ground.tile_height + caption_px);
+    const double part_px = head_px + static_cast<double>(rows) * (ground.tile_height + caption_px);
     const double width_px = 2.0 * edge_px + across * ground.tile_width + (across - 1) * between_px, height_px = 2.0 * part_px;
     Drawing canvas{width_px, height_px, "Contact sheet of the techniques"};
     canvas.rectangle(0.0, 0.0, width_px, height_px, {.fill = "#ffffff"});

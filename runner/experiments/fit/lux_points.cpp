@@ -103,7 +103,7 @@ class PointFile {
     }
 
     std::string facing(std::size_t row) const {
-        const std::string word = text(row, "facing");
+        std::string word = text(row, "facing");
         if (!given(row, "normal_ahead") && !given(row, "normal_left") && !given(row, "normal_up")) {
             if (word != "lamp" && word != "car" && word != "up")
                 refuse(row, has("facing") ? "facing" : "normal_ahead", has("facing") ? "lamp, car or up" : "a direction");

@@ -140,7 +140,7 @@ std::vector<HistoryDrift> drifts_of(const StepsByReading& steps, double bound, c
     std::map<std::vector<std::size_t>, std::map<std::size_t, const InputChanges*>> causes;
     for (const auto& [reading, all] : steps) {
         std::vector<const HistoryStep*> run;
-        const auto end_run = [&] {
+        const auto end_run = [&, &of = reading] {
             if (run.empty())
                 return;
             std::vector<std::size_t> nights;
@@ -149,7 +149,7 @@ std::vector<HistoryDrift> drifts_of(const StepsByReading& steps, double bound, c
             HistoryDrift& drift = by_nights[nights];
             drift.nights = nights;
             const Value& from = run.front()->moved.before;
-            drift.moved.push_back({reading.first, reading.second, from, run.back()->moved.now});
+            drift.moved.push_back({of.first, of.second, from, run.back()->moved.now});
             for (const HistoryStep* step : run) {
                 causes[nights][step->night] = step->causes;
                 const MovedReading sum{"", "", from, step->moved.now};

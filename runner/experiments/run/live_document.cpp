@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <span>
 
 namespace fernlicht {
 namespace {
@@ -61,8 +62,7 @@ plots::Figure over_drive_figure(const LiveFigures& live) {
     const std::size_t ticks = live.late_s.size(), step = (ticks + max_points - 1) / max_points;
     plots::Series line{.name = "worst of each part", .colour = ink, .width_px = 1.2};
     for (std::size_t from = 0; from < ticks; from += step) {
-        const auto part = std::ranges::subrange(live.late_s.begin() + static_cast<std::ptrdiff_t>(from),
-                                                live.late_s.begin() + static_cast<std::ptrdiff_t>(std::min(from + step, ticks)));
+        const auto part = std::span(live.late_s).subspan(from, std::min(step, ticks - from));
         line.points.push_back({static_cast<double>(from) * live.period_s, 1e3 * std::max(shortest_s, *std::ranges::max_element(part))});
     }
     std::vector<double> late_ms;

@@ -24,7 +24,7 @@ std::filesystem::path StabilityBench::file(const std::string& name) {
 }
 
 std::filesystem::path StabilityBench::write(const std::string& name, std::string_view content) {
-    const std::filesystem::path path = file(name);
+    std::filesystem::path path = file(name);
     std::ofstream stream(path, std::ios::binary);
     stream.write(content.data(), static_cast<std::streamsize>(content.size()));
     if (!stream.flush())

@@ -104,24 +104,29 @@ const StudyComparison& comparison_of(const StudyResult& result, const Decision& 
     return result.study.comparisons[decision.comparison];
 }
 
-/// "reach at 5 lx on a target, own lane +14.2 m (+21 %) in 3 of 4 results, most on country-1"
+/// "reach at 5 lx on a target, own lane +14.2 m (+21 %) in 3 of 4 different results, most on country-1"
 std::string told(const StudyResult& result, const DecidedReading& decided) {
     const std::size_t of = decided.changes.size(), by = decided.decided_by.size();
     const std::size_t largest = *std::ranges::max_element(decided.decided_by, {}, [&](std::size_t i) { return result.changes[i].size(); });
     const std::string& drive = result.cells[result.changes[largest].tested].drive;
     return fmt::format("{} {}{}{}", reading_label(decided.reading), change_words(result.changes[decided.told]),
-                       by < of ? fmt::format(" in {} of {} results", by, of) : "",
+                       by < of ? fmt::format(" in {} of {} different results", by, of) : "",
                        of > 1 ? fmt::format(", {}on {}", by > 1 ? "most " : "", drive) : "");
 }
 
 std::string listed(const StudyResult& result, const Decision& decision, DecisionOutcome outcome, const char* words) {
     constexpr std::size_t most = 4;
-    std::vector<std::string> items;
+    std::vector<const DecidedReading*> shown;
     for (const DecidedReading& decided : decision.readings)
         if (decided.outcome == outcome)
-            items.push_back(told(result, decided));
-    const std::size_t more = items.size() > most ? items.size() - most : 0;
-    items.resize(items.size() - more);
+            shown.push_back(&decided);
+    const std::size_t more = shown.size() > most ? shown.size() - most : 0;
+    for (std::size_t i = 0; i < more; ++i) // the smallest go, the others keep the study's order
+        shown.erase(std::ranges::min_element(shown, {}, [&](const DecidedReading* d) { return result.changes[d->told].size(); }));
+    std::vector<std::string> items;
+    items.reserve(shown.size());
+    for (const DecidedReading* decided : shown)
+        items.push_back(told(result, *decided));
     return items.empty() ? "" : fmt::format("{} {}{}", words, fmt::join(items, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
 }
 

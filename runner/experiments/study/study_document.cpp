@@ -171,8 +171,13 @@ std::string verdict_words(const StudyResult& result) {
         });
     };
     switch (overall(result)) {
-    case VerdictKind::pass:
-        return "Within limits";
+    case VerdictKind::pass: {
+        const auto of_baseline = [](const Verdict& one) { return one.name.starts_with("baseline"); };
+        const auto held = std::ranges::count_if(
+            result.cells, [&](const CellResult& cell) { return std::ranges::any_of(cell.verdicts, of_baseline); });
+        return held == 0 ? "Within limits"
+                         : fmt::format("Within limits; {} of {} as in the baselines", held, counted(result.cells.size(), "cell"));
+    }
     case VerdictKind::fail:
         return exceeds(result.verdicts) || std::ranges::any_of(result.cells, exceeds, &CellResult::verdicts) ? "Limits exceeded"
                : std::ranges::any_of(result.verdicts, [](const Verdict& one) { return one.name == unchanged_verdict && is_red(one); })
@@ -308,7 +313,7 @@ Table cells_table(const StudyResult& result) {
 std::string study_sentence(const StudyResult& result) {
     if (result.study.comparisons.empty())
         return "Nothing was to be compared.";
-    if (const std::string nothing = nothing_compared(result); !nothing.empty())
+    if (std::string nothing = nothing_compared(result); !nothing.empty())
         return nothing;
     std::vector<std::string> sentences;
     for (const Decision& decision : decide(result))

@@ -3,13 +3,14 @@
 #include "runner/files/log.h"
 #include "runner/play/progress.h"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace fernlicht {
 namespace {
 
 std::string minutes_text(double seconds) {
-    const int whole = static_cast<int>(seconds + 0.5);
+    const int whole = static_cast<int>(std::lround(seconds));
     return whole >= 3600 ? fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60)
                          : fmt::format("{}:{:02}", whole / 60, whole % 60);
 }

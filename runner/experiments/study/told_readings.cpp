@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <ranges>
 #include <tuple>
 
 namespace fernlicht {
@@ -29,7 +28,8 @@ ReadingsOfCell all_readings(const StudyResult& result, const CellResult& cell) {
 }
 
 void keep_told_readings(StudyResult& result, CellResult& cell) {
-    std::ranges::copy(std::views::keys(cell.readings), std::inserter(result.keys, result.keys.end()));
+    for (const auto& [key, reading] : cell.readings)
+        result.keys.insert(key);
     cell.hash_of_readings = hash_of_readings(cell);
     const auto is_told = [&](const ReadingKey& key) {
         return place_among(key, result.study.decide) ||
@@ -37,7 +37,7 @@ void keep_told_readings(StudyResult& result, CellResult& cell) {
     };
     const auto what_of = [](const ReadingKey& key) { return std::tuple(key.quantity, key.subject, key.surface, key.lane, key.threshold); };
     std::set<decltype(what_of(ReadingKey()))> told;
-    for (const ReadingKey& key : std::views::keys(cell.readings))
+    for (const auto& [key, reading] : cell.readings)
         if (!result.tells_all && is_told(key)) // else changes are computed out of the reports
             told.insert(what_of(key));
     cell.has_all_readings = std::erase_if(cell.readings, [&](const auto& reading) {

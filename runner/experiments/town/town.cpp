@@ -101,6 +101,7 @@ TownFound look_at_town(const Model& model, const TownRequest& request) {
     RendererSettings settings;
     settings.technique = request.technique;
     settings.tone_mapper.l_max_cdm2 = white_cdm2;
+    settings.white = white_of(moment);
     Renderer renderer(device, scene, settings);
     found.view = renderer.draw(moment, driver_view(request), {.colour = true}).colour;
     found.map.lx = renderer.draw(moment, map_view(), {.illuminance = true}).illuminance_lx;

@@ -1,5 +1,7 @@
 #include "runner/experiments/town/two_lamps.h"
 
+#include "scenarios/display/white_adaptation.h"
+#include "scenarios/drives/edits/adapting_white.h"
 #include "scenarios/lamps/lamp_model.h"
 #include "scenarios/values/errors.h"
 
@@ -39,6 +41,18 @@ Moment in_two_lamps(const std::string& name, const Pose& car) {
         moment.lamps.push_back(std::move(lit));
     }
     return moment;
+}
+
+std::optional<glm::dmat3> white_of(const Moment& in_two_lamps) {
+    Drive drive;
+    LampSet& lamp_set = drive.lamp_sets.emplace_back();
+    for (const LitLamp& lit : in_two_lamps.lamps) {
+        MountedLamp& lamp = lamp_set.lamps.emplace_back();
+        lamp.colour = lit.colour;
+        lamp.file = lit.file;
+    }
+    close_white(drive, white_of_lamps(drive));
+    return light_adaptation(drive.display.white);
 }
 
 } // namespace fernlicht

@@ -64,7 +64,9 @@ std::vector<Colour> stepwise(Colour (*colour)(double)) {
     return all;
 }
 
-std::size_t step_of(double t) { return static_cast<std::size_t>(std::max(0.0, std::min(1.0, t)) * steps + 0.5); } // no number: 1
+std::size_t step_of(double t) {
+    return static_cast<std::size_t>(std::floor(std::max(0.0, std::min(1.0, t)) * steps + 0.5));
+} // no number: 1
 
 Colour sequential_at(double t) {
     // Within what sRGB can show at each hue (least, 0.092, in the blue-greens): a clipped component would draw an edge that the data

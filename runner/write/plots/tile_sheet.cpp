@@ -76,16 +76,17 @@ double over_tiles(const TileSection& section) {
 }
 
 double section_height(const TileSection& section) {
-    const auto rows = static_cast<double>((section.tiles.size() + tiles_across - 1) / tiles_across);
-    return over_tiles(section) + rows * (tile_height(section) + under_tiles(section));
+    const std::size_t rows = (section.tiles.size() + tiles_across - 1) / tiles_across;
+    return over_tiles(section) + static_cast<double>(rows) * (tile_height(section) + under_tiles(section));
 }
 
 void draw_tiles(Drawing& canvas, const TileSection& section, double top) {
     const double height = tile_height(section), pitch = height + under_tiles(section);
     for (std::size_t i = 0; i < section.tiles.size(); ++i) {
         const PictureTile& tile = section.tiles[i];
-        const double left = sheet_edge_px + static_cast<double>(i % tiles_across) * (tile_px + tile_gap_px),
-                     at = top + static_cast<double>(i / tiles_across) * pitch;
+        const std::size_t column = i % tiles_across, row = i / tiles_across;
+        const double left = sheet_edge_px + static_cast<double>(column) * (tile_px + tile_gap_px),
+                     at = top + static_cast<double>(row) * pitch;
         canvas.picture(left, at, tile_px, height, pixels_of(tile.picture));
         const double next = draw_lines(canvas, left, at + height + 15.0, tile_line_px, name_lines(tile),
                                        {.size_px = tile_name_px, .colour = tile_ink, .bold = true});

@@ -155,6 +155,7 @@ Fmu::Fmu(const std::filesystem::path& file) : file_(file), log_(std::make_unique
 
 Fmu::~Fmu() {
     if (library_ && (abandoned_ || worst_ == fmi::fatal)) {
+        // NOLINTNEXTLINE(bugprone-unhandled-exception-at-new): out of memory ends the program here
         static auto& left = *new std::vector<std::unique_ptr<FmuLog>>; // as long as the libraries, to the very end
         left.push_back(std::move(log_));
     } else if (library_) {

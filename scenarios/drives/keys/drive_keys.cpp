@@ -177,7 +177,7 @@ const Fields<Drive>& drive_fields() {
             form<Drive>("changes", FieldKind::list, names(0, max_lamp_changes), "of the lamps of all lamp sets").of(change_fields()),
             field("can", 19, &Drive::can, can_fields(), "signals from and to a bus; docs/can.md"),
             section("traffic_light", 20, Fields<Drive>{
-        field("min_lx", 1, &Drive::min_traffic_lx, range(1.0e-6, 1.0e3), "from one lamp; less is left out"),
+        field("min_lx", 1, &Drive::min_traffic_lx, range(1.0e-6, 1.0e3), "from one lamp; less is left out, on a wet road its reflection too"),
     }, "of other road users").heard_if(has_traffic),
             named("traffic", 21, &Drive::traffic_rows, max_traffic_rows, traffic_fields(), "other road users; docs/traffic.md"),
             form<Drive>("view_set", FieldKind::path, any(), "a file of views that come before these"),

@@ -238,7 +238,7 @@ std::shared_ptr<const LampFile> read_lamp_keys(const YamlMap& keys, LampCache& c
     options.type_c_axis = axis;
     read_group(option_fields(), keys, &options);
     const LampReadOptions usual{.type_c_axis = axis};
-    const std::shared_ptr<const LampFile> lamp = cache.lamp(file->path(), options, &*file);
+    std::shared_ptr<const LampFile> lamp = cache.lamp(file->path(), options, &*file);
     // What stands in written drives is at its defaults.
     const auto refuse = [&](const char* key) {
         keys.require(key).refuse(fmt::format("{} of a pixel lamp", key), "none: its parts are read as their files say");

@@ -233,7 +233,7 @@ std::vector<std::string> lamp_names(const LampSet& lamp_set) {
 
 std::string lamp_name(const YamlEntry& entry, const LampSet& lamp_set) {
     const std::vector<std::string> known = lamp_names(lamp_set);
-    const std::string name = entry.name();
+    std::string name = entry.name();
     if (std::ranges::find(known, name) == known.end())
         entry.refuse(fmt::format("no lamp '{}' in lamp set '{}'", name, lamp_set.name), one_of_names(name, known));
     return name;

@@ -43,8 +43,8 @@ Material road_surface(const char* name, SurfaceKind kind, const glm::vec3& albed
 }
 
 /// Gloss and roughness: fitted to the r-table (CIE 144:2001, dry, 1 degree of observation) by the logarithm, over light from up to 10
-/// degrees beside the mirror's plane that falls on the road at 9.5 degrees or less (tan gamma 6 to 12); rms 12 % for R3, 18 % for R4, 14 %
-/// for R1 (tests/scenarios/roads/mesh/road_surface_test.cpp). Exchanging light and eye, such a table says what an oncoming driver sees.
+/// degrees beside the mirror's plane that falls on the road at 9.5 degrees or less (tan gamma 6 to 12); no neighbour fits better
+/// (tests/scenarios/roads/mesh/road_surface_test.cpp). Exchanging light and eye, such a table says what an oncoming driver sees.
 /// Albedo: r at tan gamma 0, where light falls straight down, less what the facets mirror there. R_L: worn as before; new asphalt at the
 /// lower end of 10..20 [M].
 Material pavement(Pavement which) {

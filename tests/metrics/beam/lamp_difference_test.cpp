@@ -176,7 +176,7 @@ TEST_P(TwoFilesOf, OneLampDifferByNothing) {
     const auto written = [&](unsigned seed, double level) {
         const LampFile lamp = measured::lamp(GetParam(), 0.5, [&](double h, double v) { return level * beam(h, v); }, {0.01, seed});
         const char* const name = GetParam() == measured::Kind::eulumdat ? "lamp.ldt" : "lamp.ies";
-        const LampFile read = read_lamp(tests::written(name, measured::file_text(GetParam(), lamp)));
+        LampFile read = read_lamp(tests::written(name, measured::file_text(GetParam(), lamp)));
         // What was read is what was measured, in its own order.
         const CandelaTable &own = SampledBeam(lamp).samples(), &again = SampledBeam(read).samples();
         EXPECT_EQ(again.h_deg.size(), own.h_deg.size());

@@ -116,9 +116,10 @@ double veil_by_hand(const Image<glm::vec3>& picture, const ScatterFunction& f, i
 Image<glm::vec3> night_picture(int width, int height) {
     Image<glm::vec3> picture(width, height, glm::vec3(0.0F));
     std::mt19937 random(1);
-    for (int y = height / 2; y < height; ++y)
+    const int horizon = height / 2;
+    for (int y = horizon; y < height; ++y)
         for (int x = 0; x < width; ++x)
-            picture.at(x, y) = glm::vec3(6.0F * static_cast<float>(y - height / 2) / static_cast<float>(height));
+            picture.at(x, y) = glm::vec3(6.0F * static_cast<float>(y - horizon) / static_cast<float>(height));
     for (int i = 0; i < 12; ++i)
         picture.at(static_cast<int>(random() % static_cast<unsigned>(width)), static_cast<int>(random() % static_cast<unsigned>(height))) =
             glm::vec3(3000.0F, 2500.0F, 2000.0F);

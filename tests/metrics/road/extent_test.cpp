@@ -31,7 +31,7 @@ struct BareLamp {
 
 class BareLampOnTheRoad : public ::testing::Test {
   protected:
-    const BareLamp lamp;
+    const BareLamp lamp{};
     const ExtentGrid grid = straight_grid({});
     const std::vector<double> lx = lit_by(grid, [this](double x, double y) { return lamp.road_lx(x, y); }), limits{1.0, 3.0, 5.0, 10.0};
     const std::vector<LaneExtent> extents = measure_extent(grid, lx, Surface::road, limits, {5.0, 10.0});
@@ -221,7 +221,7 @@ std::vector<GridError> errors_on(const StraightGrid& size) {
     const ExtentGrid grid = straight_grid(size);
     const std::vector<double> lx = lit_by(grid, [](double x, double y) { return BareLamp{}.road_lx(x, y); });
     const std::vector<LaneExtent> measured = measure_extent(grid, lx, Surface::road, {3.0}, {});
-    const std::vector<GridError> errors = grid_errors(grid, lx, Surface::road, {3.0}, measured);
+    std::vector<GridError> errors = grid_errors(grid, lx, Surface::road, {3.0}, measured);
     EXPECT_EQ(errors.size(), measured.size());
     return errors;
 }

@@ -129,7 +129,7 @@ TEST_F(Views, TheLightIsTheSameInAll) {
     back.position_m = {2.0, 0.2, 1.4};
     back.yaw_rad = pi;
     const FrameOutputs outputs{.illuminance = true, .depth = true, .ids = true};
-    for (View view : views) {
+    for (const View& view : views) {
         const View& reference = view.mirrored ? back : wide;
         const Frame all = renderer.draw(moment, reference, outputs), frame = renderer.draw(moment, view, outputs);
         const Camera camera = camera_of(moment, view), other = camera_of(moment, reference);

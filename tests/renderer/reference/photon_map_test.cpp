@@ -132,8 +132,8 @@ TEST(PhotonMap, MeetsPathsInARoomWithALamp) {
                          seen = reference.render(moment, view, everything, photons(1 << 18, 0.1, false));
     for (const auto& [x, y] : each_pixel(4, 4)) {
         const double e = truth.illuminance_lx.mean.at(x, y);
-        const auto error = [&](const ReferenceImage& image) -> double {
-            return std::hypot(truth.illuminance_lx.standard_error.at(x, y), image.illuminance_lx.standard_error.at(x, y));
+        const auto error = [&, u = x, v = y](const ReferenceImage& image) -> double {
+            return std::hypot(truth.illuminance_lx.standard_error.at(u, v), image.illuminance_lx.standard_error.at(u, v));
         };
         // Strips of 0.05 m along the walls' ends are a tenth of the room and lack a fifth of their light, which is a third of the
         // whole.

@@ -46,7 +46,7 @@ std::string content_below(const std::filesystem::path& folder, const std::string
 class BusRun : public testing::Test {
   protected:
     std::string run(const std::string& flags, int exit_code = 0) {
-        const std::string out = folder / fmt::format("out{}", ++runs);
+        std::string out = folder / fmt::format("out{}", ++runs);
         said = run_program("run " + shipped_drive() + few + flags + " --out " + out);
         EXPECT_EQ(said.exit_code, exit_code) << said.output;
         return out;
@@ -89,7 +89,7 @@ TEST_F(BusRun, TwiceTheSameBytesAndTheScriptsPicturesWhereSignalsSayTheSame) {
         exact.replace(at, 5, ": " + library_file(""));
     std::ofstream(folder / "exact.yaml") << exact;
     const auto play = [&](const std::string& flags) {
-        const std::string out = folder / fmt::format("exact{}", ++runs);
+        std::string out = folder / fmt::format("exact{}", ++runs);
         const Outcome outcome = run_program("run " + (folder / "exact.yaml") + few + flags + " --out " + out);
         EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
         return out;

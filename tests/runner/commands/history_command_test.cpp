@@ -189,11 +189,11 @@ TEST_F(HistoryCommand, ThePageHasLinesAndFramesSideBySide) {
 TEST_F(HistoryCommand, TidyCsvHasEveryReading) {
     for (int number = 0; number < 3; ++number)
         printed("history add " + night(number) + flag_);
-    const std::vector<std::vector<std::string>> rows = csv_rows(printed("history export --csv" + flag_));
+    const std::vector<std::vector<std::string>> rows = csv_rows(printed("history export" + flag_));
     ASSERT_EQ(rows.size(), 1U + 3U * (24U + 4U)); // and four timed cells
     EXPECT_THAT(rows[0], testing::Contains("reading"));
-    printed("history export --csv --out " + (folder_ / "all.csv") + flag_);
-    EXPECT_THAT(printed("history export --csv --out " + (folder_ / "all.csv") + flag_, 2), HasSubstr("is there already"));
+    printed("history export --out " + (folder_ / "all.csv") + flag_);
+    EXPECT_THAT(printed("history export --out " + (folder_ / "all.csv") + flag_, 2), HasSubstr("is there already"));
 }
 
 TEST_F(HistoryCommand, WhatCannotBeUsedGivesOneSentence) {
@@ -204,10 +204,9 @@ TEST_F(HistoryCommand, WhatCannotBeUsedGivesOneSentence) {
     printed("history add " + night(0) + flag_);
     EXPECT_THAT(printed("history explain 2027-01-01" + flag_, 2), HasSubstr("found '2027-01-01', expected last, a number or a date"));
     EXPECT_THAT(printed("history explain --study standard" + flag_, 2), HasSubstr("expected one of planted"));
-    for (const char* action : {"show", "export --csv"})
+    for (const char* action : {"show", "export"})
         EXPECT_THAT(printed(std::string("history ") + action + " --study standard" + flag_, 2), HasSubstr("expected one of planted"));
     EXPECT_THAT(printed("history prune" + flag_, 2), HasSubstr("found neither --keep-nights nor --before"));
-    EXPECT_THAT(printed("history export" + flag_, 2), HasSubstr("expected --csv"));
     EXPECT_THAT(printed("history trend reach_5lx_target_own" + flag_, 2), HasSubstr("such as reach_5lx_target_own_m"));
     EXPECT_THAT(printed("history trend 'reach*' --only strait_xenon" + flag_, 2), HasSubstr("such as straight_xenon"));
     write_file(folder_ / "n1/INCOMPLETE", "");

@@ -24,7 +24,7 @@ class LampCommand : public testing::Test {
         testing::internal::CaptureStdout();
         const int code = lamp_command(request);
         std::fflush(stdout);
-        const std::string text = testing::internal::GetCapturedStdout();
+        std::string text = testing::internal::GetCapturedStdout();
         EXPECT_EQ(code, 0);
         return text;
     }

@@ -144,7 +144,7 @@ TEST(Seeing, SaysWhereThereIsNobody) {
     GlareParameters& glare = straight.drive.seeing.glare.emplace();
     glare.oncoming = {{"far", 1.0e5, 1.1}};
     try {
-        SeeingFold(straight.drive, route);
+        const SeeingFold fold(straight.drive, route);
         FAIL() << "an observer beyond the route";
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr("measure.glare.oncoming.far.at_m: found 100000 m, expected a place on the route"));

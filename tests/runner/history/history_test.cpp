@@ -185,7 +185,7 @@ TEST(HistoryFile, WhatIsNoHistoryIsRefusedInOneSentence) {
         Database(foreign, Database::For::writing).run("CREATE TABLE IF NOT EXISTS songs (title)");
         EXPECT_THAT(refusal_of([&] { History(foreign, what); }), HasSubstr("is a database of another program"));
         const std::filesystem::path newer = new_folder() / "newer.db";
-        History(newer, History::For::collecting);
+        const History made(newer, History::For::collecting);
         Database(newer, Database::For::writing).run("PRAGMA user_version=99");
         EXPECT_THAT(refusal_of([&] { History(newer, what); }), HasSubstr("is a history of version 99"));
         Database(newer, Database::For::writing).run("PRAGMA user_version=-7");

@@ -34,13 +34,13 @@ std::string drive_with(const TemporaryFolder& folder, const std::string& name, c
     text.erase(text.find("  xenon: "), text.find("traffic_light: ") - text.find("  xenon: "));
     text.erase(text.find("  map: "));
     text += std::string("measure: {extent: false}\n") + (lines.find("shadows: ") == std::string::npos ? "shadows: none\n" : "");
-    const std::string path = folder / (name + ".yaml");
+    std::string path = folder / (name + ".yaml");
     std::ofstream(path) << text << lines;
     return path;
 }
 
 std::string played(const TemporaryFolder& folder, const std::string& name, const std::string& lines) {
-    const std::string out = folder / name;
+    std::string out = folder / name;
     const Outcome run = run_program("run " + drive_with(folder, name, lines) + few_shown + "--out " + out);
     EXPECT_LE(run.exit_code, 1) << run.output;
     return out;
@@ -144,8 +144,8 @@ TEST(DisplayRun, ReportAndPageSayHowPicturesWereShown) {
          {"<li>windscreen, transmittance 0.75, haze 0.02</li>", "<li>veil in an eye of 60 years, pigmentation 0.5</li>",
           "<li>colours at night</li>", "<li>sharpness at night</li>", "<li>adaptation: white follows",
           "Tone mapper <code>rational</code>, s = 20, white at 100 cd/m² at first",
-          "Display <code>hdr-monitor</code> (HDR monitor, 1000 cd/m2): peak 1000 cd/m², black 0.001 cd/m², 16 bits; colours "
-          "that it does not hold keep their luminance",
+          ("Display <code>hdr-monitor</code> (HDR monitor, 1000 cd/m2): peak 1000 cd/m², black 0.001 cd/m², 16 bits; colours "
+           "that it does not hold keep their luminance"),
           "0.1, 1 and 10 cd/m² is shown with 19.6, 168 and 690 cd/m² at first", "redraw_texels 0.5, lamp_radius_m 0.06, lamp_places 2)",
           ">display: veil in the eye</td>", ">display: tone mapper and display</td>"})
         EXPECT_THAT(page, HasSubstr(words));
@@ -256,7 +256,7 @@ TEST(DisplayRun, ResolvedToneMappersSayWhatTheyUseAndNoMore) {
     const auto written = [&](const std::string& name, const std::string& mapper) {
         const std::string out = played(folder, name, "tone_mapper: " + mapper + "\n"), resolved = content_of(out + "/oncoming-1.yaml");
         const std::size_t at = resolved.find("tone_mapper: ");
-        const std::string line = resolved.substr(at, resolved.find('\n', at) - at);
+        std::string line = resolved.substr(at, resolved.find('\n', at) - at);
         const std::string again = folder / (name + "-again");
         EXPECT_LE(run_program("run " + out + "/oncoming-1.yaml" + few_shown + "--out " + again).exit_code, 1);
         EXPECT_THAT(content_of(again + "/oncoming-1.yaml"), HasSubstr(line + "\n"));

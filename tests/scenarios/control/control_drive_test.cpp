@@ -193,7 +193,8 @@ ControlRun run(
 std::filesystem::path compiled_plugin(const std::string& name, const std::string& step,
                                       const std::string& version = "FERNLICHT_CONTROL_VERSION") {
     const std::filesystem::path folder = testing::TempDir();
-    const std::filesystem::path source = folder / (name + ".c"), out = folder / (name + ".so");
+    const std::filesystem::path source = folder / (name + ".c");
+    std::filesystem::path out = folder / (name + ".so");
     std::ofstream(source) << fmt::format(
         "#include \"scenarios/control/fernlicht_control.h\"\n#include <math.h>\n#include <stdlib.h>\n"
         "static int step(void* state, const fernlicht_control_input* in, fernlicht_control_output* out) "

@@ -239,8 +239,8 @@ TEST(BendLight, OuterLampTakesItsShare) {
 
 TEST(BendLight, StandingReversingAndSlowCarsLookStraightAhead) {
     for (const auto& [speed, share] : {std::pair{0.0, 0.0}, {-3.0, 0.0}, {1.4, 0.0}, {2.1, 0.5}, {2.8, 1.0}}) {
-        const ControlRun run = ran(bend_light(BendLaw::yaw_rate), 1.0, [=](double t) {
-            ControlInputs in = circle(t, speed, 20.0);
+        const ControlRun run = ran(bend_light(BendLaw::yaw_rate), 1.0, [v = speed](double t) {
+            ControlInputs in = circle(t, v, 20.0);
             in.yaw_rate_rad_s = 0.1;
             return in;
         });

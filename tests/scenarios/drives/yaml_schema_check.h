@@ -58,7 +58,7 @@ class SchemaCheck {
 
     std::string violation(const json& schema, const json& value, const std::string& where) const {
         for (const auto& [keyword, rule] : schema.items())
-            if (const std::string text = keyword_violation(schema, keyword, rule, value, where); !text.empty())
+            if (std::string text = keyword_violation(schema, keyword, rule, value, where); !text.empty())
                 return text;
         return "";
     }
@@ -120,7 +120,7 @@ class SchemaCheck {
                                    const std::string& where) const {
         if (keyword == "items" && value.is_array())
             for (const json& item : value)
-                if (const std::string text = violation(rule, item, where + "[]"); !text.empty())
+                if (std::string text = violation(rule, item, where + "[]"); !text.empty())
                     return text;
         if (keyword == "items" || !value.is_object())
             return "";

@@ -425,8 +425,7 @@ TEST_F(GltfExtensions, ManyColoursKeepTheirMean) {
         const float x = static_cast<float>(i);
         positions.insert(positions.end(), {{x, 0, 0}, {x, 0, 1}, {x + 1, 0, 0}});
         indices.insert(indices.end(), {3 * i, 3 * i + 1, 3 * i + 2});
-        const glm::vec3 colour(static_cast<float>(i % 10) / 9.0F, static_cast<float>(i / 10 % 10) / 9.0F,
-                               static_cast<float>(i / 100) / 9.0F);
+        const glm::vec3 colour = glm::vec3(glm::uvec3(i % 10, i / 10 % 10, i / 100)) / 9.0F;
         for (int k = 0; k < 3; ++k)
             colours.insert(colours.end(), {colour.r, colour.g, colour.b});
         mean += glm::dvec3(colour) / 1000.0;

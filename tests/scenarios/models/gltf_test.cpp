@@ -142,7 +142,7 @@ TEST_F(Gltf, BrokenFilesAreRefusedInOneSentence) {
     EXPECT_THAT(refusal_of_text("{}"), HasSubstr("no version"));
     EXPECT_THAT(refusal_of_text("{\"asset\": {\"version\": \"3.0\"}}"), HasSubstr("version '3.0'"));
     EXPECT_THAT(refusal_of_text(std::string(100'000, '[')), HasSubstr("nested deeper"));
-    EXPECT_THAT(refusal_of_text("glTF\2\0\0\0"), HasSubstr("bytes"));
+    EXPECT_THAT(refusal_of_text(std::string("glTF\2\0\0\0", 8)), HasSubstr("bytes"));
     EXPECT_THAT(refusal_of_text(std::string("glTF\2\0\0\0\xff\0\0\0\x10\0\0\0JSON", 20)), HasSubstr("header says 255"));
     EXPECT_THAT(refusal(with([](auto& f) {
                     f.json["nodes"] = {{{"children", {1}}}, {{"children", {2}}}, {{"children", {1}}}};

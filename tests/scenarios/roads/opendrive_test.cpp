@@ -179,7 +179,7 @@ TEST(OpenDrive, Signals) {
 /// The refusal without the file's name; "" when the file is read.
 std::string refusal(const std::string& content) {
     const std::filesystem::path file = tests::written("road.xodr", content);
-    const std::string sentence = tests::refusal_of([&] { read_opendrive(file); }, "");
+    std::string sentence = tests::refusal_of([&] { read_opendrive(file); }, "");
     if (sentence.empty())
         return sentence;
     EXPECT_THAT(sentence, testing::StartsWith(file.string()));
@@ -196,7 +196,7 @@ TEST(OpenDriveBadInput, NotAFileAtAll) {
     EXPECT_THROW(read_opendrive("/tmp"), InputError);
     EXPECT_THAT(refusal(""), HasSubstr("is empty"));
     EXPECT_THAT(refusal(std::string(1000, '\0')), HasSubstr(":1: "));
-    EXPECT_THAT(refusal("\xff\xfe<\0O\0"), HasSubstr("UTF-16"));
+    EXPECT_THAT(refusal(std::string("\xff\xfe<\0O\0", 6)), HasSubstr("UTF-16"));
     EXPECT_THAT(refusal("just text\n"), HasSubstr("is not well-formed XML"));
     EXPECT_THAT(refusal("<?xml version=\"1.0\"?>\n<Envelope/>"), HasSubstr(":2: found root element 'Envelope', expected 'OpenDRIVE'"));
     EXPECT_THAT(refusal("<OpenDRIVE/>"), HasSubstr("holds no road"));

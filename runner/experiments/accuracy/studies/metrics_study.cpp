@@ -66,7 +66,7 @@ WorkPrecision metrics_study(const Stage& stage, const LampSet& lamp_set, Device&
         } else {
             row.why_not = "the pictures are the same";
         }
-        row.seconds = timed([&] { compared(pictures[0], pictures[1], across, down); });
+        row.seconds = timed([&, x = across, y = down] { compared(pictures[0], pictures[1], x, y); });
         diagram.rows.push_back(std::move(row));
     }
     return diagram;

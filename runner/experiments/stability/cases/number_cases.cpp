@@ -40,14 +40,16 @@ template <class T> void try_type(const std::string& type, T big, std::vector<std
     using Limits = std::numeric_limits<T>;
     const T zero = unknown(T(0)), one = unknown(T(1)), nan = unknown(Limits::quiet_NaN()), infinity = unknown(Limits::infinity());
     // With -ffinite-math-only these comparisons are folded away.
-    must(nan != nan && !(nan == nan) && !(nan < one) && std::isnan(nan * zero), "NaN is no number");
+    must(nan != nan && !(nan == nan) && !(nan < one) && std::isnan(nan * zero), // NOLINT(misc-redundant-expression): that is asked
+         "NaN is no number");
     must(one / zero == infinity && std::isinf(infinity) && infinity > Limits::max(), "1 / 0 is infinite");
     // -fno-signed-zeros, -freciprocal-math
     must(std::signbit(-zero) && one / -zero == -infinity && !std::signbit(-zero + zero), "zeros have signs");
     const T three = unknown(T(3)), ten = unknown(T(10));
     must(three / ten != three * (one / ten) || sizeof(T) == 4, "a quotient is no product with the reciprocal");
     // -fassociative-math would give back 1.
-    must((one + big) - big == zero && one + (big - big) == one, "sums are taken in the order written");
+    must((one + big) - big == zero && one + (big - big) == one, // NOLINT(misc-redundant-expression): that is asked
+         "sums are taken in the order written");
     // (1 + e)^2 = 1 + 2 e + e^2: rounded the product loses e^2, fused it keeps it.
     const T e = unknown(Limits::epsilon()), factor = one + e, product = factor * factor;
     must(unknown(factor) * unknown(factor) + unknown(-product) == zero && std::fma(factor, factor, -product) == e * e,

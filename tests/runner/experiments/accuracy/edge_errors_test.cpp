@@ -23,8 +23,9 @@ SlantedEdge slanted_edge(double direction_rad) {
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x) {
             int lit = 0;
-            for (int i = 0; i < parts * parts; ++i)
-                lit += inside(x + (i % parts + 0.5) / parts, y + (i / parts + 0.5) / parts) > 0.0 ? 1 : 0;
+            for (int i = 0; i < parts; ++i)
+                for (int k = 0; k < parts; ++k)
+                    lit += inside(x + (i + 0.5) / parts, y + (k + 0.5) / parts) > 0.0 ? 1 : 0;
             edge.areas.illuminance_lx.mean.at(x, y) = 10.0F * static_cast<float>(lit) / static_cast<float>(parts * parts);
             edge.areas.mixed.at(x, y) = lit > 0 && lit < parts * parts ? shadow_edge : 0;
             edge.by_centre.at(x, y) = inside(x + 0.5, y + 0.5) > 0.0 ? 10.0F : 0.0F;

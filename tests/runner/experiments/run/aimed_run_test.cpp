@@ -28,7 +28,7 @@ class AimedRun : public testing::Test {
         return folder_ / name;
     }
     std::string drive_with(const std::string& lamp_sets) const {
-        const std::string file = folder_ / "aimed.yaml";
+        std::string file = folder_ / "aimed.yaml";
         std::ofstream(file) << "fernlicht: 1\nroad: " << library_file("roads/straight.xodr")
                             << "\nroute: {s_m: 20}\nspeed_kmh: 64.4\nrate_hz: 10\nduration_s: 10\nlamp_sets:\n"
                             << lamp_sets

@@ -13,7 +13,7 @@ inline std::string short_drive(const TemporaryFolder& folder, const std::string&
     for (std::size_t at = 0; (at = text.find("../", at)) != std::string::npos;)
         text.replace(at, 3, library_file(""));
     text = std::regex_replace(text, std::regex("\nduration_s: [0-9.]+"), "\nduration_s: 0.8");
-    const std::string path = folder / (drive + ".yaml");
+    std::string path = folder / (drive + ".yaml");
     std::ofstream(path) << text << "shadows: " << shadows << "\n";
     return path;
 }

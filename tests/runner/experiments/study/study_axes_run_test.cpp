@@ -1,6 +1,7 @@
 // Axes of a study through the program: what is played at each point, and where its values stand.
 #include "runner/experiments/study/study_document.h"
 #include "runner/experiments/study/study_plan.h"
+#include "runner/experiments/study/study_run.h"
 #include "scenarios/models/road_user_bodies.h"
 #include "scenarios/values/files.h"
 #include "tests/runner/program.h"
@@ -20,7 +21,7 @@ struct StudyAxesProgram : testing::Test {
     TemporaryFolder folder;
 
     std::string study_file(const std::string& more) {
-        const std::string file = folder / "axes.yaml";
+        std::string file = folder / "axes.yaml";
         std::ofstream(file) << "fernlicht_study: 1\nlamps:\n  old: {low: " << library_file("lamps/halogen-low.ies")
                             << "}\n  new: {low: " << library_file("lamps/xenon-low.ies") << ", source: arc}\ndrives: ["
                             << library_file("drives/straight.yaml") << "]\npictured_moments: 1\nresolution_px: [96, 72]\n"

@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string study_with_tolerances(const TemporaryFolder& folder, const std::string& tolerances) {
-    const std::string file = folder / "cars.yaml";
+    std::string file = folder / "cars.yaml";
     std::ofstream(file) << "fernlicht_study: 1\nlamps:\n  old: {low: " << library_file("lamps/halogen-low.ies")
                         << "}\n  new: {low: " << library_file("lamps/xenon-low.ies") << ", source: arc}\ndrives: ["
                         << library_file("drives/straight.yaml")

@@ -8,6 +8,7 @@
 namespace fernlicht {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -27,7 +28,7 @@ struct MadeStudy {
         result.study.conditions.times_of_day = {{}};
     }
     /// Of one drive; nudged aim moves it by `by_aim`.
-    MadeStudy& on(std::size_t drive, const char* name, Value before, Value now, std::optional<double> by_aim = 0.0) {
+    MadeStudy& on(std::size_t drive, const char* name, const Value& before, const Value& now, std::optional<double> by_aim = 0.0) {
         while (result.cells.size() < 2 * (drive + 1)) {
             CellResult cell;
             cell.cell.drive = result.cells.size() / 2;
@@ -86,7 +87,7 @@ TEST(Decision, TwoPlacesWithOneResultCountOnce) {
     EXPECT_EQ(decided.decided_by.size(), 1U);
     EXPECT_THAT(same_results(study.result, decisions),
                 ElementsAre("drive-0 and drive-1 give the same result in 1 deciding reading, so it counts once"));
-    EXPECT_THAT(decision_sentence(study.result, decisions.front()), HasSubstr("own lane +10.00 m (+25 %) in 1 of 2 results, on drive-0"));
+    EXPECT_THAT(decision_sentence(study.result, decisions.front()), HasSubstr("own lane +10.00 m (+25 %) in 1 of 2 different results, on drive-0"));
     EXPECT_THAT(decision_sentence(study.result, decisions.front()), Not(HasSubstr("most on")));
     EXPECT_THAT(same_results(study.result, MadeStudy().on(0, reach, 40.0, 50.0).on(1, reach, 41.0, 51.0).decided()), IsEmpty());
 }
@@ -99,6 +100,16 @@ TEST(Decision, TheSentenceNamesWhereMostChangedAndWhatIsWithinAim) {
     EXPECT_THAT(sentence, HasSubstr("own lane +4.00 m (+6.7 %), most on drive-1."));
     EXPECT_THAT(sentence, HasSubstr("In 2 readings 0.1° of aim would change as much: largest illuminance on the mirror left of a car "
                                     "15 m ahead; foreground: mean light on the road from 5 to 15 m, own lane."));
+}
+
+TEST(Decision, OfManyReadingsTheSmallestChangeIsLeftOut) {
+    MadeStudy study;
+    study.result.study.decide = {"reach_*"};
+    for (const auto& [name, now] : {std::pair("reach_1lx_target_own_m", 50.0), std::pair("reach_3lx_target_own_m", 44.0), std::pair(reach, 52.0),
+                                    std::pair("reach_1lx_road_own_m", 54.0), std::pair("reach_3lx_road_own_m", 80.0)})
+        study.on(0, name, 40.0, now);
+    const std::string sentence = decision_sentence(study.result, study.decided().front());
+    EXPECT_THAT(sentence, AllOf(HasSubstr("(+100 %)"), Not(HasSubstr("(+10 %)")), HasSubstr("; and 1 more")));
 }
 
 TEST(Decision, WarningsOfTheAimStandOnTheFirstScreen) {

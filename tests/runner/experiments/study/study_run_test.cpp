@@ -24,7 +24,7 @@ using testing::Not;
 constexpr const char* moments = " --frames 0:5 --quiet --no-accuracy ";
 
 std::string write_study_file(const TemporaryFolder& folder, const std::string& second_lamp, const std::string& more = "") {
-    const std::string file = folder / "study.yaml";
+    std::string file = folder / "study.yaml";
     std::ofstream(file) << "fernlicht_study: 1\nname: two\ntitle: Two cells\nlamps:\n  old: {low: " << library_file("lamps/halogen-low.ies")
                         << "}\n  new: " << second_lamp << "\ndrives: [" << library_file("drives/straight.yaml")
                         << "]\npictured_moments: 2\nresolution_px: [96, 72]\n"
@@ -265,7 +265,7 @@ TEST_F(StudyProgram, WhatIsInTheStoreIsNotPlayedAgain) {
     write_study_file(folder, "{low: new.ies, source: arc}");
     EXPECT_THAT(printed(arguments + "--explain"), HasSubstr("0 of 2 cells would be played")) << "the same light by another name";
     std::string lamp = content_of(folder / "new.ies");
-    lamp.replace(lamp.rfind("2"), 1, "3");
+    lamp.replace(lamp.rfind('2'), 1, "3");
     std::ofstream(folder / "new.ies") << lamp;
     EXPECT_EQ(printed(arguments + "--explain"),
               "straight_new                             lamp new.ies is new; lamp xenon-low.ies is gone\n1 of 2 cells would be "
@@ -399,7 +399,7 @@ TEST_F(StudyProgram, TheHistoryHasTimesAndTellsLampAndProgramApart) {
     // A report that cannot be written makes no night: its readings may be a part.
     std::filesystem::remove(folder / "red/study.md");
     std::filesystem::create_directories(folder / "red/study.md/taken");
-    const auto nights = [&] { return printed("history export --csv --history " + (folder / "once.db")); };
+    const auto nights = [&] { return printed("history export --history " + (folder / "once.db")); };
     EXPECT_EQ(run_program(red + " --resume --history " + (folder / "once.db")).exit_code, 3);
     EXPECT_EQ(std::ranges::count(nights(), '\n'), 1) << "the heads";
     std::filesystem::remove_all(folder / "red/study.md");

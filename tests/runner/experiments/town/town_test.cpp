@@ -50,6 +50,14 @@ TEST(Town, LuxOnTheGroundIsThatOfTheLamps) {
     EXPECT_EQ(found.view.width(), 160);
 }
 
+TEST(Town, ThePictureIsThatOfAnEyeAdaptedToTheLamps) {
+    const Moment moment = in_two_lamps("halogen-low", {});
+    const glm::dvec3 light = moment.lamps.front().colour.linear_srgb, seen = white_of(moment).value() * light;
+    const auto warmth = [](const glm::dvec3& c) { return (c.x - c.z) / c.y; };
+    EXPECT_GT(warmth(seen), 0.1) << "partly: halogen stays warm";
+    EXPECT_LT(warmth(seen), 0.6 * warmth(light));
+}
+
 TEST(Town, WhereNoCarCanStandIsSaid) {
     TownRequest request = small_request();
     request.at_m = glm::dvec2(500.0, 0.0);

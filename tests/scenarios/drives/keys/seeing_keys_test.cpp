@@ -119,8 +119,8 @@ TEST_F(SeeingKeys, AreWrittenAsTheyWereRead) {
     for (const char* measure :
          {"sensors: {points: {'1.5': {at_m: 0.1, across: right-edge}, 'null': {at_m: 2, across: oncoming-centre}}}",
           "glare: {oncoming: {a: {at_m: 80.3}}, mirrors: true, equation: stiles-holladay}", "glare: {mirrors: {places: {x: [1, 2, 3]}}}",
-          "visibility: {targets: {'1': {reflectance: 0.3, level: 8.5, across: [own-centre, right-edge]}, card: true}, k: 2.61}, "
-          "homogeneity: {ahead_m: 77.7}, places: [boards, markings]",
+          ("visibility: {targets: {'1': {reflectance: 0.3, level: 8.5, across: [own-centre, right-edge]}, card: true}, k: 2.61}, "
+           "homogeneity: {ahead_m: 77.7}, places: [boards, markings]"),
           "extent: false, probes: {p: {ahead_m: 3}}, glare: {oncoming: {a: {at_m: 1}}, thresholds_lx: [], distances_m: []}"}) {
         const Drive drive = read(minimal + "measure: {" + measure + "}\n");
         EXPECT_EQ(read(write_drive(drive)).seeing, drive.seeing) << measure;

@@ -1,7 +1,7 @@
-#include "runner/commands/exit_codes.h"
-#include "runner/commands/manual.h"
+#include "runner/commands/words/exit_codes.h"
+#include "runner/commands/words/manual.h"
 
-#include "runner/commands/help.h"
+#include "runner/commands/words/help.h"
 #include "scenarios/values/version.h"
 
 #include <CLI/CLI.hpp>
@@ -131,7 +131,7 @@ std::vector<std::string> choices_of(const CLI::Option& option) {
         between = ',';
     }
     const bool is_list = words.find(between) != std::string::npos && std::ranges::all_of(words, [&](unsigned char c) {
-                             return std::islower(c) || std::isdigit(c) || c == '-' || c == between;
+                             return std::islower(c) || std::isdigit(c) || c == '-' || c == static_cast<unsigned char>(between);
                          });
     return is_list ? CLI::detail::split(words, between) : std::vector<std::string>{};
 }

@@ -9,7 +9,8 @@ enum class ExitCode {
     users_input = 2,
     device = 3,
     ours = 4,
-    interrupted = 130 ///< as a shell has it for what SIGINT ended
+    interrupted = 130, ///< as a shell has it for what SIGINT ended
+    terminated = 143   ///< the same for SIGTERM
 };
 
 struct ExitMeaning {
@@ -26,6 +27,7 @@ constexpr ExitMeaning exit_meanings[] = {
     {ExitCode::device, "the machine cannot do it"},
     {ExitCode::ours, "a bug in fernlicht"},
     {ExitCode::interrupted, "Ctrl-C before the first picture, in stability, or in live, which leaves its report"},
+    {ExitCode::terminated, "SIGTERM before the first picture"},
 };
 
 } // namespace fernlicht

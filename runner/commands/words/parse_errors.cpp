@@ -1,8 +1,8 @@
-#include "runner/commands/parse_errors.h"
+#include "runner/commands/words/parse_errors.h"
 
-#include "runner/commands/help.h"
-#include "runner/commands/manual.h"
-#include "runner/commands/old_flags.h"
+#include "runner/commands/words/help.h"
+#include "runner/commands/words/manual.h"
+#include "runner/commands/words/old_flags.h"
 #include "runner/findings/figures.h"
 
 #include <CLI/CLI.hpp>

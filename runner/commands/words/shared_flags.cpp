@@ -1,4 +1,4 @@
-#include "runner/commands/shared_flags.h"
+#include "runner/commands/words/shared_flags.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,6 +1,6 @@
-#include "runner/commands/manual.h"
+#include "runner/commands/words/manual.h"
 
-#include "runner/commands/help.h"
+#include "runner/commands/words/help.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "runner/commands/old_flags.h"
+#include "runner/commands/words/old_flags.h"
 
 #include <algorithm>
 #include <fmt/format.h>
