@@ -75,7 +75,7 @@ DressedObject dressed_guard_rail(double length_m, double width_m, double height_
 
 DressedObject dressed_bollard(double height_m) {
     DressedObject out;
-    constexpr int sides = 7;
+    constexpr int sides = 10;
     constexpr double radius_m = 0.05;
     const auto band = [&](double low, double high, double radius, Stuff stuff) {
         for (int i = 0; i < sides; ++i) {

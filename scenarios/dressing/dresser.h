@@ -95,8 +95,6 @@ class Dresser {
     void add_sign(const Road& road, const RoadSignal& signal);
 
     void add_garden(const Road& road, const RoadObject& object, Dice drawn, const std::string& name);
-    void add_garden_tree(const Road& road, const RoadObject& object, Dice drawn, const Pose& house, const HouseSize& size,
-                         const std::string& name);
     void add_people(const Road& road);
     void add_bollards(const Road& road);
     void add_verge(const Road& road, bool left);

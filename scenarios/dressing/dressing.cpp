@@ -171,7 +171,6 @@ void Dresser::add_house(const Road& road, const RoadObject& object, const Pose& 
                          sunk_m(object), turned ? to_road.x < 0.0 : to_road.y > 0.0};
     add(dressed_house(size, drawn, detail(foot, far_house_error_m)), pose, name);
     add_garden(road, object, drawn, name);
-    add_garden_tree(road, object, drawn.fork(), pose, size, name);
 }
 
 void Dresser::add_body(const Model& model, const Pose& pose, const std::string& name) {

@@ -7,8 +7,6 @@
 #include "scenarios/roads/signal_faces.h"
 #include "scenarios/values/scene.h"
 
-#include <span>
-
 namespace fernlicht {
 
 struct DressingSettings {
@@ -33,19 +31,9 @@ void dress_ground(RoadMeshOptions& options, bool mirrored = false);
 /// sidewalks. Nothing of that stands on what vehicles may use. Everything is drawn from the seed, road, object's id and place.
 void add_dressing(Scene& scene, const RoadNetwork& network, const Route& route, const DressingSettings& settings);
 
-/// Where eyes and lamps of a car on the route are, in its frame.
-inline constexpr glm::dvec3 eyes_low_m(-1.0, -1.5, 0.2), eyes_high_m(5.0, 1.5, 2.5);
-
-/// Leaves out, from the mesh `first` on, the faces that turn their backs to all such places of the route; `ahead`: to those that have them
-/// before them. Pictures from there and shadows of lamps there do not change by it.
-void keep_shown_faces(Scene& scene, const Route& route, bool ahead, std::size_t first);
-
 /// Names of meshes of `scene`, from the `first` on, that stand between a lamp of a car on the route (0.65 m up, 0.6 m to either side) and
 /// the own lane 10 to 150 m before it: where they do, readings of illuminance are theirs as well. By rays every 8 m of the route and 10 m
 /// of the lane, to its centre and 1.5 m beside it.
 std::vector<std::string> shades_of_lane(const Scene& scene, const Route& route, std::size_t first = 0);
-
-/// Bushes and fences of fields cast no shadow but those named in `shading`.
-void leave_out_shadows(Scene& scene, std::span<const std::string> shading, std::size_t first);
 
 } // namespace fernlicht

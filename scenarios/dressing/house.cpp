@@ -166,18 +166,22 @@ class HouseBuilder {
             shutters(p, h);
             return;
         }
-        flat(p, l, r, b, blind, d, Stuff::white_frame); // the panes stand before it
+        flat(p, l, l + frame_wide_m, b, t, d, Stuff::white_frame);
+        flat(p, r - frame_wide_m, r, b, t, d, Stuff::white_frame);
+        flat(p, l + frame_wide_m, r - frame_wide_m, b, b + frame_wide_m, d, Stuff::white_frame);
+        flat(p, l + frame_wide_m, r - frame_wide_m, t - frame_wide_m, t, d, Stuff::white_frame);
         const double middle = 0.5 * (l + r), bar = 0.5 * frame_wide_m;
+        flat(p, middle - bar, middle + bar, b + frame_wide_m, t - frame_wide_m, d, Stuff::white_frame);
         // Two panes; curtains hang at their outer sides, or a low one across them.
         const bool lit = h.pane == Stuff::room, low = h.drawn > 0.8 && !lit;
         const Stuff cloth = lit ? Stuff::curtain : Stuff::net;
-        const double hem = low && h.pane == Stuff::glass ? 0.5 * (b + t) : b + frame_wide_m, top = blind < t ? blind : t - frame_wide_m,
-                     before = d - 0.005, hangs = !low && h.pane != Stuff::curtain && h.drawn > 0.45 ? 0.12 : 0.0;
+        const double hem = low && h.pane == Stuff::glass ? 0.5 * (b + t) : b + frame_wide_m, top = t - frame_wide_m,
+                     hangs = !low && h.pane != Stuff::curtain && h.drawn > 0.45 ? 0.12 : 0.0;
         for (const double side : {-1.0, 1.0}) {
             const double inner = middle + side * bar, outer = middle + side * (0.5 * (r - l) - frame_wide_m), edge = outer - side * hangs;
-            flat(p, std::min(inner, edge), std::max(inner, edge), hem, top, before, h.pane);
-            flat(p, std::min(edge, outer), std::max(edge, outer), hem, top, before, cloth);
-            flat(p, std::min(inner, outer), std::max(inner, outer), b + frame_wide_m, hem, before, cloth);
+            flat(p, std::min(inner, edge), std::max(inner, edge), hem, top, d, h.pane);
+            flat(p, std::min(edge, outer), std::max(edge, outer), hem, top, d, cloth);
+            flat(p, std::min(inner, outer), std::max(inner, outer), b + frame_wide_m, hem, d, cloth);
         }
         shutters(p, h);
     }

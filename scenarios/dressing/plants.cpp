@@ -85,45 +85,11 @@ Ball ball(int times) {
     return out;
 }
 
-/// A lump of leaves that was appended: where it lies in its soup.
-struct Lump {
-    glm::dvec3 centre_m;
-    std::size_t triangle, triangles;
-};
-
-/// Leaves out the faces of lumps that lie inside others of them.
-void leave_out_hidden(TriangleSoup& soup, const std::vector<Lump>& lumps) {
-    const auto at = [&](const SoupTriangle& t, std::size_t k) { return soup.vertices[t.corners[k]].position_m; };
-    const auto is_inside = [&](const Lump& lump, const glm::dvec3& p) {
-        const glm::dvec3 q = p - lump.centre_m;
-        for (std::size_t i = lump.triangle; i < lump.triangle + lump.triangles; ++i) {
-            const SoupTriangle& t = soup.triangles[i];
-            const glm::dvec3 a = at(t, 0) - lump.centre_m, b = at(t, 1) - lump.centre_m, c = at(t, 2) - lump.centre_m;
-            if (glm::dot(q, glm::cross(a, b)) >= 0.0 && glm::dot(q, glm::cross(b, c)) >= 0.0 && glm::dot(q, glm::cross(c, a)) >= 0.0)
-                return glm::dot(glm::cross(b - a, c - a), q - a) < 0.0;
-        }
-        return false;
-    };
-    std::vector<bool> hidden(soup.triangles.size(), false);
-    for (const Lump& own : lumps)
-        for (std::size_t i = own.triangle; i < own.triangle + own.triangles; ++i)
-            hidden[i] = std::ranges::any_of(lumps, [&](const Lump& other) {
-                const SoupTriangle& t = soup.triangles[i];
-                return &other != &own && is_inside(other, at(t, 0)) && is_inside(other, at(t, 1)) && is_inside(other, at(t, 2));
-            });
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < hidden.size(); ++i)
-        if (!hidden[i])
-            soup.triangles[kept++] = soup.triangles[i];
-    soup.triangles.resize(kept);
-}
-
 /// A lump of leaves about a centre, rough by a fifth of its radius.
-Lump append_clump(TriangleSoup& soup, const glm::dvec3& centre, const glm::dvec3& radii, const PlantBox& bounds, int times, Stuff stuff,
+void append_clump(TriangleSoup& soup, const glm::dvec3& centre, const glm::dvec3& radii, const PlantBox& bounds, int times, Stuff stuff,
                   Dice& dice) {
     const Ball shape = ball(times);
     const auto first = static_cast<std::uint32_t>(soup.vertices.size());
-    const std::size_t before = soup.triangles.size();
     std::vector<glm::dvec3> normals(shape.places.size(), glm::dvec3(0.0));
     for (const glm::dvec3& p : shape.places) {
         const glm::dvec3 at = bounds.kept(centre + radii * p * dice.between(0.72, 1.08));
@@ -141,7 +107,6 @@ Lump append_clump(TriangleSoup& soup, const glm::dvec3& centre, const glm::dvec3
         const double length = glm::length(normals[i]);
         soup.vertices[first + i].normal = length > 1e-9 ? normals[i] / length : shape.places[i];
     }
-    return {centre, before, soup.triangles.size() - before};
 }
 
 /// A twig of leaves as a flat triangle with two sides, 1 cm apart.
@@ -174,7 +139,7 @@ void append_sprigs(TriangleSoup& soup, int count, const glm::dvec3& centre, cons
 
 /// Skirts of boughs, each a star under the tip of the next lower one.
 void append_spruce(DressedObject& out, double height_m, double radius_m, Dice& dice) {
-    constexpr int tiers = 5, points = 7;
+    constexpr int tiers = 6, points = 7;
     const double free_m = 0.25 * height_m, tall = (height_m - free_m) / tiers;
     for (int tier = 0; tier < tiers; ++tier) {
         const double low = free_m + tier * tall, share = 1.0 - tier / (tiers + 0.3), tip = std::min(height_m, low + 2.0 * tall);
@@ -209,7 +174,7 @@ DressedObject dressed_tree(double height_m, double radius_m, Dice dice, Detail d
     // About as thick as the plain trunk, slightly bent; roots spread at its foot.
     const glm::dvec2 bend = 0.35 * foot_m * glm::dvec2(dice.between(-1, 1), dice.between(-1, 1));
     std::vector<TubeRing> trunk;
-    for (const double z_m : {0.0, 0.5, 1.2})
+    for (const double z_m : {0.0, 0.4, 0.7, 1.2, 2.4})
         if (z_m < free_m - 0.3 && (near || z_m == 0.0 || z_m == 1.2)) {
             const double flare = std::exp(-std::max(0.0, z_m - 0.45) / 0.30), up = z_m / free_m;
             trunk.push_back({{glm::dvec2(std::sin(pi * up)) * bend, z_m},
@@ -217,34 +182,33 @@ DressedObject dressed_tree(double height_m, double radius_m, Dice dice, Detail d
                              0.10 + 0.25 * flare});
         }
     trunk.push_back({{0, 0, free_m}, 0.80 * foot_m, 0.10});
-    append_tube(out.low, trunk, near ? 8 : 6, Stuff::bark);
+    append_tube(out.low, trunk, near ? 10 : 6, Stuff::bark);
     const double lean_x = 0.1 * radius_m * dice.between(-1, 1), lean_y = 0.1 * radius_m * dice.between(-1, 1);
     const glm::dvec3 fork(0, 0, free_m), top(lean_x, lean_y, 0.8 * height_m);
-    append_tube(out.high, {{fork, 0.80 * foot_m, 0.10}, {0.5 * (fork + top), 0.55 * foot_m}, {top, 0.2 * foot_m}}, 5, Stuff::bark);
+    append_tube(out.high, {{fork, 0.80 * foot_m, 0.10}, {0.5 * (fork + top), 0.55 * foot_m}, {top, 0.2 * foot_m}}, near ? 7 : 5,
+                Stuff::bark);
     if (spruce) {
         append_spruce(out, height_m, radius_m, dice);
         return out;
     }
     const Stuff leaves = dice.share() < 0.7 ? Stuff::leaves : Stuff::dry_leaves;
-    constexpr int boughs = 5;
+    constexpr int boughs = 6;
     const double turn = 2.0 * pi * dice.share(), sprig_m = std::clamp(0.20 * radius_m, 0.3, 0.6);
-    std::vector<Lump> lumps;
     const auto clump = [&](const glm::dvec3& centre, double size) {
         const glm::dvec3 radii(size * radius_m, size * radius_m, std::min(size * radius_m * 1.15, 0.22 * height_m));
         Dice own = dice.fork();
-        lumps.push_back(append_clump(out.high, centre, radii, bounds, 1, leaves, own));
+        append_clump(out.high, centre, radii, bounds, 1, leaves, own);
         if (near)
-            append_sprigs(out.high, 2, centre, radii, sprig_m, bounds, leaves, own);
+            append_sprigs(out.high, 3, centre, radii, sprig_m, bounds, leaves, own);
     };
     for (int i = 0; i < boughs; ++i) {
         const double angle = turn + 2.0 * pi * i / boughs + dice.between(-0.3, 0.3), up = dice.between(0.0, 1.0);
         const double reach = radius_m * (0.62 - 0.18 * up);
         const glm::dvec3 to(reach * std::cos(angle), reach * std::sin(angle), free_m + (0.22 + 0.38 * up) * (height_m - free_m));
-        clump(to, dice.between(0.40, 0.50));
+        clump(to, dice.between(0.36, 0.48));
     }
     clump({lean_x, lean_y, height_m - 0.2 * (height_m - free_m)}, 0.5);
     clump({lean_x, lean_y, free_m + 0.52 * (height_m - free_m)}, 0.55);
-    leave_out_hidden(out.high, lumps);
     return out;
 }
 
@@ -253,21 +217,19 @@ DressedObject dressed_bush(double height_m, double radius_m, Dice dice) {
     out.has_places = true;
     const PlantBox bounds{radius_m, height_m};
     const Stuff leaves = dice.share() < 0.7 ? Stuff::hedge : Stuff::dry_leaves;
-    std::vector<Lump> lumps;
     for (int i = 0; i < 3; ++i) {
         const double angle = 2.0 * pi * (i / 3.0 + 0.1 * dice.share());
         const glm::dvec3 centre(0.4 * radius_m * std::cos(angle), 0.4 * radius_m * std::sin(angle), height_m * dice.between(0.35, 0.5));
         const glm::dvec3 radii(0.6 * radius_m, 0.6 * radius_m, 0.55 * height_m);
-        lumps.push_back(append_clump(out.low, centre, radii, bounds, 1, leaves, dice));
-        append_sprigs(out.low, 3, centre, radii, std::min(0.35, 0.35 * radius_m), bounds, leaves, dice);
+        append_clump(out.low, centre, radii, bounds, 1, leaves, dice);
+        append_sprigs(out.low, 4, centre, radii, std::min(0.35, 0.35 * radius_m), bounds, leaves, dice);
     }
-    leave_out_hidden(out.low, lumps);
     return out;
 }
 
 DressedObject dressed_tuft(double height_m, Dice dice) {
     DressedObject out;
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 5; ++i) {
         // Blades bend towards one way along x or the other: who drives along it sees their faces.
         const double angle = dice.between(-1.1, 1.1) + (dice.share() < 0.5 ? pi : 0.0), lean = dice.between(0.1, 0.7) * height_m;
         const glm::dvec3 forward(std::cos(angle), std::sin(angle), 0.0),
@@ -301,7 +263,7 @@ DressedObject dressed_hedge(double length_m, double width_m, double height_m, do
     for (SoupVertex& v : out.low.vertices)
         v.uv = leaf_place(v.position_m);
     const PlantBox bounds{length_m, height_m};
-    for (int i = 0; i < 3 * stations; ++i) { // shoots since it was clipped
+    for (int i = 0; i < 5 * stations; ++i) { // shoots since it was clipped
         const double x = length_m * dice.between(-0.48, 0.48), side = dice.share();
         const glm::dvec3 at(x,
                             width_m * (side < 0.35  ? -0.42

@@ -58,23 +58,6 @@ void Dresser::add_garden(const Road& road, const RoadObject& object, Dice drawn,
         add(dressed_fence(length, drawn.between(0.8, 1.1), 0.3), pose, "fence of " + name);
 }
 
-/// Beside a house in a street, in front of it or behind, where its crown has room.
-void Dresser::add_garden_tree(const Road& road, const RoadObject& object, Dice drawn, const Pose& house, const HouseSize& size,
-                              const std::string& name) {
-    if (drawn.share() > 0.6 || !is_walked(outer_lane(road, object.s_m, object.t_m > 0.0)) ||
-        route_.nearest_m(house.position_m) > far_from_route_m)
-        return;
-    const double height = drawn.between(6.5, 9.5), radius = height * drawn.between(0.19, 0.24);
-    const double end = drawn.share() < 0.5 ? -1.0 : 1.0,
-                 front = (size.road_left ? 1.0 : -1.0) * (0.5 * size.width_m + drawn.between(-6.0, 1.5));
-    const glm::dvec3 place = to_parent(house, {end * (0.5 * size.length_m + radius + drawn.between(0.3, 1.2)), front, 0.0});
-    const std::optional<RoadPlace> on = finder_.find(glm::dvec2(place));
-    if ((on && on->lane != 0) || !footprints_.none_within(place, radius))
-        return;
-    footprints_.add(place, radius);
-    add(dressed_tree(height, radius, drawn, Detail::far), {place + glm::dvec3(0.0, 0.0, size.ground_m), house.axes}, "tree of " + name);
-}
-
 /// One every 40 to 90 m on each sidewalk, going one way or the other, an arm's length from its outer edge; one in six on a bicycle.
 void Dresser::add_people(const Road& road) {
     if (road.junction != "-1")

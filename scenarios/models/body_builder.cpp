@@ -212,7 +212,7 @@ void BodyBuilder::wheel(double x_m, double radius_m, double width_m, double rim)
 
 void BodyBuilder::limb(const glm::dvec3& from, const glm::dvec3& to, double radius_m, double end_radius_m, BodyMaterial material,
                        int sides) {
-    append_limb(soup_, from, to, radius_m, end_radius_m, dressed() ? std::min(sides, 5) : sides, index_of(material));
+    append_limb(soup_, from, to, radius_m, end_radius_m, sides, index_of(material));
 }
 
 Model BodyBuilder::take() && {

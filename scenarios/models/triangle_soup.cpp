@@ -8,7 +8,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <ranges>
 #include <unordered_map>
 
 namespace fernlicht {
@@ -164,12 +163,11 @@ void append_limb(TriangleSoup& soup, const glm::dvec3& from, const glm::dvec3& t
         }
         rings.push_back(std::move(outline));
     };
-    const std::vector<double> turns = sides > 5 ? std::vector{0.7, 1.3} : std::vector{0.9}; // of rings of the round ends
-    for (const double turn : turns | std::views::reverse)
+    for (const double turn : {1.3, 0.7}) // round ends: rings at these angles before each
         ring(from - from_radius_m * std::sin(turn) * along, from_radius_m * std::cos(turn));
     ring(from, from_radius_m);
     ring(to, to_radius_m);
-    for (const double turn : turns)
+    for (const double turn : {0.7, 1.3})
         ring(to + to_radius_m * std::sin(turn) * along, to_radius_m * std::cos(turn));
     // Rings turn clockwise seen against the way, which is counter-clockwise along it.
     for (Outline& outline : rings)

@@ -16,7 +16,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <glm/vector_relational.hpp>
 #include <limits>
 
 namespace fernlicht {
@@ -29,28 +28,6 @@ double smallest_pixel_rad(const std::vector<View>& views) {
         if (view.projection == Projection::perspective)
             least = std::min(least, 2.0 * std::tan(0.5 * view.vertical_fov_rad) / view.height_px);
     return least;
-}
-
-/// Whether eyes and lamps of the own car stay where keep_shown_faces() takes them to be.
-bool stays_on_route(const Drive& drive) {
-    const auto within = [](const glm::dvec3& p) {
-        return glm::all(glm::greaterThanEqual(p, eyes_low_m)) && glm::all(glm::lessThanEqual(p, eyes_high_m));
-    };
-    const auto sees = [&](const View& view) { return view.projection == Projection::map || within(view.position_m); };
-    const auto lights = [&](const LampSet& set) {
-        return std::ranges::all_of(set.lamps, [&](const MountedLamp& lamp) { return within(lamp.pose().position_m); });
-    };
-    return !drive.ego_track && std::ranges::all_of(drive.views, sees) && std::ranges::all_of(drive.lamp_sets, lights);
-}
-
-/// Whether nobody sees, and no lamp but the own car's lights, what turns its back to who comes along the route.
-bool looks_ahead(const Drive& drive) {
-    const auto ahead = [](const View& view) {
-        const double widest = std::hypot(1.0, static_cast<double>(view.width_px) / view.height_px) * std::tan(0.5 * view.vertical_fov_rad);
-        return view.projection == Projection::map || std::atan(widest) + std::abs(view.yaw_rad) + std::abs(view.pitch_rad) < radians(85.0);
-    };
-    return drive.daylight == Daylight{} && drive.street_lamps.empty() && drive.traffic_rows.empty() && !drive.storyboard &&
-           std::ranges::all_of(drive.views, ahead);
 }
 
 /// What is on the other side of y = 0.
@@ -85,13 +62,8 @@ void dress(Scene& scene, Drive& drive, const RoadNetwork& network, const Route& 
     } else {
         add_dressing(scene, network, route, settings);
     }
-    const bool on_route = stays_on_route(drive), ahead = on_route && looks_ahead(drive);
-    if (on_route)
-        keep_shown_faces(scene, route, ahead, before);
     constexpr std::size_t most_told = 40;
     std::vector<std::string> names = shades_of_lane(scene, route, before);
-    if (ahead)
-        leave_out_shadows(scene, names, before);
     const std::size_t more = names.size() > most_told ? names.size() - most_told : 0;
     names.resize(names.size() - more);
     if (!names.empty())

@@ -279,15 +279,13 @@ TEST(Dressing, StandsBesideWhatVehiclesUse) {
     std::vector<Pose> along;
     for (double at = 0.0; at < route.length_m(); at += 2.0)
         along.push_back(route.pose(at));
-    std::size_t hedges = 0, people = 0, houses = 0, cars = 0, trees = 0;
+    std::size_t hedges = 0, people = 0, houses = 0, cars = 0;
     for (const Mesh& mesh : scene.meshes) {
-        trees += mesh.name.starts_with("tree of house") ? 1U : 0U;
         hedges += mesh.name.starts_with("hedge") || mesh.name.starts_with("fence") ? 1U : 0U;
         people += mesh.name.starts_with("pedestrian") ? 1U : 0U;
         houses += mesh.name.starts_with("house") ? 1U : 0U;
         cars += mesh.name.starts_with("parked car") ? 1U : 0U;
-        if (!mesh.name.starts_with("hedge") && !mesh.name.starts_with("fence") && !mesh.name.starts_with("pedestrian") &&
-            !mesh.name.starts_with("tree"))
+        if (!mesh.name.starts_with("hedge") && !mesh.name.starts_with("fence") && !mesh.name.starts_with("pedestrian"))
             continue;
         for (const Vertex& v : mesh.vertices) {
             const glm::dvec3 p = mesh.origin_m + glm::dvec3(v.position_m);
@@ -299,7 +297,6 @@ TEST(Dressing, StandsBesideWhatVehiclesUse) {
             }
         }
     }
-    EXPECT_GE(trees, 8U) << "trunks and crowns";
     EXPECT_GE(hedges, 8U);
     EXPECT_GE(people, 8U);
     EXPECT_GE(houses, 20U);
@@ -416,7 +413,7 @@ TEST(Dressing, GardensStandBetweenSidewalkAndHouseWhereThereIsRoom) {
                 object.t_m = 5.15 + 5.0 + 2.0; // fronts 2 m behind the sidewalk
             else if (object.type == "building")
                 object.t_m = -7.15 - 5.0 - 2.0;
-    EXPECT_LT(gardens(dressed(network, route, 1)), gardens(scene) / 3) << "those of mill lane may stay";
+    EXPECT_LT(gardens(dressed(network, route, 1)), gardens(scene) / 4) << "those of mill lane may stay";
 }
 
 TEST(Dressing, GroundKeepsItsShapeUnderGravelMeadowsAndFields) {
@@ -510,62 +507,6 @@ TEST(LaneShades, AreThoseThatRaysFromTheLampsMeet) {
     box("behind the road's end", 1400.0, lane, 0.1);
     EXPECT_THAT(shades_of_lane(scene, route, 1), ::testing::ElementsAre("in the lane", "at a cell's corner"));
     EXPECT_THAT(shades_of_lane(scene, route), ::testing::SizeIs(3));
-}
-
-TEST(ShownFaces, AreThoseThatTheRouteSees) {
-    const RoadNetwork network = opendrive_text::library_road("straight.xodr");
-    const Route route(network, {});
-    const double lane = route.pose(0.0).position_m.y;
-    const auto kept = [&](double beside_m, double low_m, bool ahead) {
-        Scene scene;
-        TriangleSoup soup;
-        append_box(soup, {-0.5, beside_m - 0.5, low_m}, {0.5, beside_m + 0.5, low_m + 0.4}, 0);
-        const std::size_t blade = soup.vertices.size();
-        soup.add({glm::dvec3(0.5, beside_m, low_m), {0.5, beside_m + 0.1, low_m}, {0.5, beside_m, low_m + 0.3}}, 0); // faces away
-        for (std::size_t i = blade; i < soup.vertices.size(); ++i)
-            soup.vertices[i].normal = {0.0, 0.0, 1.0};
-        std::vector<std::size_t> all(soup.triangles.size());
-        for (std::size_t i = 0; i < all.size(); ++i)
-            all[i] = i;
-        scene.meshes.push_back(mesh_of(soup, all, {}, "box"));
-        scene.meshes.front().origin_m = {500.0, lane, 0.0};
-        keep_shown_faces(scene, route, ahead, 0);
-        std::map<std::array<int, 3>, int> by_side;
-        const Mesh& mesh = scene.meshes.front();
-        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-            const glm::vec3 n = mesh.vertices[mesh.indices[i]].normal;
-            ++by_side[{static_cast<int>(std::lround(n.x)), static_cast<int>(std::lround(n.y)), static_cast<int>(std::lround(n.z))}];
-        }
-        return by_side;
-    };
-    using Sides = std::map<std::array<int, 3>, int>;
-    EXPECT_EQ(kept(10.0, 0.1, true), (Sides{{{-1, 0, 0}, 2}, {{0, -1, 0}, 2}, {{0, 0, 1}, 3}})) << "low, left: back, right and above";
-    EXPECT_EQ(kept(-10.0, 3.0, true), (Sides{{{-1, 0, 0}, 2}, {{0, 1, 0}, 2}, {{0, 0, -1}, 2}, {{0, 0, 1}, 1}})) << "high, right";
-    EXPECT_EQ(kept(10.0, 0.1, false), (Sides{{{-1, 0, 0}, 2}, {{1, 0, 0}, 2}, {{0, -1, 0}, 2}, {{0, 0, 1}, 3}})) << "eyes look back, too";
-}
-
-TEST(Dressing, BushesAndFieldFencesCastWhereTheyShadeTheOwnLane) {
-    const auto casting = [](const char* name, const char* key, const char* value) {
-        DriveEdits edits;
-        edits.values = {{"dressing", "dressed"}};
-        if (key != nullptr)
-            edits.values.emplace_back(key, value);
-        Drive drive = read_drive(FERNLICHT_SOURCE_DIR "/scenarios/library/drives/" + std::string(name) + ".yaml", edits);
-        const RoadNetwork network = read_opendrive(drive.road_file);
-        const Scene scene = staged_scene(drive, network, Route(network, drive.start, drive.via));
-        std::size_t count = 0;
-        for (const Mesh& mesh : scene.meshes)
-            if (mesh.casts && (mesh.name.starts_with("bush, road") || mesh.name.starts_with("field fence, road"))) {
-                ++count;
-                EXPECT_TRUE(key != nullptr ||
-                            std::ranges::any_of(drive.notes, [&](const std::string& note) { return note.find(mesh.name) != note.npos; }))
-                    << mesh.name;
-            }
-        return count;
-    };
-    EXPECT_EQ(casting("straight", nullptr, nullptr), 0U);
-    EXPECT_GT(casting("s-bend", nullptr, nullptr), 5U);
-    EXPECT_GT(casting("straight", "views.driver.yaw_deg", "120"), 50U) << "who looks back sees shadows";
 }
 
 TEST(Dressing, CyclistsRideAndBollardsStandOnSidewalks) {
