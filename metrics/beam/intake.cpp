@@ -323,9 +323,10 @@ Intake check_intake(const LampFile& lamp, const IntakeContext& context) {
     found.function_stated = context.function.has_value();
     found.function = context.function ? *context.function : recognised(lamp, outline);
     if (found.function == BeamFunction::other && !found.function_stated && context.mount)
-        found.findings.push_back({IntakeFault::function, false,
-                                  fmt::format("its light is neither a low nor a high beam's, and it is on the mount of {}, so nothing else was checked",
-                                              *context.mount == BeamFunction::low ? "a low beam" : "a high beam")});
+        found.findings.push_back(
+            {IntakeFault::function, false,
+             fmt::format("its light is neither a low nor a high beam's, and it is on the mount of {}, so nothing else was checked",
+                         *context.mount == BeamFunction::low ? "a low beam" : "a high beam")});
     if (found.function == BeamFunction::other || !(found.peak.cd > 0.0))
         return found;
     IntakeCheck check{lamp, context, outline, found};

@@ -173,8 +173,8 @@ std::string verdict_words(const StudyResult& result) {
     switch (overall(result)) {
     case VerdictKind::pass: {
         const auto of_baseline = [](const Verdict& one) { return one.name.starts_with("baseline"); };
-        const auto held = std::ranges::count_if(
-            result.cells, [&](const CellResult& cell) { return std::ranges::any_of(cell.verdicts, of_baseline); });
+        const auto held =
+            std::ranges::count_if(result.cells, [&](const CellResult& cell) { return std::ranges::any_of(cell.verdicts, of_baseline); });
         return held == 0 ? "Within limits"
                          : fmt::format("Within limits; {} of {} as in the baselines", held, counted(result.cells.size(), "cell"));
     }

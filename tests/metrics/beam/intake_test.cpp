@@ -219,7 +219,8 @@ TEST(Intake, ALowBeamForAHighBeamAndTheOtherWayRoundIsNamed) {
         const LampFile tunnel = resampled(high, 50.0, 20.0, 0.5, 0.2, [](double h, double v) {
             return std::abs(h) < 2.0 && v > -0.5 ? TwoAngles{180.0, 0.0} : TwoAngles{h, v};
         });
-        for (const LampFile& neither : {tunnel, lamp_with(tests::even_table(100.0)), read_lamp(shipped_library / "lamps/street-6000lm.ies")}) {
+        for (const LampFile& neither :
+             {tunnel, lamp_with(tests::even_table(100.0)), read_lamp(shipped_library / "lamps/street-6000lm.ies")}) {
             const Intake found = check_intake(neither, {.function = {}, .mount = mount});
             ASSERT_THAT(found.findings, testing::SizeIs(1)) << told(found);
             EXPECT_THAT(found.findings[0].text, HasSubstr("is neither a low nor a high beam's, and it is on the mount of a"));

@@ -87,7 +87,8 @@ TEST(Decision, TwoPlacesWithOneResultCountOnce) {
     EXPECT_EQ(decided.decided_by.size(), 1U);
     EXPECT_THAT(same_results(study.result, decisions),
                 ElementsAre("drive-0 and drive-1 give the same result in 1 deciding reading, so it counts once"));
-    EXPECT_THAT(decision_sentence(study.result, decisions.front()), HasSubstr("own lane +10.00 m (+25 %) in 1 of 2 different results, on drive-0"));
+    EXPECT_THAT(decision_sentence(study.result, decisions.front()),
+                HasSubstr("own lane +10.00 m (+25 %) in 1 of 2 different results, on drive-0"));
     EXPECT_THAT(decision_sentence(study.result, decisions.front()), Not(HasSubstr("most on")));
     EXPECT_THAT(same_results(study.result, MadeStudy().on(0, reach, 40.0, 50.0).on(1, reach, 41.0, 51.0).decided()), IsEmpty());
 }
@@ -105,8 +106,9 @@ TEST(Decision, TheSentenceNamesWhereMostChangedAndWhatIsWithinAim) {
 TEST(Decision, OfManyReadingsTheSmallestChangeIsLeftOut) {
     MadeStudy study;
     study.result.study.decide = {"reach_*"};
-    for (const auto& [name, now] : {std::pair("reach_1lx_target_own_m", 50.0), std::pair("reach_3lx_target_own_m", 44.0), std::pair(reach, 52.0),
-                                    std::pair("reach_1lx_road_own_m", 54.0), std::pair("reach_3lx_road_own_m", 80.0)})
+    for (const auto& [name, now] :
+         {std::pair("reach_1lx_target_own_m", 50.0), std::pair("reach_3lx_target_own_m", 44.0), std::pair(reach, 52.0),
+          std::pair("reach_1lx_road_own_m", 54.0), std::pair("reach_3lx_road_own_m", 80.0)})
         study.on(0, name, 40.0, now);
     const std::string sentence = decision_sentence(study.result, study.decided().front());
     EXPECT_THAT(sentence, AllOf(HasSubstr("(+100 %)"), Not(HasSubstr("(+10 %)")), HasSubstr("; and 1 more")));
