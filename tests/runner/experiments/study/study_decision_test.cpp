@@ -3,6 +3,7 @@
 #include "runner/experiments/study/study_document.h"
 #include "runner/write/document.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -105,11 +106,9 @@ TEST(Decision, TheSentenceNamesWhereMostChangedAndWhatIsWithinAim) {
 
 TEST(Decision, OfManyReadingsTheSmallestChangeIsLeftOut) {
     MadeStudy study;
-    study.result.study.decide = {"reach_*"};
-    for (const auto& [name, now] :
-         {std::pair("reach_1lx_target_own_m", 50.0), std::pair("reach_3lx_target_own_m", 44.0), std::pair(reach, 52.0),
-          std::pair("reach_1lx_road_own_m", 54.0), std::pair("reach_3lx_road_own_m", 80.0)})
-        study.on(0, name, 40.0, now);
+    study.result.study.decide = {"mirror_left_*"};
+    for (const auto& [at_m, now] : {std::pair(10, 1.5), std::pair(15, 1.1), std::pair(20, 1.4), std::pair(25, 1.3), std::pair(30, 2.0)})
+        study.on(0, fmt::format("mirror_left_at_{}m_max_lx", at_m).c_str(), 1.0, now);
     const std::string sentence = decision_sentence(study.result, study.decided().front());
     EXPECT_THAT(sentence, AllOf(HasSubstr("(+100 %)"), Not(HasSubstr("(+10 %)")), HasSubstr("; and 1 more")));
 }
