@@ -25,7 +25,7 @@
 namespace fernlicht {
 namespace {
 
-using test::append_bytes, test::Json, test::WrittenGltf;
+using test::Json, test::WrittenGltf;
 using testing::HasSubstr;
 
 template <class T> std::string bytes_of(const std::vector<T>& values) {
