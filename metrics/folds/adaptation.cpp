@@ -5,6 +5,7 @@
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/roads/mesh/mesh_materials.h"
+#include "scenarios/traffic/road_user.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ void look_ahead(const Route& route, double bumper_m, Across across, double way, 
 bool is_low_beam(const LampSet& lamp_set, const std::string& lamp) {
     const auto has = [&](const std::vector<std::string>& names) { return std::ranges::find(names, lamp) != names.end(); };
     const ControlParameters* const control = lamp_set.control.get();
-    return lamp.find("high") == std::string::npos && !(control && control->high_beam && has(control->high_beam->lamps)) &&
+    return function_of(lamp) != LampFunction::high && !(control && control->high_beam && has(control->high_beam->lamps)) &&
            !(control && control->cornering && (has(control->cornering->left) || has(control->cornering->right)));
 }
 

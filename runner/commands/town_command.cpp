@@ -69,7 +69,8 @@ void add_town_command(CLI::App& app, std::function<int()>& chosen) {
     CLI::App* sub = app.add_subcommand("town", "a car with two lamps at night in a model of streets, which needs no road");
     sub->add_option("MODEL", flags->model, "glTF: .gltf or .glb")->required();
     sub->add_option("--place", flags->at,
-                    "place of the rear axle in the model, in metres, x along glTF's z (default: where the way ahead is longest)")
+                    "place of the rear axle in the model, in metres, x along glTF's z (default: where the way ahead is longest, on any "
+                    "side of the road)")
         ->option_text("X,Y")
         ->delimiter(',')
         ->expected(2);

@@ -26,7 +26,7 @@ std::filesystem::path path_of(const Drive& drive, const LampFile& file) {
 std::optional<BeamFunction> mount_of(const MountedLamp& lamp, const std::vector<LampChange>& changes) {
     if (std::ranges::any_of(changes, [&](const LampChange& change) { return change.lamp == lamp.name && change.file; }))
         return std::nullopt; // a lamp for several beams
-    if (lamp.name.find("high") != std::string::npos)
+    if (function_of(lamp.name) == LampFunction::high)
         return BeamFunction::high;
     const bool low = lamp.name == "left" || lamp.name == "right" || lamp.name.find("low") != std::string::npos;
     return low ? std::optional(BeamFunction::low) : std::nullopt;

@@ -4,6 +4,7 @@
 #include "metrics/statistics/statistics.h"
 #include "runner/files/durable_files.h"
 #include "runner/findings/summary.h"
+#include "runner/judge/input_hashes.h"
 #include "scenarios/studies/study.h"
 #include "scenarios/values/errors.h"
 
@@ -55,10 +56,17 @@ std::vector<std::string> other_inputs(const Inputs& run, const Inputs& accepted)
     return names;
 }
 
-/// "lamp file 1" where there are several; of one alone "lamp file".
-std::string input_text(const std::string& name, const Inputs& of_run) {
+/// "lamp file 1 (led-low.ies)" where there are several; of one alone "lamp file (led-low.ies)". `opened`: the run's files; what was read
+/// from several has no name. A drive counts with its moments.
+std::string input_text(const std::string& name, const Inputs& of_run, const FilesRead& opened) {
+    if (name == "drive")
+        return "drive (its keys, or --frames)";
     const bool several = std::ranges::any_of(of_run, [](const auto& input) { return input.first == "lamp file 2"; });
-    return name == "lamp file 1" && !several ? "lamp file" : name;
+    const std::string text = name == "lamp file 1" && !several ? "lamp file" : name;
+    const auto input = std::ranges::find(of_run, name, &Inputs::value_type::first);
+    const auto file =
+        std::ranges::find_if(opened, [&](const FileRead& read) { return input != of_run.end() && hash_of_files({read}) == input->second; });
+    return file == opened.end() ? text : fmt::format("{} ({})", text, printable(file->path.filename().string(), 200));
 }
 
 struct MovedReadings {
@@ -87,7 +95,7 @@ MovedReadings moved_readings(const Baseline& run, const Baseline& accepted, cons
 
 /// Why there is nothing to judge by. Where all but the inputs is known, which of them are others, and what that came to.
 std::string nothing_accepted(const std::filesystem::path& store, const std::vector<StoredBaseline>& entries, const Baseline& run,
-                             const BaselineTolerance& tolerance) {
+                             const FilesRead& opened, const BaselineTolerance& tolerance) {
     std::string text = fmt::format("nothing accepted in {} for {}", store.string(), key_text(run.key));
     std::string nearest;
     std::pair<std::size_t, std::size_t> fewest; // inputs, and readings where these are as many
@@ -103,7 +111,7 @@ std::string nothing_accepted(const std::filesystem::path& store, const std::vect
         fewest = differing;
         std::vector<std::string> texts;
         for (const std::string& other : others)
-            texts.push_back(input_text(other, run.producer.inputs));
+            texts.push_back(input_text(other, run.producer.inputs, opened));
         nearest = fmt::format(" with these inputs; {} had another {}: {}", short_id(entry.id), fmt::join(texts, ", "), moved.text);
     }
     if (!nearest.empty())
@@ -252,7 +260,7 @@ std::vector<Verdict> judge_against_baselines(const PlayedCell& played, const Run
             if (const DeviceSpread others = spread_over_devices(baselines_folder, all, run.key); others.devices > 0)
                 return judge_across(baselines_folder, others, run, tolerance);
         if (entries.empty())
-            return failed(nothing_accepted(baselines_folder, all, run, tolerance));
+            return failed(nothing_accepted(baselines_folder, all, run, context.inputs, tolerance));
         std::vector<Verdict> verdicts = nearest(baselines_folder, entries, [&](const Baseline& accepted, const std::string& accepted_as) {
             std::vector<Verdict> both = judge_readings(run, accepted.readings, accepted_as, tolerance);
             std::ranges::move(judge_frames(run, accepted, accepted_as, tolerance), std::back_inserter(both));

@@ -15,6 +15,9 @@ namespace fernlicht {
 std::vector<std::pair<std::string, std::string>> input_hashes(const Drive& drive, const LampSet& lamp_set, const FilesRead& road,
                                                               int first_tick, int last_tick);
 
+/// What input_hashes says of an input that was read from these.
+std::string hash_of_files(const FilesRead& files);
+
 /// As version 0.1 hashed "drive", which has one lamp set, over its text: less the moments, which stood below it.
 std::string text_hashed_before(Drive drive);
 

@@ -27,8 +27,8 @@ class LdtLines {
             throw InputError({path_, lines_.number(), 0, name}, "the file ends before it", "one line");
         return trimmed(line);
     }
-    double number(const char* name) {
-        const std::string_view line = text(name);
+    double number(const char* name) { return number_in_line(text(name), name); }
+    double number_in_line(std::string_view line, const char* name) const {
         const std::optional<double> value = either_decimal(line);
         if (!value || !std::isfinite(*value))
             throw InputError(where(name), fmt::format("found '{}'", printable(std::string(line.substr(0, 200)))), "a finite number");
@@ -151,7 +151,11 @@ MeasuredGrid read_planes(LdtLines& in, const Layout& layout, double cd_per_value
     if (layout.symmetry == 3)
         for (double& angle : grid.h_deg)
             angle = angle > 180.0 ? angle - 360.0 : angle;
-    const std::vector<double> values = in.numbers("intensity", stored * layout.gammas);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < stored * layout.gammas; ++i) {
+        const std::string_view line = in.text("intensity"); // whose end is no value's fault
+        values.push_back(intensity_of([&] { return in.number_in_line(line, "intensity"); }));
+    }
     grid.cd.resize(values.size());
     for (std::size_t p = 0; p < stored; ++p)
         for (std::size_t g = 0; g < layout.gammas; ++g)

@@ -124,13 +124,13 @@ class IesNumbers {
         const std::string_view text = token(name);
         return whole_number(text, least, most, where(name));
     }
-    /// `lines`, if given, gets the line of each.
+    /// `lines`, of intensities, gets the line of each.
     std::vector<double> numbers(const char* name, std::size_t count, std::vector<std::size_t>* lines = nullptr) {
         std::vector<double> out; // grows with what is there, not with what the header promises
         for (std::size_t i = 0; i < count; ++i) {
             if (!more())
                 throw InputError({path_, lines_.number(), 0, name}, fmt::format("the file ends after {} of {}", i, count), "all of them");
-            out.push_back(number(name));
+            out.push_back(lines ? intensity_of([&] { return number(name); }) : number(name));
             if (lines)
                 lines->push_back(lines_.number());
         }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenarios/values/errors.h"
+#include "scenarios/values/refusals.h"
 
 #include <cstddef>
 #include <optional>
@@ -53,6 +54,19 @@ double finite_number(std::string_view text, const InputError::Where& where);
 double number_above_zero(std::string_view text, const InputError::Where& where);
 /// Throws InputError unless `text` is a whole number within the bounds.
 long whole_number(std::string_view text, long least, long most, const InputError::Where& where);
+
+/// What `read` gives, of a table's intensities, which all can be told wrong at once (refusals.h): 0 where it refuses, after a hundred
+/// refusals as it does.
+template <class Read> double intensity_of(Read read) {
+    try {
+        return read();
+    } catch (const InputError& error) {
+        if (refusals_met() >= 100)
+            throw;
+        refuse_and_go_on(error);
+        return 0.0;
+    }
+}
 
 /// Throws InputError naming the first of them when the numbers in `text`, separated by blanks, have decimal commas. `lines_before`: where
 /// in the file it begins.

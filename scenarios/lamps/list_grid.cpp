@@ -52,7 +52,7 @@ std::vector<ListedValue> read_listed(const GridRecipe& recipe, GridLines& in) {
                              fmt::format("{} separated by {}, as in the lines before{}", width, in.delimiter_name(), in.doubt()));
         refuse_too_many(values.size() + 1, in);
         values.push_back({in.number_of(cells, *h, "horizontal angle"), in.number_of(cells, *v, "vertical angle"),
-                          in.number_of(cells, *value, "value"), static_cast<std::uint32_t>(in.number())});
+                          intensity_of([&] { return in.number_of(cells, *value, "value"); }), static_cast<std::uint32_t>(in.number())});
     }
     if (values.empty())
         throw InputError(in.where(), "the file ends before the list", "lines with a horizontal angle, a vertical one and a value");

@@ -82,7 +82,7 @@ class MatrixReading {
         if (leading_ > 0)
             down_.push_back(in_.number_of(cells, 0, down_name_));
         for (std::size_t i = leading_; i < cells.size(); ++i)
-            raw_.grid.cd.push_back(in_.number_of(cells, i, "value"));
+            raw_.grid.cd.push_back(intensity_of([&] { return in_.number_of(cells, i, "value"); }));
         raw_.lines.resize(raw_.grid.cd.size(), static_cast<std::uint32_t>(in_.number()));
         ++rows_;
     }

@@ -1,8 +1,10 @@
 #include "scenarios/studies/axes_on_drive.h"
 
 #include "scenarios/control/control_parameters.h"
+#include "scenarios/drives/keys/lamp_keys.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/pose.h"
+#include "scenarios/vehicle/car_model.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +18,6 @@
 namespace fernlicht {
 namespace {
 
-constexpr double newtons_per_kg = 9.81; ///< as of the key `load.rear_kg`
 constexpr double max_speed_mps = 150.0; ///< of a drive file
 
 struct NamedAxis {
@@ -41,8 +42,6 @@ double axis_number(const std::string& text) {
     return value;
 }
 
-bool is_low_beam(const MountedLamp& lamp) { return lamp.name.find("high") == std::string::npos; }
-
 [[noreturn]] void refuse_axis(const Drive& drive, DriveAxis axis, const std::string& found, const std::string& expected) {
     throw InputError({drive.file, 0, 0, std::string(named_axis(axis).name)}, found, expected);
 }
@@ -51,7 +50,7 @@ void set_spacing(double spacing_m, Drive& drive) {
     std::vector<MountedLamp>& lamps = drive.lamp_sets.front().lamps;
     double left_m = 0.0, right_m = 0.0;
     for (const MountedLamp& lamp : lamps)
-        if (is_low_beam(lamp)) {
+        if (!is_high_beam(lamp.name)) {
             left_m = std::max(left_m, lamp.position_m.y);
             right_m = std::min(right_m, lamp.position_m.y);
         }
@@ -79,7 +78,7 @@ void turn_all(double angle_rad, double MountedLamp::*angle, std::optional<double
 /// Levelling that acts by the body's pitch alone becomes one that sees the load.
 void set_load(double load_kg, LampSet& lamp_set) {
     auto control = std::make_shared<ControlParameters>(lamp_set.control ? *lamp_set.control : ControlParameters{});
-    control->load.rear_n = load_kg * newtons_per_kg;
+    control->load.rear_n = load_kg * gravity_mps2;
     if (!control->levelling)
         control->levelling = std::exchange(lamp_set.levelling, std::nullopt);
     lamp_set.control = std::move(control);

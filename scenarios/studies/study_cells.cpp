@@ -18,8 +18,6 @@
 namespace fernlicht {
 namespace {
 
-bool is_high_beam(const MountedLamp& lamp) { return lamp.name.find("high") != std::string::npos; }
-
 /// "aim-1.5": what tells a cell's condition from the study's others; "" where the study has one value.
 std::string part(bool several, const std::string& text) { return several ? "_" + text : std::string(); }
 
@@ -63,7 +61,7 @@ DriveEdits edits_for(const Study& study, const StudyLamp& lamp, const StudyCell&
 
 /// High beams come with the lamp set, or the drive has none.
 void put_high_beams(const Study& study, const StudyLamp& lamp, Drive& drive, DriveEdits& edits) {
-    if (!std::ranges::any_of(drive.lamp_sets.front().lamps, is_high_beam))
+    if (!std::ranges::any_of(drive.lamp_sets.front().lamps, is_high_beam, &MountedLamp::name))
         return;
     if (lamp.high.empty())
         throw InputError({study.file, 0, 0, "lamps." + lamp.name}, "found no high beam, and " + drive.file.string() + " has some",
@@ -165,7 +163,7 @@ Drive drive_of_cell(const Study& study, const StudyCell& cell) {
         mounted.voltage_v = study.conditions.voltage_v[cell.voltage];
         aim_lamp(study, lamp, aim_percent, mounted);
         mounted.reference_voltage_v = lamp.reference_voltage_v;
-        mounted.function = is_high_beam(mounted) ? std::nullopt : lamp.function;
+        mounted.function = is_high_beam(mounted.name) ? std::nullopt : lamp.function;
     }
     aim_changes(lamp, aim_percent, lamp_set);
     set_named_axes(study.axes, study.points[cell.point], drive);

@@ -126,6 +126,8 @@ void judge_changes(StudyResult& result, const StudyLimit& limit) {
             repeat_command(result.call, {"--only", cell.cell.name + "," + result.cells[change.against].cell.name})));
     }
     const std::set<ReadingKey>& keys = result.keys;
+    if (!found && !result.only.empty() && is_in(keys, key) && result.changes.size() + result.changes_elsewhere == 0)
+        return; // of the cells that were asked for no two are compared
     if (!found)
         result.verdicts.push_back(
             {VerdictKind::not_measured, "change of " + limit.reading,

@@ -3,6 +3,7 @@
 #include "scenarios/drives/keys/drive_keys.h"
 #include "scenarios/drives/keys/lamp_keys.h"
 #include "scenarios/fields/schema.h"
+#include "scenarios/vehicle/car_model.h"
 #include "scenarios/yaml/yaml_tree.h"
 
 #include <fmt/format.h>
@@ -65,7 +66,7 @@ void check_stuck_swivel(const YamlMap& keys, const StuckSwivelParameters& stuck)
         keys.entry().refuse("an angle off that is not above 0", "off_deg above 0");
 }
 
-double from_kg(double kg) { return 9.81 * kg; }
+double from_kg(double kg) { return gravity_mps2 * kg; }
 double from_n(double n) { return n; }
 FieldRule load_of(const std::string& axle) { return units({axle + "_kg", from_kg, -2000.0, 5000.0}, {axle + "_n", from_n, -2.0e4, 5.0e4}); }
 

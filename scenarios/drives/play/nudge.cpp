@@ -2,6 +2,7 @@
 
 #include "scenarios/control/control_parameters.h"
 #include "scenarios/values/pose.h"
+#include "scenarios/vehicle/car_model.h"
 
 #include <algorithm>
 
@@ -10,7 +11,6 @@ namespace fernlicht {
 std::optional<Nudge> loaded_nudge(const Drive& drive, const LampSet& lamp_set, double load_kg) {
     if (!drive.vehicle)
         return std::nullopt;
-    constexpr double gravity_mps2 = 9.80665;
     const double load_n = load_kg * gravity_mps2;
     const double springs_m = load_n / drive.vehicle->rear.spring_n_per_m, tyres_m = load_n / drive.vehicle->rear.tyre_spring_n_per_m;
     const std::optional<LevellingParameters>& levelling = lamp_set.control ? lamp_set.control->levelling : lamp_set.levelling;

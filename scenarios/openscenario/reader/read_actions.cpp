@@ -21,7 +21,7 @@ Dynamics dynamics_of(const OscNode& node) {
         node.refuse("value", fmt::format("found {}", value),
                     out.dimension == Dimension::time ? "a time not below 0" : "a distance not below 0");
     if (value < 0.0) // a rate's sign follows from start and target
-        node.unsupported(fmt::format("the sign of the rate {} in value", value));
+        node.note(fmt::format("the rate {} in value is taken as {}: start and target say which way", value, -value));
     out.value = std::abs(value);
     if (out.dimension == Dimension::rate && out.value == 0.0 && out.shape != Shape::step)
         node.refuse("value", "found 0", "a rate above 0");

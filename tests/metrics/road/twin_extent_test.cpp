@@ -141,7 +141,7 @@ TEST(NudgedExtents, BareLampAnswersToFluxAndNotToAim) {
     EXPECT_NEAR(moved_m(extents, NudgeKind::aim_up, Surface::target, 1.0), 0.0, 1e-9);
 }
 
-// 75 kg over the rear axle: 735.5 N press springs of 43 kN/m by 17.1 mm and tyres of 400 kN/m by 1.84 mm. On 2.7 m the nose goes up by
+// 75 kg over the rear axle: 735.75 N press springs of 43 kN/m by 17.1 mm and tyres of 400 kN/m by 1.84 mm. On 2.7 m the nose goes up by
 // 0.402 degrees; levelling takes back the springs' 0.363. A lamp 3.4 m ahead and 0.65 m up rises by 3.4 sin - 18.9 mm.
 TEST(Nudge, LoadTurnsTheCarAndLevellingTakesItBack) {
     Drive drive;
@@ -149,7 +149,7 @@ TEST(Nudge, LoadTurnsTheCarAndLevellingTakesItBack) {
     LampSet lamp_set;
     Moment moment = moment_of({lamp_with(everywhere(1.0), {3.4, 0.6, 0.65})});
     const auto loaded = [&] { return nudged(moment, usual_nudges(drive, lamp_set).back().value()).lamps.front().pose; };
-    const double springs_m = 75.0 * 9.80665 / 43e3, tyres_m = 75.0 * 9.80665 / 400e3, pitch_rad = (springs_m + tyres_m) / 2.7;
+    const double springs_m = 75.0 * 9.81 / 43e3, tyres_m = 75.0 * 9.81 / 400e3, pitch_rad = (springs_m + tyres_m) / 2.7;
     EXPECT_NEAR(degrees(pitch_rad), 0.402, 0.001);
     EXPECT_NEAR(std::asin(loaded().forward().z), pitch_rad, 1e-12);
     EXPECT_NEAR(loaded().position_m.z, 0.65 * std::cos(pitch_rad) + 3.4 * std::sin(pitch_rad) - springs_m - tyres_m, 1e-12);

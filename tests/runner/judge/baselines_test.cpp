@@ -314,7 +314,7 @@ TEST_F(Baselines, OfAsManyOtherInputsTheNearestReadingsAreNamed) {
     }
     StoredRun other = run;
     other.report.played[0].input_hashes = {{"drive", "a fourth drive"}, {"road", "this road"}};
-    EXPECT_THAT(texts(other.judged(store)), HasSubstr(" had another drive: all 2 readings agree"));
+    EXPECT_THAT(texts(other.judged(store)), HasSubstr(" had another drive (its keys, or --frames): all 2 readings agree"));
 }
 
 // One other device class judges by the tolerance alone, and a verdict says so. Three others gave 60, 60.001 and 60.002 m: mean 60.001,

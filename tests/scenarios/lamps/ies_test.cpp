@@ -125,6 +125,25 @@ TEST_F(IesFile, AnglesAreSortedAndTypesTakenForWhatTheyAre) {
                 HasSubstr("n.ies:5: horizontal angles: found 1 of them, expected at least 2"));
 }
 
+TEST_F(IesFile, AllIntensitiesThatAreNoneAreTold) {
+    const auto told = [&](const std::string& text) {
+        std::string lines;
+        for (const InputError& error : all_refusals([&] { read("w.ies", text); }))
+            lines += std::string(error.what()) + "\n";
+        return lines;
+    };
+    const std::string head = "TILT=NONE\n1 -1 1 3 3 3 2 0 0 0\n1 1 55\n-2 0 2\n-1 0 1\n";
+    const std::string two = told(head + "11 x12 13\n21 22 23\n31 32 nan\n");
+    EXPECT_THAT(two,
+                testing::AllOf(HasSubstr("w.ies:6:4: candela value: found 'x12'"), HasSubstr("w.ies:8:7: candela value: found 'nan'")));
+    EXPECT_EQ(std::ranges::count(two, '\n'), 2);
+    std::string many = "TILT=NONE\n1 -1 1 200 200 3 2 0 0 0\n1 1 55\n";
+    for (int i = 0; i < 400 + 200 * 200; ++i)
+        many += i < 400 ? fmt::format("{}\n", i % 200) : fmt::format("x{}\n", i);
+    EXPECT_EQ(std::ranges::count(told(many), '\n'), 101);
+    EXPECT_THAT(refusal("w.ies", head + "11 x12 13\n21 22 23\n31 32 nan\n"), HasSubstr("found 'x12'")) << "nobody listens";
+}
+
 /// H and V of type B's h = asin x, v = atan2(y, z).
 std::pair<double, double> un_of_type_b(double h_b, double v_b) {
     const double x = std::sin(radians(h_b)), y = std::cos(radians(h_b)) * std::sin(radians(v_b)),

@@ -275,7 +275,8 @@ TEST(Story, RefusesWithFileAndLineWhatItCannotPlay) {
     };
     refused(speed("1", over("time", "-3")), "SpeedActionDynamics@value: found -3, expected a time not below 0");
     refused(speed("1", over("distance", "-3")), "SpeedActionDynamics@value: found -3, expected a distance not below 0");
-    refused(speed("1", over("rate", "-1")), "SpeedActionDynamics: the sign of the rate -1 in value is not supported");
+    EXPECT_THAT(read_storyboard(story_file(scenario_text(of("Ego", speed("1", over("rate", "-1"))), ""))).notes,
+                testing::Contains(HasSubstr("SpeedActionDynamics: the rate -1 in value is taken as 1: start and target say which way")));
     refused(teleport(R"(<WorldPosition x="1" y="1e300"/>)"), "WorldPosition@y: found 1e+300, expected a place within 1e9 m");
     const auto gap = [](const std::string& attributes) {
         return "<PrivateAction><LongitudinalAction><LongitudinalDistanceAction entityRef=\"Other\" freespace=\"false\" "

@@ -284,6 +284,22 @@ TEST(StudyCompare, LimitsHoldForValuesAndForChanges) {
     EXPECT_THAT(document_text(study_summary(result)), HasSubstr("FAIL one_new: change of reach_5lx_target_own_m: 10 m, limit at most 9 m"));
 }
 
+TEST(StudyCompare, OfCellsAskedForOneByOneNoChangeIsMissed) {
+    const auto verdicts = [](const char* only, const char* reading) {
+        StudyResult result = two_cells(40.0, 50.0);
+        result.only = only;
+        result.cells.pop_back();
+        result.study.limits.resize(1);
+        result.study.limits[0].reading = reading;
+        result.study.limits[0].change_at_least = 0.0;
+        compare_cells(result);
+        return result.verdicts;
+    };
+    EXPECT_THAT(verdicts("one_old", "reach_5lx_target_own_m"), testing::IsEmpty());
+    EXPECT_EQ(verdicts("one_old", "reach_5lx_tarket_own_m").size(), 1U) << "misspelt";
+    EXPECT_EQ(verdicts("", "reach_5lx_target_own_m").size(), 1U) << "all cells were asked for";
+}
+
 TEST(StudyCompare, AnAxisThatMovesNothingIsNamed) {
     StudyResult result = two_cells(40.0, 50.0);
     result.study.axes = {{"weather.wetness", {}, {}, {}}, {"eyes_m", {}, {}, {}}};
