@@ -65,7 +65,7 @@ std::string input_text(const std::string& name, const Inputs& of_run, const File
     const std::string text = name == "lamp file 1" && !several ? "lamp file" : name;
     const auto input = std::ranges::find(of_run, name, &Inputs::value_type::first);
     const auto file =
-        std::ranges::find_if(opened, [&](const FileRead& read) { return input != of_run.end() && hash_of_files({read}) == input->second; });
+        std::ranges::find_if(opened, [&](const FileRead& read) { return input != of_run.end() && input_hash({read}) == input->second; });
     return file == opened.end() ? text : fmt::format("{} ({})", text, printable(file->path.filename().string(), 200));
 }
 

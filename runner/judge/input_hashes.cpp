@@ -16,7 +16,7 @@ bool uses(const LampSet& lamp_set, const LampFile* file) {
 
 } // namespace
 
-std::string hash_of_files(const FilesRead& files) {
+std::string input_hash(const FilesRead& files) {
     std::string all;
     for (const FileRead& file : files)
         all += file.xxh128 + "\n";
@@ -35,16 +35,15 @@ std::vector<std::pair<std::string, std::string>> input_hashes(const Drive& drive
         if (uses(lamp_set, source.file.get())) {
             source.path = fmt::format("lamp file {}", lamps.size() + 1);
             source.options.recipe.clear(); // its content is among what was opened
-            lamps.emplace_back(source.path.string(), hash_of_files(source.file->opened));
+            lamps.emplace_back(source.path.string(), input_hash(source.file->opened));
         }
     for (MountedLamp& lamp : one.lamp_sets.front().lamps)
         if (lamp.levels) {
             lamp.levels_file.clear();
-            lamps.emplace_back("levels of " + lamp.name, hash_of_files(lamp.levels->opened()));
+            lamps.emplace_back("levels of " + lamp.name, input_hash(lamp.levels->opened()));
         }
     const std::string bits = drive_bits(one) + fmt::format("moments: [{}, {}]\n", first_tick, last_tick);
-    std::vector<std::pair<std::string, std::string>> inputs{{"drive", content_hash(bits.data(), bits.size())},
-                                                            {"road", hash_of_files(road)}};
+    std::vector<std::pair<std::string, std::string>> inputs{{"drive", content_hash(bits.data(), bits.size())}, {"road", input_hash(road)}};
     std::ranges::move(lamps, std::back_inserter(inputs));
     return inputs;
 }

@@ -16,7 +16,7 @@ std::vector<std::pair<std::string, std::string>> input_hashes(const Drive& drive
                                                               int first_tick, int last_tick);
 
 /// What input_hashes says of an input that was read from these.
-std::string hash_of_files(const FilesRead& files);
+std::string input_hash(const FilesRead& files);
 
 /// As version 0.1 hashed "drive", which has one lamp set, over its text: less the moments, which stood below it.
 std::string text_hashed_before(Drive drive);

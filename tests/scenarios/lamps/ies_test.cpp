@@ -1,4 +1,5 @@
 // IES LM-63: what each edition and type means, and what real files do to it.
+#include "scenarios/values/refusals.h"
 #include "tests/scenarios/lamps/lamp_trial.h"
 
 #include <algorithm>
