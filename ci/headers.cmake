@@ -8,7 +8,7 @@ foreach(library scenarios metrics renderer runner)
   set(sources "")
   foreach(header ${headers})
     string(APPEND all_headers "#include \"${header}\"\n")
-    # A header that its own source file includes first has been compiled by itself there, by ci/alone.
+    # A header that its own source file includes first has been compiled by itself there, by ci/alone or in a fresh clone by ci/nightly.
     string(REGEX REPLACE "h$" "cpp" own_source ${CMAKE_SOURCE_DIR}/${header})
     if(EXISTS ${own_source})
       file(STRINGS ${own_source} first REGEX "^#include" LIMIT_COUNT 1)

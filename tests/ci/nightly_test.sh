@@ -9,8 +9,6 @@ failures=0
 mkdir -p "$tree"/{ci,bin,build/release}
 cp "$source_tree/ci/nightly" "$tree/ci/"
 printf '#!/bin/sh\n' | tee "$tree/ci/setup" >"$tree/bin/cmake"
-# shellcheck disable=SC2016 # ALONE is the stand-in's
-printf '#!/bin/sh\nexit "${ALONE:-0}"\n' >"$tree/ci/alone"
 # Stands for `fernlicht study FILE --baselines FOLDER --quiet --out DIR --across-devices --backend NAME --known LIST [FLAG...]`.
 cat >"$tree/build/release/fernlicht" <<'END'
 #!/bin/sh
@@ -24,7 +22,7 @@ shift 3
 mkdir -p "$out" && echo "$study $baselines $backend $*" | tee "$out/report.html" >"$out/junit.xml"
 exit "$CODE"
 END
-chmod +x "$tree/ci/setup" "$tree/ci/alone" "$tree/bin/cmake" "$tree/build/release/fernlicht"
+chmod +x "$tree/ci/setup" "$tree/bin/cmake" "$tree/build/release/fernlicht"
 
 # expect EXIT-CODE TEXT [ARGUMENT...]: runs it from another folder; the program's exit code is in CODE.
 expect() {
@@ -46,7 +44,6 @@ expect 0 "nightly: JUnit  out/nightly-1/junit.xml"
 FERNLICHT_BACKEND=egl FERNLICHT_BASELINES=/elsewhere expect 0 "out/mine/report.html" other.yaml out/mine --only "straight*"
 [[ $(<"$tree/out/mine/report.html") == "other.yaml /elsewhere egl --only straight*" ]] || { echo "took other files"; ((++failures)); }
 CODE=1 expect 1 "accept"
-ALONE=1 expect 1 "report.html"
 CODE=3 expect 3 "left no report"
 
 # ci/accept-nightly: both parts into a copy that takes the place of the old; nothing where the study is not green.
