@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <iterator>
+#include <tuple>
 
 namespace fernlicht::gl {
 namespace {
@@ -299,7 +300,7 @@ void PhotometricLighting::draw_background(const Shot& shot) {
 std::vector<PhotometricLighting::Group> PhotometricLighting::groups_for(const Shot& shot) {
     const glm::dvec3 ego_m = shot.moment.ego.position_m;
     const Frustum frustum(shot.camera.clip_from_ego);
-    std::map<std::tuple<SurfaceClass, bool, bool, bool, bool>, std::vector<std::pair<double, std::uint32_t>>> sorted;
+    std::map<std::tuple<SurfaceClass, bool, bool, bool, bool>, std::vector<std::tuple<bool, double, std::uint32_t>>> sorted;
     std::vector<std::uint32_t> unseen, unseen_moving, seen;
     std::vector<double> distances;
     for (const std::uint32_t i : scene_.near(ego_m)) {
@@ -330,13 +331,13 @@ std::vector<PhotometricLighting::Group> PhotometricLighting::groups_for(const Sh
         const bool shadowed = lit && shadows_ && shadows_->reach(piece, shot.outputs.target ? settings_.target_height_m : 0.0);
         const bool traffic = traffic_.any() && traffic_.reach(i);
         sorted[{piece.surface, lit, shadowed, traffic, traffic && traffic_shadows_ && traffic_shadows_->reach(i)}].emplace_back(
-            distances[s], i);
+            piece.fronts_alone, distances[s], i);
     }
     std::vector<Group> groups;
     for (auto& [key, pieces] : sorted) {
         std::ranges::sort(pieces);
         Group group{std::get<0>(key), std::get<1>(key), std::get<2>(key), std::get<3>(key), std::get<4>(key), {}};
-        std::ranges::transform(pieces, std::back_inserter(group.pieces), [](const auto& p) { return p.second; });
+        std::ranges::transform(pieces, std::back_inserter(group.pieces), [](const auto& p) { return std::get<2>(p); });
         groups.push_back(std::move(group));
     }
     if (!pruned_ && !unseen.empty())
@@ -397,7 +398,7 @@ void PhotometricLighting::draw(const Shot& shot) {
             use_visible(f, shot);
         else
             use(variant(f, shot.outputs), shot);
-        list_.draw(static_cast<int>(g));
+        list_.draw(static_cast<int>(g), &shot.camera.clip_from_ego);
         shot.work.draws += static_cast<int>(groups[g].pieces.size());
         shot.work.lamps = std::max(shot.work.lamps, static_cast<int>(f.beams.size()));
         shot.work.features += static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.sky ? 1 : 0) + f.sun + (f.fog ? 1 : 0) +

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <sstream>
+#include <tuple>
 
 namespace fernlicht::gl {
 namespace {
@@ -210,20 +211,20 @@ void PublishedLighting::end_passes() const {
 std::vector<PublishedLighting::Group> PublishedLighting::groups_for(const Shot& shot, std::size_t& pieces) const {
     const glm::dvec3 ego_m = shot.moment.ego.position_m;
     const Frustum frustum(shot.camera.clip_from_ego);
-    std::map<int, std::vector<std::pair<double, std::uint32_t>>> sorted;
+    std::map<int, std::vector<std::tuple<bool, double, std::uint32_t>>> sorted;
     for (const std::uint32_t i : scene_.near(ego_m)) {
         const Piece& piece = scene_.pieces()[i];
         const glm::dvec3 centre = centre_of(piece, ego_m);
         const double distance = glm::length(centre) - piece.radius_m;
         if ((piece.ground || !shot.camera.is_map) && distance <= farthest_drawn_m && !frustum.outside(centre, piece.radius_m))
-            sorted[shot.outputs.colour ? piece.surface.texture : 0].emplace_back(distance, i);
+            sorted[shot.outputs.colour ? piece.surface.texture : 0].emplace_back(piece.fronts_alone, distance, i);
     }
     std::vector<Group> groups;
     pieces = 0;
     for (auto& [texture, near] : sorted) {
         std::ranges::sort(near);
         groups.push_back({texture, {}});
-        for (const auto& [distance, index] : near)
+        for (const auto& [fronts_alone, distance, index] : near)
             groups.back().pieces.push_back(index);
         pieces += near.size();
     }
@@ -247,7 +248,7 @@ void PublishedLighting::draw(const Shot& shot) {
         start_pass(pass, shot);
         for (std::size_t g = 0; g < groups.size(); ++g) {
             use(variant({lamps_, groups[g].texture, pass, published_bits(shot.outputs)}, shot.outputs), shot);
-            list_.draw(static_cast<int>(g));
+            list_.draw(static_cast<int>(g), &shot.camera.clip_from_ego);
             const int samplers = (pass == 1 ? 0 : static_cast<int>(textures_.size())) + (groups[g].texture > 0 ? 1 : 0);
             shot.work.samplers = std::max(shot.work.samplers, samplers);
         }

@@ -83,7 +83,7 @@ void Dresser::dress(const Road& road) {
         if (const std::optional<DressedKind> look = dressed_kind(object))
             add(road, object, *look, barriers);
     for (auto& [stretch, soup] : barriers)
-        add_mesh(soup, {}, fmt::format("crash barrier, road {} s {}-{}", road.id, stretch * stretch_m, (stretch + 1) * stretch_m), false);
+        add_mesh(soup, {}, fmt::format("crash barrier, road {} s {}-{}", road.id, stretch * stretch_m, (stretch + 1) * stretch_m), false, false);
     for (const RoadSignal& signal : road.signals)
         add_sign(road, signal);
     add_people(road);
@@ -137,7 +137,8 @@ Detail Dresser::detail(const Pose& foot, double error_m) const {
     return route_.nearest_m(foot.position_m) > error_m / settings_.pixel_rad ? Detail::far : Detail::near;
 }
 
-void Dresser::add_mesh(const TriangleSoup& soup, const Pose& pose, const std::string& name, bool whole, bool casts) {
+void Dresser::add_mesh(const TriangleSoup& soup, const Pose& pose, const std::string& name, bool whole, bool fronts_alone,
+                       bool casts) {
     if (soup.triangles.empty())
         return;
     TriangleSoup placed;
@@ -149,6 +150,7 @@ void Dresser::add_mesh(const TriangleSoup& soup, const Pose& pose, const std::st
         batch.material += first_;
     mesh.whole = whole;
     mesh.casts = casts;
+    mesh.fronts_alone = fronts_alone;
     scene_.meshes.push_back(std::move(mesh));
 }
 
@@ -156,7 +158,7 @@ void Dresser::add(DressedObject object, const Pose& pose, const std::string& nam
     for (TriangleSoup* soup : {&object.low, &object.high}) {
         if (!object.has_places)
             lay_pictures(*soup);
-        add_mesh(*soup, pose, name, true);
+        add_mesh(*soup, pose, name, true, object.fronts_alone);
     }
 }
 
@@ -178,7 +180,7 @@ void Dresser::add_body(const Model& model, const Pose& pose, const std::string& 
     add_model(scene_, model, pose, 1.0, SurfaceKind::vehicle);
     for (std::size_t i = before; i < scene_.meshes.size(); ++i) {
         scene_.meshes[i].name = name;
-        scene_.meshes[i].whole = true;
+        scene_.meshes[i].whole = scene_.meshes[i].fronts_alone = true;
     }
 }
 
@@ -228,7 +230,7 @@ void Dresser::add_sign(const Road& road, const RoadSignal& signal) {
                                                     : std::vector<double>{0.0};
     for (const double y : posts)
         append_box(soup, {-post_m, y - post_m, -below_m}, {post_m, y + post_m, bottom + 0.9 * height}, index_of(Stuff::zinc));
-    add_mesh(soup, ground, fmt::format("signal {}", signal.id), true);
+    add_mesh(soup, ground, fmt::format("signal {}", signal.id), true, true);
 }
 
 bool is_dressed(const RoadObject& object) { return dressed_kind(object).has_value(); }

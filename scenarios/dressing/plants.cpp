@@ -229,6 +229,7 @@ DressedObject dressed_bush(double height_m, double radius_m, Dice dice) {
 
 DressedObject dressed_tuft(double height_m, Dice dice) {
     DressedObject out;
+    out.fronts_alone = false;
     for (int i = 0; i < 5; ++i) {
         // Blades bend towards one way along x or the other: who drives along it sees their faces.
         const double angle = dice.between(-1.1, 1.1) + (dice.share() < 0.5 ? pi : 0.0), lean = dice.between(0.1, 0.7) * height_m;

@@ -119,7 +119,7 @@ void Dresser::add_bollards(const Road& road) {
                 if (is_clear(road, pose.position_m, lane.id))
                     append_placed(row, dressed_bollard(0.9).low, pose);
             }
-            add_mesh(row, {}, fmt::format("bollards, road {} {} {}", road.id, at_end ? "end" : "start", left ? "left" : "right"), true);
+            add_mesh(row, {}, fmt::format("bollards, road {} {} {}", road.id, at_end ? "end" : "start", left ? "left" : "right"), true, true);
         }
     }
 }
@@ -162,7 +162,7 @@ void Dresser::add_verge(const Road& road, bool left) {
             if (is_free(road, pose.position_m, 0.3))
                 append_placed(grass, dressed_tuft(std::min(0.45, most) * here.between(0.7, 1.0), here.fork()).low, pose);
         }
-        add_mesh(grass, {}, fmt::format("grass, road {} s {:.0f}-{:.0f}", road.id, from, to), true, false);
+        add_mesh(grass, {}, fmt::format("grass, road {} s {:.0f}-{:.0f}", road.id, from, to), true, false, false);
         for (double s = from + here.between(0.0, 30.0); s < to; s += here.between(12.0, 45.0)) {
             const double radius = here.between(0.6, 1.5);
             const Pose pose = beside(road, s, left, here.between(9.5, 15.0));
@@ -182,7 +182,7 @@ void Dresser::add_verge(const Road& road, bool left) {
         if (!open)
             continue;
         lay_pictures(fence);
-        add_mesh(fence, {}, fmt::format("field fence, road {} s {:.0f}-{:.0f} {}", road.id, from, to, left ? "left" : "right"), true);
+        add_mesh(fence, {}, fmt::format("field fence, road {} s {:.0f}-{:.0f} {}", road.id, from, to, left ? "left" : "right"), true, false);
     }
 }
 

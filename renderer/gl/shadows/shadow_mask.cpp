@@ -134,7 +134,7 @@ void ShadowMask::draw_depth(const Shot& shot) {
     gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
     for (const int call : {0, 1}) {
         gl.StencilFunc(GL_ALWAYS, call == 1 && only_on_ground() ? static_cast<GLint>(ground_bit) : 0, 0xFF);
-        list_.draw(call);
+        list_.draw(call, &shot.camera.clip_from_ego);
     }
     ++shot.work.passes;
     shot.work.triangles += list_.triangles();

@@ -103,6 +103,72 @@ TEST(DressedShapes, AreLitFromOutside) {
             }
 }
 
+/// Of rays from a sphere about a body, at places in it, how many meet a back first.
+std::pair<int, int> backs_met(const std::vector<std::array<SoupVertex, 3>>& triangles, const glm::dvec3& low, const glm::dvec3& high) {
+    const glm::dvec3 centre = 0.5 * (low + high), size = high - low;
+    int hits = 0, backs = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const double angle = 0.7 + 2.39996 * i, up = -0.05 + 0.6 * (i % 20) / 20.0;
+        const glm::dvec3 from = centre + 60.0 * glm::dvec3(std::cos(angle), std::sin(angle), up),
+                         to = centre + size * glm::dvec3(0.5 * std::sin(7.1 * i), 0.5 * std::sin(3.3 * i), 0.5 * std::sin(5.7 * i)),
+                         d = glm::normalize(to - from);
+        double nearest = 1e9;
+        bool back = false;
+        for (const auto& t : triangles) {
+            const glm::dvec3 &a = t[0].position_m, &b = t[1].position_m, &c = t[2].position_m, n = cross_of(t);
+            const double along = glm::dot(n, d), at = glm::dot(a - from, n) / along;
+            const glm::dvec3 p = from + at * d;
+            if (along != 0.0 && at < nearest && glm::dot(glm::cross(b - a, p - a), n) >= 0.0 &&
+                glm::dot(glm::cross(c - b, p - b), n) >= 0.0 && glm::dot(glm::cross(a - c, p - c), n) >= 0.0) {
+                nearest = at;
+                back = along > 0.0;
+            }
+        }
+        hits += nearest < 1e8 ? 1 : 0;
+        backs += nearest < 1e8 && back ? 1 : 0;
+    }
+    return {backs, hits};
+}
+
+TEST(DressedShapes, ShowNoBacksWhereFrontsAreDrawnAlone) {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed)
+        for (const Detail detail : {Detail::near, Detail::far})
+            for (const Shape& shape : shapes(seed, detail)) {
+                const auto [backs, hits] = backs_met(all_triangles(shape.object), shape.low_m, shape.high_m);
+                printf("%s %d of %d\n", shape.name, backs, hits);
+            }
+    const auto of_model = [](const char* name, const Model& m) {
+        std::vector<std::array<SoupVertex, 3>> all;
+        for (const Mesh& mesh : m.meshes)
+            for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
+                std::array<SoupVertex, 3> t;
+                for (std::size_t j = 0; j < 3; ++j)
+                    t[j].position_m = mesh.origin_m + glm::dvec3(mesh.vertices[mesh.indices[k + j]].position_m);
+                all.push_back(t);
+            }
+        const auto [backs, hits] = backs_met(all, m.low_m, m.high_m);
+        printf("%s %d of %d\n", name, backs, hits);
+    };
+    for (std::uint32_t draw = 0; draw < 6; ++draw) {
+        const BodySize size{{4.4, 1.8, 1.3}, -0.88, glm::vec3(0.3F), true, draw};
+        of_model("car", car_body(size));
+        of_model("van", van_body({{5.4, 2.0, 2.3}, -0.88, glm::vec3(0.3F), true, draw}));
+        of_model("truck", truck_body({{9.4, 2.5, 3.3}, -0.88, glm::vec3(0.3F), true, draw}));
+        of_model("bus", bus_body({{11.4, 2.5, 3.1}, -0.88, glm::vec3(0.3F), true, draw}));
+        of_model("pedestrian", pedestrian_body({{0.5, 0.6, 1.75}, -0.25, glm::vec3(0.3F), true, draw}));
+        of_model("cyclist", cyclist_body({{1.8, 0.6, 1.75}, -0.9, glm::vec3(0.3F), true, draw}));
+    }
+    const auto of_soup = [](const char* name, const TriangleSoup& soup) {
+        DressedObject o;
+        o.low = soup;
+        const auto [backs, hits] = backs_met(all_triangles(o), {-0.2, -0.4, -0.4}, {0.1, 0.4, 0.4});
+        printf("%s %d of %d\n", name, backs, hits);
+    };
+    of_soup("light", dressed_traffic_light(0.3, 0.9));
+    of_soup("sign", dressed_sign(0.6, 0.6, SignalFace{}, Dice(1, "a")));
+    of_soup("bollard", dressed_bollard(0.9).low);
+}
+
 /// Of a point from a triangle.
 double distance_m(const glm::dvec3& p, const std::array<SoupVertex, 3>& t) {
     const glm::dvec3 &a = t[0].position_m, &b = t[1].position_m, &c = t[2].position_m, n = glm::normalize(cross_of(t));
