@@ -109,5 +109,5 @@ planted .editorconfig '0,/indent_size = 4/s//indent_size = 8/' 'another indentat
 planted .clang-format 's/ColumnLimit: .*/ColumnLimit: 120/' 'another length of lines'
 planted .pre-commit-config.yaml 's#entry: ci/check-licences#entry: ci/tests/../test#' 'ci/tests/../test'
 planted CMakePresets.json 's/{"type": "test", "name": "asan"}/{"type": "test", "name": "sanitize"}/' 'no test preset sanitize'
-planted .github/ISSUE_TEMPLATE/wish.md '/^about/d' 'does not say what it is about'
+planted .github/ISSUE_TEMPLATE/feature-request.md '/^about/d' 'does not say what it is about'
 ((failures == 0))
