@@ -1,4 +1,4 @@
-// The GPU's own clock round pieces of work. To be believed only where check_timer() agrees.
+// The GPU's own clock round pieces of work. Reliable only where check_timer() agrees.
 // Can this driver's own clock (GL_TIME_ELAPSED) be believed?
 #pragma once
 

@@ -1,4 +1,4 @@
-// How coarsely a pair of lamps of others is drawn at a place, and how wrong that is at most.
+// How coarsely a pair of another road user's lamps is drawn at a place, and how wrong that is at most.
 //
 // b: the most light the pair can bring there. m: how far one beam from midway between its lamps can be off there. l: the least lux.
 //   each lamp with its beam where m >= 4 l, one beam for both where m <= 2 l, both weighted between;

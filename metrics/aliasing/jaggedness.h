@@ -1,4 +1,4 @@
-// Stairs along a line of equal value, as of a cut-off: how far it strays from where the reference has it.
+// Stairs along a line of equal value, such as a cut-off: how far it strays from the reference's line.
 // Stairs along edges that have a name: the line of the cut-off on the road, and the borders of road marks. Silhouettes and shadows, which
 // are no lines of a lamp, are left out.
 #pragma once

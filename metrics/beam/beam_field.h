@@ -1,4 +1,4 @@
-// A lamp's table as a field of log intensity that can be asked between its samples, with the error of asking there.
+// A lamp's table as a field of log intensity that can be looked up between its samples, with the error of doing so.
 // Where a low beam ends upwards: the steepest fall of each column of its table.
 #pragma once
 

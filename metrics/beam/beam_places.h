@@ -1,4 +1,4 @@
-// Places of a beam that the trade has names for: test points and regions. What two lamps give there, and which of them a zone holds.
+// Places of a beam that have a name in the trade: test points and regions. What two lamps give there, and which of them a zone holds.
 // The side of the road that a lamp is for.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What a camera stores of the light before it.
+// What a camera stores of the light in front of it.
 #pragma once
 
 #include "scenarios/display/display_profile.h"

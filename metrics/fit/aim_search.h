@@ -1,4 +1,4 @@
-// Where to start from: the misfit has many minima over aim, as a cut-off lies on either side of a point.
+// Where to start from: the misfit has many minima over aim, because a cut-off may lie on either side of a point.
 #pragma once
 
 #include "metrics/fit/descent.h"

@@ -1,4 +1,4 @@
-// Levenberg-Marquardt over what is free of the lamps' shifts.
+// Levenberg-Marquardt over those of the lamps' shifts that are free.
 #pragma once
 
 #include "metrics/fit/fit_model.h"

@@ -1,4 +1,4 @@
-// What a set of lamps does to one eye, and that followed over the moments of a drive.
+// What a set of lamps does to one eye: in one moment, and followed over the moments of a drive.
 #pragma once
 
 #include "metrics/folds/seeing_series.h"

@@ -1,4 +1,4 @@
-// Light on the kerb, on boards at standard places and on edge markings, by distance ahead, over a drive; from the lamps' tables in double.
+// Light on the kerb, on boards at standard places and on edge markings over a drive, by distance ahead: from the lamps' tables, in double.
 // Boards and markings have the materials that pictures have (scenarios/roads/mesh/mesh_materials.cpp): sheeting of class RA2, white paint
 // of 150 mcd/(m2 lx), and their fall-off with the angle of observation.
 // Illuminance at fixed places beside the road while the car drives up to them, from the lamps' tables in double. Facing the lamps: sum of

@@ -1,4 +1,4 @@
-// How what a drive measures of seeing and glare answers to usual tolerances of its lamps: the same folds again, with the lamps nudged.
+// How a drive's readings of seeing and glare respond to usual tolerances of its lamps: the same folds again, with the lamps nudged.
 #pragma once
 
 #include "metrics/folds/seeing_fold.h"

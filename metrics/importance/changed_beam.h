@@ -1,4 +1,4 @@
-// What a gradient says of other candela tables, so that it can be held against what they read: smooth random changes, and a spot of light.
+// What a gradient predicts for other candela tables, to be checked against their readings: smooth random changes, and a spot of light.
 #pragma once
 
 #include "metrics/importance/reading_of_light.h"

@@ -1,4 +1,4 @@
-// What a reading reads in one moment where that is more than the light at a place or where a line of light ends: by the metric's own
+// A reading's value in one moment where that is more than the light at a place or where a line of light ends: by the metric's own
 // function, and by the chain rule through it. Places are found once; the light there is the moment's, whatever tables its lamps have.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What a change of a beam is made of: tents over knots a few tenths of a degree apart, each so and so much of the light that is there.
+// What a change of a beam is made of: tents over knots a few tenths of a degree apart, each a certain share of the light that is there.
 // A change that is relative keeps the beam's fine structure, its cut-off first of all; a floor lets light come to where there is little.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The smallest change of a lamp's candela table that gains what is asked of readings and holds what must be kept.
+// The smallest change of a lamp's candela table that improves readings as far as asked and keeps what must be kept.
 //
 // Readings are linear in small changes of the table alone, so this goes in steps (Fletcher's S l1 QP: R. Fletcher, Practical Methods of
 // Optimization, 2nd ed. 1987, 14.4): linearise where the beam stands, solve a quadratic programme for the whole change with each

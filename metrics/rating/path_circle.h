@@ -1,4 +1,4 @@
-// The radius of a path, and how far it strays from a circle, as a track test knows them.
+// The radius of a path, and how far it strays from a circle, as track tests define them.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,4 +1,4 @@
-// What the rows of a rating come to together, in points.
+// The score of a rating: the points of its rows, taken together.
 #pragma once
 
 #include "metrics/rating/light_limits.h"

@@ -1,4 +1,4 @@
-// Readings as people say them.
+// Names of readings for people.
 // The table of quantities for people.
 // Units as people write them.
 #pragma once

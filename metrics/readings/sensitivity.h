@@ -1,4 +1,4 @@
-// What a reading moves by when the lamps stand or shine a little otherwise than assumed: by as much as mounting leaves open.
+// How far a reading moves when the lamps stand or shine a little differently than assumed: by as much as mounting leaves open.
 #pragma once
 
 #include "metrics/readings/value.h"

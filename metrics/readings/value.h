@@ -1,4 +1,4 @@
-// What a measurement knows of a figure: the figure itself, a bound beyond which nothing was looked at, or why nothing is known.
+// What a measurement knows: a number, a bound beyond which nothing was measured, or the reason why there is neither.
 // One figure of many moments, some of which give a bound only.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The names by which the trade tells what differs between two lamps: test points and zones of our tables, and regions of our own where no
+// The trade's names for where two lamps differ: test points and zones of our tables, and regions of our own where no
 // text has one.
 #pragma once
 

@@ -1,4 +1,4 @@
-// A lamp's whole examination: aimed as the regulation says, held against its rows, and turned once more within the allowance if it fails.
+// A lamp's whole examination: aimed as the regulation says, judged by its rows, and turned once more within the allowance if it fails.
 // Aiming before the photometry, as each regulation's procedure says.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Rows of the tables, written short.
+// Short notation for rows of the tables.
 #pragma once
 
 #include "metrics/regulation/regulation.h"

@@ -1,4 +1,4 @@
-// Illuminated road extent: how far and how wide the lamps light each lane. The product's first number.
+// Illuminated road extent: how far and how wide the lamps light each lane. The first of all readings.
 // How exact the extents of each lane are on a grid: what every second row and column would make of them.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Illuminance on a grid that is exact only where it decides. An extent asks of most points no more than on which side of each limit they
+// Illuminance on a grid that is exact only where it decides. Of most points an extent needs no more than on which side of each limit they
 // lie; how much light there is matters where the isolux lines run.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Lamps of others in fog: what the air between eye and scene sends to the eye of their light.
+// Other lamps in fog: how much of their light the air between eye and scene sends to the eye.
 //
 // By single scattering as of the own lamps (photometric.frag.glsl), for any number of lamps. With l the least luminance
 // (min_airlight_cdm2) what a lamp adds along a ray is ramped from nothing at l to all at 2 l, so that it is off by at most 2 l. A bound

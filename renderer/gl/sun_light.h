@@ -1,4 +1,4 @@
-// Parallel light of sun or moon, with a shadow map across the road before the car. Nothing of it is there when neither shines.
+// Parallel light of sun or moon, with a shadow map across the road before the car. None of it exists when neither shines.
 //
 // As for lamps (shadow_maps.h), ground that faces the light casts no shadow, and receivers are looked up from a point raised by what a
 // texel spans, so that nothing shades itself; from level ground by less where no ground casts, or low light would pass under what stands on

@@ -1,4 +1,4 @@
-// Lamps of others on the scene: any number, each as coarsely as its light allows.
+// Other lamps on the scene: any number, each as coarsely as its light allows.
 //
 // A pair of lamps of one body with one beam and one aim is one unit. For each piece of the scene and each cell of a grid on the ground, a
 // bound from the beam and the distance says how much light a unit can bring there and how wrong it would be as one beam from midway

@@ -1,4 +1,4 @@
-// What this machine's cores could do at best, with the packs and on as many threads as the light pass.
+// What this machine's cores could do at best, with the packs and the number of threads of the light pass.
 #pragma once
 
 #include "scenarios/packs/level.h"

@@ -1,4 +1,4 @@
-// Light that was solved for a whole moment before its pictures are drawn, and how pictures take it up.
+// Light that was solved for a whole moment before its pictures are drawn, and how pictures use it.
 //
 // A solution holds 16 replicates: independent estimates of the same light, each from a sixteenth of the rays or photons. Lane i of a packet
 // is replicate i of a pixel (pixel_estimate.h) and reads replicate i of the solution, so that a pixel's standard error knows the noise of

@@ -1,4 +1,4 @@
-// `fernlicht accept RUN_FOLDER [--baselines FOLDER]`: take a run's results as what later runs are compared with. Judges nothing.
+// `fernlicht accept RUN_FOLDER [--baselines FOLDER]`: makes a run's results the baseline of later runs. Judges nothing.
 #pragma once
 
 #include "runner/judge/baseline.h"

@@ -1,4 +1,4 @@
-// `fernlicht model FILE`: what a model holds, and how it looks in our lamps at night.
+// `fernlicht model FILE`: what a model holds, and how it looks at night in the light of our lamps.
 #pragma once
 
 #include "scenarios/models/model.h"

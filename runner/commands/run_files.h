@@ -1,4 +1,4 @@
-// What a run leaves in its folder beside its pictures.
+// The files that a run leaves in its folder beside its pictures.
 #pragma once
 
 #include "runner/experiments/run/run_report.h"

@@ -1,4 +1,4 @@
-// --watch: what a command does is done again whenever a file that it read holds something else.
+// --watch: a command runs again whenever a file that it read has changed.
 #pragma once
 
 #include "scenarios/values/files.h"

@@ -1,4 +1,4 @@
-// JSON of files that others may have touched: every access says what was found where.
+// JSON that others may have edited: every access says what was found, and where.
 #pragma once
 
 #include <filesystem>

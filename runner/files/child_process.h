@@ -1,4 +1,4 @@
-// Programs of others, started beside this one.
+// Other programs, started as child processes.
 #pragma once
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// Text of others on its way into a report: names, paths and labels may hold anything.
+// Text from users and their files on its way into a report: names, paths and labels may hold anything.
 #pragma once
 
 #include <cstddef>

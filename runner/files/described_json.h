@@ -1,4 +1,4 @@
-// A struct in JSON, from one list of its members: it is written, read back and described to checkers by that.
+// A struct in JSON, from one list of its members: by that list it is written, read back and described to checkers.
 //
 //   JsonMembers spot_members(Spot& spot) {
 //       return {{"x_px", spot.x}, {"name", or_null(spot.name)}, {"edges", spot.edges, edge_members}, {"area", spot.area()}};

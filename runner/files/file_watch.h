@@ -1,4 +1,4 @@
-// Waits until files hold something else than they did.
+// Waits until the content of files changes.
 #pragma once
 
 #include "scenarios/values/files.h"

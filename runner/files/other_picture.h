@@ -1,4 +1,4 @@
-// Pictures that others keep in other formats than PNG and EXR, read by OpenImageIO to be compared.
+// Pictures in formats other than PNG and EXR, read by OpenImageIO for comparison.
 #pragma once
 
 #include "runner/files/picture_file.h"

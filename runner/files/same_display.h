@@ -1,4 +1,4 @@
-// Whether pictures have a common scale, by what they say of themselves.
+// Whether pictures share a scale, by what they say of themselves.
 #pragma once
 
 #include <filesystem>

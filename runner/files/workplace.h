@@ -1,4 +1,4 @@
-// A place for work whose results go elsewhere.
+// A temporary folder for work whose results end up elsewhere.
 #pragma once
 
 #include "runner/files/durable_files.h"

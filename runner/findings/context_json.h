@@ -1,4 +1,4 @@
-// What results were made with, the moments they are of and how times spread, as parts of every JSON that holds some.
+// How results were made, which moments they are of and how times spread: the parts that every JSON of results has.
 #pragma once
 
 #include "metrics/statistics/statistics.h"

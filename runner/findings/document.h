@@ -1,4 +1,4 @@
-// What an experiment tells of its findings: sentences, tables, plots and pictures under headings. How they are printed is write's affair.
+// What an experiment reports: sentences, tables, plots and pictures under headings. How they are printed is up to write/.
 #pragma once
 
 #include "metrics/statistics/work_precision.h"

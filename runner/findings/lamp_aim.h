@@ -1,4 +1,4 @@
-// How the lamps of the own car are aimed and where that puts their beams, as pages and JSON tell it.
+// How the lamps of the own car are aimed and where that puts their beams, as pages and JSON show it.
 #pragma once
 
 #include "runner/findings/document.h"

@@ -1,4 +1,4 @@
-// What a drive came to at each of its moments: speed and car, extents of every lane, glare and light at fixed places, signals from a bus.
+// The values of a drive at each moment: speed and car, extents of every lane, glare and light at fixed places, signals from a bus.
 #pragma once
 
 #include "runner/findings/report.h"

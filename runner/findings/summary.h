@@ -1,4 +1,4 @@
-// A drive's moments in readings: what limits are set on. docs/readings.md defines every name.
+// A drive's moments folded into readings, which limits are set on. docs/readings.md defines every name.
 #pragma once
 
 #include "runner/findings/report.h"

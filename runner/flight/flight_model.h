@@ -1,4 +1,4 @@
-// An OpenFlight database, read by OpenSceneGraph, as one of our models. Only here is OpenSceneGraph seen.
+// An OpenFlight database, read by OpenSceneGraph, as one of our models. Nothing else knows OpenSceneGraph.
 #pragma once
 
 #include "scenarios/models/model.h"

@@ -1,4 +1,4 @@
-// What nights of a study read, over months, in one SQLite file (docs/history.md). How it lies there is this folder's affair alone.
+// What nights of a study read, over months, in one SQLite file (docs/history.md). Only this folder knows how it is stored.
 #pragma once
 
 #include "metrics/readings/value.h"

@@ -1,4 +1,4 @@
-// Results against accepted ones, thing by thing: readings by their spread over repeats, frames pixel by pixel.
+// Results against accepted ones, one by one: readings by their spread over repeats, frames pixel by pixel.
 #pragma once
 
 #include "runner/judge/baseline.h"

@@ -1,4 +1,4 @@
-// A drive's limits against what was read.
+// A drive's limits against its readings.
 #pragma once
 
 #include "runner/findings/report.h"

@@ -1,4 +1,4 @@
-// Baselines of version 0.1, put under the names and hashes of today.
+// Baselines of version 0.1, brought to today's names and hashes.
 #pragma once
 
 #include "scenarios/drives/drive.h"

@@ -1,4 +1,4 @@
-// Stores frames by other threads while the next ones are drawn.
+// Stores frames on other threads while the next ones are drawn.
 #pragma once
 
 #include "runner/findings/report.h"

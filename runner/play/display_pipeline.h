@@ -1,5 +1,5 @@
-// From a picture's coloured light to the codes of a display, stage by stage: windscreen, eye, tone mapper, display. What is not asked for
-// is not computed.
+// From a picture's coloured light to the codes of a display, stage by stage: windscreen, eye, tone mapper, display. Stages that a drive
+// does not ask for are not computed.
 // What a display's profile makes of pictures that nobody would want, and is no mistake of the file.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What a drive's stored pictures are shown by, as the play loop meets them.
+// How a drive's stored pictures are shown, from frame to PNG, within the play loop.
 #pragma once
 
 #include "metrics/display/display_colour.h"

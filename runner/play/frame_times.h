@@ -1,4 +1,4 @@
-// What drawing costs, told apart from what is done beside it.
+// What drawing costs, without what is done beside it.
 #pragma once
 
 #include "runner/findings/report.h"

@@ -1,4 +1,4 @@
-// Techniques timed in turns: in each round every one draws the same moments, in an order drawn anew. What else the machine does meanwhile.
+// Techniques timed in turns: in each round all draw the same moments, in a new random order, so that what else the machine does hits all.
 #pragma once
 
 #include <array>

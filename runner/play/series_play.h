@@ -1,4 +1,4 @@
-// A drive played by many cars of one series: what tolerances make of its readings.
+// A drive played by many cars of one series: how tolerances spread its readings.
 #pragma once
 
 #include "metrics/tolerances/cars_readings.h"

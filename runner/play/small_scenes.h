@@ -1,4 +1,4 @@
-// Small scenes made in code: a few sheets, a lamp, a camera. For what is tried where drives would hide it.
+// Small scenes made in code: a few sheets, a lamp, a camera. For trying what a drive would hide.
 #pragma once
 
 #include "scenarios/drives/play/moment.h"

@@ -1,4 +1,4 @@
-// Everything of a drive that does not change over its lamp sets: read and checked before the first frame.
+// Everything in a drive that is the same for all its lamp sets: read and checked before the first frame.
 #pragma once
 
 #include "scenarios/drives/play/moment.h"

@@ -1,4 +1,4 @@
-// A document for programs: what an experiment without findings of its own in JSON has to say.
+// A document for programs: the JSON of experiments whose findings have none of their own.
 #pragma once
 
 #include "runner/findings/document.h"

@@ -1,4 +1,4 @@
-// What every page has: sections of documents, and what its results were made with.
+// What every page has: sections of documents, and how its results were made.
 #pragma once
 
 #include "runner/findings/document.h"

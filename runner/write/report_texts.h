@@ -1,4 +1,4 @@
-// What a run leaves that no document holds: what programs read of verdicts, readings and times, and its page.
+// What a run leaves beside its documents: verdicts, readings and times for programs, and its page.
 #pragma once
 
 #include "runner/findings/run_page.h"

@@ -1,4 +1,4 @@
-// Where a mapping's names lead to in the databases.
+// What a mapping's names refer to in the databases.
 // From the units that databases write to those of the signal table.
 #pragma once
 

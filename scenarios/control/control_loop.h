@@ -1,5 +1,5 @@
 // Lamp control as it runs in a car: at each tick signals come in, laws decide, actuators follow. The same for a drive played ahead and for
-// one that is still happening.
+// a live one.
 // A swivel that does not do what it is asked: found by what lamp control knows of it, command and position.
 #pragma once
 

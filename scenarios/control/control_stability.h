@@ -1,4 +1,4 @@
-// Extremes of lamp control: how far beyond what they may do lamps get. Seconds together, so for commands and tests, not for a run.
+// Lamp control at its extremes: how far lamps exceed their limits. Takes seconds in all: for commands and tests, not for a run.
 #pragma once
 
 #include "scenarios/control/control_run.h"

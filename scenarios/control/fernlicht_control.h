@@ -1,4 +1,4 @@
-/* Lamp control laws of one's own: the interface between fernlicht and a shared library that a drive names under control.plugins.
+/* Lamp control laws of your own: the interface between fernlicht and a shared library that a drive names under control.plugins.
  *
  * C99 and C++. Copy this one file. A library exports one function, fernlicht_control_plugin(), which returns what it is and can do.
  * docs/control.md tells how to build and name a library. Everything that a law is handed belongs to fernlicht and holds during the call.

@@ -1,4 +1,4 @@
-// What cars of one series differ by: how their lamps stand and shine, how high and how loaded they are.
+// How cars of one series differ: how their lamps stand and shine, how high and how loaded they are.
 #pragma once
 
 #include "scenarios/drives/limit.h"

@@ -1,5 +1,5 @@
-// The reference of a file's keys as plain values: a list for each described struct. How it is laid out is
-// runner/findings/key_reference.h's.
+// The reference of a file's keys as plain values: a list for each described struct. Its layout is up to
+// runner/findings/key_reference.h.
 #pragma once
 
 #include "scenarios/fields/group.h"

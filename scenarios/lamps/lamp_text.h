@@ -1,4 +1,4 @@
-// What the text readers of lamp files share: lines with their numbers, and numbers that are numbers.
+// What the text readers of lamp files share: lines, words and cells, and numbers with their checks.
 #pragma once
 
 #include "scenarios/values/errors.h"

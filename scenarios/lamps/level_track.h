@@ -1,4 +1,4 @@
-// A pixel lamp over time: what its pixels were asked for, and what they shine.
+// A pixel lamp over time: what its pixels were told to give, and what they give.
 #pragma once
 
 #include "scenarios/lamps/lamp_file.h"

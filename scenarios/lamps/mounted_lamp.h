@@ -1,4 +1,4 @@
-// A lamp on a car: which light, where, aimed how, how bright, of what colour.
+// A lamp on a car: which light, its place, aim, brightness and colour.
 // What happens to a mounted lamp at a time: switched, dimmed, aimed, replaced.
 #pragma once
 

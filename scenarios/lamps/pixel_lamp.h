@@ -1,4 +1,4 @@
-// Lamps of pixels or segments that dim one by one: what each of them shines, and how it does what it is asked.
+// Lamps of pixels or segments that dim one by one: what light each gives, and how it follows what it is told.
 #pragma once
 
 #include "scenarios/lamps/candela_table.h"

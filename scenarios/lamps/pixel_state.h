@@ -1,4 +1,4 @@
-// What the levels of a pixel lamp come to at one time, in a few figures: how many parts shine, how much light is left, where it is dark.
+// The levels of a pixel lamp at one time in a few figures: how many parts shine, how much light is left, where it is dark.
 #pragma once
 
 #include "scenarios/lamps/pixel_lamp.h"

@@ -1,5 +1,5 @@
-// Illuminance at a point by the lamps of a moment, from the candela tables themselves, in double: the ground that rendered
-// lux images are measured against. The air takes its part. Knows no shadows;
+// Illuminance at a point from the lamps of a moment, by the candela tables themselves, in double: what rendered lux images are
+// measured against. The air takes its share. There are no shadows here;
 // callers that need them bring their own visibility.
 // The colour of retroreflected light.
 // How a surface under a film of water returns light, in double: darker all round, and mirroring. As the shader does (photometry.glsl,

@@ -1,4 +1,4 @@
-// Illuminance within bounds, many points at once and in a small part of the time of light.h: for callers that ask at many points whether
+// Illuminance within bounds, at many points at once and in a fraction of the time of light.h: for callers that ask at many points whether
 // there is enough, and only at few of them how much.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What bodies of road users are put together with: hull, wheels, plates, lamps, limbs, and the materials of all of them.
+// What bodies of road users are built from: hull, wheels, plates, lamps, limbs, and the materials of all of them.
 #pragma once
 
 #include "scenarios/models/road_user_bodies.h"

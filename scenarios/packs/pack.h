@@ -1,4 +1,4 @@
-// Packs of numbers: one float, integer or truth for each lane, 4 to 16 wide, as the instructions have it that a source is compiled for.
+// Packs of numbers: one float, integer or truth for each lane, 4 to 16 wide, depending on the instructions that a source is compiled for.
 // What a lane computes does not depend on the width: each operation is rounded as IEEE 754 has it, none is contracted, and no lane
 // looks at another. Sources that include this are compiled once for each level (level.h), and everything here lives in a namespace named
 // after it, so that no function compiled for one processor can stand in for another's: such sources include nothing else with code of its

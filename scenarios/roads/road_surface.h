@@ -1,4 +1,4 @@
-// What a drive's roads are paved with, and what its markings are: classes whose figures mesh_materials.cpp has.
+// What a drive's roads are paved with, and what its markings are: classes whose values are in mesh_materials.cpp.
 #pragma once
 
 namespace fernlicht {

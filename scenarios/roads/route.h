@@ -1,4 +1,4 @@
-// A way through a network: follows one lane over road and junction borders; distance along it to pose and cross-section.
+// A route through a network: follows one lane over road and junction borders; distance along it to pose and cross-section.
 #pragma once
 
 #include "scenarios/roads/plan.h"

@@ -1,4 +1,4 @@
-// What the signals of an OpenDRIVE file say of their faces: wanted where signs are drawn, and by nobody who measures.
+// What an OpenDRIVE file says of the faces of its signals: needed to draw signs, but for no measurement.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Another user of the road: what it is, where it goes, what shines on it.
+// Another road user: what it is, where it goes, which lamps it has.
 // Where something is at any time: time-stamped poses, and what lies between them.
 #pragma once
 

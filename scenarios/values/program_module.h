@@ -1,4 +1,4 @@
-// Parts of the program in files of their own: what few commands need, and what would take every start its time.
+// Parts of the program in files of their own: what few commands need, and what would slow down every start.
 #pragma once
 
 #include <filesystem>

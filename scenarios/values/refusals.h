@@ -1,4 +1,4 @@
-// Reading on after an error, so that all that is wrong with a file is told at once; where nobody listens, the first error is thrown.
+// Reading on after an error, so that all that is wrong with a file is reported at once; where nobody listens, the first error is thrown.
 #pragma once
 
 #include "scenarios/values/errors.h"

@@ -1,4 +1,4 @@
-// Stiff and extreme cars, roads and loads: how far the solver's usual choice comes out from a reference. Seconds together.
+// Stiff and extreme cars, roads and loads: how far the usual solver ends up from a reference. Takes seconds in all.
 #pragma once
 
 #include "scenarios/vehicle/solver_study.h"

@@ -1,4 +1,4 @@
-// Ordinary differential equations x' = f(t, x): the problem, how it shall be solved, what the solving took, and the solution.
+// Ordinary differential equations x' = f(t, x): the problem, how to solve it, what the solving took, and the solution.
 // C++17 only, for single_step.cpp.
 #pragma once
 

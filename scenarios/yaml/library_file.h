@@ -1,4 +1,4 @@
-// YAML files that are named by their path, or by a name of ours (scenarios/values/library_folders.h).
+// YAML files that are named by their path, or by their name in our library (scenarios/values/library_folders.h).
 #pragma once
 
 #include "scenarios/values/errors.h"

@@ -1,5 +1,5 @@
-// What keys and words in users' files were called in version 0.1: the one table that `fernlicht migrate` converts files by, and that the
-// refusal of an unknown key names today's word from.
+// Names that keys and words in users' files had in version 0.1: the one table by which `fernlicht migrate` converts files, and from which
+// the refusal of an unknown key takes today's word.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// How long each pass of a frame takes: by the GPU's clock where it can be believed, or from finish to finish.
+// How long each pass of a frame takes: by the GPU's clock where it is reliable, or from finish to finish.
 // How many fragments pass the depth test between construction and result(). A driver may shade more: llvmpipe shades whole blocks.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What is drawn into, and read back: one texture for each result that is wanted.
+// What is drawn into and read back: one texture for each result that is asked for.
 #pragma once
 
 #include "renderer/gl/device/objects.h"

@@ -1,4 +1,4 @@
-// Depth maps whose projections differ from frame to frame: each is looked up by a matrix of its own, so that it can be drawn from another
+// Depth maps whose projections differ from frame to frame: each has a matrix of its own for look-ups, so that it can be drawn from another
 // place than the lamp's, warped, or kept from an earlier frame.
 // One depth map for all lamps, from midway between those that shine.
 // The method `soft-map`: penumbrae of lamps that are discs facing along their axes, as the mean over maps from places on the disc.

@@ -1,4 +1,4 @@
-// How the program ends.
+// The program's exit codes.
 #pragma once
 
 namespace fernlicht {

@@ -1,4 +1,4 @@
-// What flags and commands were called before.
+// Former names of flags and commands.
 #pragma once
 
 #include <string>

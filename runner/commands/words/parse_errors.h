@@ -1,4 +1,4 @@
-// What the parser of the command line cannot use, in the words of this program.
+// Errors of the command line's parser, in the words of this program.
 #pragma once
 
 #include "scenarios/values/errors.h"

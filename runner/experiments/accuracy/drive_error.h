@@ -1,4 +1,4 @@
-// The line of error against run time that every report carries: a few moments of what was played, held against the reference.
+// The line of error against run time in every report: a few moments of what was played, compared with the reference.
 #pragma once
 
 #include "renderer/renderer.h"

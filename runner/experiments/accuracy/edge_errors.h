@@ -1,5 +1,5 @@
-// How right pictures are where surfaces and shadows end: what the one ray through a pixel's centre is worth there, and what a shadow method
-// adds.
+// How accurate pictures are where surfaces and shadows end: what the one ray through a pixel's centre is worth there, and what a shadow
+// method adds.
 #pragma once
 
 #include "renderer/reference/reference.h"

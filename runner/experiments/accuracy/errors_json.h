@@ -1,4 +1,4 @@
-// Errors of pixels, and ways to draw, as JSON: the same in every file that holds them.
+// Errors of pixels, shadow methods and beams as JSON: the same in every file that holds them.
 #pragma once
 
 #include "metrics/images/pixel_errors.h"

@@ -1,4 +1,4 @@
-// Pictures of a renderer against those of the reference: what a drive's moments are compared in, and what each pixel shows of the road.
+// A renderer's pictures against the reference's: how a drive's moments are compared, and what each pixel shows of the road.
 #pragma once
 
 #include "renderer/reference/reference.h"

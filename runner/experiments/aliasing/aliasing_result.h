@@ -1,4 +1,4 @@
-// What `fernlicht aliasing` found: how much of what pictures show is not there, by how they are drawn. The writers only format it.
+// What `fernlicht aliasing` found: how much of what pictures show is not real, by how they are drawn. The writers only format it.
 #pragma once
 
 #include "metrics/aliasing/jaggedness.h"

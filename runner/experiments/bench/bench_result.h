@@ -1,4 +1,4 @@
-// What a bench found: raw samples of each technique and what they were taken on. The writers only format it.
+// What a bench found: each technique's raw samples and what machine they come from. The writers only format it.
 #pragma once
 
 #include "metrics/statistics/statistics.h"

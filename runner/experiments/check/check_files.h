@@ -1,5 +1,5 @@
-// All that is wrong with files, before anything is played: what their readers refuse, what the first frame would lack, and what the intake
-// check says of lamps. No plug-in and no FMU runs for it.
+// All that is wrong with files, found before anything is played: what their readers refuse, what the first frame would lack, and what the
+// intake check says of lamps. It runs no plug-in and no FMU.
 #pragma once
 
 #include "scenarios/values/errors.h"

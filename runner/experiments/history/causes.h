@@ -1,4 +1,4 @@
-// Why a cell read something else than the night before: what went in, the program, or the machine.
+// Why a cell reads differently from the night before: its inputs, the program, or the machine.
 #pragma once
 
 #include "runner/history/history.h"

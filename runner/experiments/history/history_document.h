@@ -1,4 +1,4 @@
-// What the history tells: documents for people, CSV for programs.
+// The history as documents for people and as CSV for programs.
 #pragma once
 
 #include "runner/experiments/history/history_findings.h"

@@ -1,4 +1,4 @@
-// Where in the beam one reading of a drive is decided.
+// Which part of the beam decides one reading of a drive.
 #pragma once
 
 #include "runner/experiments/importance/importance_result.h"

@@ -1,4 +1,4 @@
-// The smallest change of a lamp that gains what is asked of readings over drives.
+// The smallest change of a lamp that improves readings over drives as far as asked.
 #pragma once
 
 #include "runner/experiments/improve/improve_result.h"

@@ -1,4 +1,4 @@
-// A drive against the clock: inputs from a bus, outputs onto it, pictures as they can be had, and a report of what was lost.
+// A drive against the clock: inputs from a bus, outputs to it, pictures when there is time for them, and a report of what was lost.
 #pragma once
 
 #include "runner/findings/report.h"

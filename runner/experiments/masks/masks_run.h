@@ -1,4 +1,4 @@
-// What masks cost and spare over a drive, by margin.
+// What masks cost in light and spare in glare over a drive, by margin.
 #pragma once
 
 #include "runner/experiments/masks/masks_result.h"

@@ -1,4 +1,4 @@
-// What a rating's photometers get while a drive is played.
+// The light on a rating's photometers while a drive is played.
 #pragma once
 
 #include "metrics/readings/readings.h"

@@ -1,4 +1,4 @@
-// A reference half drawn, on disk: to go on with after Ctrl-C, a crash or a power cut, and end in the same bytes.
+// A half-finished reference on disk, to resume after Ctrl-C, a crash or a power cut and end with the same bytes.
 #pragma once
 
 #include "runner/experiments/reference/reference_result.h"

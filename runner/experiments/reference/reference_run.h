@@ -1,4 +1,4 @@
-// Draws one moment of a drive by the reference, interruptible, and writes what came out.
+// Draws one moment of a drive by the reference, can be interrupted, and writes the result.
 #pragma once
 
 #include "runner/experiments/reference/reference_result.h"

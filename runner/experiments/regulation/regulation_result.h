@@ -1,4 +1,4 @@
-// What a regulation check and a cut-off's measurement found, and what is told of it.
+// What a regulation check and the measurement of a cut-off found, and how it is reported.
 #pragma once
 
 #include "metrics/beam/cut_off.h"

@@ -1,4 +1,4 @@
-// What is said of results that were played, now or before: limits, baselines, known failures. Judged anew, they need no drive played again.
+// Judges results, just played or read back, by limits, baselines and known failures. No drive is played for it.
 #pragma once
 
 #include "runner/experiments/run/run_drives.h"

@@ -1,4 +1,4 @@
-// What it saves to leave out what a drive does not need, measured while the run still has its device.
+// How much time pruning saves on a drive, measured while the run still has its device.
 #pragma once
 
 #include "renderer/renderer.h"

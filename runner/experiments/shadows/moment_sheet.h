@@ -1,4 +1,4 @@
-// One moment of a drive in every shadow method beside the picture by rays: the shadow part of its contact sheets.
+// One moment of a drive with every shadow method, beside the reference: the shadow part of its contact sheets.
 #pragma once
 
 #include "runner/experiments/shadows/shadow_result.h"

@@ -1,4 +1,4 @@
-// Scenes that are hard on shadows, built in code, seen through the same doors as drives.
+// Scenes that are hard for shadow methods, made in code and drawn in the same way as drives.
 #pragma once
 
 #include "renderer/renderer.h"

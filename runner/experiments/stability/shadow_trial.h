@@ -1,4 +1,4 @@
-// A drawn frame's shadows held against rays in double precision, and the bodies that cast them.
+// The shadows of a drawn frame compared with rays in double precision, and the bodies that cast them.
 #pragma once
 
 #include "runner/experiments/stability/trial.h"

@@ -1,4 +1,4 @@
-// A drawn frame of a small scene held against the double-precision twin; files as users write them.
+// A drawn frame of a small scene compared with the double-precision twin; files as users write them.
 #pragma once
 
 #include "renderer/renderer.h"

@@ -1,4 +1,4 @@
-// From what was played to what a study's folder holds: a cell's files, judged by its drive of now.
+// From what was played to what a study's folder holds: each cell's files, judged by its drive as it is now.
 #pragma once
 
 #include "runner/experiments/study/study_run.h"

@@ -1,5 +1,5 @@
-// Plays a study: each cell by the same door as `fernlicht run`, in a process of its own, into the store; then collects what lies there into
-// a folder, and tells of it.
+// Plays a study: each cell in the same way as `fernlicht run`, in a process of its own, into the store; then collects what lies there into
+// a folder, and reports on it.
 #pragma once
 
 #include "runner/experiments/study/study_plan.h"

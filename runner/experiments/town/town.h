@@ -1,4 +1,4 @@
-// A town of others at night: a car in a model that has no road, lit by two lamps.
+// A town made by others, at night: a car in a model that has no road, lit by two lamps.
 #pragma once
 
 #include "runner/findings/report.h"

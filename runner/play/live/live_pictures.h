@@ -1,4 +1,4 @@
-// Pictures of a drive while it happens: the control thread says what may be drawn, the drawing thread takes what it can.
+// Pictures of a live drive: the control thread says what may be drawn, the drawing thread takes what it can.
 #pragma once
 
 #include "scenarios/drives/play/moment.h"

@@ -1,4 +1,4 @@
-// `shadows: auto`: the cheapest method that is right enough, found out on the drive itself.
+// `shadows: auto`: the cheapest method that is accurate enough, found on the drive itself.
 #pragma once
 
 #include "renderer/device.h"

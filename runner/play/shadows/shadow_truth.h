@@ -1,4 +1,4 @@
-// Shadows of a scene as they are, by a ray from each pixel's centre to each lamp, for holding ways to draw them against.
+// A scene's true shadows, by a ray from each pixel's centre to each lamp: what shadow methods are compared with.
 #pragma once
 
 #include "metrics/shadows/shadow_errors.h"

@@ -1,4 +1,4 @@
-// To which light the eye of a drive's pictures is adapted: decided by the drive's lamps and sky, not by any picture, so that all its
+// Which light the eye of a drive's pictures is adapted to: decided by the drive's lamps and sky, not by any picture, so that all its
 // pictures share one white.
 #pragma once
 

@@ -1,4 +1,4 @@
-// A storyboard alone as a drive: what a drive file would say is left to defaults.
+// A storyboard alone as a drive: what a drive file would say has its default.
 #pragma once
 
 #include "scenarios/drives/drive.h"

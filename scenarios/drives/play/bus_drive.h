@@ -1,4 +1,4 @@
-// A drive that is still happening: inputs from a bus tick by tick, outputs to it, moments as soon as they are settled.
+// A live drive: inputs from a bus tick by tick, outputs to it, moments as soon as they are settled.
 #pragma once
 
 #include "scenarios/drives/play/control_play.h"

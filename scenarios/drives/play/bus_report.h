@@ -1,4 +1,4 @@
-// What a report tells of the signals that a drive took from a bus.
+// What a report says of the signals that a drive took from a bus.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// From a view on a car to clip space; the one place where OpenGL's conventions are met.
+// From a view on a car to clip space; the one place that follows OpenGL's conventions.
 #pragma once
 
 #include "scenarios/drives/play/moment.h"

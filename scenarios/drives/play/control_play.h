@@ -1,4 +1,4 @@
-// Lamp control of a lamp set over a drive: before the first frame, or tick by tick while the drive happens.
+// Lamp control of a lamp set over a drive: before the first frame, or tick by tick in a live drive.
 #pragma once
 
 #include "scenarios/can/bus_outputs.h"

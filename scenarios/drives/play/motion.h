@@ -1,5 +1,5 @@
-// How car and lamps move in a drive with a vehicle or with lamp control: simulated once, before the first frame, by steps that know nothing
-// of frames.
+// How car and lamps move in a drive with a vehicle or with lamp control: simulated once, before the first frame, in steps independent of
+// frames.
 #pragma once
 
 #include "scenarios/can/can_frame.h"

@@ -1,4 +1,4 @@
-// What is never known exactly of a car's lamps, by as much as usual: how a moment's lamps would stand and shine then.
+// Nudges: by how much a car's lamps are usually uncertain, and how a moment's lamps stand and shine when nudged.
 #pragma once
 
 #include "scenarios/drives/play/moment.h"

@@ -1,4 +1,4 @@
-// A beam as a few spot lights of OpenGL 1.x, which is what per-vertex lighting had for it: the least-squares fit, and what is left over.
+// A beam as a few spot lights of OpenGL 1.x, all that per-vertex lighting had: the least-squares fit, and what is left over.
 #pragma once
 
 #include "scenarios/lamps/candela_table.h"

@@ -1,4 +1,4 @@
-// The nonlinear part of fitting spot lights: given spots, nearby ones that leave less over.
+// The nonlinear part of fitting spot lights: from given spots to nearby ones that leave less over.
 #pragma once
 
 #include "scenarios/lamps/spots/spot_fit.h"

@@ -1,4 +1,4 @@
-// Error against run time of what is not a way to light a scene: each study varies one thing and holds it against a much finer one. Whoever
+// Error against run time of all but techniques: each study varies one thing and compares it with a much finer one. Whoever
 // runs it adds drive and lamp set to names and titles.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What one drive with one lamp set came to, as a run's folder tells it.
+// The results of one drive with one lamp set, read from a run's folder.
 #pragma once
 
 #include "metrics/readings/significance.h"
