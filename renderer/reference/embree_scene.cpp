@@ -224,17 +224,17 @@ std::optional<SurfaceHit> EmbreeScene::cast(const Ray& ray, bool ground_only) co
 
 LaneMask EmbreeScene::cast(const std::array<Ray, packet_size>& rays, LaneMask lanes, bool ground_only,
                            std::array<SurfaceHit, packet_size>& hits) const {
-    alignas(64) RTCRayHit16 found;
-    alignas(64) std::array<int, packet_size> valid;
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        valid[i] = in_mask(lanes, i) ? -1 : 0;
+    alignas(64) RTCRayHit16 found{}; // idle lanes, too, must hold finite rays
+    alignas(64) std::array<int, packet_size> valid{};
+    for (const std::size_t i : lanes_of(lanes)) {
+        valid[i] = -1;
         set_lane(found.ray, i, ray_of(rays[i].origin_m, rays[i].direction, no_end, ground_only ? ground_mask : all_mask));
         found.hit.geomID[i] = found.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
     intersect(embree_->scene, valid.data(), found);
     LaneMask hit_lanes = 0;
-    for (std::size_t i = 0; i < packet_size; ++i)
-        if (valid[i] != 0 && found.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
+    for (const std::size_t i : lanes_of(lanes))
+        if (found.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
             hits[i] = hit_on(rays[i], found.hit.geomID[i], found.hit.primID[i]);
             hit_lanes |= 1U << i;
         }
@@ -253,16 +253,16 @@ bool EmbreeScene::visible(const glm::dvec3& from_m, const glm::dvec3& to_m) cons
 
 LaneMask EmbreeScene::visible(const std::array<glm::dvec3, packet_size>& from_m, const std::array<glm::dvec3, packet_size>& to_m,
                               LaneMask lanes) const {
-    alignas(64) RTCRay16 ray;
-    alignas(64) std::array<int, packet_size> valid;
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        valid[i] = in_mask(lanes, i) ? -1 : 0;
+    alignas(64) RTCRay16 ray{};
+    alignas(64) std::array<int, packet_size> valid{};
+    for (const std::size_t i : lanes_of(lanes)) {
+        valid[i] = -1;
         set_lane(ray, i, ray_of(from_m[i], to_m[i] - from_m[i], segment_end, casters_mask));
     }
     occlude(embree_->scene, valid.data(), ray);
     LaneMask seen = 0;
-    for (std::size_t i = 0; i < packet_size; ++i)
-        if (valid[i] != 0 && ray.tfar[i] >= 0.0F)
+    for (const std::size_t i : lanes_of(lanes))
+        if (ray.tfar[i] >= 0.0F)
             seen |= 1U << i;
     return seen;
 }

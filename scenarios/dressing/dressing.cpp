@@ -83,7 +83,8 @@ void Dresser::dress(const Road& road) {
         if (const std::optional<DressedKind> look = dressed_kind(object))
             add(road, object, *look, barriers);
     for (auto& [stretch, soup] : barriers)
-        add_mesh(soup, {}, fmt::format("crash barrier, road {} s {}-{}", road.id, stretch * stretch_m, (stretch + 1) * stretch_m), false, false);
+        add_mesh(soup, {}, fmt::format("crash barrier, road {} s {}-{}", road.id, stretch * stretch_m, (stretch + 1) * stretch_m), false,
+                 false);
     for (const RoadSignal& signal : road.signals)
         add_sign(road, signal);
     add_people(road);
@@ -137,8 +138,7 @@ Detail Dresser::detail(const Pose& foot, double error_m) const {
     return route_.nearest_m(foot.position_m) > error_m / settings_.pixel_rad ? Detail::far : Detail::near;
 }
 
-void Dresser::add_mesh(const TriangleSoup& soup, const Pose& pose, const std::string& name, bool whole, bool fronts_alone,
-                       bool casts) {
+void Dresser::add_mesh(const TriangleSoup& soup, const Pose& pose, const std::string& name, bool whole, bool fronts_alone, bool casts) {
     if (soup.triangles.empty())
         return;
     TriangleSoup placed;
@@ -230,7 +230,7 @@ void Dresser::add_sign(const Road& road, const RoadSignal& signal) {
                                                     : std::vector<double>{0.0};
     for (const double y : posts)
         append_box(soup, {-post_m, y - post_m, -below_m}, {post_m, y + post_m, bottom + 0.9 * height}, index_of(Stuff::zinc));
-    add_mesh(soup, ground, fmt::format("signal {}", signal.id), true, true);
+    add_mesh(soup, ground, fmt::format("signal {}", signal.id), true, !signal.dynamic);
 }
 
 bool is_dressed(const RoadObject& object) { return dressed_kind(object).has_value(); }

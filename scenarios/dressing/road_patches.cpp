@@ -190,7 +190,8 @@ void Dresser::add_patches(const Road& road) {
         }
     }
     for (auto& [stretch, soup] : soups)
-        add_mesh(soup, {}, fmt::format("patches, road {} s {}-{}", road.id, stretch * stretch_m, (stretch + 1) * stretch_m), true, false, false);
+        add_mesh(soup, {}, fmt::format("patches, road {} s {}-{}", road.id, stretch * stretch_m, (stretch + 1) * stretch_m), true, false,
+                 false);
 }
 
 } // namespace fernlicht

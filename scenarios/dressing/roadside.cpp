@@ -119,7 +119,8 @@ void Dresser::add_bollards(const Road& road) {
                 if (is_clear(road, pose.position_m, lane.id))
                     append_placed(row, dressed_bollard(0.9).low, pose);
             }
-            add_mesh(row, {}, fmt::format("bollards, road {} {} {}", road.id, at_end ? "end" : "start", left ? "left" : "right"), true, true);
+            add_mesh(row, {}, fmt::format("bollards, road {} {} {}", road.id, at_end ? "end" : "start", left ? "left" : "right"), true,
+                     true);
         }
     }
 }
@@ -182,7 +183,8 @@ void Dresser::add_verge(const Road& road, bool left) {
         if (!open)
             continue;
         lay_pictures(fence);
-        add_mesh(fence, {}, fmt::format("field fence, road {} s {:.0f}-{:.0f} {}", road.id, from, to, left ? "left" : "right"), true, false);
+        add_mesh(fence, {}, fmt::format("field fence, road {} s {:.0f}-{:.0f} {}", road.id, from, to, left ? "left" : "right"), true,
+                 false);
     }
 }
 

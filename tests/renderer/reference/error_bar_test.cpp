@@ -1,12 +1,14 @@
 // Error bars are as wide as the errors: a bar too wide is as wrong as one too narrow.
 #include "tests/renderer/reference/rooms.h"
 
+#include "renderer/reference/embree_scene.h"
 #include "renderer/reference/pixel_estimate.h"
 #include "renderer/reference/sampling.h"
 
 #include <atomic>
 #include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
+#include <limits>
 #include <set>
 #include <tbb/global_control.h>
 
@@ -205,6 +207,21 @@ TEST(ReferenceLanes, AnglesAreThoseOfTheLibrary) {
     const std::array<double, 6> truth{0.0, 0.0, 0.5 * pi, -0.5 * pi, pi, 0.25 * pi};
     for (std::size_t i = 0; i < truth.size(); ++i)
         EXPECT_DOUBLE_EQ(angle[i], truth[i]) << i;
+}
+
+/// Embree looks at the rays of idle lanes too: Debian's asserts that all are finite.
+TEST(ReferenceLanes, IdleOnesMayHoldAnything) {
+    const Scene room = closed_room(lambert(0.5));
+    const reference::EmbreeScene embree(room, {0, 0, 0});
+    for (const double anything : {0.0, 1e306, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+        std::array<Ray, reference::packet_size> rays;
+        std::array<glm::dvec3, reference::packet_size> from_m, to_m;
+        rays.fill({glm::dvec3(anything), glm::dvec3(anything)}), from_m.fill(glm::dvec3(anything)), to_m.fill(glm::dvec3(-anything));
+        rays[3] = {glm::dvec3(0.0), {1, 0, 0}}, from_m[3] = {0, 0, 0}, to_m[3] = {0.1, 0, 0};
+        std::array<reference::SurfaceHit, reference::packet_size> hits;
+        EXPECT_EQ(embree.cast(rays, 1U << 3U, false, hits), 1U << 3U) << anything;
+        EXPECT_EQ(embree.visible(from_m, to_m, 1U << 3U), 1U << 3U) << anything;
+    }
 }
 
 /// All but the times.

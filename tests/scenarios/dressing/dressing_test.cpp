@@ -67,50 +67,17 @@ TEST(DressedShapes, StayInThePlainShapesBoxAndFaceTheirNormals) {
             }
 }
 
-/// From far away in any direction the nearest hit shows its lit side.
-TEST(DressedShapes, AreLitFromOutside) {
-    for (std::uint64_t seed = 1; seed <= 4; ++seed)
-        for (const Detail detail : {Detail::near, Detail::far})
-            for (const Shape& shape : shapes(seed, detail)) {
-                if (std::string_view(shape.name) == "rail")
-                    continue; // a sheet with open ends
-                const auto triangles = all_triangles(shape.object);
-                const glm::dvec3 centre = 0.5 * (shape.low_m + shape.high_m), size = shape.high_m - shape.low_m;
-                int hits = 0, backs = 0;
-                for (int i = 0; i < 200; ++i) {
-                    const double angle = 0.7 + 2.39996 * i, up = 0.02 + 0.6 * (i % 20) / 20.0;
-                    const glm::dvec3 from = centre + 60.0 * glm::dvec3(std::cos(angle), std::sin(angle), up),
-                                     to = centre +
-                                          size * glm::dvec3(0.35 * std::sin(7.1 * i), 0.3 * std::sin(3.3 * i), 0.3 * std::sin(5.7 * i)),
-                                     d = glm::normalize(to - from);
-                    double nearest = 1e9;
-                    bool back = false;
-                    for (const auto& t : triangles) {
-                        const glm::dvec3 &a = t[0].position_m, &b = t[1].position_m, &c = t[2].position_m, n = cross_of(t);
-                        const double along = glm::dot(n, d), at = glm::dot(a - from, n) / along;
-                        const glm::dvec3 p = from + at * d;
-                        if (along != 0.0 && at < nearest && glm::dot(glm::cross(b - a, p - a), n) >= 0.0 &&
-                            glm::dot(glm::cross(c - b, p - b), n) >= 0.0 && glm::dot(glm::cross(a - c, p - c), n) >= 0.0) {
-                            nearest = at;
-                            back = along > 0.0;
-                        }
-                    }
-                    hits += nearest < 1e8 ? 1 : 0;
-                    backs += nearest < 1e8 && back ? 1 : 0;
-                }
-                EXPECT_GT(hits, 20) << shape.name;
-                EXPECT_LE(backs, hits / 20) << shape.name << ", seed " << seed << ": of " << hits;
-            }
-}
-
-/// Of rays from a sphere about a body, at places in it, how many meet a back first.
-std::pair<int, int> backs_met(const std::vector<std::array<SoupVertex, 3>>& triangles, const glm::dvec3& low, const glm::dvec3& high) {
-    const glm::dvec3 centre = 0.5 * (low + high), size = high - low;
+struct Met {
     int hits = 0, backs = 0;
-    for (int i = 0; i < 2000; ++i) {
-        const double angle = 0.7 + 2.39996 * i, up = -0.05 + 0.6 * (i % 20) / 20.0;
+};
+/// What rays from far away, not from below, at places in a box meet first.
+Met met_from_outside(const std::vector<std::array<SoupVertex, 3>>& triangles, const glm::dvec3& low_m, const glm::dvec3& high_m) {
+    const glm::dvec3 centre = 0.5 * (low_m + high_m), size = high_m - low_m;
+    Met met;
+    for (int i = 0; i < 600; ++i) {
+        const double angle = 0.7 + 2.39996 * i, up = 0.02 + 0.6 * (i % 20) / 20.0;
         const glm::dvec3 from = centre + 60.0 * glm::dvec3(std::cos(angle), std::sin(angle), up),
-                         to = centre + size * glm::dvec3(0.5 * std::sin(7.1 * i), 0.5 * std::sin(3.3 * i), 0.5 * std::sin(5.7 * i)),
+                         to = centre + size * glm::dvec3(0.45 * std::sin(7.1 * i), 0.45 * std::sin(3.3 * i), 0.45 * std::sin(5.7 * i)),
                          d = glm::normalize(to - from);
         double nearest = 1e9;
         bool back = false;
@@ -124,49 +91,45 @@ std::pair<int, int> backs_met(const std::vector<std::array<SoupVertex, 3>>& tria
                 back = along > 0.0;
             }
         }
-        hits += nearest < 1e8 ? 1 : 0;
-        backs += nearest < 1e8 && back ? 1 : 0;
+        met.hits += nearest < 1e8 ? 1 : 0;
+        met.backs += nearest < 1e8 && back ? 1 : 0;
     }
-    return {backs, hits};
+    return met;
 }
 
-TEST(DressedShapes, ShowNoBacksWhereFrontsAreDrawnAlone) {
+/// Where fronts alone are drawn a back would be a hole: 2 % are the edges of leaves, 1 cm thick.
+TEST(DressedShapes, ShowTheirFrontsFromOutside) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed)
         for (const Detail detail : {Detail::near, Detail::far})
             for (const Shape& shape : shapes(seed, detail)) {
-                const auto [backs, hits] = backs_met(all_triangles(shape.object), shape.low_m, shape.high_m);
-                printf("%s %d of %d\n", shape.name, backs, hits);
+                const auto [hits, backs] = met_from_outside(all_triangles(shape.object), shape.low_m, shape.high_m);
+                EXPECT_GT(hits, 60) << shape.name;
+                EXPECT_LE(backs, hits / (shape.object.fronts_alone ? 50 : 14)) << shape.name << ", seed " << seed << ": of " << hits;
             }
-    const auto of_model = [](const char* name, const Model& m) {
-        std::vector<std::array<SoupVertex, 3>> all;
-        for (const Mesh& mesh : m.meshes)
-            for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
-                std::array<SoupVertex, 3> t;
-                for (std::size_t j = 0; j < 3; ++j)
-                    t[j].position_m = mesh.origin_m + glm::dvec3(mesh.vertices[mesh.indices[k + j]].position_m);
-                all.push_back(t);
-            }
-        const auto [backs, hits] = backs_met(all, m.low_m, m.high_m);
-        printf("%s %d of %d\n", name, backs, hits);
-    };
-    for (std::uint32_t draw = 0; draw < 6; ++draw) {
-        const BodySize size{{4.4, 1.8, 1.3}, -0.88, glm::vec3(0.3F), true, draw};
-        of_model("car", car_body(size));
-        of_model("van", van_body({{5.4, 2.0, 2.3}, -0.88, glm::vec3(0.3F), true, draw}));
-        of_model("truck", truck_body({{9.4, 2.5, 3.3}, -0.88, glm::vec3(0.3F), true, draw}));
-        of_model("bus", bus_body({{11.4, 2.5, 3.1}, -0.88, glm::vec3(0.3F), true, draw}));
-        of_model("pedestrian", pedestrian_body({{0.5, 0.6, 1.75}, -0.25, glm::vec3(0.3F), true, draw}));
-        of_model("cyclist", cyclist_body({{1.8, 0.6, 1.75}, -0.9, glm::vec3(0.3F), true, draw}));
-    }
-    const auto of_soup = [](const char* name, const TriangleSoup& soup) {
-        DressedObject o;
-        o.low = soup;
-        const auto [backs, hits] = backs_met(all_triangles(o), {-0.2, -0.4, -0.4}, {0.1, 0.4, 0.4});
-        printf("%s %d of %d\n", name, backs, hits);
-    };
-    of_soup("light", dressed_traffic_light(0.3, 0.9));
-    of_soup("sign", dressed_sign(0.6, 0.6, SignalFace{}, Dice(1, "a")));
-    of_soup("bollard", dressed_bollard(0.9).low);
+}
+
+std::vector<std::array<SoupVertex, 3>> all_triangles(const Model& model) {
+    std::vector<std::array<SoupVertex, 3>> out;
+    for (const Mesh& mesh : model.meshes)
+        for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
+            const auto at = [&](std::size_t i) { return mesh.origin_m + glm::dvec3(mesh.vertices[mesh.indices[k + i]].position_m); };
+            out.push_back({SoupVertex{at(0), {}, {}}, SoupVertex{at(1), {}, {}}, SoupVertex{at(2), {}, {}}});
+        }
+    return out;
+}
+
+TEST(DressedShapes, BodiesShowTheirFrontsFromOutside) {
+    for (std::uint32_t draw = 0; draw < 6; ++draw)
+        for (const Model& body : {car_body({{4.4, 1.8, 1.3}, -0.88, glm::vec3(0.3F), true, draw}),
+                                  van_body({{5.4, 2.0, 2.3}, -1.0, glm::vec3(0.3F), true, draw}),
+                                  truck_body({{9.4, 2.5, 3.3}, -1.9, glm::vec3(0.3F), true, draw}),
+                                  bus_body({{11.4, 2.5, 3.1}, -2.3, glm::vec3(0.3F), true, draw}),
+                                  pedestrian_body({{0.5, 0.55, 1.75}, -0.25, glm::vec3(0.3F), true, draw}),
+                                  bicycle_body({{1.75, 0.6, 1.75}, -0.4, glm::vec3(0.3F), true, draw})}) {
+            const auto [hits, backs] = met_from_outside(all_triangles(body), body.low_m, body.high_m);
+            EXPECT_GT(hits, 100) << body.name;
+            EXPECT_LE(backs, hits / 100) << body.name;
+        }
 }
 
 /// Of a point from a triangle.
