@@ -55,7 +55,7 @@ void NaiveLighting::draw_pieces(const glm::dmat4& clip, const glm::dvec3& ego_m,
     list_.start(ego_m, scene_.moves());
     list_.add(seen);
     list_.upload();
-    list_.draw(0, &clip);
+    list_.draw(0);
     ++work.passes;
     ++work.calls;
     work.draws += static_cast<int>(seen.size());

@@ -163,7 +163,7 @@ void DepthPass::draw(GLuint map, const glm::dmat4& clip, Work& work, GLint layer
     gl.Scissor(1, 1, width_ - 2, height_ - 2);
     program_.set("clip_from_ego", glm::mat4(clip));
     program_.set("ground_lowered", ground_lowered);
-    list_.draw(0, &clip);
+    list_.draw(0); // from both sides: a front narrower than a texel may show none of it, where the back behind it does
     ++work.passes;
     ++work.shadow_maps_drawn;
     work.draws += pieces_;

@@ -113,6 +113,37 @@ TEST_F(Views, AMirrorExchangesLeftAndRight) {
     EXPECT_LT(differ, 60) << "pixels on edges alone"; // of 19 200
 }
 
+/// Of a closed body nothing is lost but pixels on edges; of one turned inside out only its farther side is seen.
+TEST_F(Views, FrontsAloneShowAClosedBodyAlsoInAMirror) {
+    const Scene both = road_with_car();
+    Scene fronts = both, inside_out = both;
+    for (Scene* const scene : {&fronts, &inside_out})
+        for (Mesh& mesh : scene->meshes)
+            mesh.fronts_alone = mesh.name != "road";
+    for (Mesh& mesh : inside_out.meshes)
+        for (std::size_t i = 0; mesh.fronts_alone && i + 2 < mesh.indices.size(); i += 3)
+            std::swap(mesh.indices[i], mesh.indices[i + 1]);
+    for (const char* const technique : {"photometric", "photometric-unpruned", "full"})
+        for (const bool mirrored : {false, true}) {
+            View view{.position_m = {1.3, 0.35, 1.2}, .yaw_rad = 0.15, .width_px = 160, .height_px = 120};
+            view.mirrored = mirrored;
+            const auto drawn = [&](const Scene& scene) {
+                Renderer renderer(device_, scene, {.technique = technique});
+                return renderer.draw(lit(), view, {.colour = true, .depth = true, .ids = true});
+            };
+            const Frame a = drawn(both), b = drawn(fronts), c = drawn(inside_out);
+            int seen = 0, differ = 0, farther = 0;
+            for (const auto& [x, y] : each_pixel(view)) {
+                seen += a.ids.at(x, y) >= 2 ? 1 : 0;
+                differ += a.ids.at(x, y) != b.ids.at(x, y) || a.depth_m.at(x, y) != b.depth_m.at(x, y) ? 1 : 0;
+                farther += a.ids.at(x, y) >= 2 && c.depth_m.at(x, y) > a.depth_m.at(x, y) + 0.1F ? 1 : 0;
+            }
+            EXPECT_GT(seen, 100) << technique;
+            EXPECT_LE(differ, seen / 100) << technique << (mirrored ? ", mirrored" : "");
+            EXPECT_GT(farther, seen / 2) << technique << (mirrored ? ", mirrored" : "") << ": the test would not see culled fronts";
+        }
+}
+
 /// What a pixel of one view shows lies in another view among the pixels round its place there: same point, same light.
 TEST_F(Views, TheLightIsTheSameInAll) {
     const Scene scene = road_with_car();

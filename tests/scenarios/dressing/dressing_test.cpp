@@ -108,30 +108,6 @@ TEST(DressedShapes, ShowTheirFrontsFromOutside) {
             }
 }
 
-std::vector<std::array<SoupVertex, 3>> all_triangles(const Model& model) {
-    std::vector<std::array<SoupVertex, 3>> out;
-    for (const Mesh& mesh : model.meshes)
-        for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
-            const auto at = [&](std::size_t i) { return mesh.origin_m + glm::dvec3(mesh.vertices[mesh.indices[k + i]].position_m); };
-            out.push_back({SoupVertex{at(0), {}, {}}, SoupVertex{at(1), {}, {}}, SoupVertex{at(2), {}, {}}});
-        }
-    return out;
-}
-
-TEST(DressedShapes, BodiesShowTheirFrontsFromOutside) {
-    for (std::uint32_t draw = 0; draw < 6; ++draw)
-        for (const Model& body : {car_body({{4.4, 1.8, 1.3}, -0.88, glm::vec3(0.3F), true, draw}),
-                                  van_body({{5.4, 2.0, 2.3}, -1.0, glm::vec3(0.3F), true, draw}),
-                                  truck_body({{9.4, 2.5, 3.3}, -1.9, glm::vec3(0.3F), true, draw}),
-                                  bus_body({{11.4, 2.5, 3.1}, -2.3, glm::vec3(0.3F), true, draw}),
-                                  pedestrian_body({{0.5, 0.55, 1.75}, -0.25, glm::vec3(0.3F), true, draw}),
-                                  bicycle_body({{1.75, 0.6, 1.75}, -0.4, glm::vec3(0.3F), true, draw})}) {
-            const auto [hits, backs] = met_from_outside(all_triangles(body), body.low_m, body.high_m);
-            EXPECT_GT(hits, 100) << body.name;
-            EXPECT_LE(backs, hits / 100) << body.name;
-        }
-}
-
 /// Of a point from a triangle.
 double distance_m(const glm::dvec3& p, const std::array<SoupVertex, 3>& t) {
     const glm::dvec3 &a = t[0].position_m, &b = t[1].position_m, &c = t[2].position_m, n = glm::normalize(cross_of(t));
