@@ -159,7 +159,7 @@ int aliasing(const AliasingFlags& flags, const std::vector<std::string>& command
 
 void add_aliasing_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<AliasingFlags>();
-    CLI::App* sub = app.add_subcommand("aliasing", "measure how much of a picture is not in the scene, by how it is rendered");
+    CLI::App* sub = app.add_subcommand("aliasing", "measure aliasing: how much of a picture is not in the scene, by way of rendering");
     add_shared(*sub, "DRIVE", flags->drive);
     add_shared(*sub, "--moment", flags->moment_s)->default_str("the middle one");
     add_shared(*sub, "--frames", flags->frames);

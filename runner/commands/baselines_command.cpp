@@ -220,12 +220,12 @@ void add_baselines_command(CLI::App& app, const std::vector<std::string>&, std::
         sub->callback([flags, action, &chosen] { chosen = [flags, action] { return action(*flags); }; });
         return sub;
     };
-    CLI::App* listing = add("list", "the baselines there are", list);
+    CLI::App* listing = add("list", "list the baselines", list);
     add_shared(*listing, "--json", flags->json);
-    CLI::App* showing = add("show", "one baseline: who made it, readings, frames", show);
+    CLI::App* showing = add("show", "show one baseline: who made it, readings, frames", show);
     add_shared(*showing, "ID", flags->word)->required();
     add_shared(*showing, "--json", flags->json);
-    CLI::App* comparing = add("diff", "two results, reading by reading and pixel by pixel", diff);
+    CLI::App* comparing = add("diff", "compare two results, reading by reading and pixel by pixel", diff);
     add_shared(*comparing, "ID", flags->word)->required();
     comparing->add_option("OTHER", flags->other, "a run's folder, or another id")->required();
     comparing->add_flag("--all", flags->all, "list what agrees, too");

@@ -130,11 +130,11 @@ int check(const CheckFlags& flags) {
 
 void add_check_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto flags = std::make_shared<CheckFlags>();
-    CLI::App* sub = app.add_subcommand("check", "say all that is wrong with files, and play none");
+    CLI::App* sub = app.add_subcommand("check", "report everything that is wrong with files, without playing them");
     sub->add_option("FILE", flags->files,
                     "files of any kind that fernlicht reads, told by their content; folders with all such files in them; -: standard input")
         ->required();
-    sub->add_flag("--fail-on-warning", flags->strict, "exit with 1 where there are warnings");
+    sub->add_flag("--fail-on-warning", flags->strict, "exit with 1 if there are warnings");
     add_shared(*sub, "--json", flags->json);
     sub->footer("A line for each problem: FILE:LINE:COLUMN: error: TEXT. Exit code 2 where there is an error.");
     sub->callback([flags, &chosen] { chosen = [flags] { return check(*flags); }; });

@@ -323,7 +323,7 @@ int export_nights(const HistoryFlags& flags) {
 void add_history_command(CLI::App& app, const std::vector<std::string>& words, std::function<int()>& chosen) {
     const auto flags = std::make_shared<HistoryFlags>();
     flags->command = words;
-    CLI::App* command = app.add_subcommand("history", "keep what nights of a study read, and say what changed, when and why");
+    CLI::App* command = app.add_subcommand("history", "keep the readings of a study's nights, and say what changed, when and why");
     command->require_subcommand(1);
     command->footer("docs/history.md tells what counts as a change and how causes are found.");
     const auto add_action = [&](const char* name, const char* text, int (*action)(const HistoryFlags&)) {
@@ -336,7 +336,7 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
     const char* const last_study = "that of the night that was added last";
     CLI::App* adding = add_action("add", "add a night: the folder of a complete study", add);
     adding->add_option("FOLDER", flags->folder, "folder that `fernlicht study` wrote")->required();
-    adding->add_flag("--accept", flags->accept, "later nights are compared with this one");
+    adding->add_flag("--accept", flags->accept, "compare later nights with this one");
     add_shared(*adding, "--note", flags->note);
     CLI::App* accepting = add_action("accept", "compare later nights with this one", accept_night);
     add_shared(*accepting, "NIGHT", flags->night)->required();
@@ -346,11 +346,11 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
     CLI::App* showing = add_action("show", "list the nights, or show one", show);
     add_shared(*showing, "NIGHT", flags->night);
     add_study(showing, "all; for one night that of the night that was added last");
-    CLI::App* trending = add_action("trend", "when a reading changed, and why", trend);
+    CLI::App* trending = add_action("trend", "show when a reading changed, and why", trend);
     trending->add_option("READING", flags->reading, "name or pattern of readings, * and ? allowed; frame_s for times")->required();
     add_shared(*trending, "--only", flags->only)->default_str("all cells");
     add_study(trending, last_study);
-    CLI::App* explaining = add_action("explain", "what changed since the last accepted night, dated, with its cause", explain);
+    CLI::App* explaining = add_action("explain", "say what changed since the last accepted night, when, and why", explain);
     add_shared(*explaining, "NIGHT", flags->night)->default_str("last");
     explaining->add_option("--drift", flags->drift, "tell of a drift when its sum exceeds this; each step is smaller")
         ->option_text("SHARE")
@@ -362,12 +362,12 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
         add_tables_flag(*sub, flags->tables);
     }
     CLI::App* pruning = add_action("prune", "remove old nights; accepted ones stay", prune);
-    pruning->add_option("--keep-nights", flags->keep, "keep so many of the newest nights of each study")->check(CLI::Range(0, 1'000'000));
+    pruning->add_option("--keep-nights", flags->keep, "keep this many of the newest nights of each study")->check(CLI::Range(0, 1'000'000));
     pruning->add_option("--before", flags->before, "remove nights before this date")->option_text("DATE");
     add_shared(*pruning, "--dry-run", flags->dry);
     for (CLI::App* sub : {showing, trending, explaining, pruning})
         add_shared(*sub, "--json", flags->json);
-    CLI::App* exporting = add_action("export", "every reading of every night, one line each, as tidy CSV (RFC 4180)", export_nights);
+    CLI::App* exporting = add_action("export", "write every reading of every night, one per line, as tidy CSV (RFC 4180)", export_nights);
     add_shared(*exporting, "-o,--out", flags->out);
     add_shared(*exporting, "--force", flags->force);
     add_study(exporting, "all");

@@ -65,13 +65,13 @@ int tell_importance(const ImportanceFlags& flags, const std::vector<std::string>
 
 void add_importance_command(CLI::App& app, const std::vector<std::string>& command, std::function<int()>& chosen) {
     const auto flags = std::make_shared<ImportanceFlags>();
-    CLI::App* sub = app.add_subcommand("importance", "where in the beam a reading of a drive is decided");
+    CLI::App* sub = app.add_subcommand("importance", "find where in the beam a reading of a drive is decided");
     add_shared(*sub, "DRIVE", flags->drive)->required();
     CLI::Option* const reading =
         sub->add_option("--reading", flags->reading, fmt::format("one of {}", importance_readings))->option_text("READING");
     CLI::Option* const rating = add_shared(*sub, "--rating", flags->rating)->excludes(reading);
     sub->add_option("--row", flags->row, "row of the rating, whose drive is played")->option_text("ROW")->needs(rating);
-    sub->add_option("--photometer", flags->photometer, "photometer of the row to look at alone")->option_text("NAME")->needs(rating);
+    sub->add_option("--photometer", flags->photometer, "look at this photometer of the row alone")->option_text("NAME")->needs(rating);
     add_shared(*sub, "--lamp-set", flags->lamp_set)->default_str("the first");
     add_shared(*sub, "--lamp", flags->lamps)->excludes(rating);
     add_recipe_flag(*sub, flags->recipe);

@@ -113,7 +113,7 @@ void add_improve_command(CLI::App& app, const std::vector<std::string>& command,
     sub->add_option("--cells-of", flags->study, "in place of --drive: the cells of this study that have the lamp")->option_text("STUDY");
     add_shared(*sub, "--only", flags->only);
     sub->add_option("--gain", flags->gains,
-                    "'[DRIVE:]READING by AMOUNT', in its unit or %, for the better; a reading that `importance` tells of")
+                    "'[DRIVE:]READING by AMOUNT', in its unit or %, for the better; a reading that `importance` explains")
         ->option_text("GAIN")
         ->allow_extra_args(false);
     sub->add_option("--keep", flags->kept, "'[DRIVE:]READING' that gets no worse, 'READING within AMOUNT', 'READING at least|most FIGURE'")
@@ -133,7 +133,7 @@ void add_improve_command(CLI::App& app, const std::vector<std::string>& command,
     sub->add_option("--max-flux", flags->flux_percent, "the most that the flux may grow, per cent; may be negative")
         ->option_text("PERCENT")
         ->check(CLI::Range(-90.0, 1000.0));
-    sub->add_option("--max-steepness", flags->steepness, "the steepest place between samples at most so many times as steep")
+    sub->add_option("--max-steepness", flags->steepness, "let the steepest place between samples become at most N times as steep")
         ->check(CLI::Range(1.0, 100.0));
     sub->add_option("--floor-cd", flags->floor_cd, "candela that a change counts against beside the light that is there")
         ->option_text("CD")

@@ -126,11 +126,12 @@ void add_adaptive_options(CLI::App& command, AdaptiveRequest& request) {
             ->option_text(names)
             ->group(group);
     };
-    add("--other", request.other_m, "a pixel lamp spares what is so far ahead of it and left of the car's middle, in m", "AHEAD LEFT");
+    add("--other", request.other_m, "place of the vehicle that a pixel lamp spares: ahead of the lamp, left of the car's middle, in m",
+        "AHEAD LEFT");
     add("--other-size", request.other_size_m, "its width and height in m", "WIDTH HEIGHT")->default_str("1.8 1.5");
     add("--lamp-at", request.lamp_at_m, "where the lamp is: left of the car's middle and above the road, in m", "LEFT UP")
         ->default_str("0.45 0.65");
-    command.add_option("--margin", request.margin_deg, "degrees of dark to each side of it")
+    command.add_option("--margin", request.margin_deg, "degrees of dark on each side of it")
         ->option_text("DEG")
         ->capture_default_str()
         ->group(group);

@@ -335,7 +335,8 @@ void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::funct
         ->add_option("--levels", request->levels,
                      "of a pixel lamp: levels of its pixels over time (CSV), as a drive takes them, or levels-*.csv of a run")
         ->option_text("FILE");
-    command->add_option("--levels-lamp", request->levels_lamp, "with levels-*.csv of several lamps: whose")->option_text("NAME");
+    command->add_option("--levels-lamp", request->levels_lamp, "with levels-*.csv of several lamps: which lamp to take")
+        ->option_text("NAME");
     command
         ->add_option_function<double>(
             "--at", [request](double s) { request->levels_s = s; }, "with --levels: the time in seconds at which the lamp is looked at")

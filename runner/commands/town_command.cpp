@@ -66,7 +66,7 @@ int tell_town(const TownFlags& flags) {
 
 void add_town_command(CLI::App& app, std::function<int()>& chosen) {
     const auto flags = std::make_shared<TownFlags>();
-    CLI::App* sub = app.add_subcommand("town", "a car with two lamps at night in a model of streets, which needs no road");
+    CLI::App* sub = app.add_subcommand("town", "render a model of streets at night in the light of a car, without a road");
     sub->add_option("MODEL", flags->model, "glTF: .gltf or .glb")->required();
     sub->add_option("--place", flags->at,
                     "place of the rear axle in the model, in metres, x along glTF's z (default: where the way ahead is longest, on any "

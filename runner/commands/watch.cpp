@@ -213,7 +213,7 @@ int watched(bool watch, const std::function<int(WatchTurn&)>& play) {
 }
 
 void add_watch_flag(CLI::App& command, bool& watch) {
-    command.add_flag("--watch", watch, "again whenever a file that was read changes, until Ctrl-C; pages in the browser follow");
+    command.add_flag("--watch", watch, "repeat whenever a file it read changes, until Ctrl-C; open pages follow");
 }
 
 } // namespace fernlicht

@@ -58,7 +58,7 @@ constexpr SharedFlag flags[] = {
     {"--strict", "", "refuse lamp files with which readings are meaningless, instead of a warning"},
     {"--rating", "NAME|FILE", "rating: a file (YAML), or one of ours by name"},
     {"--regulation", "ID", "table of a regulation to judge by; `fernlicht lamp --regulation list` names all"},
-    {"--left-hand-traffic", "", "the road is driven on the left: mirror the table"},
+    {"--left-hand-traffic", "", "mirror the table, for traffic on the left"},
     {"--noise", "SHARE", "standard deviation of an intensity, such as 1%; what the tables themselves show counts where it is larger"},
     // Which of many
     {"--only", "NAME,...", "take these alone; * and ? allowed"},
@@ -66,7 +66,7 @@ constexpr SharedFlag flags[] = {
     {"--study", "NAME", "take what belongs to this study alone"},
     {"--store", "FOLDER", "folder of played cells (default: $XDG_CACHE_HOME/fernlicht/store)"},
     {"--history", "FILE", "file of the history of nights (docs/history.md)"},
-    {"--fail-on-change", "", "exit with 1 where anything changed since the last accepted night, or cannot be compared with it"},
+    {"--fail-on-change", "", "exit with 1 if anything changed since the last accepted night, or cannot be compared with it"},
     {"--note", "REASON", "the reason, in one sentence"},
     {"--dry-run", "", "only say what would be removed"},
     // Where it goes
