@@ -49,7 +49,7 @@ Regulation passing(bool c) {
     if (c)
         r.rows.push_back(scoped(point("50V, each lamp of a pair", 0, -0.86, at_least(2550)), Scope::each_of_two));
     r.notes = {"the text gives no step along segments: sampled closer than the receiver is wide",
-               "not held: the flux rule (1000 lm, or 400 and 200 lm in two zones), run-up and conformity of production"};
+               "not checked: the flux rule (1000 lm, or 400 and 200 lm in two zones), run-up and conformity of production"};
     return r;
 }
 

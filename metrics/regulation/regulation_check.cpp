@@ -36,8 +36,8 @@ std::string first_reason(const CutOffFigures& c) {
     return {};
 }
 
-/// The cut-off's own requirements, of a lamp aimed by it.
-void add_cut_off_rows(std::vector<RowResult>& rows, const Aim& aim) {
+/// The cut-off's own requirements, of a lamp aimed by it; not measured where another aim was asked for than the regulation's.
+void add_cut_off_rows(std::vector<RowResult>& rows, const Aim& aim, bool asked_otherwise) {
     const auto v_of = [](const CutOffScan& scan) { return scan.inflection_deg.value_or(0.0); };
     if (aim.rule == AimRule::cut_off || aim.rule == AimRule::cut_off_by_line || aim.rule == AimRule::elbow) {
         const CutOffFigures& c = *aim.cut_off;
@@ -60,6 +60,11 @@ void add_cut_off_rows(std::vector<RowResult>& rows, const Aim& aim) {
                                      middle.inflection_deg ? (inner.reason.empty() ? outer.reason : inner.reason) : middle.reason));
     } else if (aim.rule == AimRule::vol || aim.rule == AimRule::vor)
         rows.push_back(about_cut_off("cut-off gradient G", std::nullopt, {}, {0.13, std::numeric_limits<double>::infinity()}, "", aim.how));
+    else if (asked_otherwise) {
+        constexpr const char* reason = "no cut-off was looked for, as --aim-rule asks";
+        rows.push_back(about_cut_off("cut-off sharpness G", std::nullopt, {}, {0.13, 0.40}, "", reason));
+        rows.push_back(about_cut_off("cut-off linearity", std::nullopt, {}, {0.0, 0.2}, "deg", reason));
+    }
 }
 
 /// Which of two aims serves better.
@@ -169,7 +174,7 @@ RegulationCheck checked(const Regulation& regulation, const std::vector<CandelaT
     }
     if (!aim_by)
         for (const Aim& aim : check.aims)
-            add_cut_off_rows(check.rows, aim);
+            add_cut_off_rows(check.rows, aim, regulation.aim == AimRule::automatic && rule != AimRule::automatic);
     std::vector<RowResult> all_as_filed = check.rows;
     check.rows.insert(check.rows.end(), rows.begin(), rows.end());
     check.verdict = verdict_of(check.rows);

@@ -296,7 +296,8 @@ void PhotometricLighting::draw_background(const Shot& shot) {
     ++shot.work.calls;
 }
 
-/// The pieces in view by what lighting them takes, near ones first, in an order that pruning does not change.
+/// The pieces in view by what lighting them takes; closed bodies first, which hide most, near ones first in each, in an order that pruning
+/// does not change.
 std::vector<PhotometricLighting::Group> PhotometricLighting::groups_for(const Shot& shot) {
     const glm::dvec3 ego_m = shot.moment.ego.position_m;
     const Frustum frustum(shot.camera.clip_from_ego);
@@ -331,7 +332,7 @@ std::vector<PhotometricLighting::Group> PhotometricLighting::groups_for(const Sh
         const bool shadowed = lit && shadows_ && shadows_->reach(piece, shot.outputs.target ? settings_.target_height_m : 0.0);
         const bool traffic = traffic_.any() && traffic_.reach(i);
         sorted[{piece.surface, lit, shadowed, traffic, traffic && traffic_shadows_ && traffic_shadows_->reach(i)}].emplace_back(
-            piece.fronts_alone, distances[s], i);
+            !piece.closed, distances[s], i);
     }
     std::vector<Group> groups;
     for (auto& [key, pieces] : sorted) {
@@ -398,7 +399,7 @@ void PhotometricLighting::draw(const Shot& shot) {
             use_visible(f, shot);
         else
             use(variant(f, shot.outputs), shot);
-        list_.draw(static_cast<int>(g), &shot.camera.clip_from_ego);
+        shot.work.calls += list_.draw(static_cast<int>(g), &shot.camera.clip_from_ego);
         shot.work.draws += static_cast<int>(groups[g].pieces.size());
         shot.work.lamps = std::max(shot.work.lamps, static_cast<int>(f.beams.size()));
         shot.work.features += static_cast<int>(f.beams.size()) * (f.shadows ? 2 : 1) + (f.sky ? 1 : 0) + f.sun + (f.fog ? 1 : 0) +
@@ -426,7 +427,6 @@ void PhotometricLighting::draw(const Shot& shot) {
         shot.clock.end();
     }
     ++shot.work.passes;
-    shot.work.calls += static_cast<int>(groups.size());
     shot.work.triangles += list_.triangles();
     shot.work.texture_bytes = beams_.texture_bytes() + (shadows_ ? shadows_->texture_bytes() : 0) + scene_.texture_bytes() +
                               (sun_ ? sun_->texture_bytes() : 0) + (traffic_shadows_ ? traffic_shadows_->texture_bytes() : 0);

@@ -207,7 +207,7 @@ void PublishedLighting::end_passes() const {
     context_.gl.Disable(GL_BLEND);
 }
 
-/// The pieces in view by what their textures take, near ones first.
+/// The pieces in view by what their textures take; closed bodies first, near ones first in each.
 std::vector<PublishedLighting::Group> PublishedLighting::groups_for(const Shot& shot, std::size_t& pieces) const {
     const glm::dvec3 ego_m = shot.moment.ego.position_m;
     const Frustum frustum(shot.camera.clip_from_ego);
@@ -217,14 +217,14 @@ std::vector<PublishedLighting::Group> PublishedLighting::groups_for(const Shot& 
         const glm::dvec3 centre = centre_of(piece, ego_m);
         const double distance = glm::length(centre) - piece.radius_m;
         if ((piece.ground || !shot.camera.is_map) && distance <= farthest_drawn_m && !frustum.outside(centre, piece.radius_m))
-            sorted[shot.outputs.colour ? piece.surface.texture : 0].emplace_back(piece.fronts_alone, distance, i);
+            sorted[shot.outputs.colour ? piece.surface.texture : 0].emplace_back(!piece.closed, distance, i);
     }
     std::vector<Group> groups;
     pieces = 0;
     for (auto& [texture, near] : sorted) {
         std::ranges::sort(near);
         groups.push_back({texture, {}});
-        for (const auto& [fronts_alone, distance, index] : near)
+        for (const auto& [open, distance, index] : near)
             groups.back().pieces.push_back(index);
         pieces += near.size();
     }
@@ -248,14 +248,13 @@ void PublishedLighting::draw(const Shot& shot) {
         start_pass(pass, shot);
         for (std::size_t g = 0; g < groups.size(); ++g) {
             use(variant({lamps_, groups[g].texture, pass, published_bits(shot.outputs)}, shot.outputs), shot);
-            list_.draw(static_cast<int>(g), &shot.camera.clip_from_ego);
+            shot.work.calls += list_.draw(static_cast<int>(g), &shot.camera.clip_from_ego);
             const int samplers = (pass == 1 ? 0 : static_cast<int>(textures_.size())) + (groups[g].texture > 0 ? 1 : 0);
             shot.work.samplers = std::max(shot.work.samplers, samplers);
         }
         shot.clock.end();
         ++shot.work.passes;
         shot.work.draws += static_cast<int>(pieces);
-        shot.work.calls += static_cast<int>(groups.size());
         shot.work.triangles += list_.triangles();
     }
     end_passes();

@@ -262,7 +262,7 @@ void show_pack(Shown& s, const PassPicture& picture, void* triangles, Ints ids, 
     store(ids, all);
     const Mask as_first = ids == Ints(all[0]);
     const bool alike = !any(!as_first);
-    if (alike && s.material != nullptr && all[0] == s.all_of) {
+    if (alike && s.material != nullptr && all[0] != 0 && all[0] == s.all_of) {
         if (s.material->texture_mode >= 0)
             show_material(s, as_first, *s.material, texels);
         return;

@@ -125,10 +125,11 @@ void add_accept_command(CLI::App& app, const std::vector<std::string>&, std::fun
     CLI::App* command = app.add_subcommand("accept", "take a run's results as baselines for later runs; judges nothing");
     command->add_option("RUN", flags->run, "folder of a complete run or study, or of a `fernlicht reference` picture")->required();
     add_shared(*command, "--baselines", flags->baselines)->capture_default_str();
-    command->add_flag("--replace", flags->replace,
-                      "replace the baselines under the same keys; those of other inputs, such as a former lamp, stay: `baselines remove`");
+    command->add_flag(
+        "--replace", flags->replace,
+        "replace baselines of the same inputs; a changed lamp needs no --replace, and its former baselines stay: `baselines remove`");
     command->add_flag("--replace-class", flags->replace_class, "replace all baselines of this device class; other classes keep theirs");
-    command->add_flag("--also", flags->also, "accept these as well: a run that agrees with either passes; needs --note");
+    command->add_flag("--also", flags->also, "keep the old baselines, too: a run that agrees with either passes; needs --note");
     command->add_flag("--readings-only", flags->readings_only, "store no frames, a thousandth of the size; pictures are then not compared");
     add_shared(*command, "--note", flags->note);
     command->callback([flags, &chosen] { chosen = [flags] { return accept(*flags); }; });

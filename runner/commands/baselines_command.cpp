@@ -203,8 +203,8 @@ int remove(const BaselinesFlags& flags) {
                    printable(device_text(entry.key), 200));
     }
     const Removal removal = remove_baselines(flags.store, ids, flags.dry);
-    fmt::print("{}{} baselines and {} files of {} bytes that nothing else needs\n", flags.dry ? "would remove " : "removed ",
-               removal.baselines, removal.objects, removal.bytes);
+    fmt::print("{}{} and {} of {} bytes that nothing else needs\n", flags.dry ? "would remove " : "removed ",
+               counted(removal.baselines, "baseline"), counted(removal.objects, "file"), removal.bytes);
     return 0;
 }
 

@@ -60,8 +60,7 @@ void add_message_flags(CLI::App& command) {
                                         "error, warning, info or debug");
         fernlicht::log_settings().level = level->second;
     };
-    command
-        .add_option_function<std::string>("--log-level", take, "messages on standard error: these, and what weighs more (default: info)")
+    command.add_option_function<std::string>("--log-level", take, "messages on standard error: this level and above (default: info)")
         ->option_text("error|warning|info|debug")
         ->group("Messages");
     command.add_flag("--log-json", fernlicht::log_settings().json, "write messages as JSON, an object a line")->group("Messages");
@@ -73,7 +72,7 @@ void add_message_flags(CLI::App& command) {
                     throw fernlicht::InputError({{}, 0, 0, "--annotate"}, "found '" + fernlicht::printable(found) + "'", "github");
                 fernlicht::log_settings().github = true;
             },
-            "write what is red as annotations for the pages of a CI server, too (docs/ci.md)")
+            "also write what is red as annotations for the pages of a CI server (docs/ci.md)")
         ->option_text("github")
         ->group("Messages");
 }
@@ -110,7 +109,7 @@ int fernlicht::command_line(int argc, char** argv) {
     CLI::App app("plays scripted night drives offscreen and measures what the headlamps do", "fernlicht");
     app.formatter(help_formatter());
     app.get_formatter()->label("Positionals", "Arguments");
-    app.set_help_flag("-h,--help", "print this and end");
+    app.set_help_flag("-h,--help", "show this help");
     app.set_version_flag("--version", fernlicht::program_version, "print the version and end");
     app.require_subcommand(1);
     std::function<int()> chosen;

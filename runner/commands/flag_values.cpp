@@ -207,7 +207,7 @@ TickRange tick_range(const std::string& frames) {
 void add_judging_flags(CLI::App& command, JudgingFlags& flags) {
     add_shared(command, "--baselines", flags.baselines)->default_str("none: nothing is compared");
     command.add_flag("--across-devices", flags.across_devices, "where this device class has no baseline, judge by those of other classes");
-    command.add_option("--repeat", flags.repeats, "times to play each lamp set; results that differ in a byte are flaky, which is red")
+    command.add_option("--repeat", flags.repeats, "times to play each lamp set; results that differ in any byte are flaky, which is red")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command.add_option("--known", flags.known, "list of known failures and flakes (YAML), each with reason and expiry")

@@ -341,7 +341,7 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
     CLI::App* accepting = add_action("accept", "compare later nights with this one", accept_night);
     add_shared(*accepting, "NIGHT", flags->night)->required();
     add_shared(*accepting, "--note", flags->note);
-    accepting->add_flag("--withdraw", flags->withdraw, "take an acceptance back");
+    accepting->add_flag("--withdraw", flags->withdraw, "withdraw the acceptance");
     add_study(accepting, last_study);
     CLI::App* showing = add_action("show", "list the nights, or show one", show);
     add_shared(*showing, "NIGHT", flags->night);
@@ -352,7 +352,7 @@ void add_history_command(CLI::App& app, const std::vector<std::string>& words, s
     add_study(trending, last_study);
     CLI::App* explaining = add_action("explain", "say what changed since the last accepted night, when, and why", explain);
     add_shared(*explaining, "NIGHT", flags->night)->default_str("last");
-    explaining->add_option("--drift", flags->drift, "tell of a drift when its sum exceeds this; each step is smaller")
+    explaining->add_option("--drift", flags->drift, "report a drift when its sum exceeds this; each step is smaller")
         ->option_text("SHARE")
         ->capture_default_str();
     add_shared(*explaining, "--fail-on-change", flags->fails_on_change);

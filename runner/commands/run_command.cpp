@@ -6,6 +6,7 @@
 #include "runner/commands/run_files.h"
 #include "runner/commands/watch.h"
 #include "runner/commands/words/shared_flags.h"
+#include "runner/experiments/run/run_document.h"
 #include "runner/experiments/run/run_drives.h"
 #include "runner/files/log.h"
 #include "runner/files/page_link.h"
@@ -134,6 +135,21 @@ std::vector<std::pair<std::string, std::string>> figures_of(const Report& report
     return figures;
 }
 
+/// What stays of a lamp whose file is replaced: filaments get dimmer with less than their file's voltage, and warm.
+void tell_kept_sources(const RunFlags& flags, const std::vector<Drive>& drives) {
+    if (flags.lamps.empty())
+        return;
+    for (const Drive& drive : drives)
+        for (const MountedLamp& lamp : drive.lamp_sets.front().lamps)
+            if (lamp.source == SourceKind::filament && lamp.name.find("high") == std::string::npos) {
+                tell(LogLevel::info,
+                     fmt::format("{}: --lamp replaces the file alone: the lamp stays a filament at {:g} V; an LED is a lamp set "
+                                 "with source: led (docs/lamps.md)",
+                                 drive.name, lamp.voltage_v));
+                break;
+            }
+}
+
 int run(const RunFlags& flags, const std::vector<std::string>& command, WatchTurn& turn) {
     RunOptions options = flags.options;
     options.ticks = tick_range(flags.frames);
@@ -155,6 +171,7 @@ int run(const RunFlags& flags, const std::vector<std::string>& command, WatchTur
         turn.reads(drives.back().road_file);
     }
     refuse_equal_names(drives);
+    tell_kept_sources(flags, drives);
     options.folder = turn.folder(result_folder(flags.out, drives.front().name));
     TraceFile trace(flags.trace, "fernlicht run " + drives.front().name, options.folder);
     const Report report = run_drives(drives, options);
@@ -164,6 +181,9 @@ int run(const RunFlags& flags, const std::vector<std::string>& command, WatchTur
     turn.reads(report.context.inputs);
     turn.tell_figures(figures_of(report));
     print_verdicts(report, drives);
+    for (const ComparedDrive& drive : compared_drives(report))
+        if (const std::string sentence = key_sentence(drive); !sentence.empty())
+            fmt::print("{}: {}\n", drive.name, sentence);
     if (!report.complete) {
         tell(LogLevel::warning, "incomplete: " + report.interrupted);
         annotate({}, "incomplete", report.interrupted);

@@ -140,7 +140,7 @@ void add_store_command(CLI::App& app, const std::vector<std::string>&, std::func
         return sub;
     };
     CLI::App* list = add("ls", "list cells with when each was last used (UTC), least recently used first", list_store);
-    add("verify", "read everything; take out what is damaged, so that it is played again; exit with 1 if anything was", verify);
+    add("verify", "check every cell; take out damaged ones, so that they are played again; exit with 1 if anything was", verify);
     CLI::App* pruned = add("prune", "remove cells, then files that no cell needs", prune);
     for (CLI::App* sub : {list, pruned}) {
         add_shared(*sub, "--study", flags->study)->default_str("all; * and ? allowed");

@@ -365,7 +365,7 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_option("--jobs", flags->jobs, "cells to play at a time")
         ->check(CLI::Range(1, 1024))
         ->default_str("one per core; with a GPU at most 4");
-    sub->add_flag("--timed", flags->timed, "play cells one after another by themselves and take times; take none from the store");
+    sub->add_flag("--timed", flags->timed, "play cells one at a time and time them; take none from the store");
     sub->add_option("--cell-minutes", flags->cell_minutes, "stop a cell that takes longer")
         ->check(CLI::Range(0.001, 1e5))
         ->default_str("the study's `resources`");
@@ -380,16 +380,16 @@ void add_study_command(CLI::App& app, const std::vector<std::string>& command, s
     sub->add_option("--gpus", flags->gpus, "GPUs of the cluster for each cell, as --gres has it: gpu:1")->option_text("GRES");
     add_shared(*sub, "--history", flags->history);
     add_shared(*sub, "--fail-on-change", flags->fails_on_change);
-    sub->add_flag("--explain", flags->explain, "say why each cell must be played that the store lacks, and play none");
-    sub->add_flag("--plan", flags->plan, "print a command for each cell that the store lacks, a line of JSON each, and play none");
+    sub->add_flag("--explain", flags->explain, "say of each cell that the store lacks why, and play nothing");
+    sub->add_flag("--plan", flags->plan, "print a command for each cell that the store lacks, a line of JSON each, and play nothing");
     sub->add_option("--per", flags->per, "cells for each command of --plan, and for each task of a cluster")
         ->check(CLI::Range(1, 100'000))
         ->capture_default_str();
-    sub->add_flag("--play", flags->play, "play into the store what it lacks, in this process, and write no report");
+    sub->add_flag("--play", flags->play, "play missing cells into the store, in this process, and write no report");
     sub->add_option("--expect", flags->expect, "with --play: a cell and the key that --plan gave it")
         ->option_text("CELL=KEY")
         ->allow_extra_args(false);
-    sub->add_flag("--collect", flags->collect, "write the report of what lies in the store, and play none");
+    sub->add_flag("--collect", flags->collect, "write the report from the store alone, and play nothing");
     add_shared(*sub, "--quiet", flags->quiet);
     sub->footer(
         "With --history the report leads with what changed since the last accepted night, and tonight is added. docs/studies.md tells "

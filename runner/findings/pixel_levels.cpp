@@ -103,8 +103,8 @@ std::optional<plots::Figure> levels_figure(const PixelLevels& lamp, const std::s
         plots::Series edges[2];
         for (std::size_t i = 0; i < lamp.rows.size(); i += each) {
             const PixelLevels::Row& row = lamp.rows[i];
-            const auto other =
-                std::ranges::find_if(row.others, [&](const PixelLevels::Other& one) { return std::pair(one.name, one.oncoming) == user; });
+            const auto other = std::ranges::find_if(
+                row.others, [&](const PixelLevels::Other& one) { return one.name == user.first && one.oncoming == oncoming; });
             const bool there = other != row.others.end();
             edges[0].points.push_back({there ? other->left_deg : gap, row.time_s + 0.5 * step_s});
             edges[1].points.push_back({there ? other->right_deg : gap, row.time_s + 0.5 * step_s});

@@ -361,8 +361,11 @@ FlightModel read_flight(const std::filesystem::path& path, FlightForward forward
     out.model.name = printable(path.stem().string());
     FilesRead opened;
     check_openflight(path, read_file(path, opened));
-    const osg::ref_ptr<Listening> listening = new Listening(out.model.notes);
-    osg::setNotifyHandler(listening);
+    struct Listened { // to its end, however reading ends
+        explicit Listened(std::vector<std::string>& notes) { osg::setNotifyHandler(new Listening(notes)); }
+        ~Listened() { osg::setNotifyHandler(new osg::StandardNotifyHandler); }
+    };
+    const Listened listened(out.model.notes);
     osg::setNotifyLevel(osg::WARN);
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
     options->getDatabasePathList().push_front(path.parent_path().empty() ? "." : path.parent_path().string());
@@ -377,8 +380,6 @@ FlightModel read_flight(const std::filesystem::path& path, FlightForward forward
     } catch (const InputError& error) {
         throw InputError({path, 0, 0, {}}, error.what());
     }
-    const osg::ref_ptr<osg::NotifyHandler> usual = new osg::StandardNotifyHandler;
-    osg::setNotifyHandler(usual);
     if (walking.soup().triangles.empty())
         throw InputError({path, 0, 0, {}}, "no triangles", "a model");
     add_meshes(out.model, walking.soup());

@@ -135,8 +135,6 @@ Stored place(const fs::path& store, std::vector<StoredBaseline>& entries, Stored
         if (const auto other = std::ranges::find_if(entries, is_other); other != entries.end())
             throw InputError({store, 0, 0, {}}, fmt::format("holds other results for {}: {}", key_text(entry.key), short_id(other->id)),
                              "--replace, if these are right in their place, or --also, if either is right");
-    if (!stored.is_new && !entry.note.empty())
-        known->note = entry.note;
     if (how == Acceptance::replace || how == Acceptance::replace_class)
         stored.removed = std::erase_if(entries, is_other);
     if (stored.is_new)
@@ -202,6 +200,11 @@ std::vector<Stored> store_baselines(const fs::path& store, const std::vector<Bas
         entry.played_utc = played_utc;
         outcome.push_back(place(store, entries, std::move(entry), baseline, how));
     }
+    // A note is about what is new; where nothing is, about what was accepted before.
+    if (!note.empty() && std::ranges::none_of(outcome, &Stored::is_new))
+        for (StoredBaseline& entry : entries)
+            if (std::ranges::find(outcome, entry.id, &Stored::id) != outcome.end())
+                entry.note = note;
     if (how == Acceptance::replace_class && !outcome.empty())
         outcome.front().removed += std::erase_if(entries, [&](const StoredBaseline& entry) {
             return std::ranges::any_of(to_write, [&](const auto& taken) { return device_text(taken.key) == device_text(entry.key); }) &&

@@ -88,7 +88,7 @@ MovedReadings moved_readings(const Baseline& run, const Baseline& accepted, cons
     });
     return {differences.size(),
             fmt::format("of {} readings {} differ, {}: {}, {}", all, differences.size(),
-                        place_among(*farthest.reading, decides_by_default()) ? "largest deviation among deciding readings"
+                        place_among(*farthest.reading, decides_by_default()) ? "largest deviation among the readings that decide by default"
                                                                              : "largest deviation",
                         farthest.what, farthest.text)};
 }
@@ -112,7 +112,7 @@ std::string nothing_accepted(const std::filesystem::path& store, const std::vect
         std::vector<std::string> texts;
         for (const std::string& other : others)
             texts.push_back(input_text(other, run.producer.inputs, opened));
-        nearest = fmt::format(" with these inputs; {} had another {}: {}", short_id(entry.id), fmt::join(texts, ", "), moved.text);
+        nearest = fmt::format(" with these inputs; since {}, {} changed: {}", short_id(entry.id), fmt::join(texts, ", "), moved.text);
     }
     if (!nearest.empty())
         return text + nearest;

@@ -89,6 +89,8 @@ std::string value_in(const std::string& text, const std::string& key) {
             if (from == std::string::npos)
                 break;
             from = text.find_first_not_of(' ', from + 1);
+            if (from == std::string::npos)
+                break;
             return text.substr(from, text.find_first_of(" \n", from) - from);
         }
     return {};

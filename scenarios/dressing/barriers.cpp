@@ -9,6 +9,7 @@ namespace fernlicht {
 
 DressedObject dressed_fence(double length_m, double height_m, double fall_m) {
     DressedObject out;
+    out.closed = true;
     const auto box = [&](double x0, double x1, double y0, double y1, double z0, double z1) {
         append_box(out.low, {x0, y0, z0}, {x1, y1, z1}, index_of(Stuff::wood));
     };
@@ -29,7 +30,6 @@ DressedObject dressed_fence(double length_m, double height_m, double fall_m) {
 
 DressedObject dressed_field_fence(double length_m) {
     DressedObject out;
-    out.fronts_alone = false;
     // Faces that something covers, or that look down, are left out.
     const auto bar = [&](const glm::dvec3& low, const glm::dvec3& high, bool ends) {
         const auto p = [&](int x, int y, int z) { return glm::dvec3((x ? high : low).x, (y ? high : low).y, (z ? high : low).z); };
@@ -53,7 +53,6 @@ DressedObject dressed_field_fence(double length_m) {
 
 DressedObject dressed_guard_rail(double length_m, double width_m, double height_m, bool road_left) {
     DressedObject out;
-    out.fronts_alone = false;
     // The beam's front, from below: two bulges with a valley between, as shares of depth and height.
     static constexpr std::array<std::array<double, 2>, 10> face{
         {{0.2, 0.0}, {0.75, 0.08}, {1.0, 0.16}, {1.0, 0.30}, {0.1, 0.45}, {0.1, 0.55}, {1.0, 0.70}, {1.0, 0.84}, {0.75, 0.92}, {0.2, 1.0}}};

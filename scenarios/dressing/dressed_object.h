@@ -14,7 +14,7 @@ enum class Detail { near, far };
 /// car is shaded on the road by it: a mesh of its own.
 struct DressedObject {
     TriangleSoup low, high;
-    bool fronts_alone = true; ///< closed bodies and what stands before them: from outside no face shows its back
+    bool closed = false;     ///< closed bodies and what stands before them: from outside no face shows its back
     bool has_places = false; ///< texture coordinates are set; else they follow from place and normal
 };
 

@@ -85,8 +85,7 @@ class Dresser {
     void occupy(const Road& road, const RoadObject& object);
     Dice dice(const Road& road, const RoadObject& object) const;
     Detail detail(const Pose& foot, double error_m) const;
-    void add_mesh(const TriangleSoup& soup, const Pose& pose, const std::string& name, bool whole, bool fronts_alone,
-                  bool casts = true);
+    void add_mesh(const TriangleSoup& soup, const Pose& pose, const std::string& name, bool whole, bool closed, bool casts = true);
     void add(DressedObject object, const Pose& pose, const std::string& name);
     void add_body(const Model& model, const Pose& pose, const std::string& name);
 

@@ -138,7 +138,7 @@ Detail Dresser::detail(const Pose& foot, double error_m) const {
     return route_.nearest_m(foot.position_m) > error_m / settings_.pixel_rad ? Detail::far : Detail::near;
 }
 
-void Dresser::add_mesh(const TriangleSoup& soup, const Pose& pose, const std::string& name, bool whole, bool fronts_alone, bool casts) {
+void Dresser::add_mesh(const TriangleSoup& soup, const Pose& pose, const std::string& name, bool whole, bool closed, bool casts) {
     if (soup.triangles.empty())
         return;
     TriangleSoup placed;
@@ -150,7 +150,7 @@ void Dresser::add_mesh(const TriangleSoup& soup, const Pose& pose, const std::st
         batch.material += first_;
     mesh.whole = whole;
     mesh.casts = casts;
-    mesh.fronts_alone = fronts_alone;
+    mesh.closed = closed;
     scene_.meshes.push_back(std::move(mesh));
 }
 
@@ -158,7 +158,7 @@ void Dresser::add(DressedObject object, const Pose& pose, const std::string& nam
     for (TriangleSoup* soup : {&object.low, &object.high}) {
         if (!object.has_places)
             lay_pictures(*soup);
-        add_mesh(*soup, pose, name, true, object.fronts_alone);
+        add_mesh(*soup, pose, name, true, object.closed);
     }
 }
 
@@ -180,7 +180,7 @@ void Dresser::add_body(const Model& model, const Pose& pose, const std::string& 
     add_model(scene_, model, pose, 1.0, SurfaceKind::vehicle);
     for (std::size_t i = before; i < scene_.meshes.size(); ++i) {
         scene_.meshes[i].name = name;
-        scene_.meshes[i].whole = scene_.meshes[i].fronts_alone = true;
+        scene_.meshes[i].whole = scene_.meshes[i].closed = true;
     }
 }
 

@@ -272,7 +272,9 @@ class HouseBuilder {
 } // namespace
 
 DressedObject dressed_house(const HouseSize& size, Dice dice, Detail detail) {
-    DressedObject out{HouseBuilder(size, dice, detail).build(), {}, false};
+    DressedObject out;
+    out.closed = true;
+    out.low = HouseBuilder(size, dice, detail).build();
     smooth(out.low, radians(1.0)); // corners in one plane are one
     return out;
 }

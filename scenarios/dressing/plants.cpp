@@ -167,6 +167,7 @@ void append_spruce(DressedObject& out, double height_m, double radius_m, Dice& d
 
 DressedObject dressed_tree(double height_m, double radius_m, Dice dice, Detail detail) {
     DressedObject out;
+    out.closed = true;
     out.has_places = true;
     const bool near = detail == Detail::near, spruce = dice.share() < 0.25;
     const double free_m = 0.25 * height_m, foot_m = 0.025 * height_m;
@@ -214,6 +215,7 @@ DressedObject dressed_tree(double height_m, double radius_m, Dice dice, Detail d
 
 DressedObject dressed_bush(double height_m, double radius_m, Dice dice) {
     DressedObject out;
+    out.closed = true;
     out.has_places = true;
     const PlantBox bounds{radius_m, height_m};
     const Stuff leaves = dice.share() < 0.7 ? Stuff::hedge : Stuff::dry_leaves;
@@ -229,7 +231,6 @@ DressedObject dressed_bush(double height_m, double radius_m, Dice dice) {
 
 DressedObject dressed_tuft(double height_m, Dice dice) {
     DressedObject out;
-    out.fronts_alone = false;
     for (int i = 0; i < 5; ++i) {
         // Blades bend towards one way along x or the other: who drives along it sees their faces.
         const double angle = dice.between(-1.1, 1.1) + (dice.share() < 0.5 ? pi : 0.0), lean = dice.between(0.1, 0.7) * height_m;
@@ -248,6 +249,7 @@ DressedObject dressed_tuft(double height_m, Dice dice) {
 
 DressedObject dressed_hedge(double length_m, double width_m, double height_m, double fall_m, Dice dice) {
     DressedObject out;
+    out.closed = true;
     out.has_places = true;
     const int stations = std::max(2, static_cast<int>(length_m / 0.7) + 1);
     std::vector<Outline> rings;

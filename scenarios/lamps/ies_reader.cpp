@@ -353,6 +353,7 @@ LampFile read_ies(const std::filesystem::path& path, std::string_view text, cons
     if (numbers.more()) {
         refuse_decimal_commas(rest, header.tilt_line, path);
         refuse_decimal_commas(p.intensities, p.lines.front() - 1, path); // angles may have points all the same
+        refuse_lone_commas(p.intensities, p.lines.front() - 1, path);
         lamp.notes.push_back(fmt::format("Line {} goes on after the last candela value: not read.", numbers.line_number()));
     }
     for (double& cd : p.grid.cd)

@@ -168,4 +168,14 @@ void refuse_decimal_commas(std::string_view text, std::size_t lines_before, cons
         refuse_comma(first->where, first->number, first->pointed);
 }
 
+void refuse_lone_commas(std::string_view text, std::size_t lines_before, const std::filesystem::path& path) {
+    LineReader lines(text);
+    for (std::string_view line; lines.next(line);)
+        for (const std::string_view number : words_of(line))
+            if (const auto pointed = with_point(number))
+                throw InputError({path, lines_before + lines.number(), static_cast<std::size_t>(number.data() - line.data()) + 1, {}},
+                                 fmt::format("found '{}' in a table with more intensities than its angles ask for", number),
+                                 fmt::format("{}, if that is a decimal comma", *pointed));
+}
+
 } // namespace fernlicht

@@ -55,8 +55,8 @@ double number_above_zero(std::string_view text, const InputError::Where& where);
 /// Throws InputError unless `text` is a whole number within the bounds.
 long whole_number(std::string_view text, long least, long most, const InputError::Where& where);
 
-/// What `read` gives, of a table's intensities, which all can be told wrong at once (refusals.h): 0 where it refuses, after a hundred
-/// refusals as it does.
+/// Reads one intensity of a table. Where somebody listens (refusals.h), a refusal is noted and 0 returned, so that all of a table are
+/// reported, a hundred at most; who listens asks refusals_met() before using the table.
 template <class Read> double intensity_of(Read read) {
     try {
         return read();
@@ -71,5 +71,7 @@ template <class Read> double intensity_of(Read read) {
 /// Throws InputError naming the first of them when the numbers in `text`, separated by blanks, have decimal commas. `lines_before`: where
 /// in the file it begins.
 void refuse_decimal_commas(std::string_view text, std::size_t lines_before, const std::filesystem::path& path);
+/// The same of a table with a number too many: one decimal comma among points makes one.
+void refuse_lone_commas(std::string_view text, std::size_t lines_before, const std::filesystem::path& path);
 
 } // namespace fernlicht

@@ -44,7 +44,7 @@ void DrawList::start(const glm::dvec3& ego_m, bool extras, bool numbered) {
     ego_m_ = ego_m;
     places_.clear();
     commands_.clear();
-    fronts_alone_.clear();
+    closed_.clear();
     calls_.clear();
     triangles_ = 0;
 }
@@ -54,7 +54,7 @@ int DrawList::add(std::span<const std::uint32_t> pieces, const std::vector<Piece
     for (const std::uint32_t index : pieces) {
         const Piece& piece = scene_.pieces()[index];
         commands_.push_back({piece.index_count, 1, piece.first_index, piece.base_vertex, static_cast<GLuint>(places_.size())});
-        fronts_alone_.push_back(piece.fronts_alone);
+        closed_.push_back(piece.closed);
         // The id that a pixel shows is the mesh's place in the scene + 1, exact in a float up to 16 million meshes.
         float number = static_cast<float>(piece.mesh + 1) * (piece.ground ? -1.0F : 1.0F);
         if (numbered_) {
@@ -77,7 +77,7 @@ int DrawList::add(std::span<const std::uint32_t> pieces, const std::vector<Piece
 int DrawList::add_nothing() {
     calls_.push_back({commands_.size(), 1});
     commands_.push_back({3, 1, 0, 0, static_cast<GLuint>(places_.size())});
-    fronts_alone_.push_back(false);
+    closed_.push_back(false);
     places_.emplace_back(0.0F);
     if (with_extras_)
         extras_.emplace_back();
@@ -91,31 +91,36 @@ void DrawList::upload() {
         update_buffer(context_, extra_buffer_, extras_);
 }
 
-void DrawList::draw(std::size_t first, std::size_t end) const {
+void DrawList::draw_commands(std::size_t first, std::size_t end) const {
     context_.gl.MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(first * sizeof(Command)),
                                           static_cast<GLsizei>(end - first), 0);
 }
 
-void DrawList::draw(int call, const glm::dmat4* clip) const {
+int DrawList::draw(int call, const glm::dmat4* clip) const {
     const Call& c = calls_[static_cast<std::size_t>(call)];
     if (c.count == 0)
-        return;
+        return 0;
     const GladGLContext& gl = context_.gl;
     scene_.bind(place_buffer_, with_extras_ ? static_cast<GLuint>(extra_buffer_) : 0);
     gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_);
     const std::size_t end = c.first + c.count;
     const double hand = clip == nullptr ? 0.0 : handedness(*clip);
-    if (hand == 0.0)
-        return draw(c.first, end);
+    if (hand == 0.0) {
+        draw_commands(c.first, end);
+        return 1;
+    }
     gl.FrontFace(hand < 0.0 ? GL_CCW : GL_CW);
-    for (std::size_t first = c.first, next; first < end; first = next) {
+    int calls = 0;
+    for (std::size_t first = c.first, next; first < end; first = next, ++calls) {
         next = first + 1;
-        while (next < end && fronts_alone_[next] == fronts_alone_[first])
+        while (next < end && closed_[next] == closed_[first])
             ++next;
-        (fronts_alone_[first] ? gl.Enable : gl.Disable)(GL_CULL_FACE);
-        draw(first, next);
+        (closed_[first] ? gl.Enable : gl.Disable)(GL_CULL_FACE);
+        draw_commands(first, next);
     }
     gl.Disable(GL_CULL_FACE);
+    gl.FrontFace(GL_CCW);
+    return calls;
 }
 
 void DrawList::draw_nothing(const glm::dvec3& ego_m, bool extras) {

@@ -30,8 +30,8 @@ class DrawList {
     /// late. The scene must have one.
     int add_nothing();
     void upload();
-    /// From the centre of a perspective `clip`, faces of what shows its fronts alone are left out where they turn their backs.
-    void draw(int call, const glm::dmat4* clip = nullptr) const;
+    /// With `clip`: back faces of closed pieces are culled, but not in parallel projections. Returns the number of draw calls.
+    int draw(int call, const glm::dmat4* clip = nullptr) const;
     /// Such a call by itself.
     void draw_nothing(const glm::dvec3& ego_m, bool extras);
 
@@ -48,13 +48,13 @@ class DrawList {
     struct Call {
         std::size_t first = 0, count = 0;
     };
-    void draw(std::size_t first, std::size_t end) const;
+    void draw_commands(std::size_t first, std::size_t end) const;
     Context& context_;
     const SceneBuffers& scene_;
     glm::dvec3 ego_m_{0.0};
     std::vector<glm::vec4> places_;
     std::vector<Command> commands_;
-    std::vector<bool> fronts_alone_; ///< by command
+    std::vector<bool> closed_; ///< by command
     std::vector<PieceExtra> extras_;
     bool with_extras_ = false, numbered_ = false;
     std::vector<DrawnPiece> drawn_pieces_;

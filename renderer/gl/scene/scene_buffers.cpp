@@ -78,7 +78,7 @@ bool is_same_shape(const Mesh& a, const Mesh& b) {
     const auto same_batch = [](const Batch& p, const Batch& q) {
         return p.material == q.material && p.first == q.first && p.count == q.count;
     };
-    return a.origin_m == b.origin_m && a.casts == b.casts && a.fronts_alone == b.fronts_alone && a.indices == b.indices &&
+    return a.origin_m == b.origin_m && a.casts == b.casts && a.closed == b.closed && a.indices == b.indices &&
            std::ranges::equal(a.batches, b.batches, same_batch) && std::ranges::equal(a.vertices, b.vertices, same_vertex);
 }
 
@@ -143,7 +143,7 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded, b
             piece.surface = surface;
             piece.ground = ground;
             piece.casts = mesh.casts;
-            piece.fronts_alone = mesh.fronts_alone;
+            piece.closed = mesh.closed;
             piece.body = mesh.body;
             piece.mesh = static_cast<std::uint32_t>(&mesh - scene.meshes.data());
             piece.first_index = static_cast<GLuint>(indices.size());

@@ -37,7 +37,7 @@ struct Piece {
     double lowest_m = 0.0, highest_m = 0.0; ///< z in the world
     bool ground = true;                     ///< of a mesh of which nothing stands on the ground
     bool casts = true;                      ///< of its mesh
-    bool fronts_alone = false;              ///< of its mesh
+    bool closed = false;                    ///< of its mesh
     bool above_ground = false;              ///< ground that has other ground below it, as a bridge has
     SurfaceClass surface;
     std::uint32_t mesh = 0; ///< index in the scene

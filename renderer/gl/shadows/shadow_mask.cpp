@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <tuple>
 
 namespace fernlicht::gl {
 namespace {
@@ -107,7 +108,7 @@ const ShadowMask::Canvas& ShadowMask::canvas_for(const View& view) {
 /// looked up the others are left out: of a pixel that shows one of those nobody asks.
 void ShadowMask::draw_depth(const Shot& shot) {
     const GladGLContext& gl = context_.gl;
-    std::vector<std::pair<double, std::uint32_t>> sorted[2]; // by distance: what stands upright, ground
+    std::vector<std::tuple<bool, double, std::uint32_t>> sorted[2]; // closed first, by distance: what stands upright, ground
     const Frustum frustum(shot.camera.clip_from_ego);
     for (const std::uint32_t i : scene_.near(ego_m_)) {
         const Piece& piece = scene_.pieces()[i];
@@ -117,7 +118,7 @@ void ShadowMask::draw_depth(const Shot& shot) {
             continue;
         if (use_.pruned && !reach(piece, shot.outputs.target ? use_.target_height_m : 0.0))
             continue;
-        sorted[piece.ground ? 1 : 0].emplace_back(distance, i);
+        sorted[piece.ground ? 1 : 0].emplace_back(!piece.closed, distance, i);
     }
     depth_program_.use();
     depth_program_.set("clip_from_ego", glm::mat4(shot.camera.clip_from_ego));
@@ -125,7 +126,7 @@ void ShadowMask::draw_depth(const Shot& shot) {
     for (auto& pieces : sorted) {
         std::ranges::sort(pieces);
         std::vector<std::uint32_t> order;
-        for (const auto& [distance, i] : pieces)
+        for (const auto& [open, distance, i] : pieces)
             order.push_back(i);
         list_.add(order);
         shot.work.draws += static_cast<int>(order.size());

@@ -190,7 +190,10 @@ void check_rating_file(const fs::path& path, FileLook& look) {
 
 void check_lamp_file(const fs::path& path, FileLook& look) {
     look.tries([&] {
+        const std::size_t refused = refusals_met();
         const LampFile lamp = read_lamp(path);
+        if (refusals_met() > refused)
+            return; // intensities that could not be read are 0 here: what they would lead to is no finding
         const Intake intake = check_intake(lamp);
         look.kind = fmt::format("{} ({})", look.kind, name_of(intake.function));
         for (const std::string& note : lamp.notes)

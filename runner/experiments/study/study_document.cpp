@@ -173,15 +173,19 @@ std::string verdict_words(const StudyResult& result) {
     switch (overall(result)) {
     case VerdictKind::pass: {
         const auto of_baseline = [](const Verdict& one) { return one.name.starts_with("baseline"); };
-        const auto held =
-            std::ranges::count_if(result.cells, [&](const CellResult& cell) { return std::ranges::any_of(cell.verdicts, of_baseline); });
+        const auto is_as_accepted = [&](const CellResult& cell) {
+            return std::ranges::any_of(cell.verdicts, of_baseline) && std::ranges::none_of(cell.verdicts, [&](const Verdict& one) {
+                       return of_baseline(one) && one.kind != VerdictKind::pass;
+                   });
+        };
+        const auto held = std::ranges::count_if(result.cells, is_as_accepted);
         return held == 0 ? "Within limits"
                          : fmt::format("Within limits; {} of {} as in the baselines", held, counted(result.cells.size(), "cell"));
     }
     case VerdictKind::fail:
         return exceeds(result.verdicts) || std::ranges::any_of(result.cells, exceeds, &CellResult::verdicts) ? "Limits exceeded"
                : std::ranges::any_of(result.verdicts, [](const Verdict& one) { return one.name == unchanged_verdict && is_red(one); })
-                   ? "Not as the night that it is compared with"
+                   ? "Changed since the accepted night"
                    : "Differs from the baselines";
     case VerdictKind::flaky:
         return "Flaky";

@@ -143,6 +143,8 @@ Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     FilesRead opened;
     const std::string text = is_storyboard_file(path) ? storyboard_drive_text(path, edits) : to_utf8(read_file(path, opened, max_bytes));
     const YamlValue document = document_of(text, path, edits);
+    if (std::ranges::find(document.members, "fernlicht_study", &YamlMember::key) != document.members.end())
+        throw InputError({path, 0, 0, {}}, "is a study", "a drive; `fernlicht study` plays studies");
     const YamlMap keys(YamlEntry(document, path, ""), keys_of(drive_fields()));
     if (keys.require("fernlicht").whole(0, 1'000'000) != schema_version)
         keys.require("fernlicht").refuse(fmt::format("{}, the version of the drive file's schema", schema_version));

@@ -219,12 +219,13 @@ TEST(Intake, ALowBeamForAHighBeamAndTheOtherWayRoundIsNamed) {
         const LampFile tunnel = resampled(high, 50.0, 20.0, 0.5, 0.2, [](double h, double v) {
             return std::abs(h) < 2.0 && v > -0.5 ? TwoAngles{180.0, 0.0} : TwoAngles{h, v};
         });
-        for (const LampFile& neither :
-             {tunnel, lamp_with(tests::even_table(100.0)), read_lamp(shipped_library / "lamps/street-6000lm.ies")}) {
-            const Intake found = check_intake(neither, {.function = {}, .mount = mount});
-            const bool neither_kind = found.function == BeamFunction::other;
-            ASSERT_EQ(found.findings.size(), neither_kind ? 1U : 0U) << told(found);
-            if (neither_kind) {
+        const BeamFunction other = BeamFunction::other;
+        for (const auto& [lamp, function] : {std::pair(tunnel, other), std::pair(lamp_with(tests::even_table(100.0)), other),
+                                             std::pair(read_lamp(shipped_library / "lamps/street-6000lm.ies"), other)}) {
+            const Intake found = check_intake(lamp, {.function = {}, .mount = mount});
+            ASSERT_EQ(found.function, function);
+            ASSERT_EQ(found.findings.size(), function == other ? 1U : 0U) << told(found);
+            if (function == other) {
                 EXPECT_THAT(found.findings[0].text, HasSubstr("is neither a low nor a high beam's, and it is on the mount of a"));
                 EXPECT_FALSE(found.findings[0].meaningless);
             }

@@ -119,9 +119,9 @@ TEST_F(Views, FrontsAloneShowAClosedBodyAlsoInAMirror) {
     Scene fronts = both, inside_out = both;
     for (Scene* const scene : {&fronts, &inside_out})
         for (Mesh& mesh : scene->meshes)
-            mesh.fronts_alone = mesh.name != "road";
+            mesh.closed = mesh.name != "road";
     for (Mesh& mesh : inside_out.meshes)
-        for (std::size_t i = 0; mesh.fronts_alone && i + 2 < mesh.indices.size(); i += 3)
+        for (std::size_t i = 0; mesh.closed && i + 2 < mesh.indices.size(); i += 3)
             std::swap(mesh.indices[i], mesh.indices[i + 1]);
     for (const char* const technique : {"photometric", "photometric-unpruned", "full"})
         for (const bool mirrored : {false, true}) {

@@ -138,7 +138,7 @@ TEST_F(BaselinesCommand, RemovesAResultAndTheFilesThatNothingElseNeeds) {
     const std::string halogen = id_of("halogen");
     const Outcome dry = baselines("remove --dry-run " + halogen.substr(0, 8));
     EXPECT_EQ(dry.exit_code, 0);
-    EXPECT_THAT(dry.output, HasSubstr("would remove 1 baselines and 1 files of "));
+    EXPECT_THAT(dry.output, HasSubstr("would remove 1 baseline and 1 file of "));
     EXPECT_EQ(files(), before);
     EXPECT_EQ(listed().size(), 2U);
     EXPECT_EQ(baselines("remove " + halogen.substr(0, 8)).exit_code, 0);

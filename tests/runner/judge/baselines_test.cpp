@@ -273,7 +273,7 @@ TEST_F(Baselines, OtherInputsAreAnotherKeyAndAreNamed) {
     other.report.played[0].input_hashes[1].second = "another hash";
     const auto verdicts = other.judged(store);
     ASSERT_EQ(verdicts.size(), 1U);
-    EXPECT_THAT(verdicts[0].text, HasSubstr("with these inputs; " + id_of("halogen") + " had another road"));
+    EXPECT_THAT(verdicts[0].text, HasSubstr("with these inputs; since " + id_of("halogen") + ", road changed: "));
     EXPECT_THAT(verdicts[0].text, HasSubstr(": all 2 readings agree"));
     other.report.played[0].readings[0].value = 61.8;
     EXPECT_THAT(
@@ -300,7 +300,7 @@ TEST_F(Baselines, OfOtherInputsTheNearestAreNamed) {
     accept_run(run.folder, store);
     StoredRun other = run;
     other.report.played[0].input_hashes[1].second = "a third road";
-    EXPECT_THAT(texts(other.judged(store)), HasSubstr(" had another road: all 2 readings agree"));
+    EXPECT_THAT(texts(other.judged(store)), HasSubstr(", road changed: all 2 readings agree"));
 }
 
 // Where as many inputs differ, those with the fewest readings that differ: of a whole drive and a part of it the one that was played.
@@ -314,7 +314,7 @@ TEST_F(Baselines, OfAsManyOtherInputsTheNearestReadingsAreNamed) {
     }
     StoredRun other = run;
     other.report.played[0].input_hashes = {{"drive", "a fourth drive"}, {"road", "this road"}};
-    EXPECT_THAT(texts(other.judged(store)), HasSubstr(" had another drive (its keys, or --frames): all 2 readings agree"));
+    EXPECT_THAT(texts(other.judged(store)), HasSubstr(", drive (its keys, or --frames) changed: all 2 readings agree"));
 }
 
 // One other device class judges by the tolerance alone, and a verdict says so. Three others gave 60, 60.001 and 60.002 m: mean 60.001,

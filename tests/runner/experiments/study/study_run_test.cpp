@@ -394,7 +394,7 @@ TEST_F(StudyProgram, TheHistoryHasTimesAndTellsLampAndProgramApart) {
     EXPECT_THAT(content_of(folder / "third/study.tex"), testing::ContainsRegex("\n% - [^\n]*told apart by new on straight-1"));
     const std::string red = "study " + file + quick + " --fail-on-change --out " + (folder / "red");
     EXPECT_EQ(run_program(red + history).exit_code, 1);
-    EXPECT_THAT(content_of(folder / "red/study.md"), testing::StartsWith("# Two cells\n\n## Not as the night that it is compared with\n"));
+    EXPECT_THAT(content_of(folder / "red/study.md"), testing::StartsWith("# Two cells\n\n## Changed since the accepted night\n"));
     EXPECT_THAT(content_of(folder / "red/junit.xml"), testing::ContainsRegex("name=\"history\">[^<]*<failure message=\"[0-9]+ change"));
     // A report that cannot be written makes no night: its readings may be a part.
     std::filesystem::remove(folder / "red/study.md");
