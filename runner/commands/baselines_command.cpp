@@ -5,6 +5,7 @@
 #include "runner/files/durable_files.h"
 #include "runner/files/json_text.h"
 #include "runner/files/value_json.h"
+#include "runner/findings/figures.h"
 #include "runner/judge/baseline_difference.h"
 #include "runner/judge/baseline_json.h"
 #include "runner/judge/baselines.h"

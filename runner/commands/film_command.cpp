@@ -30,7 +30,7 @@ struct FilmFlags {
     FilmRequest request;
     std::vector<std::string> overlays, lamp_sets;
     double vertical_fov_deg = 0.0;
-    std::string frames, rate, resolution, technique, aim, shadows;
+    std::string frames, rate, resolution, technique, aim, shadows, dressing;
     std::filesystem::path film;
     bool side_by_side = false, wipe = false, grid = false, force = false;
 };
@@ -69,6 +69,7 @@ DriveEdits film_edits(const FilmFlags& flags) {
                                            : (refuse_flag("--aim", flags.aim, "as-is or auto"), BeamAim::as_is);
     if (!flags.technique.empty())
         edits.technique = std::string(technique_named(flags.technique, {}, "--technique").name);
+    set_dressing(edits, flags.dressing);
     if (!flags.shadows.empty())
         edits.shadows = name(shadow_method_named(flags.shadows, {}, "--shadows"));
     return edits;
@@ -166,6 +167,7 @@ void add_film_command(CLI::App& app, const std::vector<std::string>&, std::funct
     add_shared(*sub, "--aim", flags->aim);
     add_shared(*sub, "--technique", flags->technique);
     add_shared(*sub, "--shadows", flags->shadows);
+    add_shared(*sub, "--dressing", flags->dressing);
     add_shared(*sub, "--backend", flags->request.backend);
     add_light_pass_flag(*sub, flags->request.light_pass);
     add_shared(*sub, "--quiet", flags->request.quiet);

@@ -191,6 +191,14 @@ std::vector<std::optional<BeamTexels>> beams_of(const std::vector<std::string>& 
     return beams;
 }
 
+void set_dressing(DriveEdits& edits, const std::string& word) {
+    if (word.empty())
+        return;
+    if (word != "none" && word != "plain" && word != "dressed")
+        refuse_flag("--dressing", word, "none, plain or dressed");
+    edits.values.emplace_back("dressing", word);
+}
+
 TickRange tick_range(const std::string& frames) {
     TickRange range;
     if (frames.empty())

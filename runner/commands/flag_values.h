@@ -64,6 +64,9 @@ void add_tables_flag(CLI::App& command, const OutputFormat*& tables);
 /// them and of `others` may be given.
 void add_print_flags(CLI::App& command, const OutputFormat*& format, std::vector<CLI::Option*> others = {});
 
+/// The word of --dressing; none for "". Throws InputError naming the flag.
+void set_dressing(DriveEdits& edits, const std::string& word);
+
 /// "FIRST:LAST", "FIRST:" or ":LAST" of --frames; all for "". Throws InputError naming the flag.
 TickRange tick_range(const std::string& frames);
 

@@ -55,10 +55,7 @@ DriveEdits edits_of(const RunFlags& flags) {
         edits.technique = std::string(technique_named(flags.technique, {}, "--technique").name);
     if (flags.shadows)
         edits.shadows = name(shadow_method_named(*flags.shadows, {}, "--shadows"));
-    if (!flags.dressing.empty() && flags.dressing != "none" && flags.dressing != "plain" && flags.dressing != "dressed")
-        refuse_flag("--dressing", flags.dressing, "none, plain or dressed");
-    if (!flags.dressing.empty())
-        edits.values.emplace_back("dressing", flags.dressing);
+    set_dressing(edits, flags.dressing);
     if (!flags.resolution.empty())
         edits.resolution = resolution_of(flags.resolution);
     for (const std::string& folder : flags.road_folders)
@@ -212,7 +209,7 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& command, std
     sub->add_option("--can-channel", flags->can_channel, "take frames of this channel alone")->option_text("NAME");
     add_shared(*sub, "--technique", flags->technique);
     add_shared_taken(*sub, "--shadows", [flags](const std::string& method) { flags->shadows = method; }); // hears of an empty text, too
-    sub->add_option("--dressing", flags->dressing, "how what stands beside the road looks")->option_text("none|plain|dressed");
+    add_shared(*sub, "--dressing", flags->dressing);
     add_shared(*sub, "--backend", flags->options.backend);
     add_light_pass_flag(*sub, flags->options.light_pass);
     add_shared(*sub, "--resolution", flags->resolution);

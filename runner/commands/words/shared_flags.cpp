@@ -38,6 +38,7 @@ constexpr SharedFlag flags[] = {
     {"--technique", "NAME", "technique to light the scene with; `fernlicht techniques` lists all"},
     {"--techniques", "NAME,...", "techniques to compare; `fernlicht techniques` lists all"},
     {"--shadows", "NAME", "shadow method; `fernlicht techniques` lists all"},
+    {"--dressing", "none|plain|dressed", "how what stands beside the road looks"},
     {"--beams", "BEAM,...", "forms of the beam textures: float, eight-bit or WIDTHxHEIGHTxBITS"},
     {"--backend", "NAME", "auto, egl, egl-device=N, osmesa or software"},
     {"--light-pass", "auto|shader|cpu", "where photometric computes light"},

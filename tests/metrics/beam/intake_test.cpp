@@ -214,13 +214,14 @@ TEST(Intake, ALowBeamForAHighBeamAndTheOtherWayRoundIsNamed) {
             << sound.regulation;
     for (unsigned seed = 0; seed < 12; ++seed)
         EXPECT_THAT(faults_of(drawn_low_beam(seed), {.function = {}, .mount = BeamFunction::high}), ElementsAre(IntakeFault::function));
-    for (const BeamFunction mount : {BeamFunction::low, BeamFunction::high}) { // an adaptive beam's dark tunnel, and a lamp of neither kind
+    for (const BeamFunction mount :
+         {BeamFunction::low, BeamFunction::high}) { // an adaptive beam with a dark tunnel is taken for a low beam; two of neither kind
         const LampFile high = model("xenon-high");
         const LampFile tunnel = resampled(high, 50.0, 20.0, 0.5, 0.2, [](double h, double v) {
             return std::abs(h) < 2.0 && v > -0.5 ? TwoAngles{180.0, 0.0} : TwoAngles{h, v};
         });
         const BeamFunction other = BeamFunction::other;
-        for (const auto& [lamp, function] : {std::pair(tunnel, other), std::pair(lamp_with(tests::even_table(100.0)), other),
+        for (const auto& [lamp, function] : {std::pair(tunnel, BeamFunction::low), std::pair(lamp_with(tests::even_table(100.0)), other),
                                              std::pair(read_lamp(shipped_library / "lamps/street-6000lm.ies"), other)}) {
             const Intake found = check_intake(lamp, {.function = {}, .mount = mount});
             ASSERT_EQ(found.function, function);

@@ -48,6 +48,10 @@ TEST(FilmCommand, SameFramesTwiceWithEverythingOverThem) {
     film_frames(folder, "once", all);
     film_frames(folder, "again", all);
     film_frames(folder, "bare", "");
+    film_frames(folder, "dressed", "--dressing dressed --frames 0:0");
+    EXPECT_NE(frame_of(folder, "dressed", 0), frame_of(folder, "bare", 0));
+    EXPECT_THAT(run_program(film_line(folder / "x.mp4", "--dressing fancy")).output,
+                HasSubstr("--dressing: found 'fancy', expected none, plain or dressed"));
     const FilmLayout layout = film_layout(FilmArrangement::automatic, 2, film_width, film_height, {.readings = true, .maps = true});
     for (int k = 0; k < 5; ++k) {
         const Image<Rgb8> frame = frame_of(folder, "once", k);
