@@ -116,7 +116,8 @@ BENCHMARK(frame_with_traffic)
     }) -> Unit(benchmark::kMillisecond) -> MeasureProcessCPUTime() -> UseRealTime();
 
 // A frame of a standard route, plain or dressed, or on another pavement: the mean over 12 moments spread over the drive. Run with
-// --benchmark_filter=frame_(dressed|paved) --benchmark_repetitions=15 --benchmark_enable_random_interleaving=true --benchmark_min_time=0.25.
+// --benchmark_filter=frame_(dressed|paved) --benchmark_repetitions=15 --benchmark_enable_random_interleaving=true
+// --benchmark_min_time=0.25.
 
 using Edits = decltype(DriveEdits::values);
 
