@@ -141,14 +141,14 @@ Table failures_table(const StudyResult& result) {
     return table;
 }
 
-/// What is red, a paragraph each, with the command that repeats it. Who reads a hundred of them opens the page.
-std::vector<std::string> red_lines(const StudyResult& result) {
+/// What is red or known, a paragraph each, with the command that repeats it. Who reads a hundred of them opens the page.
+std::vector<std::string> lines_not_green(const StudyResult& result) {
     constexpr std::size_t most = 100;
     std::vector<std::string> lines;
     std::size_t more = 0;
     for (const PlayedCell& suite : suites_of(result).played)
         for (const Verdict& verdict : suite.verdicts) {
-            if (!is_red(verdict))
+            if (verdict.kind == VerdictKind::pass && !is_red(verdict))
                 continue;
             if (lines.size() == most) {
                 ++more;
@@ -165,11 +165,15 @@ std::vector<std::string> red_lines(const StudyResult& result) {
 
 /// The verdict as people say it.
 std::string verdict_words(const StudyResult& result) {
-    const auto exceeds = [](const std::vector<Verdict>& verdicts) {
-        return std::ranges::any_of(verdicts, [](const Verdict& one) {
-            return one.kind == VerdictKind::fail && !one.name.starts_with("baseline") && one.name != unchanged_verdict;
-        });
+    const auto is_any_red = [&](auto of) {
+        const auto is_one = [&](const Verdict& one) { return is_red(one) && of(one.name); };
+        return std::ranges::any_of(result.verdicts, is_one) ||
+               std::ranges::any_of(result.cells, [&](const CellResult& cell) { return std::ranges::any_of(cell.verdicts, is_one); });
     };
+    const auto is_of_history = [](const std::string& name) { return name == unchanged_verdict; };
+    const auto is_of_baseline = [](const std::string& name) { return name.starts_with("baseline"); };
+    const auto is_of_list = [](const std::string& name) { return name.starts_with("known failure "); };
+    const auto is_of_limit = [&](const std::string& name) { return !is_of_history(name) && !is_of_baseline(name) && !is_of_list(name); };
     switch (overall(result)) {
     case VerdictKind::pass: {
         const auto of_baseline = [](const Verdict& one) { return one.name.starts_with("baseline"); };
@@ -183,10 +187,10 @@ std::string verdict_words(const StudyResult& result) {
                          : fmt::format("Within limits; {} of {} as in the baselines", held, counted(result.cells.size(), "cell"));
     }
     case VerdictKind::fail:
-        return exceeds(result.verdicts) || std::ranges::any_of(result.cells, exceeds, &CellResult::verdicts) ? "Limits exceeded"
-               : std::ranges::any_of(result.verdicts, [](const Verdict& one) { return one.name == unchanged_verdict && is_red(one); })
-                   ? "Changed since the accepted night"
-                   : "Differs from the baselines";
+        return is_any_red(is_of_limit)      ? "Limits exceeded"
+               : is_any_red(is_of_history)  ? "Changed since the accepted night"
+               : is_any_red(is_of_baseline) ? "Differs from the baselines"
+                                            : "The list of known failures is out of date";
     case VerdictKind::flaky:
         return "Flaky";
     case VerdictKind::not_measured:
@@ -436,7 +440,7 @@ Document study_paper(const StudyResult& result) {
     Section section{was_judged(result) ? verdict_words(result) : "No limits were set", {}};
     if (!result.interrupted.empty())
         section.blocks.emplace_back("The study did not end: " + result.interrupted + ".");
-    for (std::string& line : red_lines(result))
+    for (std::string& line : lines_not_green(result))
         section.blocks.emplace_back(std::move(line));
     section.blocks.emplace_back(study_sentence(result));
     if (!result.played_in_part.empty())

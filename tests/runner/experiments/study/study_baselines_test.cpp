@@ -79,9 +79,13 @@ TEST_F(StudyAgainstBaselines, WhatMovesIsRedAndNamed) {
     const Outcome known = play(own, "known", listed + " --today 2026-12-31");
     EXPECT_EQ(known.exit_code, 0) << known.output;
     EXPECT_THAT(known.output, HasSubstr("known straight_halogen: baseline reading reach_5lx_road_own_m"));
+    const std::string said = content_of(temporary / "known/study.md");
+    EXPECT_THAT(said, ContainsRegex("\n## Within limits; 1 of 2 cells as in the baselines\n"));
+    EXPECT_THAT(said, HasSubstr("known straight_halogen: baseline reading reach_5lx_road_own_m"));
     const Outcome passes = play(own, "passes", against + " --known " + (temporary / "known.yaml") + " --today 2026-12-31");
     EXPECT_EQ(passes.exit_code, 1) << "the entry names no verdict, since all readings agree in one";
     EXPECT_THAT(passes.output, HasSubstr("FAIL known failure straight-1/halogen/"));
+    EXPECT_THAT(content_of(temporary / "passes/study.md"), HasSubstr("\n## The list of known failures is out of date\n"));
 
     // The lamp moves.
     ASSERT_EQ(
