@@ -16,7 +16,8 @@ using testing::Not;
 class Watching {
   public:
     Watching(const std::string& arguments, std::string log) : log_(std::move(log)) {
-        const std::string line = fmt::format("echo $$; exec '{}' {} >'{}' 2>&1", FERNLICHT_BINARY, arguments, log_);
+        const std::string line =
+            fmt::format("echo $$; exec env --default-signal=INT '{}' {} >'{}' 2>&1", FERNLICHT_BINARY, arguments, log_);
         pipe_ = ::popen(line.c_str(), "r");
         std::array<char, 64> text{};
         program_ = std::fgets(text.data(), text.size(), pipe_) ? std::atoi(text.data()) : 0;
