@@ -362,8 +362,9 @@ FlightModel read_flight(const std::filesystem::path& path, FlightForward forward
     FilesRead opened;
     check_openflight(path, read_file(path, opened));
     struct Listened { // to its end, however reading ends
-        explicit Listened(std::vector<std::string>& notes) { osg::setNotifyHandler(new Listening(notes)); }
-        ~Listened() { osg::setNotifyHandler(new osg::StandardNotifyHandler); }
+        const osg::ref_ptr<osg::NotifyHandler> usual = new osg::StandardNotifyHandler, listening;
+        explicit Listened(std::vector<std::string>& notes) : listening(new Listening(notes)) { osg::setNotifyHandler(listening); }
+        ~Listened() { osg::setNotifyHandler(usual); }
     };
     const Listened listened(out.model.notes);
     osg::setNotifyLevel(osg::WARN);
