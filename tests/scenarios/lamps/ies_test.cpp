@@ -351,6 +351,10 @@ TEST_F(IesFile, MessagesNameLineAndPlace) {
     EXPECT_THAT(with("31 32 33\n", "31 32\n"), HasSubstr("x.ies:11: candela value: the file ends after 8 of 9"));
     EXPECT_THAT(with("-2 0 2", "-2 0 95"), testing::AnyOf(HasSubstr("type C"), HasSubstr("vertical angles")));
     EXPECT_THAT(all_notes(read("y.ies", good + "44 55\n")), HasSubstr("Line 12 goes on after the last candela value"));
+    EXPECT_THAT(
+        with("21 22 23", "21.5 22,5 23"),
+        HasSubstr(
+            "x.ies:10:6: found '22,5' in a table with more intensities than its angles ask for, expected 22.5, if that is a decimal"));
 }
 
 TEST_F(IesFile, NoPrefixOfAGoodFileIsReadAndNothingMakesItFallOver) {
