@@ -58,7 +58,7 @@ std::optional<Twin::Hit> Twin::cast(const Moment& moment, const Ray& ray, double
     std::optional<Hit> nearest;
     for (std::size_t m = 0; m < scene_.meshes.size(); ++m) {
         const Mesh& mesh = scene_.meshes[m];
-        if ((met == Met::ground && stands_on_ground(scene_, mesh)) || (met == Met::casters && !mesh.casts))
+        if ((met == Met::ground ? stands_on_ground(scene_, mesh) : mesh.measured_alone) || (met == Met::casters && !mesh.casts))
             continue;
         if (mesh.body >= 0 && (static_cast<std::size_t>(mesh.body) >= moment.bodies.size() || met == Met::ground ||
                                !moment.bodies[static_cast<std::size_t>(mesh.body)].visible))

@@ -42,14 +42,13 @@ void NaiveLighting::set_lamps(const Moment& moment) {
     update_buffer(context_, block_, packed_);
 }
 
-void NaiveLighting::draw_pieces(const glm::dmat4& clip, const glm::dvec3& ego_m, bool ground_only, double farthest_m, Work& work) {
+void NaiveLighting::draw_pieces(const glm::dmat4& clip, const glm::dvec3& ego_m, bool in_map, double farthest_m, Work& work) {
     const Frustum frustum(clip);
     std::vector<std::uint32_t> seen;
     for (const std::uint32_t i : scene_.near(ego_m)) {
         const Piece& piece = scene_.pieces()[i];
         const glm::dvec3 centre = centre_of(piece, ego_m);
-        if ((piece.ground || !ground_only) && glm::length(centre) - piece.radius_m <= farthest_m &&
-            !frustum.outside(centre, piece.radius_m))
+        if (piece.is_shown(in_map) && glm::length(centre) - piece.radius_m <= farthest_m && !frustum.outside(centre, piece.radius_m))
             seen.push_back(i);
     }
     list_.start(ego_m, scene_.moves());

@@ -25,7 +25,7 @@ class NaiveLighting : public Lighting {
     const Program& variant(std::size_t lamps, const Shot& shot);
     void set_lamps(const Moment& moment);
     void draw_shadow_maps(const Shot& shot);
-    void draw_pieces(const glm::dmat4& clip, const glm::dvec3& ego_m, bool ground_only, double farthest_m, Work& work);
+    void draw_pieces(const glm::dmat4& clip, const glm::dvec3& ego_m, bool in_map, double farthest_m, Work& work);
 
     Context& context_;
     RendererSettings settings_;

@@ -307,7 +307,7 @@ std::vector<PhotometricLighting::Group> PhotometricLighting::groups_for(const Sh
     for (const std::uint32_t i : scene_.near(ego_m)) {
         const Piece& piece = scene_.pieces()[i];
         const glm::dvec3 centre = centre_of(piece, ego_m);
-        if (shot.camera.is_map && !piece.ground)
+        if (!piece.is_shown(shot.camera.is_map))
             continue;
         const double distance = glm::length(centre) - piece.radius_m;
         if (distance > farthest_drawn_m)

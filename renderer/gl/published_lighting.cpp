@@ -216,7 +216,7 @@ std::vector<PublishedLighting::Group> PublishedLighting::groups_for(const Shot& 
         const Piece& piece = scene_.pieces()[i];
         const glm::dvec3 centre = centre_of(piece, ego_m);
         const double distance = glm::length(centre) - piece.radius_m;
-        if ((piece.ground || !shot.camera.is_map) && distance <= farthest_drawn_m && !frustum.outside(centre, piece.radius_m))
+        if (piece.is_shown(shot.camera.is_map) && distance <= farthest_drawn_m && !frustum.outside(centre, piece.radius_m))
             sorted[shot.outputs.colour ? piece.surface.texture : 0].emplace_back(!piece.closed, distance, i);
     }
     std::vector<Group> groups;

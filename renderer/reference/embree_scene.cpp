@@ -15,7 +15,8 @@
 namespace fernlicht::reference {
 namespace {
 
-constexpr unsigned ground_mask = 1, stands_mask = 2, casters_mask = 3, no_caster_mask = 4, all_mask = 7;
+constexpr unsigned ground_mask = 1, stands_mask = 2, casters_mask = 3, no_caster_mask = 4, all_mask = 7, measured_alone_mask = 8,
+                   measured_mask = ground_mask | measured_alone_mask; ///< what maps show
 
 constexpr double raise_share = 8.0 / 16777216.0; // eight units of 2^-24
 constexpr double min_extent_m = 100.0;           // triangles of ours are up to so long, and rounding follows the larger of both
@@ -155,7 +156,10 @@ EmbreeScene::EmbreeScene(const Scene& scene, const glm::dvec3& origin_m)
         }
         for (const Batch& batch : mesh.batches)
             indices = std::copy_n(mesh.indices.begin() + batch.first, batch.count / 3 * 3, indices);
-        rtcSetGeometryMask(geometry, !mesh.casts ? no_caster_mask : stands_on_ground(scene, mesh) ? stands_mask : ground_mask);
+        rtcSetGeometryMask(geometry, mesh.measured_alone             ? measured_alone_mask
+                                     : !mesh.casts                   ? no_caster_mask
+                                     : stands_on_ground(scene, mesh) ? stands_mask
+                                                                     : ground_mask);
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(embree_->scene, geometry, static_cast<unsigned>(m));
         rtcReleaseGeometry(geometry);
@@ -214,7 +218,7 @@ SurfaceHit EmbreeScene::hit_on(const Ray& ray, std::uint32_t mesh_index, std::ui
 
 std::optional<SurfaceHit> EmbreeScene::cast(const Ray& ray, bool ground_only) const {
     RTCRayHit found{};
-    found.ray = ray_of(ray.origin_m, ray.direction, no_end, ground_only ? ground_mask : all_mask);
+    found.ray = ray_of(ray.origin_m, ray.direction, no_end, ground_only ? measured_mask : all_mask);
     found.hit.geomID = found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     intersect(embree_->scene, found);
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID)
@@ -228,7 +232,7 @@ LaneMask EmbreeScene::cast(const std::array<Ray, packet_size>& rays, LaneMask la
     alignas(64) std::array<int, packet_size> valid{};
     for (const std::size_t i : lanes_of(lanes)) {
         valid[i] = -1;
-        set_lane(found.ray, i, ray_of(rays[i].origin_m, rays[i].direction, no_end, ground_only ? ground_mask : all_mask));
+        set_lane(found.ray, i, ray_of(rays[i].origin_m, rays[i].direction, no_end, ground_only ? measured_mask : all_mask));
         found.hit.geomID[i] = found.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
     intersect(embree_->scene, valid.data(), found);

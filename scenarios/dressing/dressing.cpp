@@ -250,6 +250,10 @@ void dress_ground(RoadMeshOptions& options, bool mirrored) {
             fields[Dice(seed, fmt::format("field, road {} {} {}", road.id, left != mirrored ? "left" : "right", std::floor(s_m / field_m)))
                        .of(3)]);
     };
+    options.ditch = [material = stuff(Stuff::ditch), mirrored, seed = options.seed](const Road& road, bool left, double from_s_m,
+                                                                                    double to_s_m) {
+        return has_ditch(road, left, {from_s_m, to_s_m}, seed, mirrored) ? std::optional(material) : std::nullopt;
+    };
 }
 
 void add_dressing(Scene& scene, const RoadNetwork& network, const Route& route, const DressingSettings& settings) {

@@ -176,6 +176,7 @@ const std::array<DressedStuff, index_of(Stuff::count)> dressed_stuff{{
     {Stuff::iron, "iron", glm::vec3(0.06F)},
     {Stuff::lid, "lid", glm::vec3(0.20F)},
     {Stuff::crossing, "crossing", glm::vec3(0.50F)},
+    {Stuff::ditch, "ditch", {0.120F, 0.125F, 0.060F}, layer_of(StuffPicture::meadow), SurfaceKind::object, 0.020F, {0.95F, 1.0F, 0.5F}},
 }};
 
 /// By RA2's values for white, as the plain board: a few per cent of 20' are left at 2 degrees.
@@ -202,7 +203,7 @@ const glm::vec3 light_of_2700_k{1.935F, 0.804F, 0.192F};
 std::vector<Material> dressing_materials() {
     std::vector<Material> all;
     for (const DressedStuff& row : dressed_stuff) {
-        const bool ground = is_ground(row.kind) || row.stuff == Stuff::grass;
+        const bool ground = is_ground(row.kind) || row.stuff == Stuff::grass || row.stuff == Stuff::ditch;
         all.push_back({.name = row.name,
                        .kind = row.kind,
                        .albedo = row.reflectance,

@@ -49,6 +49,7 @@ enum class Stuff : std::uint32_t {
     iron,
     lid,
     crossing,
+    ditch,
     count
 };
 

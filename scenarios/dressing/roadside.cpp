@@ -26,6 +26,29 @@ double edge_height_m(const Road& road, double s_m, bool left) {
 
 bool is_walked(const Lane& lane) { return lane.type == "sidewalk" || lane.type == "walking"; }
 
+bool has_ditch(const Road& road, bool left, std::pair<double, double> s_m, std::uint64_t seed, bool mirrored) {
+    constexpr double stretch_m = 180.0, share = 0.6, nearest_m = 1.0, farthest_m = 5.5;
+    const auto dug_at = [&](double s) {
+        return !is_walked(outer_lane(road, s, left)) &&
+               Dice(seed, fmt::format("ditch, road {} {} {}", road.id, left != mirrored ? "left" : "right", std::floor(s / stretch_m)))
+                       .share() < share;
+    };
+    if (road.junction != "-1" || !dug_at(s_m.first) || !dug_at(s_m.second))
+        return false;
+    const auto stands_in_it = [&](double s, double t, double reach_m) {
+        if (s + reach_m < s_m.first || s - reach_m > s_m.second)
+            return false;
+        const double edge = outer_edge_m(road, std::clamp(s, 0.0, road.length_m), left), out = left ? t - edge : edge - t;
+        return out + reach_m > nearest_m && out - reach_m < farthest_m;
+    };
+    return std::ranges::none_of(road.objects,
+                                [&](const RoadObject& o) {
+                                    return stands_in_it(o.s_m, o.t_m, std::max({o.radius_m, 0.5 * std::hypot(o.length_m, o.width_m), 0.3}));
+                                }) &&
+           std::ranges::none_of(road.signals,
+                                [&](const RoadSignal& o) { return stands_in_it(o.s_m, o.t_m, std::max(0.5 * o.width_m, 0.3)); });
+}
+
 /// A hedge or a fence along the road, half-way between sidewalk and front, where the house stands along the road and leaves 2.5 m.
 void Dresser::add_garden(const Road& road, const RoadObject& object, Dice drawn, const std::string& name) {
     const double kind = drawn.share();
@@ -160,7 +183,8 @@ void Dresser::add_verge(const Road& road, bool left) {
             const double share = here.share(), out = 0.7 + 6.3 * share * share; // denser towards the road
             const Pose pose = beside(road, s, left, out);
             const double most = ground_drop_m(out) + 0.05;
-            if (is_free(road, pose.position_m, 0.3))
+            const bool in_ditch = out > 2.0 && out < 4.5 && has_ditch(road, left, {s, s}, settings_.seed);
+            if (!in_ditch && is_free(road, pose.position_m, 0.3))
                 append_placed(grass, dressed_tuft(std::min(0.45, most) * here.between(0.7, 1.0), here.fork()).low, pose);
         }
         add_mesh(grass, {}, fmt::format("grass, road {} s {:.0f}-{:.0f}", road.id, from, to), true, false, false);

@@ -82,10 +82,11 @@ struct Mesh {
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<Batch> batches;
-    int body = -1;       ///< -1: stands in the world; else in the frame of Moment::bodies[body], with its origin, and moves with it
-    bool casts = true;   ///< false: stands in no light's way
-    bool closed = false; ///< no view meets its faces from behind
-    bool whole = false;  ///< its parts stand together, as leaves of a tree do: one box round it bounds it well enough
+    int body = -1;               ///< -1: stands in the world; else in the frame of Moment::bodies[body], with its origin, and moves with it
+    bool casts = true;           ///< false: stands in no light's way
+    bool closed = false;         ///< no view meets its faces from behind
+    bool measured_alone = false; ///< ground that maps measure and views do not show, as over a ditch; casts nothing
+    bool whole = false;          ///< its parts stand together, as leaves of a tree do: one box round it bounds it well enough
 };
 
 struct Scene {

@@ -1,9 +1,10 @@
 // What dressing changes in a frame, and what it must not.
+#include "renderer/twin.h"
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/drives/play/staged_scene.h"
 #include "scenarios/roads/road_network.h"
 #include "tests/renderer/device_test.h"
-#include "tests/renderer/views.h"
+#include "tests/renderer/reference/rooms.h"
 
 namespace fernlicht {
 namespace {
@@ -32,6 +33,45 @@ class DressedFrames : public DeviceTest {
         return out;
     }
 };
+
+/// A floor 0.5 m below ground that is measured alone, under a lamp of 1000 cd.
+TEST_F(DeviceTest, GroundThatIsMeasuredAloneIsInMapsAndNotInViews) {
+    constexpr std::uint32_t floor_id = 1, ground_id = 2;
+    const Quad square{{-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0}};
+    Scene scene{.materials = {lambert(0.2, SurfaceKind::object), lambert(0.2)},
+                .meshes = {quads("floor", 0, {0, 0, -0.5}, {square}), quads("ground", 1, {}, {square})}};
+    scene.meshes.back().measured_alone = true;
+    scene.meshes.back().casts = false;
+    const Moment moment{.lamps = {even_lamp(1000.0, looking({0, 0, 0.65}, 0, -90))}};
+    const Twin twin(scene, true);
+    const Reference reference(scene);
+    for (const bool map : {true, false}) {
+        const View view = map ? map_about({1.0, 0.5}, 2.0, 8) : camera({-2.0, 0.0, 1.5}, 0, -40, 30, 8);
+        const std::uint32_t id = map ? ground_id : floor_id;
+        const ReferenceImage truth = reference.render(moment, view, everything, ReferenceSettings{.footprint = Footprint::centre});
+        for (const auto& [x, y] : each_pixel(8, 8)) {
+            const TwinPixel pixel = twin.pixel(moment, view, x, y);
+            ASSERT_EQ(pixel.id, id);
+            EXPECT_EQ(truth.ids.at(x, y), id);
+            const double h = map ? 0.65 : 1.15, d2 = pixel.point_m.x * pixel.point_m.x + pixel.point_m.y * pixel.point_m.y + h * h;
+            EXPECT_NEAR(pixel.illuminance_lx, 1000.0 * h / std::pow(d2, 1.5), 1e-6 * pixel.illuminance_lx);
+            EXPECT_NEAR(truth.illuminance_lx.mean.at(x, y), pixel.illuminance_lx, 1e-5 * pixel.illuminance_lx);
+        }
+        for (const char* technique : {"photometric", "photometric-unpruned", "photometric-naive", "full"}) {
+            RendererSettings settings;
+            settings.technique = technique;
+            Renderer renderer(device_, scene, settings);
+            const Frame frame = renderer.draw(moment, view, renderer.available(all_results));
+            for (const auto& [x, y] : each_pixel(8, 8)) {
+                ASSERT_EQ(frame.ids.at(x, y), id) << technique;
+                if (!frame.illuminance_lx.pixels().empty()) {
+                    const TwinPixel pixel = twin.pixel(moment, view, x, y);
+                    EXPECT_NEAR(frame.illuminance_lx.at(x, y), pixel.illuminance_lx, pixel.bound_lx) << technique;
+                }
+            }
+        }
+    }
+}
 
 TEST_F(DressedFrames, PrunedAndUnprunedGiveTheSameBytes) {
     const Street dressed = street("dressed");

@@ -144,6 +144,7 @@ SceneBuffers::SceneBuffers(Context& context, const Scene& scene, bool encoded, b
             piece.ground = ground;
             piece.casts = mesh.casts;
             piece.closed = mesh.closed;
+            piece.measured_alone = mesh.measured_alone;
             piece.body = mesh.body;
             piece.mesh = static_cast<std::uint32_t>(&mesh - scene.meshes.data());
             piece.first_index = static_cast<GLuint>(indices.size());

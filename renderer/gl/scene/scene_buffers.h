@@ -38,6 +38,7 @@ struct Piece {
     bool ground = true;                     ///< of a mesh of which nothing stands on the ground
     bool casts = true;                      ///< of its mesh
     bool closed = false;                    ///< of its mesh
+    bool measured_alone = false;            ///< of its mesh
     bool above_ground = false;              ///< ground that has other ground below it, as a bridge has
     SurfaceClass surface;
     std::uint32_t mesh = 0; ///< index in the scene
@@ -50,6 +51,8 @@ struct Piece {
     glm::vec4 turn{0.0F, 0.0F, 0.0F, 1.0F};  ///< quaternion of its body
     double min_up = 1.0;                     ///< ground only: the least z of its normals
     std::vector<Corners> bodies_m;           ///< what stands on the ground: a box round each body; else the one round all
+
+    bool is_shown(bool in_map) const { return in_map ? ground : !measured_alone; }
 };
 
 inline glm::dquat turn_of(const Piece& piece) {

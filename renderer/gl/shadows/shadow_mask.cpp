@@ -114,7 +114,7 @@ void ShadowMask::draw_depth(const Shot& shot) {
         const Piece& piece = scene_.pieces()[i];
         const glm::dvec3 centre = centre_of(piece, ego_m_);
         const double distance = glm::length(centre) - piece.radius_m;
-        if ((shot.camera.is_map && !piece.ground) || distance > farthest_drawn_m || frustum.outside(centre, piece.radius_m))
+        if (!piece.is_shown(shot.camera.is_map) || distance > farthest_drawn_m || frustum.outside(centre, piece.radius_m))
             continue;
         if (use_.pruned && !reach(piece, shot.outputs.target ? use_.target_height_m : 0.0))
             continue;

@@ -24,10 +24,15 @@ constexpr double widest_turn_rad = 0.15;
 struct Column {
     double out_m, drop_m;
 };
-constexpr double verge_m = 1.5;
+constexpr double verge_m = 1.5, ditch_end_m = 5.0;
+
+/// A ditch in the second column: below the ground without it, in shares of its depth. Its floor is 0.5 m wide, its slopes are 1 : 1.5:
+/// ours, not measured.
+constexpr double ditch_depth_m = 0.5;
+constexpr std::array<Column, 6> ditch_profile{Column{verge_m, 0.0}, {2.25, 0.0}, {3.0, 1.0}, {3.5, 1.0}, {4.25, 0.0}, {ditch_end_m, 0.0}};
 
 std::array<Column, 5> columns(double width) {
-    return {Column{0.0, 0.0}, Column{std::min(verge_m, width), 0.09}, Column{std::min(5.0, width), 0.35},
+    return {Column{0.0, 0.0}, Column{std::min(verge_m, width), 0.09}, Column{std::min(ditch_end_m, width), 0.35},
             Column{std::min(12.0, width), 0.45}, Column{width, 0.45}};
 }
 
@@ -54,7 +59,7 @@ struct Rib {
 class Side {
   public:
     Side(const SurfacePlan& plan, std::size_t road_index, const SurfaceRows& surface, bool left, const RoadMeshOptions& options)
-        : plan_(plan), road_index_(road_index), left_(left), ground_(options.ground) {
+        : plan_(plan), road_index_(road_index), left_(left), options_(options) {
         for (std::size_t i = 0; i < plan.stretches.size(); ++i)
             if (!surface.empty(i))
                 follow(surface, i);
@@ -79,28 +84,86 @@ class Side {
         }
     }
 
-    void append(Scene& scene) const {
-        std::optional<MeshBuilder> builder;
+    void append(Scene& scene) {
+        dig();
+        std::optional<Chunk> chunk;
         for (std::size_t i = 0; i + 1 < ribs_.size(); ++i) {
             if (ribs_[i + 1].begins)
                 continue;
-            if (!builder || ribs_[i].begins || ribs_[i + 1].chunk != ribs_[i].chunk) {
-                if (builder)
-                    std::move(*builder).add_to(scene);
+            if (!chunk || ribs_[i].begins || ribs_[i + 1].chunk != ribs_[i].chunk) {
+                if (chunk)
+                    chunk->add_to(scene);
                 const auto stretch = std::ranges::find(plan_.stretches, ribs_[i + 1].chunk, &RoadStretch::chunk);
-                builder.emplace(chunk_name(left_ ? "left of road" : "right of road", plan_,
-                                           static_cast<std::size_t>(stretch - plan_.stretches.begin())),
-                                ribs_[i].points_m[0]);
+                const std::string name = chunk_name(left_ ? "left of road" : "right of road", plan_,
+                                                    static_cast<std::size_t>(stretch - plan_.stretches.begin()));
+                chunk.emplace(MeshBuilder(name, ribs_[i].points_m[0]), MeshBuilder("ditch " + name, ribs_[i].points_m[0]),
+                              MeshBuilder("over the ditch " + name, ribs_[i].points_m[0]));
             }
             for (std::size_t k = 0; k < 4; ++k)
                 if (!open_[i][k])
-                    append_cell(*builder, i, k);
+                    append_cell(k == 1 && ditch_[i] ? chunk->over_ditch : chunk->ground, i, k);
+            if (ditch_[i])
+                append_ditch(chunk->ditch, i);
         }
-        if (builder)
-            std::move(*builder).add_to(scene);
+        if (chunk)
+            chunk->add_to(scene);
     }
 
   private:
+    /// Views show the ditch, maps measure the ground as it would be without one.
+    struct Chunk {
+        MeshBuilder ground, ditch, over_ditch;
+
+        void add_to(Scene& scene) {
+            std::move(ground).add_to(scene);
+            std::move(ditch).add_to(scene);
+            const std::size_t before = scene.meshes.size();
+            std::move(over_ditch).add_to(scene);
+            for (std::size_t i = before; i < scene.meshes.size(); ++i) {
+                scene.meshes[i].measured_alone = true;
+                scene.meshes[i].casts = false;
+            }
+        }
+    };
+
+    /// Decides between which ribs there is a ditch: of whole width, where no other road comes near.
+    void dig() {
+        ditch_.resize(ribs_.size());
+        for (std::size_t i = 0; options_.ditch && i + 1 < ribs_.size(); ++i) {
+            const auto fits = [](const Rib& rib) {
+                return rib.width_m >= ditch_end_m && rib.cap_m[1] == unlimited && rib.cap_m[2] == unlimited;
+            };
+            if (!ribs_[i + 1].begins && !open_[i][1] && fits(ribs_[i]) && fits(ribs_[i + 1]))
+                ditch_[i] = options_.ditch(*plan_.road, left_, ribs_[i].s_m, ribs_[i + 1].s_m);
+        }
+    }
+
+    /// From rim to rim at a rib; it comes up where a ditch ends.
+    std::array<std::pair<glm::dvec3, glm::dvec3>, ditch_profile.size()> ditch_at(std::size_t i) const {
+        const Rib& rib = ribs_[i];
+        const double depth = i > 0 && ditch_[i - 1] && ditch_[i] ? ditch_depth_m : 0.0;
+        std::array<glm::dvec2, ditch_profile.size()> out; ///< and down
+        std::array<std::pair<glm::dvec3, glm::dvec3>, ditch_profile.size()> points;
+        for (std::size_t k = 0; k < out.size(); ++k) {
+            const double along = (ditch_profile[k].out_m - verge_m) / (ditch_end_m - verge_m);
+            points[k].first = glm::mix(rib.points_m[1], rib.points_m[2], along) - glm::dvec3(0.0, 0.0, depth * ditch_profile[k].drop_m);
+            out[k] = {ditch_profile[k].out_m, rib.points_m[1].z - points[k].first.z};
+        }
+        for (std::size_t k = 0; k < out.size(); ++k) {
+            const glm::dvec2 way = out[std::min(k + 1, out.size() - 1)] - out[k == 0 ? 0 : k - 1];
+            points[k].second = glm::normalize(glm::dvec3(0.0, 0.0, 1.0) + way.y / way.x * rib.outward - rib.grade * rib.forward);
+        }
+        return points;
+    }
+
+    void append_ditch(MeshBuilder& builder, std::size_t i) const {
+        const auto a = ditch_at(i), b = ditch_at(i + 1);
+        for (std::size_t k = 0; k + 1 < a.size(); ++k) {
+            triangle(builder, *ditch_[i], {a[k].first, b[k].first, a[k + 1].first}, {a[k].second, b[k].second, a[k + 1].second});
+            triangle(builder, *ditch_[i], {b[k].first, b[k + 1].first, a[k + 1].first}, {b[k].second, b[k + 1].second, a[k + 1].second});
+        }
+    }
+
     bool is_wider(std::size_t a, std::size_t b) const { return left_ ? a > b : a < b; }
     /// The point of the road's edge in a row, as a stretch beside it has it.
     std::size_t outermost(const std::vector<Range>& strips) const { return left_ ? strips.back().last : strips.front().first; }
@@ -230,8 +293,8 @@ class Side {
     void append_cell(MeshBuilder& builder, std::size_t i, std::size_t k) const {
         const Rib& a = ribs_[i];
         const Rib& b = ribs_[i + 1];
-        const std::uint32_t material = ground_ ? ground_(*plan_.road, left_, a.s_m, columns(unlimited)[k].out_m)
-                                               : index_of(k == 0 ? RoadMaterial::verge : RoadMaterial::terrain);
+        const std::uint32_t material = options_.ground ? options_.ground(*plan_.road, left_, a.s_m, columns(unlimited)[k].out_m)
+                                                       : index_of(k == 0 ? RoadMaterial::verge : RoadMaterial::terrain);
         const glm::dvec3 a_out = lowered(a.points_m[k + 1], a.cap_m[k + 1]), b_out = lowered(b.points_m[k + 1], b.cap_m[k + 1]);
         const glm::dvec3 na = normal(a, k), nb = normal(b, k), na_out = normal(a, k + 1), nb_out = normal(b, k + 1);
         if (k > 0) {
@@ -253,10 +316,11 @@ class Side {
     const SurfacePlan& plan_;
     std::size_t road_index_;
     bool left_;
-    const GroundMaterial& ground_;
+    const RoadMeshOptions& options_;
     std::vector<EdgePoint> edge_;
     std::vector<Rib> ribs_;
-    std::vector<std::array<bool, 4>> open_; ///< cells that are left out
+    std::vector<std::array<bool, 4>> open_;           ///< cells that are left out
+    std::vector<std::optional<std::uint32_t>> ditch_; ///< its material, from a rib to the next
 };
 
 constexpr double far_beyond_m = 2500.0, far_below_m = 0.5;

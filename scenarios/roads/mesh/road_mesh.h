@@ -13,6 +13,10 @@ namespace fernlicht {
 /// What lies beside a road from so far out on: a material of the scene.
 using GroundMaterial = std::function<std::uint32_t(const Road& road, bool left, double s_m, double out_m)>;
 
+/// The material of a ditch beside a road from s to s, 1.5 to 5 m out; nullopt: none. Its surface kind is no ground's, so that views show it
+/// and maps measure the ground as it would be without it.
+using DitchMaterial = std::function<std::optional<std::uint32_t>(const Road& road, bool left, double from_s_m, double to_s_m)>;
+
 struct RoadMeshOptions {
     double chord_error_m = 0.005; ///< greatest distance between the surface and its triangles
     double chunk_length_m = 60.0; ///< a mesh's extent along the road
@@ -24,6 +28,7 @@ struct RoadMeshOptions {
     std::function<bool(const RoadObject&)> leave_out = {};
     bool signals = true;        ///< false: left out, because somebody else builds them
     GroundMaterial ground = {}; ///< empty: verge and terrain
+    DitchMaterial ditch = {};   ///< empty: none anywhere
 };
 
 /// Surface with marks as materials of their own strips (no overlapping geometry), verge and terrain, objects, signal boards with posts.
