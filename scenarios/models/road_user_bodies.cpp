@@ -142,7 +142,8 @@ Model bus_body(const BodySize& size) {
 
 Model truck_body(const BodySize& size) {
     BodyBuilder body("truck", size);
-    const double cab_rear = std::max(body.front_m() - 2.2, body.x(0.5)), half = body.y(1.0), top = body.z(1.0);
+    const double cab_rear = std::max(body.front_m() - 2.2, body.x(0.5)), top = body.z(1.0);
+    const double half = body.y(1.0) - (size.dressed ? proud_m : 0.0); // its tape fills the box
     const double cab = (cab_rear - body.rear_m()) / size.size_m.x, step = 1.0 - cab;
     const std::vector<BodySection> sections{{cab, 0.96, 0.22, 0.52, 0.86, 0.84},
                                             {cab + 0.35 * step, 0.98, 0.20, 0.52, 0.88, 0.86},

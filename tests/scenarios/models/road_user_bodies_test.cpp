@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
+#include <map>
 #include <set>
 
 namespace fernlicht {
@@ -116,6 +117,26 @@ TEST(RoadUserBodies, AreLitFromOutside) {
         EXPECT_GT(hits, 60) << kind.name;
         EXPECT_LE(backs, hits / 50) << kind.name << ": of " << hits; // plates that stand free have one side
     }
+}
+
+TEST(RoadUserBodies, TapeOfALorryStandsProudOfItsSides) {
+    BodySize size = kinds[2].size;
+    size.dressed = true;
+    const Model lorry = truck_body(size);
+    const Mesh& mesh = lorry.meshes[0];
+    std::map<std::string, double> farthest_m; ///< to the left, by material, of what stands upright along the side
+    for (const Batch& batch : mesh.batches)
+        for (std::uint32_t k = batch.first; k < batch.first + batch.count; ++k)
+            if (const Vertex& v = mesh.vertices[mesh.indices[k]]; v.normal.y > 0.99F && v.position_m.z > 1.2F) {
+                double& most = farthest_m[lorry.materials[batch.material].name];
+                most = std::max(most, static_cast<double>(v.position_m.y));
+            }
+    ASSERT_TRUE(farthest_m.contains("white tape"));
+    for (const auto& [name, y_m] : farthest_m)
+        if (name != "white tape") {
+            EXPECT_LT(y_m + 0.002, farthest_m["white tape"]) << name;
+        }
+    EXPECT_LE(farthest_m["white tape"], 0.5 * size.size_m.y);
 }
 
 TEST(RoadUserBodies, CarryTheirMounts) {
