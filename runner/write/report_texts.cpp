@@ -121,7 +121,9 @@ std::string open_suite(const std::string& name, const Counts& counts) {
 }
 
 std::string test_case(const std::string& suite, const Verdict& verdict) {
-    const std::string head = fmt::format("    <testcase classname=\"{}\" name=\"{}\"", xml_text(suite), xml_text(verdict.name));
+    std::string class_name = suite;
+    std::ranges::replace(class_name, '.', '_'); // at its last dot Jenkins takes a package off
+    const std::string head = fmt::format("    <testcase classname=\"{}\" name=\"{}\"", xml_text(class_name), xml_text(verdict.name));
     const std::string text = xml_text(verdict.known.empty() ? verdict.text : verdict.text + "; " + verdict.known);
     const std::string_view element = element_of(verdict);
     if (element.empty())

@@ -221,7 +221,7 @@ void add_absent(HistoryFindings& findings) {
             findings.absent.push_back(cell.name + " was not played in the night that this is compared with");
     for (const NightCell& cell : before.cells)
         if (!tonight.cell(cell.name))
-            findings.absent.push_back(cell.name + " is no longer played");
+            findings.absent.push_back(cell.name + " was not played tonight");
 }
 
 } // namespace

@@ -445,7 +445,7 @@ TEST(HistoryCauses, WhatWasNotPlayedOrNotMeasuredIsSaid) {
     EXPECT_EQ(found.events.front().moved.size(), 1U);
     EXPECT_TRUE(found.is_off_base());
     EXPECT_EQ(found.cells_compared, 4U);
-    EXPECT_THAT(found.absent, ElementsAre("straight_halogen was not played: the disk is full", "country_xenon is no longer played"));
+    EXPECT_THAT(found.absent, ElementsAre("straight_halogen was not played: the disk is full", "country_xenon was not played tonight"));
     const std::string text = document_text(document(found));
     EXPECT_THAT(text, AllOf(HasSubstr("→ not measured"), HasSubstr("none is accepted"), Not(HasSubstr("nan"))));
 }

@@ -237,6 +237,14 @@ TEST(ReportJunit, CountsAndEscapes) {
         EXPECT_TRUE(static_cast<unsigned char>(c) >= 0x20 || c == '\n') << "a control character that XML forbids";
 }
 
+TEST(ReportJunit, ClassNamesHaveNoDot) {
+    Report report = tests::sample_report(1);
+    report.played[0].lamp_set = "13.2 V";
+    const std::string xml = report_junit(report);
+    EXPECT_THAT(xml, HasSubstr("13_2 V\" name="));
+    EXPECT_THAT(xml, Not(testing::ContainsRegex("classname=\"[^\"]*[.]")));
+}
+
 TEST(ReportHtml, HostileNamesStayText) {
     const std::string html = report_html(hostile_report(), "no such folder");
     EXPECT_THAT(html, HasSubstr("&lt;script&gt;alert"));
