@@ -116,6 +116,16 @@ TEST(Check, WarnsOfLamps) {
                 HasSubstr("1 file, 0 errors, 0 warnings"));
 }
 
+TEST(Check, SaysNothingOfTheLightOfALampReadByHalf) {
+    const TemporaryFolder folder;
+    std::string table = content_of(library_file("lamps/xenon-low.ies"));
+    const std::size_t number = table.find_last_of("0123456789");
+    table.replace(number, 1, "x");
+    const std::string said = printed("check " + written(folder, "lamp.ies", table), 2);
+    EXPECT_THAT(said, HasSubstr("lamp.ies:"));
+    EXPECT_EQ(lines_of(said).size(), 1U) << said;
+}
+
 TEST(Check, TakesAnythingForAFile) {
     const TemporaryFolder folder;
     written(folder, "empty.yaml", "");

@@ -114,6 +114,20 @@ TEST(Messages, OfARunAndItsTrace) {
     EXPECT_FALSE(std::filesystem::exists(folder / "again"));
 }
 
+TEST(Messages, ARunSaysWhatItFoundAndWhatALampKeeps) {
+    const TemporaryFolder folder;
+    const std::string drive = straight_drive(folder);
+    const auto said = [&](const std::string& flags, const char* out) {
+        return printed("run " + drive + three_moments + flags + " --out " + (folder / out));
+    };
+    const std::string two = said("", "two");
+    EXPECT_THAT(two, testing::ContainsRegex("straight-1: xenon is better than halogen: [0-9.]+ m against [0-9.]+ m \\(\\+"));
+    EXPECT_THAT(two, Not(HasSubstr("--lamp replaces")));
+    const std::string one = said("--lamp mine=" + library_file("lamps/led-low.ies"), "one");
+    EXPECT_THAT(one, HasSubstr("straight-1: --lamp replaces the file alone: the lamp stays a filament at 13.2 V"));
+    EXPECT_THAT(printed("run " + library_file("studies/standard.yaml"), 2), HasSubstr("is a study, expected a drive; `fernlicht study`"));
+}
+
 TEST(Messages, ATraceOutlivesCtrlC) {
     const TemporaryFolder folder;
     const Outcome run =

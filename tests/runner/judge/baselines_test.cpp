@@ -205,6 +205,23 @@ TEST_F(Baselines, ReplacingTakesItsOwnKeysAndLeavesOthers) {
     EXPECT_EQ(state_of(store).size(), 1U + 2U + 4U) << "index, results and frames; those of the old halogen are gone";
 }
 
+TEST_F(Baselines, ANoteIsOfWhatIsNew) {
+    const auto notes = [&] {
+        std::map<std::string, std::string> all;
+        for (const StoredBaseline& entry : list_baselines(store))
+            all[entry.key.lamp_set] = entry.note;
+        return all;
+    };
+    accept_run(run.folder, store, Acceptance::first, "the first");
+    const std::map<std::string, std::string> first = notes();
+    ASSERT_EQ(first.size(), 2U);
+    brighter.report.played.back() = run.report.played.back(); // one lamp set is as it was
+    write_report(brighter.report, brighter.folder);
+    accept_run(brighter.folder, store, Acceptance::replace, "a brighter bulb");
+    const std::string changed = brighter.report.played.front().lamp_set, kept = run.report.played.back().lamp_set;
+    EXPECT_EQ(notes(), (std::map<std::string, std::string>{{changed, "a brighter bulb"}, {kept, "the first"}}));
+}
+
 TEST_F(Baselines, ReplacingAClassLeavesOtherDevices) {
     accept_run(run.folder, store);
     StoredRun elsewhere(temporary.path() / "elsewhere", 1.01);

@@ -445,6 +445,13 @@ TEST_F(StudyProgram, OneProcessAtATimeGoesOnInAFolder) {
     EXPECT_THAT(printed(arguments + " --resume --only straight_old", 2), HasSubstr("was begun with 2 cells, and 1 are asked for now"));
 }
 
+TEST_F(StudyProgram, SaysWhatToAskForWhereNoDriveMeasuresWhatDecides) {
+    const std::string said = printed("study " + write_study_file(folder, xenon, "decide: [detection_card_m]\n") +
+                                         " --frames 0:0 --no-accuracy" + store + " --out " + (folder / "out"),
+                                     1);
+    EXPECT_THAT(said, HasSubstr("as no drive measures visibility: ask for `visibility` in `measure:`"));
+}
+
 TEST_F(StudyProgram, RefusesBeforeAnythingIsDrawn) {
     for (const char* more : {"decide: [reach_3lx_tarket_own_m]\n", "limits: [{reading: reach_3lx_tarket_own_m, at_least: 1}]\n"})
         for (const char* how : {" --list", " --explain", ""})
