@@ -122,7 +122,8 @@ double outer_edge_m(const Road& road, double s_m, bool left);
 /// Of the outermost lane above the road's surface: a sidewalk's.
 double edge_height_m(const Road& road, double s_m, bool left);
 bool is_walked(const Lane& lane);
-/// On six of ten stretches of 180 m of a side without sidewalk, where no object or sign stands 1 to 5.5 m out. `mirrored`: of a network
+constexpr double field_m = 180.0; ///< along the road; its edge may have a ditch and a fence
+/// On six of ten fields, beside no sidewalk, where no object or sign stands 1 to 5.5 m out. `mirrored`: of a network
 /// seen in a mirror.
 bool has_ditch(const Road& road, bool left, std::pair<double, double> s_m, std::uint64_t seed, bool mirrored = false);
 

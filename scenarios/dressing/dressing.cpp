@@ -245,7 +245,6 @@ void dress_ground(RoadMeshOptions& options, bool mirrored) {
         if (out_m == 0.0)
             return stuff(Stuff::gravel);
         static constexpr std::array fields{Stuff::meadow, Stuff::stubble, Stuff::soil};
-        constexpr double field_m = 180.0;
         return stuff(
             fields[Dice(seed, fmt::format("field, road {} {} {}", road.id, left != mirrored ? "left" : "right", std::floor(s_m / field_m)))
                        .of(3)]);

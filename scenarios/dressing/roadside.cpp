@@ -27,10 +27,10 @@ double edge_height_m(const Road& road, double s_m, bool left) {
 bool is_walked(const Lane& lane) { return lane.type == "sidewalk" || lane.type == "walking"; }
 
 bool has_ditch(const Road& road, bool left, std::pair<double, double> s_m, std::uint64_t seed, bool mirrored) {
-    constexpr double stretch_m = 180.0, share = 0.6, nearest_m = 1.0, farthest_m = 5.5;
+    constexpr double share = 0.6, nearest_m = 1.0, farthest_m = 5.5;
     const auto dug_at = [&](double s) {
         return !is_walked(outer_lane(road, s, left)) &&
-               Dice(seed, fmt::format("ditch, road {} {} {}", road.id, left != mirrored ? "left" : "right", std::floor(s / stretch_m)))
+               Dice(seed, fmt::format("ditch, road {} {} {}", road.id, left != mirrored ? "left" : "right", std::floor(s / field_m)))
                        .share() < share;
     };
     if (road.junction != "-1" || !dug_at(s_m.first) || !dug_at(s_m.second))
@@ -171,11 +171,12 @@ bool Dresser::is_clear(const Road& road, const glm::dvec3& place_m, int lane) co
 /// Grass up to 5 cm above the road's edge, and farther out bushes and a field's fence; nothing of it beside sidewalks.
 void Dresser::add_verge(const Road& road, bool left) {
     Dice drawn(settings_.seed, fmt::format("verge, road {} {}", road.id, left ? "left" : "right"));
-    const double fence_m = drawn.share() < 0.5 ? drawn.between(6.5, 9.0) : 0.0;
     for (double from = 0.0; from < road.length_m; from += stretch_m) {
         TriangleSoup grass;
         const double to = std::min(from + stretch_m, road.length_m);
         Dice here = drawn.fork();
+        Dice field(settings_.seed, fmt::format("field fence, road {} {} {}", road.id, left ? "left" : "right", std::floor(from / field_m)));
+        const double fence_m = field.share() < 0.5 ? field.between(6.5, 9.0) : 0.0;
         if (is_walked(outer_lane(road, 0.5 * (from + to), left)) || road.junction != "-1" ||
             route_.nearest_m(beside(road, 0.5 * (from + to), left, 0.0).position_m) > far_from_route_m)
             continue;
@@ -188,7 +189,7 @@ void Dresser::add_verge(const Road& road, bool left) {
                 append_placed(grass, dressed_tuft(std::min(0.45, most) * here.between(0.7, 1.0), here.fork()).low, pose);
         }
         add_mesh(grass, {}, fmt::format("grass, road {} s {:.0f}-{:.0f}", road.id, from, to), true, false, false);
-        for (double s = from + here.between(0.0, 30.0); s < to; s += here.between(12.0, 45.0)) {
+        for (double s = from + here.between(0.0, 50.0); s < to; s += here.between(20.0, 70.0)) {
             const double radius = here.between(0.6, 1.5);
             const Pose pose = beside(road, s, left, here.between(9.5, 15.0));
             if (is_free(road, pose.position_m, radius))

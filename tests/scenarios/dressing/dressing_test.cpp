@@ -2,6 +2,7 @@
 
 #include "scenarios/dressing/dressed_object.h"
 #include "scenarios/drives/play/staged_scene.h"
+#include "scenarios/models/road_user_bodies.h"
 #include "scenarios/roads/mesh/mesh_materials.h"
 #include "scenarios/roads/mesh/road_mesh.h"
 #include "tests/scenarios/roads/opendrive_text.h"
