@@ -1,9 +1,12 @@
 #include "scenarios/roads/opendrive/opendrive_parts.h"
 #include "scenarios/roads/road_network.h"
+#include "scenarios/values/errors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <string_view>
 #include <utility>
 
 namespace fernlicht::opendrive {
@@ -17,10 +20,23 @@ std::optional<int> read_link(XmlFile& xml, pugi::xml_node lane_node, const char*
     return link ? std::optional(xml.integer(link, "id")) : std::nullopt;
 }
 
+/// e_laneType of OpenDRIVE 1.4 to 1.8.
+constexpr std::array<std::string_view, 32> lane_types{
+    "shoulder",      "border",   "driving",  "stop",     "none",      "restricted", "parking", "median",
+    "biking",        "sidewalk", "curb",     "exit",     "entry",     "onRamp",     "offRamp", "connectingRamp",
+    "slipLane",      "walking",  "HOV",      "bus",      "taxi",      "shared",     "tram",    "rail",
+    "bidirectional", "special1", "special2", "special3", "roadWorks", "mwyEntry",   "mwyExit", "roadMarks"};
+
 Lane read_lane(XmlFile& xml, pugi::xml_node node) {
     Lane lane;
     lane.id = xml.integer(node, "id");
     lane.type = xml.text(node, "type", "none");
+    if (std::ranges::find(lane_types, lane.type) == lane_types.end()) {
+        const std::string nearest = nearest_name(lane.type, lane_types);
+        xml.warn_once(node, "lane type " + lane.type,
+                      fmt::format("the lane type '{}' is none of OpenDRIVE's{}: nobody drives there", lane.type,
+                                  nearest.empty() ? "" : " (the nearest is '" + nearest + "')"));
+    }
     const std::string level = xml.text(node, "level", "false");
     lane.level = level == "true" || level == "1";
     lane.reversed = xml.text(node, "direction") == "reversed";

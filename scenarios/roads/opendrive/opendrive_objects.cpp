@@ -132,6 +132,8 @@ bool has_size(const RoadObject& object) {
     return !object.outline_m.empty() || object.radius_m > 0.0 || (object.length_m > 0.0 && object.width_m > 0.0) || object.height_m > 0.0;
 }
 
+bool is_wall(const RoadObject& o) { return o.type == "barrier" || o.type == "soundBarrier" || o.type == "railing" || o.type == "building"; }
+
 } // namespace
 
 void read_objects(XmlFile& xml, pugi::xml_node road_node, Road& road) {
@@ -155,6 +157,8 @@ void read_objects(XmlFile& xml, pugi::xml_node road_node, Road& road) {
                 road.objects.push_back(one);
             if (!has_size(road.objects.back()))
                 xml.warn_once(node, "no size", name + " has no size: it is not rendered");
+            else if (is_wall(one) && one.outline_m.empty() && one.length_m == 0.0 && !node.child("repeat"))
+                xml.warn_once(node, "no length", name + " has no length: it is 0.1 m long");
         }
     }
 }
