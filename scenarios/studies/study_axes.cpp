@@ -105,6 +105,9 @@ void read_range(const YamlMap& keys, StudyAxis& axis) {
         const double width = step->number_above(0.0, to - from), steps = std::floor((to - from) / width + 1e-9);
         if (steps >= static_cast<double>(max_axis_values))
             step->refuse(fmt::format("{:.0f} steps", steps), fmt::format("at most {}", max_axis_values - 1));
+        if (from + width * steps < to - 1e-6 * (to - from))
+            step->refuse(fmt::format("{:g}, which leads past {:g} from {:g}", width, to, from),
+                         fmt::format("a step that ends there, such as {:g}", (to - from) / std::ceil((to - from) / width)));
         for (int i = 0; i <= static_cast<int>(steps); ++i)
             axis.values.push_back(number_text(from + width * i));
     }

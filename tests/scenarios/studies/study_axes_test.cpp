@@ -70,7 +70,7 @@ TEST_F(StudyAxes, WithoutAxesNothingIsNamedByPoints) {
 
 TEST_F(StudyAxes, EachAloneLeavesTheOthersAsTheDriveHasThem) {
     const Study study =
-        read("axes: {weather.fog.visibility_m: [200, 400], speed_kmh: {from: 50, to: 120, step: 30}}\nsample: one_at_a_time\n");
+        read("axes: {weather.fog.visibility_m: [200, 400], speed_kmh: {from: 50, to: 110, step: 30}}\nsample: one_at_a_time\n");
     EXPECT_THAT(study.points, ElementsAre(ElementsAre("", ""), ElementsAre("200", ""), ElementsAre("400", ""), ElementsAre("", "50"),
                                           ElementsAre("", "80"), ElementsAre("", "110")));
     EXPECT_EQ(cells_of(study)[0].condition, "night, aim -1 %, 13.2 V, base");
@@ -167,6 +167,8 @@ TEST_F(StudyAxes, PathsReachNamesListsAndShortForms) {
 }
 
 TEST_F(StudyAxes, RefusesInOneSentenceWithItsAxis) {
+    EXPECT_THAT(refusal("axes: {weather.wetness: {from: 0, to: 1, step: 0.3}}\n"),
+                HasSubstr("step: 0.3, which leads past 1 from 0, expected a step that ends there, such as 0.25"));
     EXPECT_THAT(refusal("axes: {weather.wettness: [0, 1]}\n"),
                 AllOf(HasSubstr("study.yaml:6:"), HasSubstr("'weather.wettness', which no drive has"),
                       HasSubstr("'wetness', the nearest known key of weather")));
