@@ -36,7 +36,7 @@ constexpr std::array rows{
               no_shadows, 1, true, false, false, "LIGHT=PROJECTED DISTANCE=SQUARED BEHIND=EACH TONE=RATIONAL SUN=1 EMISSIVE=FADING"},
     Technique{"full-vertex-only", TechniqueKind::as_published, 5, ">= 60", thesis_table,
               "the vertex work of full; per fragment only its textures: the surface's times the sum of the beams' in shares of their peak; "
-              "the distances come to the fragments and nothing is made of them, so there is no illuminance",
+              "distances are passed on and not used, so there is no illuminance",
               "incidence angle, distance, sky, which side of the lamp a point is on, shadows, the lamps' colour", 1, false, false, false,
               "LIGHT=PROJECTED DISTANCE=SQUARED TONE=SHARE EMISSIVE=FADING FRAGMENT_TEXTURES_ONLY=1"},
     Technique{"full-fragment-only", TechniqueKind::as_published, 6, "~22", thesis_table,

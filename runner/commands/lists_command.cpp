@@ -26,7 +26,7 @@ constexpr List lists[] = {
     {"techniques", "list techniques and shadow methods: what each computes and ignores",
      [] { return techniques_document(techniques(), shadow_method_names()); },
      [] { return techniques_json(techniques(), shadow_method_names()); }},
-    {"readings", "list the readings of a drive: names, units, which way is better, definitions", readings_document, readings_json},
+    {"readings", "list all readings: names, units, which way is better, definitions", readings_document, readings_json},
     {"signals", "list the signals of lamp control: name, unit, range, who writes them, and whether a CAN bus may", signals_document,
      signals_json}};
 

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <chrono>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <sstream>
 #include <sys/resource.h>
@@ -146,6 +147,19 @@ CpuUse cpu_use() {
     if (const std::vector<double> load = numbers(first_line("/proc/loadavg"), 0); load.size() >= 3)
         use.load_average = {load[0], load[1], load[2]};
     return use;
+}
+
+std::string disturbance_text(const OtherLoad& others, std::size_t cores) {
+    constexpr double disturbing_cores = 0.2;
+    if (!others.cores)
+        return "whether others used the machine could not be seen: /proc/stat does not tell";
+    if (*others.cores <= disturbing_cores)
+        return "";
+    return fmt::format("others used {:.2f} of the machine's {} cores meanwhile{}: times are longer than on a quiet machine, and their "
+                       "spread is wider",
+                       *others.cores, cores,
+                       others.busiest.empty() ? ""
+                                              : fmt::format(" (busiest seen: '{}' with {:.2f})", others.busiest, others.busiest_cores));
 }
 
 OtherLoad other_load(const CpuUse& before, const CpuUse& after, int own_process) {

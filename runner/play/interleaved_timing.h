@@ -75,8 +75,8 @@ struct OtherLoad {
 };
 OtherLoad other_load(const CpuUse& before, const CpuUse& after, int own_process);
 
-/// Above it times are called disturbed.
-inline constexpr double disturbing_cores = 0.2;
+/// A sentence where others used more than a fifth of a core, or where that cannot be told; "" for a quiet machine.
+std::string disturbance_text(const OtherLoad& others, std::size_t cores);
 
 /// Ticks of work in the line `cpu` of /proc/stat: user, nice, system, irq, softirq and steal. nullopt when it is not that.
 std::optional<double> machine_ticks(const std::string& stat);

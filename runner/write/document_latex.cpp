@@ -85,13 +85,18 @@ std::string table_latex(const Table& table) {
 }
 
 std::string document_latex(const Document& document) {
-    std::string out = "% \\usepackage{booktabs,graphicx}; the table is as wide as the text\n";
+    std::string out = "% \\usepackage{booktabs,graphicx}; tables are as wide as the text of both columns\n";
+    const auto floating = [](const Table& table) {
+        return fmt::format("\\begin{{table*}}\n\\centering\n\\caption{{{}}}\n\\label{{tab:{}}}\n\\resizebox{{\\linewidth}}{{!}}{{%\n{}}}\n"
+                           "\\end{{table*}}\n",
+                           latex_text(table.caption), table.name, table_latex(table));
+    };
     for (const Section& section : document.sections)
         for (const DocumentPart& block : section.blocks)
             if (const auto* table = std::get_if<Table>(&block))
-                out += "\\resizebox{\\linewidth}{!}{%\n" + table_latex(*table) + "}\n";
+                out += floating(*table);
             else if (const auto* matrix = std::get_if<PlaceMatrix>(&block))
-                out += "\\resizebox{\\linewidth}{!}{%\n" + table_latex(table_of(*matrix)) + "}\n";
+                out += floating(table_of(*matrix));
             else if (const auto* paragraph = std::get_if<std::string>(&block))
                 out += "% " + clean_text(*paragraph) + "\n";
             else if (const auto* listing = std::get_if<Listing>(&block)) {

@@ -27,9 +27,11 @@ void write_paper(const std::vector<PaperFigure>& figures, const Document& tables
             write_file(folder / (name + (as_pdf ? ".pdf" : ".svg")), printed);
         }
         write_file(folder / (name + ".csv"), table_csv(figure.data));
-        tex += fmt::format("\\begin{{figure}}\n\\centering\n\\includegraphics[width={:g}mm]{{{}.pdf}}\n\\caption{{{}}}\n\\label{{fig:{}}}\n"
-                           "\\end{{figure}}\n",
-                           figure.width_mm, name, latex_text(figure.caption), name);
+        const char* const kind = figure.width_mm > one_column_mm ? "figure*" : "figure";
+        tex +=
+            fmt::format("\\begin{{{0}}}\n\\centering\n\\includegraphics[width={1:g}mm]{{{2}.pdf}}\n\\caption{{{3}}}\n\\label{{fig:{2}}}\n"
+                        "\\end{{{0}}}\n",
+                        kind, figure.width_mm, name, latex_text(figure.caption));
     }
     write_file(folder / "figures.tex", tex);
     write_file(folder / "tables.tex", document_latex(tables));

@@ -165,6 +165,8 @@ Document document(const AccuracyResult& result) {
           "both. Hollow ones are beaten in both by the one that the list names; \xE2\x80\x9Cperhaps\xE2\x80\x9D where bars overlap or "
           "too few times were taken to be sure. What lies in the shaded band is below what the reference itself is worth, and no error is "
           "claimed there."}});
+    if (const std::string disturbed = disturbance_text(result.others, result.cores); !disturbed.empty())
+        document.sections.front().blocks.emplace_back("Warning: " + disturbed + ".");
     for (const WorkPrecision& diagram : result.diagrams)
         document.sections.push_back(work_precision_section(diagram));
     for (const DriveAccuracy& drive : result.drives)

@@ -239,16 +239,8 @@ std::string verdict_text(const PairedRatio& ratio) {
 
 std::vector<std::string> bench_warnings(const BenchResult& result) {
     std::vector<std::string> warnings;
-    if (!result.others.cores)
-        warnings.emplace_back("whether others used the machine could not be seen: /proc/stat does not tell");
-    else if (*result.others.cores > disturbing_cores)
-        warnings.push_back(
-            fmt::format("others used {:.2f} of the machine's {} cores meanwhile{}: times are longer than on a quiet machine, and "
-                        "their spread is wider",
-                        *result.others.cores, result.cores,
-                        result.others.busiest.empty()
-                            ? ""
-                            : fmt::format(" (busiest seen: '{}' with {:.2f})", result.others.busiest, result.others.busiest_cores)));
+    if (std::string disturbed = disturbance_text(result.others, result.cores); !disturbed.empty())
+        warnings.push_back(std::move(disturbed));
     if (result.orders.size() < fewest_rounds)
         warnings.push_back(fmt::format("{} rounds are too few to tell techniques apart; it takes {}", result.orders.size(), fewest_rounds));
     if (!result.interrupted.empty())

@@ -19,6 +19,7 @@
 #include "scenarios/lamps/lamp_text.h"
 #include "scenarios/lamps/mounted_lamp.h"
 #include "scenarios/models/model.h"
+#include "scenarios/openscenario/play_story.h"
 #include "scenarios/openscenario/reader/read_storyboard.h"
 #include "scenarios/ratings/rating.h"
 #include "scenarios/roads/road_network.h"
@@ -221,7 +222,7 @@ void check_storyboard_file(const fs::path& path, FileLook& look) {
         if (!XmlFile(path, opened, "OpenSCENARIO", "an OpenSCENARIO file").root().child("ParameterValueDistribution")) {
             const osc::Storyboard story = osc::read_storyboard(path);
             if (!story.road_file.empty())
-                read_opendrive(story.road_file);
+                osc::play_story(story, read_opendrive(story.road_file), {.max_s = 0.1}); // where everybody begins is there
             for (const std::string& note : story.notes)
                 warn_as_told(look, path, note);
             return;

@@ -138,7 +138,7 @@ std::string key_sentence(const ComparedDrive& drive) {
                        better == Better::neither               ? "other"
                        : is_more == (better == Better::higher) ? "better"
                                                                : "worse",
-                       first, within ? ", by no more than 0.1° of aim," : "", worded(*found.best), worded(*found.first),
+                       first, within ? " by no more than 0.1° of aim" : "", worded(*found.best), worded(*found.first),
                        found.changed() + unit_suffix(found.first->unit()), found.share().empty() ? "" : ", " + found.share(),
                        reading_label(keys.front()));
 }

@@ -386,9 +386,13 @@ void repeat(const std::deque<Stage>& stages, Device& device, const RendererSetti
 /// for what lamps do not light, and what policies made up for what a car said.
 void add_warnings(const std::deque<Stage>& stages, const std::vector<Drive>& drives, const TickRange& ticks, Report& report) {
     for (const Stage& stage : stages)
-        if (const int asked = ticks_to_play(stage.drive, ticks), all = tick_count(stage.drive); asked < all)
-            report.warnings.push_back(
-                fmt::format("{}: {} of {} moments, as --frames asks; readings are of these alone", stage.drive.name, asked, all));
+        if (const int asked = ticks_to_play(stage.drive, ticks), all = tick_count(stage.drive); asked < all) {
+            bool stored = false;
+            for (int tick = ticks.first; tick < ticks.first + asked; ++tick)
+                stored = stored || is_captured(stage.drive.capture, tick, stage.drive.step_s);
+            report.warnings.push_back(fmt::format("{}: {} of {} moments, as --frames asks; readings are of these alone{}", stage.drive.name,
+                                                  asked, all, stored ? "" : ", and none is stored (--capture all stores every one)"));
+        }
     for (const Stage& stage : stages)
         if (const auto& tolerances = stage.drive.seeing.tolerances;
             tolerances && !stage.drive.vehicle && tolerance_of(*tolerances, ToleranceKind::load).counts())

@@ -52,7 +52,7 @@ void conclude(const StudyResult& result, DecidedReading& decided) {
     }
     std::vector<std::size_t> by_size = decided.decided_by;
     std::ranges::stable_sort(by_size, {}, [&](std::size_t i) { return result.changes[i].size(); });
-    decided.told = by_size[by_size.size() / 2];
+    decided.told = by_size[(by_size.size() - 1) / 2]; // of two in the middle the smaller, which claims less
 }
 
 /// How far apart the marks of two aims lie, up and to the right together, and how much of that is up; nullopt where one was not found.
@@ -276,7 +276,7 @@ std::vector<std::string> same_results(const StudyResult& result, const std::vect
 Table decision_table(const StudyResult& result, const std::vector<Decision>& decisions) {
     const bool several = decisions.size() > 1;
     Table table{.name = "decision",
-                .caption = "Old, new and change: on the route whose change is the median of those that count",
+                .caption = "Old, new and change: on the route with the median of the changes that count, of two the smaller",
                 .columns = columns_of(std::string(several ? "new / old<|" : "") +
                                       "reading<|is<|old|new|change|%|± 0.1° of aim|unit<|results|where<"),
                 .rows = {},

@@ -26,7 +26,7 @@ struct DecidedReading {
     std::vector<std::size_t> changes; ///< of the study, one a distinct result: places that give the same one count once
     std::vector<std::pair<std::size_t, std::size_t>> places; ///< every change, and the one among `changes` that it counts as
     std::vector<std::size_t> decided_by;                     ///< those of `changes` that make the outcome
-    std::size_t told = 0;                                    ///< of `decided_by` the one whose change is the median in size
+    std::size_t told = 0; ///< of `decided_by` the one whose change is the median in size, of two the smaller
 };
 
 struct Decision {

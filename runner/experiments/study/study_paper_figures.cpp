@@ -66,11 +66,11 @@ std::vector<PaperFigure> paper_figures(const StudyResult& result) {
             figures.push_back(
                 {file_name_of(fmt::format("ranking_{}-{}", pair.tested, pair.against)), drawing_of(*dots),
                  fmt::format(
-                     "What {} changes against {}, in per cent of the old value, better to the right. Dots: the change that is the median "
-                     "in size of all results that decide; lines: what numerical uncertainty, noise of the candela tables and 0.1° of aim "
-                     "leave "
-                     "open; ticks: single routes. Hollow: within that. Numbers at the right: the same in the reading's unit. Source: "
-                     "study.json of the study {}, members changes.change, uncertainty, by_noise and by_tenth_degree.",
+                     "What {} changes against {}, in per cent of the old value, better to the right. Dots: the median of the changes that "
+                     "are real, of two the smaller; lines: what numerical error, noise of the candela tables and 0.1° of aim leave open; "
+                     "ticks: single routes. Hollow: within that. Numbers at the right: the same in the reading's unit. Source: study.json "
+                     "of "
+                     "the study {}.",
                      pair.tested, pair.against, result.study.name),
                  two_columns_mm, decision_table(result, {decision})});
         }
@@ -88,7 +88,7 @@ Document paper_tables(const StudyResult& result) {
             section.blocks.push_back(block);
     section.blocks.emplace_back(decision_table(result, decisions));
     section.blocks.emplace_back("Source: study.json and study.csv of the study " + result.study.name +
-                                "; ± 0.1° of aim is by_tenth_degree.");
+                                "; ± 0.1° of aim: what an aim wrong by so much changes.");
     return {result.study.title, {section}};
 }
 

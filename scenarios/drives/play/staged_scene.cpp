@@ -82,6 +82,10 @@ Scene staged_scene(Drive& drive, const RoadNetwork& network, const Route& route)
     Scene scene = build_scene(network, options);
     if (drive.dressing == Dressing::dressed)
         dress(scene, drive, network, route, options);
+    for (const PlacedModel& placed : drive.scenery)
+        if (placed.along_route && placed.position_m.x > route.length_m())
+            drive.notes.push_back(fmt::format("{}: stands {:g} m along the route, which ends at {:.0f} m", placed.file.filename().string(),
+                                              placed.position_m.x, route.length_m()));
     add_scenery(scene, drive.scenery, route);
     find_street_lamps(drive, network);
     add_street_lamp_poles(drive, route, scene);

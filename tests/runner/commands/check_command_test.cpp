@@ -123,7 +123,21 @@ TEST(Check, SaysNothingOfTheLightOfALampReadByHalf) {
     table.replace(number, 1, "x");
     const std::string said = printed("check " + written(folder, "lamp.ies", table), 2);
     EXPECT_THAT(said, HasSubstr("lamp.ies:"));
-    EXPECT_EQ(lines_of(said).size(), 1U) << said;
+    EXPECT_THAT(said, HasSubstr("1 file, 1 error, 0 warnings")) << "no finding of what the rest would be";
+}
+
+TEST(Check, FindsAStoryboardsPlacesThatAreNotThere) {
+    const TemporaryFolder folder;
+    std::string story = content_of(library_file("storyboards/s-bend-dusk.xosc"));
+    const std::size_t road = story.rfind("../roads/");
+    ASSERT_NE(road, std::string::npos);
+    story.replace(road, 3, library_file(""));
+    const std::string place = "roadId=\"";
+    const std::size_t at = story.find(place);
+    ASSERT_NE(at, std::string::npos);
+    EXPECT_THAT(printed("check " + written(folder, "here.xosc", story)), HasSubstr("0 errors"));
+    story.insert(at + place.size(), "7");
+    EXPECT_THAT(printed("check " + written(folder, "nowhere.xosc", story), 2), HasSubstr("nowhere.xosc:"));
 }
 
 TEST(Check, TakesAnythingForAFile) {

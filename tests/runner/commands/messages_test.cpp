@@ -123,7 +123,7 @@ TEST(Messages, ARunSaysWhatItFoundAndWhatALampKeeps) {
     const std::string two = said("", "two");
     EXPECT_THAT(two, testing::ContainsRegex("straight-1: xenon is better than halogen: [0-9.]+ m against [0-9.]+ m \\(\\+"));
     EXPECT_THAT(two, Not(HasSubstr("--lamp replaces")));
-    const std::string one = said("--lamp mine=" + library_file("lamps/led-low.ies"), "one");
+    const std::string one = said("--lamp " + library_file("lamps/led-low.ies"), "one");
     EXPECT_THAT(one, HasSubstr("straight-1: --lamp replaces the file alone: the lamp stays a filament at 13.2 V"));
     EXPECT_THAT(printed("run " + library_file("studies/standard.yaml"), 2), HasSubstr("is a study, expected a drive; `fernlicht study`"));
 }
@@ -156,6 +156,8 @@ TEST(Messages, QuietAndWarningLeaveTheWarningsOfARunThatIsWell) {
     EXPECT_EQ(said("--quiet", "quiet"), warning);
     EXPECT_EQ(said("--log-level warning", "warning"), warning);
     EXPECT_EQ(said("--log-level error", "silent"), "");
+    EXPECT_THAT(printed("run " + drive + " --frames 1:1 --resolution 96x72 --no-accuracy --quiet --out " + (folder / "none")),
+                HasSubstr("of these alone, and none is stored (--capture all stores every one)"));
 }
 
 TEST(Messages, AnnotationsNameFileAndLineOfALimit) {

@@ -215,11 +215,13 @@ TEST_F(Baselines, ANoteIsOfWhatIsNew) {
     accept_run(run.folder, store, Acceptance::first, "the first");
     const std::map<std::string, std::string> first = notes();
     ASSERT_EQ(first.size(), 2U);
-    brighter.report.played.back() = run.report.played.back(); // one lamp set is as it was
-    write_report(brighter.report, brighter.folder);
-    accept_run(brighter.folder, store, Acceptance::replace, "a brighter bulb");
-    const std::string changed = brighter.report.played.front().lamp_set, kept = run.report.played.back().lamp_set;
-    EXPECT_EQ(notes(), (std::map<std::string, std::string>{{changed, "a brighter bulb"}, {kept, "the first"}}));
+    StoredRun again(temporary.path() / "again");
+    Reading& changed = again.report.played.front().readings.front();
+    changed.value = Value(2.0 * changed.value.figure().value());
+    write_report(again.report, again.folder);
+    accept_run(again.folder, store, Acceptance::replace, "a brighter bulb");
+    EXPECT_EQ(notes(), (std::map<std::string, std::string>{{again.report.played.front().lamp_set, "a brighter bulb"},
+                                                           {again.report.played.back().lamp_set, "the first"}}));
 }
 
 TEST_F(Baselines, ReplacingAClassLeavesOtherDevices) {

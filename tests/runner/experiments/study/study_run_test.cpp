@@ -140,7 +140,9 @@ TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
         EXPECT_THAT(content_of(folder / "out/paper/figures.tex"), HasSubstr(std::string("mm]{") + name + ".pdf}"));
     }
     EXPECT_THAT(content_of(folder / "out/paper/figures.tex"), HasSubstr("Source: moments of the cells straight\\_old, straight\\_new"));
-    EXPECT_THAT(content_of(folder / "out/paper/tables.tex"), HasSubstr("\\toprule"));
+    EXPECT_THAT(content_of(folder / "out/paper/tables.tex"),
+                AllOf(HasSubstr("\\caption{Old, new and change"), HasSubstr("\\label{tab:decision}")));
+    EXPECT_THAT(content_of(folder / "out/paper/figures.tex"), HasSubstr("\\begin{figure*}"));
     EXPECT_FALSE(std::filesystem::exists(folder / "out/INCOMPLETE"));
     if (run_shell("command -v chromium").exit_code != 0)
         GTEST_SKIP() << "no Chromium on this machine: the page is not opened";
@@ -446,7 +448,7 @@ TEST_F(StudyProgram, OneProcessAtATimeGoesOnInAFolder) {
 }
 
 TEST_F(StudyProgram, SaysWhatToAskForWhereNoDriveMeasuresWhatDecides) {
-    const std::string said = printed("study " + write_study_file(folder, xenon, "decide: [detection_card_m]\n") +
+    const std::string said = printed("study " + write_study_file(folder, xenon, "decide: [detection_card_own_m]\n") +
                                          " --frames 0:0 --no-accuracy" + store + " --out " + (folder / "out"),
                                      1);
     EXPECT_THAT(said, HasSubstr("as no drive measures visibility: ask for `visibility` in `measure:`"));
