@@ -124,7 +124,7 @@ TEST(OpenDrive, WidthsBordersAndOffset) {
 TEST(OpenDrive, MisspeltLaneTypesAndWallsWithoutLengthAreTold) {
     const RoadNetwork network = network_of(RoadText{
         .lanes = section(0.0, lane(1), lane(-1, "3.5", "", "drivng")),
-        .rest = R"(<objects><object id="7" type="barrier" s="10" t="-5" zOffset="0" lenght="60" width="0.3" height="0.8"/></objects>)"});
+        .rest = R"(<objects><object id="7" type="barrier" s="10" t="-5" zOffset="0" Length="60" width="0.3" height="0.8"/></objects>)"});
     EXPECT_THAT(network.warnings, Contains(HasSubstr("'drivng' is none of OpenDRIVE's (the nearest is 'driving'): nobody drives there")));
     EXPECT_THAT(network.warnings, Contains(HasSubstr("object '7' has no length: it is 0.1 m long")));
     EXPECT_EQ(network.warnings.size(), 2U);
