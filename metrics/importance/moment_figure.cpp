@@ -13,6 +13,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <stdexcept>
 
 namespace fernlicht {
 namespace {
@@ -358,6 +359,8 @@ MomentFigurePointer evenness_figure(const ReadingKey& key, const HomogeneityPara
     LanePlaces places = lane_places(drive, asked, route, lit, to_parent(moment.ego, driver_eye_m(drive)));
     if (key.quantity == Quantity::gradient_per_m || key.quantity == Quantity::gradient_per_deg)
         return std::make_shared<SteepestGradient>(key, asked.min_lx, std::move(places));
+    if (key.quantity != Quantity::foreground && key.quantity != Quantity::foreground_ratio)
+        throw std::logic_error("evenness_figure: " + name_of(key) + " has no figure");
     return std::make_shared<Foreground>(key.quantity == Quantity::foreground_ratio, std::move(places));
 }
 

@@ -187,7 +187,11 @@ double tilt_factor(IesNumbers& numbers, Notes& notes) {
     const auto count = static_cast<std::size_t>(numbers.whole("number of tilt angles", 1, 1000));
     const std::vector<double> angles = numbers.numbers("tilt angle", count), factors = numbers.numbers("tilt factor", count);
     const auto zero = std::find(angles.begin(), angles.end(), 0.0);
-    const double factor = zero == angles.end() ? 1.0 : factors[static_cast<std::size_t>(zero - angles.begin())];
+    if (zero == angles.end()) {
+        notes.push_back("TILT has no factor for tilt 0, in which the lamp was measured: 1 is taken.");
+        return 1.0;
+    }
+    const double factor = factors[static_cast<std::size_t>(zero - angles.begin())];
     notes.push_back(
         fmt::format("TILT factors hold for tilted luminaires; the lamp is taken as measured, with the factor {} of tilt 0.", factor));
     return factor;

@@ -268,6 +268,9 @@ TEST_F(IesFile, PaddingWithZerosAt90IsNoData) {
 TEST_F(IesFile, TiltFactorsAreThoseOfTheMeasuredPosition) {
     const std::string included = "IESNA91\nTILT=INCLUDE\n1\n3\n0 15 90\n0.5 0.6 0.7\n" + std::string(small_numbers);
     EXPECT_DOUBLE_EQ(peak_of(read("i.ies", included).table).cd, 16.5);
+    const LampFile without = read("w.ies", "IESNA91\nTILT=INCLUDE\n1\n2\n15 90\n0.6 0.7\n" + std::string(small_numbers));
+    EXPECT_DOUBLE_EQ(peak_of(without.table).cd, 33.0);
+    EXPECT_THAT(all_notes(without), HasSubstr("TILT has no factor for tilt 0, in which the lamp was measured: 1 is taken."));
     write("lamp.tlt", "1\n3\n0 15 90\n0.5 0.6 0.7\n");
     const LampFile lamp = read("f.ies", "IESNA91\nTILT=lamp.tlt\n" + std::string(small_numbers));
     EXPECT_DOUBLE_EQ(peak_of(lamp.table).cd, 16.5);
