@@ -3,6 +3,9 @@
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <utility>
 
 namespace fernlicht {
 namespace {
@@ -43,6 +46,20 @@ bool can_be_read(const Drive& drive, const Readings& others, ReadingKey key) {
 
 } // namespace
 
+std::string asked_for_by(std::string_view name) {
+    static constexpr std::array<std::pair<std::string_view, const char*>, 19> rows{{
+        {"glare_", "glare"},           {"mirror_", "glare"},          {"sensor_", "sensors"},
+        {"detection_", "visibility"},  {"undetected_", "visibility"}, {"visibility_", "visibility"},
+        {"background_", "visibility"}, {"mesopic_", "visibility"},    {"uniformity_", "homogeneity"},
+        {"gradient_", "homogeneity"},  {"patch_", "homogeneity"},     {"foreground_", "homogeneity"},
+        {"kerb_", "places"},           {"board_", "places"},          {"marking_", "places"},
+        {"reach_", "extent"},          {"unlit_", "extent"},          {"width_", "extent"},
+        {"area_", "extent"},
+    }};
+    const auto found = std::ranges::find_if(rows, [&](const auto& row) { return name.starts_with(row.first); });
+    return found == rows.end() ? "" : found->second;
+}
+
 void check_names(const Drive& drive, const Readings& others) {
     check_subjects(drive);
     if (drive.seeing.tolerances)
@@ -51,10 +68,17 @@ void check_names(const Drive& drive, const Readings& others) {
                 throw InputError({drive.file, 0, 0, "measure.tolerances.limits"}, "found reading '" + printable(limit.reading) + "'",
                                  "a reading of this drive, as reach_5lx_target_own_right_edge_m");
     for (const Limit& limit : drive.limits)
-        if (const auto key = key_of(limit.reading); !key || !can_be_read(drive, others, *key))
+        if (const auto key = key_of(limit.reading); !key || !can_be_read(drive, others, *key)) {
+            const std::string measure = key ? asked_for_by(limit.reading) : "";
+            const bool is_measured =
+                std::ranges::any_of(others, [&](const auto& other) { return asked_for_by(name_of(other.key)) == measure; });
+            if (!measure.empty() && !is_measured)
+                throw InputError({drive.file, limit.line, 0, "limits"}, "found reading '" + printable(limit.reading) + "'",
+                                 fmt::format("`{}` in `measure:`, which asks for it", measure));
             throw InputError({drive.file, limit.line, 0, "limits"}, "found reading '" + printable(limit.reading) + "'",
                              "a name as reach_5lx_road_own_m, width_3lx_target_all_at_50m_m, probe_NAME_lx of a probe of this drive or "
                              "frame_time_median_ms");
+        }
 }
 
 } // namespace fernlicht

@@ -1,4 +1,4 @@
-// Figures of seeing and glare over the moments of a drive, as report.json stores and the page draws them.
+// Figures of seeing and glare over the moments of a drive, as moments-*.csv stores and the page draws them.
 #pragma once
 
 #include "metrics/readings/value.h"

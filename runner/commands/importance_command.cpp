@@ -28,7 +28,7 @@ struct ImportanceFlags {
 
 int tell_importance(const ImportanceFlags& flags, const std::vector<std::string>& command) {
     if (flags.reading.empty() && flags.rating.empty())
-        refuse_flag("--reading", "none", "a reading, or a row of a rating (--rating, --row)");
+        throw InputError({{}, 0, 0, "--reading"}, "is missing", "a reading, or a row of a rating (--rating, --row)");
     if (!flags.rating.empty() && !flags.recipe.empty())
         refuse_flag("--recipe", "it with --rating", "lamp files that need none");
     ImportanceRequest request;

@@ -1,11 +1,11 @@
 #include "runner/experiments/study/study_result.h"
 
+#include "metrics/folds/reading_names.h"
 #include "metrics/readings/reading_labels.h"
 #include "runner/findings/run_context.h"
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <string_view>
 
@@ -34,21 +34,6 @@ std::string no_such_reading(const std::string& name, const std::set<ReadingKey>&
     std::ranges::sort(names);
     const std::string nearest = nearest_name(name, names);
     return "there is no reading of this name" + (nearest.empty() ? "" : "; the nearest name is " + nearest);
-}
-
-/// What a drive is to measure for readings whose names begin so; "" where it is no affair of `measure:`.
-std::string asked_for_by(std::string_view name) {
-    static constexpr std::array<std::pair<std::string_view, const char*>, 19> rows{{
-        {"glare_", "glare"},           {"mirror_", "glare"},          {"sensor_", "sensors"},
-        {"detection_", "visibility"},  {"undetected_", "visibility"}, {"visibility_", "visibility"},
-        {"background_", "visibility"}, {"mesopic_", "visibility"},    {"uniformity_", "homogeneity"},
-        {"gradient_", "homogeneity"},  {"patch_", "homogeneity"},     {"foreground_", "homogeneity"},
-        {"kerb_", "places"},           {"board_", "places"},          {"marking_", "places"},
-        {"reach_", "extent"},          {"unlit_", "extent"},          {"width_", "extent"},
-        {"area_", "extent"},
-    }};
-    const auto found = std::ranges::find_if(rows, [&](const auto& row) { return name.starts_with(row.first); });
-    return found == rows.end() ? "" : found->second;
 }
 
 /// Where no cell has any reading that its beginning asks for: "; ask for `glare` in `measure:`".

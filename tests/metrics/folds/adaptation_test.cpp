@@ -2,8 +2,8 @@
 #include "metrics/folds/adaptation.h"
 
 #include "metrics/glare/glare.h"
-#include "tests/runner/folds/asphalt_by_hand.h"
-#include "tests/runner/folds/one_lamp_straight.h"
+#include "tests/metrics/folds/asphalt_by_hand.h"
+#include "tests/metrics/folds/one_lamp_straight.h"
 
 #include <algorithm>
 #include <cmath>

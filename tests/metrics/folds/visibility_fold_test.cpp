@@ -1,6 +1,6 @@
 // Small targets, evenness and light on boards over a drive on the straight, at places worked out by hand.
-#include "tests/runner/folds/asphalt_by_hand.h"
-#include "tests/runner/folds/one_lamp_straight.h"
+#include "tests/metrics/folds/asphalt_by_hand.h"
+#include "tests/metrics/folds/one_lamp_straight.h"
 
 #include "metrics/seeing/visibility.h"
 

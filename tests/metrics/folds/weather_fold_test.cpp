@@ -1,6 +1,6 @@
 // Fog and a wet road over a drive on the straight: what sensors, eyes, mirrors and targets have of it.
-#include "tests/runner/folds/asphalt_by_hand.h"
-#include "tests/runner/folds/one_lamp_straight.h"
+#include "tests/metrics/folds/asphalt_by_hand.h"
+#include "tests/metrics/folds/one_lamp_straight.h"
 
 #include "metrics/glare/wet_road.h"
 #include "scenarios/light/fog_light.h"

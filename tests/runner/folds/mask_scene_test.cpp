@@ -3,7 +3,7 @@
 #include "metrics/folds/mask_scene.h"
 #include "runner/play/stage.h"
 #include "scenarios/lamps/pixel_lamp.h"
-#include "tests/runner/folds/one_lamp_straight.h"
+#include "tests/metrics/folds/one_lamp_straight.h"
 
 #include <cmath>
 #include <gmock/gmock.h>

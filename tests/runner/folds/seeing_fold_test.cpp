@@ -1,6 +1,6 @@
 // Sensors, oncoming eyes and mirrors over a drive on a straight and level road, where every place is known by hand.
 #include "metrics/folds/reading_names.h"
-#include "tests/runner/folds/one_lamp_straight.h"
+#include "tests/metrics/folds/one_lamp_straight.h"
 
 #include "metrics/glare/glare.h"
 #include "runner/findings/summary.h"

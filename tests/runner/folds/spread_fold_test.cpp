@@ -2,7 +2,7 @@
 #include "metrics/folds/sensitivity_fold.h"
 #include "metrics/road/extent.h"
 #include "runner/findings/summary.h"
-#include "tests/runner/folds/one_lamp_straight.h"
+#include "tests/metrics/folds/one_lamp_straight.h"
 #include "tests/scenarios/drives/play/staged_drive.h"
 #include "tests/shipped.h"
 
