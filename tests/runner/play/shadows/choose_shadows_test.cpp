@@ -31,7 +31,7 @@ class AutomaticShadows : public testing::Test {
 };
 
 TEST_F(AutomaticShadows, NothingInABeamNeedsNone) {
-    const json choice = played(drive_with("straight", "auto"), "out").at("shadow_choice");
+    const json choice = played(drive_with("straight", "auto") + " --dressing plain", "out").at("shadow_choice");
     EXPECT_EQ(choice.at("chosen"), "none");
     EXPECT_EQ(choice.at("moments_shadowed"), 0);
     EXPECT_TRUE(choice.at("tried").empty());
