@@ -87,6 +87,8 @@ std::string table_latex(const Table& table) {
 std::string document_latex(const Document& document) {
     std::string out = "% \\usepackage{booktabs,graphicx}; tables are as wide as the text of both columns\n";
     const auto floating = [](const Table& table) {
+        if (table.caption.empty())
+            return "\\resizebox{\\linewidth}{!}{%\n" + table_latex(table) + "}\n";
         return fmt::format("\\begin{{table*}}\n\\centering\n\\caption{{{}}}\n\\label{{tab:{}}}\n\\resizebox{{\\linewidth}}{{!}}{{%\n{}}}\n"
                            "\\end{{table*}}\n",
                            latex_text(table.caption), table.name, table_latex(table));

@@ -203,6 +203,7 @@ TEST_F(RunCompare, ViewsTooCoarseOrTooFineForFlipAreComparedInAllElse) {
     std::string drive = content_of(library_file("drives/straight.yaml"));
     for (std::size_t at = 0; (at = drive.find(": ../", at)) != std::string::npos;)
         drive.replace(at + 2, 3, library_file(""));
+    drive.replace(drive.find("dressing: dressed"), 17, "dressing: plain"); // on which nothing casts
     const std::string old_view = "driver: {pitch_deg: -1, resolution_px: [1024, 768]}";
     ASSERT_THAT(drive, HasSubstr(old_view));
     drive.replace(drive.find(old_view), old_view.size(),
