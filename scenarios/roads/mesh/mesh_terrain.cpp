@@ -96,8 +96,8 @@ class Side {
                 const auto stretch = std::ranges::find(plan_.stretches, ribs_[i + 1].chunk, &RoadStretch::chunk);
                 const std::string name = chunk_name(left_ ? "left of road" : "right of road", plan_,
                                                     static_cast<std::size_t>(stretch - plan_.stretches.begin()));
-                chunk.emplace(MeshBuilder(name, ribs_[i].points_m[0]), MeshBuilder("ditch " + name, ribs_[i].points_m[0]),
-                              MeshBuilder("over the ditch " + name, ribs_[i].points_m[0]));
+                chunk = Chunk{MeshBuilder(name, ribs_[i].points_m[0]), MeshBuilder("ditch " + name, ribs_[i].points_m[0]),
+                              MeshBuilder("over the ditch " + name, ribs_[i].points_m[0])};
             }
             for (std::size_t k = 0; k < 4; ++k)
                 if (!open_[i][k])
