@@ -3,8 +3,8 @@
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
+#include <iterator>
 #include <utility>
 
 namespace fernlicht {
@@ -47,7 +47,7 @@ bool can_be_read(const Drive& drive, const Readings& others, ReadingKey key) {
 } // namespace
 
 std::string asked_for_by(std::string_view name) {
-    static constexpr std::array<std::pair<std::string_view, const char*>, 19> rows{{
+    static constexpr std::pair<std::string_view, const char*> rows[]{
         {"glare_", "glare"},           {"mirror_", "glare"},          {"sensor_", "sensors"},
         {"detection_", "visibility"},  {"undetected_", "visibility"}, {"visibility_", "visibility"},
         {"background_", "visibility"}, {"mesopic_", "visibility"},    {"uniformity_", "homogeneity"},
@@ -55,9 +55,9 @@ std::string asked_for_by(std::string_view name) {
         {"kerb_", "places"},           {"board_", "places"},          {"marking_", "places"},
         {"reach_", "extent"},          {"unlit_", "extent"},          {"width_", "extent"},
         {"area_", "extent"},
-    }};
+    };
     const auto found = std::ranges::find_if(rows, [&](const auto& row) { return name.starts_with(row.first); });
-    return found == rows.end() ? "" : found->second;
+    return found == std::end(rows) ? "" : found->second;
 }
 
 void check_names(const Drive& drive, const Readings& others) {

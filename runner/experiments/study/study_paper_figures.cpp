@@ -68,9 +68,8 @@ std::vector<PaperFigure> paper_figures(const StudyResult& result) {
                  fmt::format(
                      "What {} changes against {}, in per cent of the old value, better to the right. Dots: the median of the changes that "
                      "are real, of two the smaller; lines: what numerical error, noise of the candela tables and 0.1° of aim leave open; "
-                     "ticks: single routes. Hollow: within that. Numbers at the right: the same in the reading's unit. Source: study.json "
-                     "of "
-                     "the study {}.",
+                     "ticks: single routes. Hollow: within that. Numbers at the right: the same in the reading's unit. Source: "
+                     "study.json of the study {}.",
                      pair.tested, pair.against, result.study.name),
                  two_columns_mm, decision_table(result, {decision})});
         }

@@ -116,12 +116,13 @@ class Side {
 
         void add_to(Scene& scene) {
             std::move(ground).add_to(scene);
-            std::move(ditch).add_to(scene);
-            const std::size_t before = scene.meshes.size();
+            const std::size_t first = scene.meshes.size();
+            std::move(ditch).add_to(scene); // casts nothing: its rims lie in the ground that is measured
+            const std::size_t measured = scene.meshes.size();
             std::move(over_ditch).add_to(scene);
-            for (std::size_t i = before; i < scene.meshes.size(); ++i) {
-                scene.meshes[i].measured_alone = true;
+            for (std::size_t i = first; i < scene.meshes.size(); ++i) {
                 scene.meshes[i].casts = false;
+                scene.meshes[i].measured_alone = i >= measured;
             }
         }
     };

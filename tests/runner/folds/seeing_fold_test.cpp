@@ -6,6 +6,7 @@
 #include "runner/findings/summary.h"
 #include "runner/judge/limits.h"
 #include "scenarios/values/errors.h"
+#include "tests/trial.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -174,6 +175,8 @@ TEST(Seeing, LimitsKnowItsReadings) {
     EXPECT_EQ(judge_limits(straight.drive, straight.played().readings()).at(0).kind, VerdictKind::fail);
     straight.drive.limits[0].reading = "sensor_kerb_reach_5lx_m";
     EXPECT_THROW(check_names(straight.drive, readings), InputError);
+    straight.drive.limits[0].reading = "foreground_own_lx"; // of a name, but nobody asks for it
+    EXPECT_THAT(tests::refusal_of([&] { check_names(straight.drive, readings); }), testing::HasSubstr("`homogeneity` in `measure:`"));
 }
 
 } // namespace

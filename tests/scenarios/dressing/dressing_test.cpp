@@ -1,6 +1,7 @@
 #include "scenarios/dressing/dressing.h"
 
 #include "scenarios/dressing/dressed_object.h"
+#include "scenarios/dressing/dresser.h"
 #include "scenarios/drives/play/staged_scene.h"
 #include "scenarios/models/road_user_bodies.h"
 #include "scenarios/roads/mesh/mesh_materials.h"
@@ -282,6 +283,19 @@ TEST(Dressing, DitchesAreSeenInTheGroundThatIsMeasuredAlone) {
         for (const Batch& batch : mesh.batches)
             EXPECT_TRUE(!is_ditch(mesh) || !is_ground(scene.materials[batch.material].kind)) << mesh.name;
     }
+}
+
+TEST(Dressing, DitchesOfAMirroredRoadChangeSides) {
+    const RoadNetwork network = opendrive_text::library_road("country.xodr"), image = mirrored(network);
+    std::size_t dug = 0;
+    for (std::size_t i = 0; i < network.roads.size(); ++i)
+        for (double s = 0.0; s < network.roads[i].length_m; s += 5.0)
+            for (const bool left : {true, false}) {
+                const bool here = has_ditch(network.roads[i], left, {s, s}, 1);
+                EXPECT_EQ(has_ditch(image.roads[i], !left, {s, s}, 1, true), here) << s;
+                dug += here ? 1U : 0U;
+            }
+    EXPECT_GT(dug, 100U);
 }
 
 TEST(Dressing, PatchesLieAMillimetreAboveAsphaltAlone) {

@@ -2,6 +2,7 @@
 #include "runner/experiments/accuracy/accuracy_result.h"
 #include "runner/experiments/accuracy/picture_errors.h"
 #include "runner/experiments/accuracy/technique_sweep.h"
+#include "runner/write/document.h"
 #include "scenarios/values/errors.h"
 #include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
@@ -328,6 +329,15 @@ TEST(AccuracySweep, VariesOneAtATime) {
     request.techniques = {"full", "photometric"};
     request.full = true;
     EXPECT_EQ(configurations_of(request, drive).size(), 3U * 4U * 5U + 3U * 5U); // shadow maps mean nothing to full
+}
+
+TEST(AccuracyDocument, SaysThatOthersDisturbedTheTimes) {
+    AccuracyResult result;
+    result.cores = 2;
+    result.others.cores = 0.1;
+    EXPECT_THAT(document_text(document(result)), testing::Not(HasSubstr("others used")));
+    result.others.cores = 1.5;
+    EXPECT_THAT(document_text(document(result)), HasSubstr("others used 1.50 of the machine's 2 cores"));
 }
 
 } // namespace

@@ -68,7 +68,8 @@ TEST(ImportanceCommand, TellsTheMarginOfARatingsRow) {
     EXPECT_TRUE(found.at("agrees"));
     EXPECT_THAT(printed(margin + "9 --out " + (folder / "a"), 2), HasSubstr("a row of the rating: 1, 2"));
     EXPECT_THAT(printed(margin + "1 --photometer mirror-left --out " + (folder / "b"), 2), HasSubstr("one of the row's: driver"));
-    EXPECT_THAT(printed("importance " + library_file("drives/straight.yaml") + " --out " + (folder / "c"), 2), HasSubstr("--rating"));
+    EXPECT_THAT(printed("importance " + library_file("drives/straight.yaml") + " --out " + (folder / "c"), 2),
+                HasSubstr("--reading: is missing, expected a reading, or a row of a rating"));
 }
 
 } // namespace

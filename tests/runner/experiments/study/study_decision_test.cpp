@@ -79,6 +79,16 @@ TEST(Decision, PlacesMayDisagree) {
     EXPECT_EQ(outcome(MadeStudy().on(0, reach, 40.0, 40.0).on(1, reach, 50.0, 52.0, 4.0)), DecisionOutcome::within_aim);
 }
 
+TEST(Decision, TheMedianChangeIsToldAndOfTwoTheSmaller) {
+    const auto told = [](MadeStudy study) {
+        const std::size_t change = study.decided().front().readings.front().told;
+        return study.result.changes[change].change().figure().value();
+    };
+    MadeStudy two = MadeStudy().on(0, reach, 40.0, 50.0).on(1, reach, 30.0, 34.0), three = two;
+    EXPECT_DOUBLE_EQ(told(two), 4.0);
+    EXPECT_DOUBLE_EQ(told(three.on(2, reach, 20.0, 40.0)), 10.0);
+}
+
 TEST(Decision, TwoPlacesWithOneResultCountOnce) {
     MadeStudy study;
     study.on(0, reach, 40.0, 50.0).on(1, reach, 40.02, 50.01).on(2, reach, 60.0, 62.0, 3.0);
