@@ -2,6 +2,7 @@
 #include "runner/commands/model_command.h"
 #include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/town/town.h"
+#include "runner/files/log.h"
 #include "runner/files/picture_file.h"
 #include "runner/findings/lux_figure.h"
 #include "runner/write/plots/svg.h"
@@ -58,6 +59,8 @@ int tell_town(const TownFlags& flags) {
     write_file(folder / "lux.png", plots::png_of_svg(plots::svg_of(*figure, 0)));
     const std::string text = town_text(model, found);
     write_file(folder / "town.txt", text);
+    if (!found.doubt.empty())
+        tell(LogLevel::warning, found.doubt);
     fmt::print("{}\n{}\n{}\n", text, (folder / "driver.png").string(), (folder / "lux.png").string());
     return 0;
 }

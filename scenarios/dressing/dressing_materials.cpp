@@ -41,7 +41,7 @@ Tone grey_tone(double tone) { return {tone, tone, tone}; }
 
 /// Roughcast: fine grain, and the streaks that rain leaves below sills and eaves.
 SurfaceTexture plaster_picture(std::uint64_t seed) {
-    const TilingNoise grain(seed, 41), stains(seed, 42), streaks(seed, 43);
+    TilingNoise grain(seed, 41), stains(seed, 42), streaks(seed, 43);
     return toned_picture("plaster", 200.0, [&](int x, int y, double u, double v) {
         return grey_tone(1.0 + 0.10 * (grain.uniform(x, y) - 0.5) + 0.07 * stains.octaves(u, v, 8, 4, 0.9) +
                          0.06 * streaks.gradient(u, std::fmod(v * 0.125, 1.0), 64));
@@ -62,7 +62,7 @@ SurfaceTexture brick_picture(std::uint64_t seed) {
 
 /// Rows of interlocking tiles, 0.25 m wide and 0.33 m high, dark where one lies over the next.
 SurfaceTexture tile_picture(std::uint64_t seed) {
-    const TilingNoise tiles(seed, 61), moss(seed, 62), grain(seed, 63);
+    TilingNoise tiles(seed, 61), moss(seed, 62), grain(seed, 63);
     return toned_picture("tiles", 150.0, [&](int x, int y, double u, double v) {
         const double row = v * 24.0, column = u * 32.0, up = row - std::floor(row), side = column - std::floor(column);
         double tone = 0.85 + 0.35 * tiles.uniform(static_cast<int>(column), static_cast<int>(row)) + 0.15 * moss.octaves(u, v, 8, 3, 0.9);
@@ -73,7 +73,7 @@ SurfaceTexture tile_picture(std::uint64_t seed) {
 
 /// Furrows along the trunk.
 SurfaceTexture bark_picture(std::uint64_t seed) {
-    const TilingNoise furrows(seed, 71), plates(seed, 72), grain(seed, 73);
+    TilingNoise furrows(seed, 71), plates(seed, 72), grain(seed, 73);
     return toned_picture("bark", 130.0, [&](int x, int y, double u, double v) {
         const double deep = std::abs(furrows.gradient(u, std::fmod(v * 0.25, 1.0), 64)) + 0.5 * std::abs(plates.gradient(u, v, 32));
         return grey_tone(0.45 + 2.2 * deep + 0.3 * (grain.uniform(x, y) - 0.5));
@@ -82,7 +82,7 @@ SurfaceTexture bark_picture(std::uint64_t seed) {
 
 /// Leaves of some 8 cm with dark gaps between them: what is bright lies in front, what is dark is the crown's inside.
 SurfaceTexture leaf_picture(std::uint64_t seed) {
-    const TilingNoise leaves(seed, 81), twigs(seed, 82), grain(seed, 83), hue(seed, 84);
+    TilingNoise leaves(seed, 81), twigs(seed, 82), grain(seed, 83), hue(seed, 84);
     return toned_picture("leaves", 90.0, [&](int x, int y, double u, double v) {
         const double cover = 1.1 * leaves.gradient(u, v, 96) + 0.7 * twigs.gradient(u, v, 40) + 0.5 * (grain.uniform(x, y) - 0.5);
         const double tone = std::clamp(0.75 + 2.2 * cover, 0.12, 2.4), dry = 0.2 * hue.octaves(u, v, 16, 3, 1.0);
@@ -92,7 +92,7 @@ SurfaceTexture leaf_picture(std::uint64_t seed) {
 
 /// Tufts seen from their sides: bright where blades stand, dark between them.
 SurfaceTexture meadow_picture(std::uint64_t seed) {
-    const TilingNoise tufts(seed, 91), blades(seed, 92), grain(seed, 93), hue(seed, 94);
+    TilingNoise tufts(seed, 91), blades(seed, 92), grain(seed, 93), hue(seed, 94);
     return toned_picture("meadow", 100.0, [&](int x, int y, double u, double v) {
         const double tone =
                          0.8 + 0.9 * tufts.octaves(u, v, 24, 3, 0.8) + 0.8 * blades.gradient(u, v, 96) + 0.5 * (grain.uniform(x, y) - 0.5),
@@ -103,7 +103,7 @@ SurfaceTexture meadow_picture(std::uint64_t seed) {
 
 /// Gravel with grass in it, as road shoulders are: the grass greener and darker than the stones.
 SurfaceTexture gravel_picture(std::uint64_t seed) {
-    const TilingNoise stones(seed, 101), tufts(seed, 102), sand(seed, 103);
+    TilingNoise stones(seed, 101), tufts(seed, 102), sand(seed, 103);
     return toned_picture("gravel", 130.0, [&](int x, int y, double u, double v) {
         const double grass = std::clamp(0.4 + 3.5 * tufts.octaves(u, v, 16, 4, 0.8), 0.0, 1.0);
         const double tone = 1.0 + 0.7 * (stones.uniform(x, y) - 0.5) + 0.2 * sand.octaves(u, v, 8, 3, 0.9) - 0.3 * grass;
@@ -113,7 +113,7 @@ SurfaceTexture gravel_picture(std::uint64_t seed) {
 
 /// Rows, 0.25 m apart.
 SurfaceTexture field_picture(std::uint64_t seed) {
-    const TilingNoise clods(seed, 111), grain(seed, 112);
+    TilingNoise clods(seed, 111), grain(seed, 112);
     return toned_picture("field", 120.0, [&](int x, int y, double u, double v) {
         const double rows = std::sin(2.0 * pi * (32.0 * v + 0.5 * clods.gradient(u, v, 32)));
         return grey_tone(1.0 + 0.35 * rows + 0.35 * clods.octaves(u, v, 16, 4, 0.9) + 0.4 * (grain.uniform(x, y) - 0.5));

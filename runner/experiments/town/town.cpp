@@ -16,6 +16,7 @@ namespace {
 constexpr double ahead_m = 120.0, behind_m = 10.0, beside_m = 25.0, pixel_m = 0.25;
 constexpr double white_cdm2 = 20.0; ///< of the picture
 constexpr int headings = 72;
+constexpr double street_m = 20.0; ///< of free way, at least
 
 double longest_heading(const SceneGround& ground, const glm::dvec2& at_m) {
     double best = -1.0, heading = 0.0;
@@ -96,6 +97,11 @@ TownFound look_at_town(const Model& model, const TownRequest& request) {
     found.car = place_of(ground, request);
     found.heading_rad = std::atan2(found.car.forward().y, found.car.forward().x);
     found.free_way_m = ground.free_way_m(found.car.position_m.x, found.car.position_m.y, found.heading_rad);
+    if (found.free_way_m < street_m)
+        found.doubt =
+            fmt::format("the way ahead is free for {:.0f} m only: is this a model of streets (a car by itself has a roof for ground), "
+                        "in metres (--scale), and --place on a street?",
+                        found.free_way_m);
     const Moment moment = in_two_lamps(request.lamp, found.car);
     Device device = open_device(request.backend);
     RendererSettings settings;

@@ -21,6 +21,7 @@ struct TownRequest {
 struct TownFound {
     Pose car; ///< in the model's frame, turned and scaled
     double heading_rad = 0.0, free_way_m = 0.0;
+    std::string doubt; ///< a sentence where this looks like no street; else empty
     struct Row {
         double ahead_m;                                 ///< of the lamps
         std::array<std::optional<double>, 3> ground_lx; ///< 3 m to the left, straight ahead, 3 m to the right; nullopt: no ground there

@@ -250,7 +250,7 @@ double distance_to(const Patch& patch, int x, int y) {
 /// Aggregate in bitumen. A texel of 31 mm holds several stones of 8 to 16 mm: their contrast is averaged already. Light single
 /// stones, a mottle of 6 to 50 cm, and three repaired patches, a little darker, in a seam of bitumen.
 SurfaceTexture asphalt(std::uint64_t seed) {
-    const TilingNoise grain(seed, 1), chips(seed, 2), mottle(seed, 3), edge(seed, 4);
+    TilingNoise grain(seed, 1), chips(seed, 2), mottle(seed, 3), edge(seed, 4);
     const std::array<Patch, 3> patches{Patch{58.0, 70.0, 15.0, 34.0, 0.93}, Patch{170.0, 150.0, 24.0, 11.0, 0.90},
                                        Patch{216.0, 36.0, 8.0, 9.0, 1.07}};
     return grey("asphalt", field([&](int x, int y, double u, double v) {
@@ -271,7 +271,7 @@ SurfaceTexture asphalt(std::uint64_t seed) {
 /// Slabs of 0.5 m with joints of 1 cm, each slab of its own tone, fine grain and stains.
 SurfaceTexture concrete(std::uint64_t seed) {
     constexpr int slab_px = 16;
-    const TilingNoise grain(seed, 11), slabs(seed, 12), stains(seed, 13);
+    TilingNoise grain(seed, 11), slabs(seed, 12), stains(seed, 13);
     return grey("concrete", field([&](int x, int y, double u, double v) {
                     double tone = 1.0 + 0.10 * (grain.uniform(x, y) - 0.5) + 0.08 * (slabs.uniform(x / slab_px, y / slab_px) - 0.5);
                     tone += 0.10 * stains.octaves(u, v, 16, 3, 0.8);
@@ -282,7 +282,7 @@ SurfaceTexture concrete(std::uint64_t seed) {
 
 /// Tufts and blades, some greener and some drier.
 SurfaceTexture grass(std::uint64_t seed) {
-    const TilingNoise tufts(seed, 21), blades(seed, 22), hue(seed, 23);
+    TilingNoise tufts(seed, 21), blades(seed, 22), hue(seed, 23);
     const std::vector<double> tone = field([&](int x, int y, double u, double v) {
         return 1.0 + 0.30 * tufts.octaves(u, v, 8, 5, 1.25) + 0.40 * (blades.uniform(x, y) - 0.5);
     });
@@ -301,7 +301,7 @@ SurfaceTexture grass(std::uint64_t seed) {
 /// Paint that has come off stone by stone, more in some places than in others.
 SurfaceTexture paint_wear(std::uint64_t seed) {
     constexpr std::uint8_t bare = 20; // 0.08 of 255: asphalt
-    const TilingNoise places(seed, 31), stones(seed, 32), grain(seed, 33);
+    TilingNoise places(seed, 31), stones(seed, 32), grain(seed, 33);
     SurfaceTexture texture = empty("paint-wear");
     const std::vector<double> opacity = field([&](int x, int y, double u, double v) {
         const double wear = 0.9 * places.octaves(u, v, 16, 2, 0.8) + 0.9 * stones.gradient(u, v, 96) + 0.5 * (grain.uniform(x, y) - 0.5);
@@ -387,21 +387,26 @@ double TilingNoise::uniform(int x, int y) const {
     return static_cast<double>(mixed(key_ ^ mixed(place + mixing_step)) >> 11) * 0x1p-53;
 }
 
-double TilingNoise::gradient(double u, double v, int cells) const {
+double TilingNoise::gradient(double u, double v, int cells) {
+    std::vector<glm::dvec2>& lattice = lattices_[cells];
+    if (lattice.empty())
+        for (int iy = 0; iy < cells; ++iy)
+            for (int ix = 0; ix < cells; ++ix)
+                lattice.emplace_back(2.0 * uniform(2 * ix, iy) - 1.0, 2.0 * uniform(2 * ix + 1, iy) - 1.0);
     const double x = u * cells, y = v * cells, x0 = std::floor(x), y0 = std::floor(y);
     const double fx = x - x0, fy = y - y0;
     const auto wrapped = [cells](double i) { return ((static_cast<int>(i) % cells) + cells) % cells; };
     const int ix[]{wrapped(x0), wrapped(x0 + 1)}, iy[]{wrapped(y0), wrapped(y0 + 1)};
     const auto corner = [&](int dx, int dy) {
-        const double gx = 2.0 * uniform(2 * ix[dx], iy[dy]) - 1.0, gy = 2.0 * uniform(2 * ix[dx] + 1, iy[dy]) - 1.0;
-        return gx * (fx - dx) + gy * (fy - dy);
+        const glm::dvec2& g = lattice[static_cast<std::size_t>(iy[dy] * cells + ix[dx])];
+        return g.x * (fx - dx) + g.y * (fy - dy);
     };
     const double left_below = corner(0, 0), left_above = corner(0, 1), wx = fade(fx), wy = fade(fy);
     const double below = left_below + (corner(1, 0) - left_below) * wx, above = left_above + (corner(1, 1) - left_above) * wx;
     return below + (above - below) * wy;
 }
 
-double TilingNoise::octaves(double u, double v, int cells, int count, double gain) const {
+double TilingNoise::octaves(double u, double v, int cells, int count, double gain) {
     double sum = 0.0, strength = 1.0;
     for (int i = 0; i < count; ++i, cells *= 2, strength *= gain)
         sum +=

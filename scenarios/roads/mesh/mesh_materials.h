@@ -9,6 +9,7 @@
 #include "scenarios/values/scene.h"
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace fernlicht {
@@ -84,12 +85,13 @@ class TilingNoise {
     double uniform(int x, int y) const;
     /// Gradient noise (Perlin 1985) of `cells` x `cells` cells over the square u, v in [0, 1); smooth, repeats beyond it. Its mean is near
     /// 0, it lies within -1 .. 1, and it has little at wavelengths much longer than a cell. `cells` >= 1.
-    double gradient(double u, double v, int cells) const;
+    double gradient(double u, double v, int cells);
     /// gradient() at `cells`, 2 `cells`, 4 `cells` ..., each octave `gain` as strong as the one before.
-    double octaves(double u, double v, int cells, int count, double gain) const;
+    double octaves(double u, double v, int cells, int count, double gain);
 
   private:
     std::uint64_t key_;
+    std::map<int, std::vector<glm::dvec2>> lattices_; ///< gradients at the corners of so many cells, row by row
 };
 
 } // namespace fernlicht

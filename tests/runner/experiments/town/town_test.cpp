@@ -50,6 +50,16 @@ TEST(Town, LuxOnTheGroundIsThatOfTheLamps) {
     EXPECT_EQ(found.view.width(), 160);
 }
 
+TEST(Town, AModelWithoutAStreetIsDoubted) {
+    EXPECT_EQ(look_at_town(town(), small_request()).doubt, "");
+    Model van = town();
+    van.meshes.clear();
+    TriangleSoup soup;
+    append_box(soup, {0, -1, 0}, {5, 1, 2}, 1);
+    add_meshes(van, soup);
+    EXPECT_THAT(look_at_town(van, {.width_px = 160, .height_px = 90}).doubt, testing::HasSubstr("is this a model of streets"));
+}
+
 TEST(Town, ThePictureIsThatOfAnEyeAdaptedToTheLamps) {
     const Moment moment = in_two_lamps("halogen-low", {});
     const glm::dvec3 light = moment.lamps.front().colour.linear_srgb, seen = white_of(moment).value() * light;

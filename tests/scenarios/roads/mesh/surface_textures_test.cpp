@@ -56,7 +56,7 @@ Scene textured_materials() {
 }
 
 TEST(TilingNoise, RepeatsIsContinuousAndBounded) {
-    const TilingNoise noise(5, 1);
+    TilingNoise noise(5, 1);
     for (int i = 0; i < 64; ++i) {
         const double v = (i + 0.3) / 64.0;
         for (const int cells : {1, 7, 16}) {
