@@ -1,11 +1,13 @@
 #include "metrics/folds/reading_names.h"
 
 #include "scenarios/values/errors.h"
+#include "scenarios/values/refusals.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
 #include <utility>
+#include <vector>
 
 namespace fernlicht {
 namespace {
@@ -67,17 +69,20 @@ void check_names(const Drive& drive, const Readings& others) {
             if (const auto key = key_of(limit.reading); !key || key->aspect != Aspect::value || !can_be_read(drive, others, *key))
                 throw InputError({drive.file, 0, 0, "measure.tolerances.limits"}, "found reading '" + printable(limit.reading) + "'",
                                  "a reading of this drive, as reach_5lx_target_own_right_edge_m");
+    std::vector<std::string> known{"reach_5lx_road_own_m", "width_3lx_target_all_at_50m_m"};
+    for (const Reading& other : others)
+        known.push_back(name_of(other.key));
     for (const Limit& limit : drive.limits)
         if (const auto key = key_of(limit.reading); !key || !can_be_read(drive, others, *key)) {
             const std::string measure = key ? asked_for_by(limit.reading) : "";
             const bool is_measured =
                 std::ranges::any_of(others, [&](const auto& other) { return asked_for_by(name_of(other.key)) == measure; });
-            if (!measure.empty() && !is_measured)
-                throw InputError({drive.file, limit.line, 0, "limits"}, "found reading '" + printable(limit.reading) + "'",
-                                 fmt::format("`{}` in `measure:`, which asks for it", measure));
-            throw InputError({drive.file, limit.line, 0, "limits"}, "found reading '" + printable(limit.reading) + "'",
-                             "a name as reach_5lx_road_own_m, width_3lx_target_all_at_50m_m, probe_NAME_lx of a probe of this drive or "
-                             "frame_time_median_ms");
+            const std::string nearest = nearest_name(limit.reading, known);
+            refuse_and_go_on(InputError({drive.file, limit.line, 0, "limits"}, "found reading '" + printable(limit.reading) + "'",
+                                        !measure.empty() && !is_measured ? fmt::format("`{}` in `measure:`, which asks for it", measure)
+                                        : nearest.empty()                ? "a name as reach_5lx_road_own_m, width_3lx_target_all_at_50m_m, "
+                                                                           "probe_NAME_lx of a probe of this drive or frame_time_median_ms"
+                                                                         : "a reading of this drive (the nearest is '" + nearest + "')"));
         }
 }
 

@@ -128,7 +128,7 @@ std::vector<RangeJudgement> judge_light(const LightApproach& approach, const Lim
         if (approach.empty())
             all[i].why = "no moment of the approach is there";
         else if (nearest->distance_m > range.from_m || farthest->distance_m < range.to_m)
-            all[i].why = fmt::format("the drive has light from {:.1f} to {:.1f} m alone", nearest->distance_m, farthest->distance_m);
+            all[i].why = fmt::format("the drive has light from {:.1f} to {:.1f} m only", nearest->distance_m, farthest->distance_m);
         else
             judge_range(all[i], std::move(counting), rules);
     }

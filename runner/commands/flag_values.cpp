@@ -203,8 +203,9 @@ TickRange tick_range(const std::string& frames) {
     TickRange range;
     if (frames.empty())
         return range;
-    constexpr const char* expected = "FIRST:LAST with FIRST 0 or more and FIRST <= LAST, e.g. 0:59";
-    const auto [first, last] = two_numbers("--frames", frames, ':', true, expected);
+    constexpr const char* expected = "FIRST:LAST with FIRST 0 or more and FIRST <= LAST, e.g. 0:59, or one number";
+    const std::string text = frames.find(':') == std::string::npos ? frames + ':' + frames : frames; // "20" is one
+    const auto [first, last] = two_numbers("--frames", text, ':', true, expected);
     range.first = first < 0 ? 0 : first;
     range.last = last < 0 ? range.last : last;
     if (range.first > range.last)

@@ -67,7 +67,7 @@ void add_print_flags(CLI::App& command, const OutputFormat*& format, std::vector
 /// The word of --dressing; none for "". Throws InputError naming the flag.
 void set_dressing(DriveEdits& edits, const std::string& word);
 
-/// "FIRST:LAST", "FIRST:" or ":LAST" of --frames; all for "". Throws InputError naming the flag.
+/// "FIRST:LAST", "FIRST:", ":LAST" or one number of --frames; all for "". Throws InputError naming the flag.
 TickRange tick_range(const std::string& frames);
 
 /// By what results of `run` and `study` are judged, as typed.

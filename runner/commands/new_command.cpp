@@ -133,7 +133,7 @@ void add_new_command(CLI::App& app, const std::vector<std::string>&, std::functi
     const auto [lamp, flags] = add("lamp", "a low beam as a table (.csv) or in IES (.ies), or a pixel lamp (.yaml)", lamp_starter);
     lamp->add_option("--kind", flags->kind, "what to write")->option_text("table|ies|pixels")->default_str("as the name ends, else table");
     add("drive", "a drive of six seconds in two lamps", [](const NewFlags&) -> const Starter& { return drive_starter; });
-    add("study", "two lamps on two roads, compared", [](const NewFlags&) -> const Starter& { return study_starter; });
+    add("study", "a study that compares two lamps on two roads", [](const NewFlags&) -> const Starter& { return study_starter; });
 }
 
 } // namespace fernlicht

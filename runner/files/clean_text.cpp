@@ -1,6 +1,7 @@
 #include "runner/files/clean_text.h"
 
 #include <array>
+#include <charconv>
 #include <cstdint>
 #include <fmt/format.h>
 #include <vector>
@@ -138,7 +139,10 @@ std::string xml_text(std::string_view bytes) {
 std::string csv_text(std::string_view bytes) {
     std::string text = clean_text(bytes);
     // Tab and carriage return, which also start formulas, are pictures by now.
-    if (!text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos)
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool is_number = error == std::errc{} && end == text.data() + text.size();
+    if (!is_number && !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos)
         text.insert(0, 1, '\'');
     if (text.find_first_of(",\"") == std::string::npos)
         return text;

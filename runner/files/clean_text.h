@@ -21,7 +21,8 @@ std::string short_text(std::string_view bytes, std::size_t max_characters);
 /// clean_text with & < > " ' as entities: good for XML text and attributes.
 std::string xml_text(std::string_view bytes);
 
-/// A field of RFC 4180: quoted where it must be. A text that a spreadsheet would take for a formula gets a leading apostrophe.
+/// A field of RFC 4180: quoted where it must be. A text, other than a number, that a spreadsheet would take for a formula gets a leading
+/// apostrophe.
 std::string csv_text(std::string_view bytes);
 /// With all its digits; "" for none.
 std::string csv_number(const std::optional<double>& value);

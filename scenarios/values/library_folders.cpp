@@ -74,6 +74,16 @@ fs::path shipped_file(const fs::path& name, const std::string& flag) {
                      "fernlicht's data there, FERNLICHT_DATA to name its folder, or another file here");
 }
 
+std::string nearest_shipped(const fs::path& name) {
+    std::vector<std::string> names;
+    std::error_code ignored;
+    for (const fs::path& folder : library_folders())
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder / name.parent_path(), ignored))
+            names.push_back((name.parent_path() / entry.path().filename()).string());
+    std::ranges::sort(names); // folders are in no order
+    return nearest_name(name.string(), names);
+}
+
 std::string library_places() {
     std::string told;
     for (const fs::path& folder : library_folders())

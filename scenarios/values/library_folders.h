@@ -18,6 +18,9 @@ std::filesystem::path shipped_path(const std::filesystem::path& name);
 /// The same, but throws InputError where there is none; `flag` would name another file.
 std::filesystem::path shipped_file(const std::filesystem::path& name, const std::string& flag);
 
+/// The name of a shipped file of the same folder that is nearest to `name`; "" where none is near.
+std::string nearest_shipped(const std::filesystem::path& name);
+
 /// Where shipped_path() looks, for a sentence: "/usr/share/fernlicht, ...".
 std::string library_places();
 

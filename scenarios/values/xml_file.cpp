@@ -3,6 +3,7 @@
 #include "scenarios/values/errors.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
@@ -24,6 +25,20 @@ std::string_view trimmed(std::string_view text) {
 const char* local_name(const char* name) {
     const char* colon = std::find(name, name + std::char_traits<char>::length(name), ':');
     return *colon == ':' ? colon + 1 : name;
+}
+
+std::string in_lower_case(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+/// "is missing", and what of the node's attributes may be it, misspelt.
+std::string missing(pugi::xml_node node, std::string_view attribute) {
+    const std::size_t farthest = std::min<std::size_t>(2, attribute.size() / 3);
+    for (const pugi::xml_attribute found : node.attributes())
+        if (edit_distance(in_lower_case(found.name()), in_lower_case(std::string(attribute))) <= farthest)
+            return fmt::format("is missing (found '{}')", printable(found.name()));
+    return "is missing";
 }
 
 } // namespace
@@ -135,12 +150,12 @@ double XmlFile::number(pugi::xml_node node, const char* attribute, std::optional
     if (!found) {
         if (fallback)
             return *fallback;
-        refuse(node, attribute, "is missing", "a number");
+        refuse(node, attribute, missing(node, attribute), "a number");
     }
     const std::optional<double> value = to_number(found.value());
     if (!value || std::abs(*value) > largest_number)
         refuse(node, attribute, fmt::format("found '{}'", printable(found.value())),
-               fmt::format("a number between -{0} and {0}", largest_number));
+               value ? fmt::format("a number between -{0} and {0}", largest_number) : "a number, without unit");
     return *value;
 }
 

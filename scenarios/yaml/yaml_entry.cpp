@@ -144,8 +144,11 @@ std::filesystem::path YamlEntry::path() const {
     const std::filesystem::path given = text();
     if (constexpr std::string_view ours = "fernlicht:"; given.string().starts_with(ours)) {
         const std::filesystem::path found = shipped_path(given.string().substr(ours.size()));
-        if (found.empty())
-            refuse(fmt::format("'{}', which is not in {}", printable(given, 400), library_places()), "a file of fernlicht's own");
+        if (found.empty()) {
+            const std::string nearest = nearest_shipped(given.string().substr(ours.size()));
+            refuse(fmt::format("'{}', which is no shipped file", printable(given, 400)),
+                   nearest.empty() ? "one in " + library_places() : fmt::format("one as '{}{}'", ours, nearest));
+        }
         return std::filesystem::absolute(found).lexically_normal();
     }
     refuse_windows_path(given, {*file_, value_->line, value_->column, key_path_});

@@ -150,6 +150,16 @@ class TreeBuilder : public YAML::EventHandler {
     std::size_t values_ = 0;
 };
 
+/// The first line that a tab indents; 0: none.
+std::size_t tabbed_line(const std::string& content) {
+    std::istringstream lines(content);
+    std::size_t number = 1;
+    for (std::string line; std::getline(lines, line); ++number)
+        if (const std::size_t first = line.find_first_not_of(' '); first != std::string::npos && line[first] == '\t')
+            return number;
+    return 0;
+}
+
 } // namespace
 
 YamlValue parse_yaml(const std::string& content, const std::filesystem::path& file) {
@@ -170,6 +180,8 @@ YamlValue parse_yaml(const std::string& content, const std::filesystem::path& fi
             throw InputError({file, rest.take_root().line, 0, {}}, "found a second YAML document", "one");
         return root;
     } catch (const YAML::Exception& error) {
+        if (const std::size_t line = tabbed_line(content); line > 0)
+            throw InputError({file, line, 1, {}}, "found a tab before the text", "blanks: YAML indents by them alone");
         const bool placed = !error.mark.is_null();
         throw InputError({file,
                           placed ? static_cast<std::size_t>(error.mark.line + 1) : 0,

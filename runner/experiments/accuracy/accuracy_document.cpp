@@ -161,10 +161,9 @@ Document document(const AccuracyResult& result) {
     Document document{"Error against run time", {}};
     document.sections.push_back(
         {"",
-         {"Each point is a way to get one result: how far it is off, and what it costs. Filled points on the line are beaten by nobody in "
-          "both. Hollow ones are beaten in both by the one that the list names; \xE2\x80\x9Cperhaps\xE2\x80\x9D where bars overlap or "
-          "too few times were taken to be sure. What lies in the shaded band is below what the reference itself is worth, and no error is "
-          "claimed there."}});
+         {"Each point is one way to render: its error and its cost. For filled points, on the line, no other way is both faster and more "
+          "accurate; for hollow ones the list names one that is, with \xE2\x80\x9Cperhaps\xE2\x80\x9D where bars overlap or too few "
+          "times were taken to be sure. In the shaded band errors are smaller than the reference's own, and none is claimed."}});
     if (const std::string disturbed = disturbance_text(result.others, result.cores); !disturbed.empty())
         document.sections.front().blocks.emplace_back("Warning: " + disturbed + ".");
     for (const WorkPrecision& diagram : result.diagrams)

@@ -8,16 +8,38 @@
 namespace fernlicht {
 namespace {
 
-/// What tells one reading of a drive from another; the lamp set does not.
-bool same_reading(const Reading& a, const Reading& b) { return a.key == b.key && a.where == b.where && a.tick == b.tick; }
+bool same_name(const Reading& a, const Reading& b) { return a.key == b.key && a.tick == b.tick; }
+
+/// What tells one reading of a drive from another; the lamp set does not, and where it was found only if one lamp set has several.
+bool same_reading(const ComparedDrive& drive, const Reading& a, const Reading& b) {
+    return same_name(a, b) && (a.where == b.where || std::ranges::none_of(drive.lamp_sets, [&](const PlayedCell* played) {
+                                   return std::ranges::count_if(played->readings, [&](const Reading& r) { return same_name(r, a); }) > 1;
+                               }));
+}
 
 std::string unit_text(const std::string& unit) {
     return unit == "m2" ? "m\u00b2" : unit == "cd/m2" ? "cd/m\u00b2" : unit == "1" ? "" : unit;
 }
 
-Cell reading_cell(const PlayedCell& played, const Reading& wanted) {
-    const auto own = std::ranges::find_if(played.readings, [&](const Reading& reading) { return same_reading(reading, wanted); });
-    if (own == played.readings.end())
+const Reading* own_reading(const ComparedDrive& drive, const PlayedCell& played, const Reading& wanted) {
+    const auto own = std::ranges::find_if(played.readings, [&](const Reading& reading) { return same_reading(drive, reading, wanted); });
+    return own == played.readings.end() ? nullptr : &*own;
+}
+
+/// Of each lamp set where they differ: the eye is adapted to each one's light.
+std::string where_text(const ComparedDrive& drive, const Reading& wanted) {
+    std::string text;
+    bool differ = false;
+    for (const PlayedCell* const played : drive.lamp_sets)
+        if (const Reading* own = own_reading(drive, *played, wanted)) {
+            differ = differ || own->where != wanted.where;
+            text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", short_text(played->lamp_set, 30), own->where);
+        }
+    return differ ? text : wanted.where;
+}
+
+Cell reading_cell(const Reading* own) {
+    if (!own)
         return "not asked for";
     if (!own->value.measured())
         return "not measured: " + own->value.reason();
@@ -30,7 +52,7 @@ void add_readings(const ComparedDrive& drive, Sections& sections) {
     for (std::size_t i = 0; i < drive.lamp_sets.size(); ++i) {
         table.columns.push_back({.head = short_text(drive.lamp_sets[i]->lamp_set, 30), .series = i});
         for (const Reading& reading : drive.lamp_sets[i]->readings)
-            if (std::ranges::none_of(distinct, [&](const Reading& other) { return same_reading(other, reading); }))
+            if (std::ranges::none_of(distinct, [&](const Reading& other) { return same_reading(drive, other, reading); }))
                 distinct.push_back(reading);
     }
     for (const char* const head : {"unit", "where", "frame"})
@@ -38,9 +60,9 @@ void add_readings(const ComparedDrive& drive, Sections& sections) {
     for (const Reading& reading : distinct) {
         std::vector<Cell>& row = table.rows.emplace_back(std::vector<Cell>{reading.name()});
         for (const PlayedCell* const played : drive.lamp_sets)
-            row.push_back(reading_cell(*played, reading));
-        row.insert(row.end(),
-                   {unit_text(reading.unit()), reading.where, reading.tick < 0 ? "whole drive" : fmt::format("{}", reading.tick)});
+            row.push_back(reading_cell(own_reading(drive, *played, reading)));
+        row.insert(row.end(), {unit_text(reading.unit()), where_text(drive, reading),
+                               reading.tick < 0 ? "whole drive" : fmt::format("{}", reading.tick)});
     }
     if (!distinct.empty())
         sections.push_back({"Readings", {std::move(table)}, 3});

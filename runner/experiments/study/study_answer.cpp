@@ -89,8 +89,7 @@ PlaceMatrix matrix_of(const StudyResult& result, const Groups& groups, const Rea
     for (std::size_t i = 0; i < result.study.lamps.size(); ++i)
         matrix.columns.push_back(Cell::of_series(short_text(result.study.lamps[i].name, 24), i));
     for (const std::vector<std::size_t>& group : groups) {
-        auto& [name, entries] =
-            matrix.rows.emplace_back(Cell(short_text(place_name(result, group.front()), 60)), std::vector<MatrixEntry>());
+        auto& [name, entries] = matrix.rows.emplace_back(Cell(short_text(result.place_of(group.front()), 60)), std::vector<MatrixEntry>());
         name = std::move(name).hinted(result.cells[group.front()].title + "; " + result.cells[group.front()].cell.condition);
         for (std::size_t lamp = 0; lamp < result.study.lamps.size(); ++lamp) {
             const auto cell = std::ranges::find_if(group, [&](std::size_t i) { return result.cells[i].cell.lamp == lamp; });
@@ -154,7 +153,7 @@ std::string where_words(const StudyResult& result, const std::vector<const Chang
         return text;
     const auto [least, most] = std::ranges::minmax_element(real, {}, [](const Change* change) { return change->least(); });
     const auto told = [&](const Change& change) {
-        return fmt::format("{} ({})", place_name(result, change.tested), signed_words(change, !best_is_tested));
+        return fmt::format("{} ({})", result.place_of(change.tested), signed_words(change, !best_is_tested));
     };
     text += fmt::format(", most on {}", told(**most));
     return (*most)->least() > (*least)->least() ? text + fmt::format(", least on {}", told(**least)) : text;
@@ -177,7 +176,7 @@ Answer answer_of(const StudyResult& result, const Groups& groups, const ReadingK
         drives.insert(result.cells[group.front()].cell.drive);
     const char* const places = drives.size() == groups.size() ? (groups.size() == 1 ? "route" : "routes") : "places";
     const std::string over =
-        groups.size() == 1 ? "On " + place_name(result, groups.front().front())
+        groups.size() == 1 ? "On " + result.place_of(groups.front().front())
                            : fmt::format("Median over {}{} {}", ranked_places < groups.size() ? fmt::format("{} of ", ranked_places) : "",
                                          groups.size(), places);
     const std::string reading = capitalised(reading_label(key)) + ": ";

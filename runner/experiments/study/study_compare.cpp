@@ -71,6 +71,12 @@ bool is_same_place(const StudyCell& a, const StudyCell& b) {
            a.mirror == b.mirror && a.point == b.point;
 }
 
+std::string StudyResult::place_of(std::size_t cell) const {
+    const bool several =
+        std::ranges::any_of(cells, [&](const CellResult& other) { return other.cell.condition != cells.front().cell.condition; });
+    return cells[cell].drive + (several ? ", " + cells[cell].cell.condition : "");
+}
+
 std::vector<std::pair<std::size_t, std::size_t>> StudyResult::pairs_of(const StudyComparison& comparison) const {
     const auto place = [&](std::size_t i) {
         const StudyCell& c = cells[i].cell;

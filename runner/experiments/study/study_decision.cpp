@@ -104,14 +104,13 @@ const StudyComparison& comparison_of(const StudyResult& result, const Decision& 
     return result.study.comparisons[decision.comparison];
 }
 
-/// "reach at 5 lx on a target, own lane +14.2 m (+21 %) in 3 of 4 different results, most on country-1"
+/// "reach at 5 lx on a target, own lane +14.2 m (+21 %) at 3 of 4 places that differ, most on country-1"
 std::string told(const StudyResult& result, const DecidedReading& decided) {
     const std::size_t of = decided.changes.size(), by = decided.decided_by.size();
     const std::size_t largest = *std::ranges::max_element(decided.decided_by, {}, [&](std::size_t i) { return result.changes[i].size(); });
-    const std::string& drive = result.cells[result.changes[largest].tested].drive;
     return fmt::format("{} {}{}{}", reading_label(decided.reading), change_words(result.changes[decided.told]),
-                       by < of ? fmt::format(" in {} of {} different results", by, of) : "",
-                       of > 1 ? fmt::format(", {}on {}", by > 1 ? "most " : "", drive) : "");
+                       by < of ? fmt::format(" at {} of {} places that differ", by, of) : "",
+                       of > 1 ? fmt::format(", {}on {}", by > 1 ? "most " : "", result.place_of(result.changes[largest].tested)) : "");
 }
 
 std::string listed(const StudyResult& result, const Decision& decision, DecisionOutcome outcome, const char* words) {

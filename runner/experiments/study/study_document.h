@@ -39,8 +39,6 @@ void add_map_edges(const Drive& drive, std::vector<CellResult*> cells);
 
 /// Cells that differ in nothing but the lamp, in order; those that were not played are left out, and groups without any.
 std::vector<std::vector<std::size_t>> groups_of(const StudyResult& result);
-/// Of one of its cells: the drive, and the condition where there are several.
-std::string place_name(const StudyResult& result, std::size_t cell);
 
 /// What decides first of all that was measured.
 std::optional<ReadingKey> first_deciding(const StudyResult& result);

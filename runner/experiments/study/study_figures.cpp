@@ -64,7 +64,7 @@ StudyFigure small_figure(const StudyResult& result, const std::string& name, plo
     const std::string title = figure.title + ": " + figure.subtitle;
     StudyFigure small = with_files(name, title, std::move(figure), cells);
     small.plot.beside = true;
-    small.plot.places = {place_name(result, cells.front())};
+    small.plot.places = {result.place_of(cells.front())};
     return small;
 }
 
@@ -155,7 +155,7 @@ void add_reach(const StudyResult& result, const std::vector<std::size_t>& group,
     for (StudyFigure& drawn : figures)
         if (auto* const same = std::get_if<plots::Figure>(&drawn.plot.figure); same && is_same_flat(*same, lines.figure, within_m)) {
             const std::string also = "; the same: " + result.cells[group.front()].drive;
-            drawn.plot.places.push_back(place_name(result, group.front()));
+            drawn.plot.places.push_back(result.place_of(group.front()));
             same->subtitle += also;
             drawn.title += also;
             drawn.cells.insert(drawn.cells.end(), group.begin(), group.end());
@@ -273,12 +273,6 @@ std::vector<std::vector<std::size_t>> groups_of(const StudyResult& result) {
         groups.back().push_back(i);
     }
     return groups;
-}
-
-std::string place_name(const StudyResult& result, std::size_t cell) {
-    const bool several = std::ranges::any_of(
-        result.cells, [&](const CellResult& other) { return other.cell.condition != result.cells.front().cell.condition; });
-    return result.cells[cell].drive + (several ? ", " + result.cells[cell].cell.condition : "");
 }
 
 std::vector<StudyFigure> study_figures(const StudyResult& result, const std::filesystem::path& folder) {

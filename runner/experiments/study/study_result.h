@@ -75,6 +75,8 @@ struct StudyResult : Findings {
     bool complete() const; ///< all cells were tried and played
     /// What the study calls the lamps of one of its cells.
     const std::string& lamp_of(std::size_t cell) const { return study.lamps[cells[cell].cell.lamp].name; }
+    /// Of one of its cells: the drive, and the condition where there are several.
+    std::string place_of(std::size_t cell) const;
     /// Cells that differ in nothing but the lamp: of the tested one and of the other.
     std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const StudyComparison& comparison) const;
 };

@@ -104,7 +104,8 @@ Area area_of(const Figure& f, const Legend& legend) {
 void draw_heading(Drawing& c, const Figure& f, const Legend& legend, const Area& a) {
     double y = f.title.empty() ? 2.0 : 24.0;
     if (!f.title.empty())
-        c.text(a.left, y, f.title, {.size_px = 16.0, .colour = ink, .bold = true});
+        c.text(a.left, y, f.title, // smaller where it is long: bold letters are a tenth wider
+               {.size_px = std::min(16.0, (f.width_px - a.left - 8.0) / (1.1 * text_width(f.title, 1.0))), .colour = ink, .bold = true});
     for (const std::string& line : subtitle_lines(f))
         c.text(a.left, y += 18.0, line, {.size_px = 12.0, .colour = faint});
     for (const Legend::Entry& e : legend.entries) {

@@ -48,7 +48,7 @@ void read_white(const YamlEntry& entry, ToneMapper& mapper) {
     else
         mapper.l_max_cdm2 =
             number_beside_words(entry, min_l_max_cdm2, max_l_max_cdm2,
-                                "in cd/m2, `all` (the brightest of the drive) or `surfaces` (the brightest that does not shine itself)");
+                                "in cd/m2, `all` (the brightest of the drive) or `surfaces` (the brightest surface that emits no light)");
 }
 
 std::string white_text(const ToneMapper& mapper) {
@@ -180,7 +180,7 @@ const Fields<ToneMapper>& tone_mapper_fields() {
             field("kind", 1, &Mapper::kind, words({"linear", "rational", "logarithmic", "histogram"}), "from luminance to what is shown"),
             own("s", 2, read_s, s_text, s_schema, "how steep; 1 is linear; fitted: by the drive's own pictures").heard_if(has_s),
             own("l_max_cdm2", 3, read_white, white_text, white_schema,
-                "luminance that becomes white; all: the brightest of the drive; surfaces: the brightest that does not shine itself")
+                "luminance that becomes white; all: the brightest of the drive; surfaces: the brightest surface that emits no light")
                 .heard_if(has_white),
             own("curve", 4, read_curve, curve_text, curve_schema, "knots of ln luminance and ln share; the last is white")
                 .heard_if(has_curve),

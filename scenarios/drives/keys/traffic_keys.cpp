@@ -104,6 +104,10 @@ TrafficRow read_row(const std::string& name, const YamlEntry& entry, LampCache& 
     TrafficRow row = default_row();
     row.name = name;
     read_field(fields, "kind", keys, &row);
+    if (row.kind == RoadUserKind::pedestrian) // carries no lamps
+        row.tail_cd = row.brake_cd = 0.0;
+    if (row.kind == RoadUserKind::bicycle)
+        row.brake_cd = 0.0;
     read_field(fields, "size_m", keys, &row);
     if (const auto model = read_car_model(keys)) {
         row.model = model->file;
@@ -160,8 +164,8 @@ const Fields<TrafficRow>& traffic_fields() {
             own<Row>("face_m", 13, read_face, face_text,
                      R"({"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "number", "minimum": 0.005, "maximum": 2}})",
                      "width and height of each headlamp's luminous face"),
-            field("tail_cd", 14, &Row::tail_cd, range(0.0, 1.0e4), "of each tail lamp on its axis; 0: none"),
-            field("brake_cd", 15, &Row::brake_cd, range(0.0, 1.0e4), "of each brake lamp on its axis; 0: none"),
+            field("tail_cd", 14, &Row::tail_cd, range(0.0, 1.0e4), "of each tail lamp on its axis; 0: none (pedestrians)"),
+            field("brake_cd", 15, &Row::brake_cd, range(0.0, 1.0e4), "of each brake lamp on its axis; 0: none (pedestrians, bicycles)"),
             section("repeat", 16,
                     Fields<TrafficRow>{
                         field("count", 1, &TrafficRow::count, range(1.0, max_users), "of them").required(),

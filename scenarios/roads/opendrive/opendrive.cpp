@@ -97,6 +97,7 @@ RoadNetwork read_opendrive(const std::filesystem::path& path) {
         xml.refuse(xml.root(), {}, "holds no road", "at least one road");
     read_junctions(xml, network);
     check_links(xml, network);
+    check_spelling(xml);
     network.warnings = xml.take_warnings();
     return network;
 }

@@ -14,6 +14,7 @@ namespace {
 
 /// No lane edge lies further from the reference line; beyond, a number is mistyped.
 constexpr double widest_m = 1000.0;
+constexpr double widest_lane_m = 30.0; ///< to drive on; squares have wider ones, but few
 
 std::optional<int> read_link(XmlFile& xml, pugi::xml_node lane_node, const char* name) {
     const pugi::xml_node link = lane_node.child("link").child(name);
@@ -47,6 +48,8 @@ Lane read_lane(XmlFile& xml, pugi::xml_node node) {
         return lane;
     lane.widths = read_cubics(xml, node, "width", "sOffset");
     lane.borders = read_cubics(xml, node, "border", "sOffset");
+    if (lane.widths.empty() && lane.borders.empty() && lane.type != "none")
+        xml.warn_once(node, "no width", fmt::format("lane {} ({}) has neither width nor border: it has no surface", lane.id, lane.type));
     if (!lane.widths.empty() && !lane.borders.empty()) {
         xml.warn(node, fmt::format("lane {} has widths and borders; the widths hold", lane.id));
         lane.borders.clear();
@@ -111,6 +114,8 @@ void check_edges(XmlFile& xml, pugi::xml_node node, const Road& road, const Lane
                                  : !lane.borders.empty()
                                      ? side * (value_at(road.lane_offset, s) + value_at(lane.borders, ds) - edges.inner_t_m)
                                      : 0.0;
+            if (lane.type == "driving" && width > widest_lane_m)
+                xml.warn_once(node, "wide lane", fmt::format("{}: lane {} is {:g} m wide at s = {:g}", road_name, lane.id, width, s));
             if (-width > overlap)
                 overlap = -width, overlap_s = s;
         }

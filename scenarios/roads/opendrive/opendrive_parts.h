@@ -35,5 +35,7 @@ void read_signals(XmlFile& xml, pugi::xml_node road_node, Road& road);
 
 /// Rules that span several parts: links between roads, lanes and junctions. Each breach is a warning.
 void check_links(XmlFile& xml, const RoadNetwork& network);
+/// Warns of elements, attributes and words that are nearly OpenDRIVE's.
+void check_spelling(XmlFile& xml);
 
 } // namespace fernlicht::opendrive

@@ -71,7 +71,7 @@ TEST(LightLimits, MeasuresWhereTheRowDoesAndSaysWhereTheDriveDoesNot) {
     const auto far = judge_light(approach, far_ranges(), 15.0, 220.0, rounding());
     EXPECT_EQ(far[0].verdict, RatingVerdict::exceeded);
     EXPECT_EQ(far[1].verdict, RatingVerdict::not_measured);
-    EXPECT_EQ(far[1].why, "the drive has light from 50.0 to 150.0 m alone");
+    EXPECT_EQ(far[1].why, "the drive has light from 50.0 to 150.0 m only");
     EXPECT_EQ(judge_light({}, far_ranges(), 15.0, 220.0, rounding())[0].verdict, RatingVerdict::not_measured);
 }
 

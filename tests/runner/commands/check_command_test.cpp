@@ -140,11 +140,28 @@ TEST(Check, FindsAStoryboardsPlacesThatAreNotThere) {
     EXPECT_THAT(printed("check " + written(folder, "nowhere.xosc", story), 2), HasSubstr("nowhere.xosc:"));
 }
 
+TEST(Check, NamesTheNearestShippedFileAndReadingAndAllThatIsWrong) {
+    const TemporaryFolder folder;
+    const std::string drive = "fernlicht: 1\nroad: fernlicht:roads/straight.xodr\nspeed_kmh: 50\nduration_s: 1\n"
+                              "measure: {glare: {oncoming: {opposite: {at_m: 250}}}}\n";
+    EXPECT_THAT(printed("check " + written(folder, "lamp.yaml", drive + "lamp_sets: {a: {file: fernlicht:lamps/halogen-lo.ies}}\n"), 2),
+                HasSubstr("'fernlicht:lamps/halogen-lo.ies', which is no shipped file, expected one as 'fernlicht:lamps/halogen-low.ies'"));
+    const std::string said = printed("check " + written(folder, "limits.yaml",
+                                                        drive + "lamp_sets: {a: {file: fernlicht:lamps/halogen-low.ies}}\nlimits:\n"
+                                                                "- {reading: glare_oposite_facing_max_lx, at_most: 2}\n"
+                                                                "- {reading: reach_5lx_roda_own_m, at_least: 40}\n"),
+                                     2);
+    EXPECT_THAT(said, HasSubstr("limits.yaml:8: error: limits: found reading 'glare_oposite_facing_max_lx', expected a reading of this "
+                                "drive (the nearest is 'glare_opposite_facing_max_lx')"));
+    EXPECT_THAT(said, HasSubstr("(the nearest is 'reach_5lx_road_own_m')"));
+}
+
 TEST(Check, TakesAnythingForAFile) {
     const TemporaryFolder folder;
     written(folder, "empty.yaml", "");
     written(folder, "binary.yaml", std::string("\x00\x01\x02\xff\xfe", 5) + std::string(100'000, '\x80'));
     written(folder, "broken.yaml", "fernlicht: 1\nroad: [\n");
+    written(folder, "tab.yaml", "fernlicht: 1\n\troad: x.xodr\nviews: {\n");
     written(folder, "notes.txt", "nothing of ours\n");
     ::mkfifo((folder / "pipe.yaml").c_str(), 0600);
     std::filesystem::create_symlink("loop.yaml", folder / "loop.yaml");
@@ -154,6 +171,7 @@ TEST(Check, TakesAnythingForAFile) {
     for (const auto& [file, problem] : {std::pair("empty.yaml", "is empty"),
                                         {"binary.yaml", "is of no kind"},
                                         {"broken.yaml", "is not YAML"},
+                                        {"tab.yaml", "tab.yaml:2:1: error: found a tab before the text, expected blanks"},
                                         {"notes.txt", "is of no kind that fernlicht reads, expected one of study, rating"},
                                         {"pipe.yaml", "is not a regular file"},
                                         {"loop.yaml", "cannot be read"},

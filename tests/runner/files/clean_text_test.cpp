@@ -39,8 +39,10 @@ TEST(CsvText, QuotesAndDisarmsFormulas) {
     EXPECT_EQ(csv_text("plain"), "plain");
     EXPECT_EQ(csv_text("own lane, \"centre\""), "\"own lane, \"\"centre\"\"\"");
     EXPECT_EQ(csv_text("=HYPERLINK(\"x\")"), "\"'=HYPERLINK(\"\"x\"\")\"");
-    for (const char* const start : {"+1", "-1", "@x", "=x"})
+    for (const char* const start : {"+1", "-1+x", "-x", "@x", "=x"})
         EXPECT_EQ(csv_text(start), std::string("'") + start);
+    for (const char* const number : {"-1", "-0.3", "-1e-5"})
+        EXPECT_EQ(csv_text(number), number);
 }
 
 TEST(CsvFile, ReadsWhatIsWrittenAndRefusesAnOpenQuote) {

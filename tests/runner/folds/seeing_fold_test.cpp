@@ -106,7 +106,7 @@ TEST(Seeing, EachRangeHasItsOwnMaxima) {
     }
     EXPECT_GT(value(readings, "glare_eye_facing_max_lx"), value(readings, "glare_eye_facing_from_15_to_30m_max_lx"));
     EXPECT_THAT(named(readings, "glare_eye_facing_from_60_to_120m_max_lx").value.reason(),
-                HasSubstr("the drive passes 60.0 to 96.4 m alone"));
+                HasSubstr("the drive covers only 60.0 to 96.4 m"));
     EXPECT_THAT(named(readings, "glare_eye_facing_from_120_to_220m_max_lx").value.reason(), HasSubstr("the drive comes from 96.4 m away"));
     // A moment that lacks the figure matters to its own range alone: below a degree age-adjusted veils are not defined.
     glare.equation = VeilingEquation::age_adjusted;

@@ -119,7 +119,7 @@ TEST(Spread, EachRangeHasTheQuantilesOfItsMoments) {
     EXPECT_NEAR(value(even, "glare_eye_facing_from_30_to_60m_lx"), 0.5 * (lx(45.4) + lx(44.4)), 1e-9);
     EXPECT_NEAR(value(even, "glare_eye_facing_from_30_to_60m_p95_lx"), std::lerp(lx(32.4), lx(31.4), 0.55), 1e-9) << "place 27.55 of 0..29";
     EXPECT_GT(value(even, "glare_eye_facing_from_30_to_60m_max_lx"), value(even, "glare_eye_facing_from_30_to_60m_p95_lx"));
-    EXPECT_THAT(named(even, "glare_eye_facing_from_60_to_120m_lx").value.reason(), HasSubstr("the drive passes 60.0 to 96.4 m alone"));
+    EXPECT_THAT(named(even, "glare_eye_facing_from_60_to_120m_lx").value.reason(), HasSubstr("the drive covers only 60.0 to 96.4 m"));
     EXPECT_THAT(named(even, "glare_eye_facing_from_120_to_220m_p95_lx").value.reason(), HasSubstr("the drive comes from 96.4 m away"));
     for (const Reading& reading : even) // an approach as a whole mixes distances
         EXPECT_TRUE(reading.key.to_m || (reading.key.statistic != Statistic::p95 && reading.key.statistic != Statistic::p05))

@@ -127,7 +127,27 @@ TEST(OpenDrive, MisspeltLaneTypesAndWallsWithoutLengthAreTold) {
         .rest = R"(<objects><object id="7" type="barrier" s="10" t="-5" zOffset="0" Length="60" width="0.3" height="0.8"/></objects>)"});
     EXPECT_THAT(network.warnings, Contains(HasSubstr("'drivng' is none of OpenDRIVE's (the nearest is 'driving'): nobody drives there")));
     EXPECT_THAT(network.warnings, Contains(HasSubstr("object '7' has no length: it is 0.1 m long")));
-    EXPECT_EQ(network.warnings.size(), 2U);
+    EXPECT_THAT(network.warnings,
+                Contains(HasSubstr("the attribute 'Length' of 'object' is not OpenDRIVE's and is not read: is 'length' meant?")));
+    EXPECT_EQ(network.warnings.size(), 3U);
+}
+
+TEST(OpenDrive, NamesThatAreNearlyRightAreTold) {
+    RoadText text;
+    text.lanes = section(0.0, lane(1),
+                         R"(<lane id="-1" type="driving"><widht sOffset="0" a="3.5" b="0" c="0" d="0"/>
+        <roadMark sOffset="0" type="solid" weight="heavy" colour="white"/><speed sOffset="0" max="50" unit="kph"/><ourOwn myKey="1"/></lane>)");
+    const RoadNetwork network = network_of(text);
+    EXPECT_THAT(network.warnings,
+                Contains(HasSubstr("the element 'widht' of 'lane' is not OpenDRIVE's and is not read: is 'width' meant?")));
+    EXPECT_THAT(network.warnings, Contains(HasSubstr("lane -1 (driving) has neither width nor border: it has no surface")));
+    EXPECT_THAT(network.warnings,
+                Contains(HasSubstr("the attribute 'colour' of 'roadMark' is not OpenDRIVE's and is not read: is 'color' meant?")));
+    EXPECT_THAT(network.warnings, Contains(HasSubstr("the weight 'heavy' of 'roadMark' is not OpenDRIVE's, which has standard, bold")));
+    EXPECT_THAT(network.warnings, Contains(HasSubstr("the unit 'kph' of 'speed'")));
+    EXPECT_EQ(network.warnings.size(), 5U); // extensions of others are theirs
+    text.lanes = section(0.0, lane(1), lane(-1, "350"));
+    EXPECT_THAT(network_of(text).warnings, Contains(HasSubstr("lane -1 is 350 m wide at s = 0")));
 }
 
 TEST(OpenDrive, RoadMarks) {

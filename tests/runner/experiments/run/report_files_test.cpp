@@ -253,6 +253,15 @@ TEST(ReportHtml, HostileNamesStayText) {
     EXPECT_THAT(html, Not(HasSubstr("\xff")));
 }
 
+TEST(ReportHtml, AReadingOfTwoLampsIsOneRowWhereverEachFoundIt) {
+    Report report = tests::sample_report(2);
+    report.played[0].readings[0].where = "adapted to 0.4 cd/m2";
+    report.played[1].readings[0].where = "adapted to 0.7 cd/m2";
+    const std::string page = report_html(report, "no such folder");
+    EXPECT_THAT(page, HasSubstr("halogen: adapted to 0.4 cd/m2; xenon: adapted to 0.7 cd/m2"));
+    EXPECT_THAT(page, Not(HasSubstr("not asked for")));
+}
+
 TEST(ReportHtml, NeedsNothingFromOutside) {
     const std::string html = report_html(tests::sample_report(3), "no such folder");
     EXPECT_THAT(html, HasSubstr("default-src 'none'"));

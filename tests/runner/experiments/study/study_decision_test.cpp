@@ -99,7 +99,7 @@ TEST(Decision, TwoPlacesWithOneResultCountOnce) {
     EXPECT_THAT(same_results(study.result, decisions),
                 ElementsAre("drive-0 and drive-1 give the same result in 1 deciding reading, so it counts once"));
     EXPECT_THAT(decision_sentence(study.result, decisions.front()),
-                HasSubstr("own lane +10.00 m (+25 %) in 1 of 2 different results, on drive-0"));
+                HasSubstr("own lane +10.00 m (+25 %) at 1 of 2 places that differ, on drive-0"));
     EXPECT_THAT(decision_sentence(study.result, decisions.front()), Not(HasSubstr("most on")));
     EXPECT_THAT(same_results(study.result, MadeStudy().on(0, reach, 40.0, 50.0).on(1, reach, 41.0, 51.0).decided()), IsEmpty());
 }
