@@ -108,9 +108,14 @@ const StudyComparison& comparison_of(const StudyResult& result, const Decision& 
 std::string told(const StudyResult& result, const DecidedReading& decided) {
     const std::size_t of = decided.changes.size(), by = decided.decided_by.size();
     const std::size_t largest = *std::ranges::max_element(decided.decided_by, {}, [&](std::size_t i) { return result.changes[i].size(); });
+    const CellResult& cell = result.cells[result.changes[largest].tested];
+    std::string place = cell.drive;
+    for (const AxisValue& at : cell.cell.axes)
+        if (!at.value.empty())
+            place += fmt::format(", {} {}", at.axis, at.value);
     return fmt::format("{} {}{}{}", reading_label(decided.reading), change_words(result.changes[decided.told]),
                        by < of ? fmt::format(" at {} of {} places that differ", by, of) : "",
-                       of > 1 ? fmt::format(", {}on {}", by > 1 ? "most " : "", result.place_of(result.changes[largest].tested)) : "");
+                       of > 1 ? fmt::format(", {}on {}", by > 1 ? "most " : "", place) : "");
 }
 
 std::string listed(const StudyResult& result, const Decision& decision, DecisionOutcome outcome, const char* words) {
