@@ -3,6 +3,7 @@
 #include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/town/town.h"
 #include "runner/files/log.h"
+#include "runner/files/output_folder.h"
 #include "runner/files/picture_file.h"
 #include "runner/findings/lux_figure.h"
 #include "runner/write/plots/svg.h"
@@ -50,9 +51,9 @@ int tell_town(const TownFlags& flags) {
         request.heading_rad = radians(*flags.heading_deg);
     request.yaw_rad = radians(flags.yaw_deg);
     const Model model = read_model(flags.model);
-    const std::filesystem::path folder = result_folder(flags.out, model.name + "-night");
     const TownFound found = look_at_town(model, request);
-    std::filesystem::create_directories(folder);
+    OutputFolder made(result_folder(flags.out, model.name + "-night"));
+    const std::filesystem::path& folder = made.path();
     write_png(found.view, folder / "driver.png");
     auto figure = lux_map_figure(found.map, fmt::format("{} in two lamps, {}", model.name, request.lamp));
     figure->subtitle = "lux on the ground; lines at 1, 3, 5, 10, 30 and 50 lx";
@@ -61,7 +62,8 @@ int tell_town(const TownFlags& flags) {
     write_file(folder / "town.txt", text);
     if (!found.doubt.empty())
         tell(LogLevel::warning, found.doubt);
-    fmt::print("{}\n{}\n{}\n", text, (folder / "driver.png").string(), (folder / "lux.png").string());
+    made.finish();
+    fmt::print("{}\n{}\n{}\n{}\n", text, (folder / "driver.png").string(), (folder / "lux.png").string(), (folder / "town.txt").string());
     return 0;
 }
 

@@ -99,6 +99,7 @@ class Dresser {
     void add_bollards(const Road& road);
     void add_verge(const Road& road, bool left);
     Pose beside(const Road& road, double s_m, bool left, double out_m) const;
+    Pose grown_beside(const Road& road, double s_m, bool left, double out_m) const;
     bool is_free(const Road& road, const glm::dvec3& place_m, double room_m) const;
     bool is_clear(const Road& road, const glm::dvec3& place_m, int lane) const;
 

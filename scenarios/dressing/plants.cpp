@@ -238,7 +238,7 @@ DressedObject dressed_tuft(double height_m, Dice dice) {
             across = dice.between(0.008, 0.020) * glm::dvec3(-forward.y, forward.x, 0.0);
         const glm::dvec3 foot(0.3 * (dice.share() - 0.5), 0.3 * (dice.share() - 0.5), 0.0),
             tip = foot + lean * forward + glm::dvec3(0, 0, height_m * dice.between(0.5, 1.0));
-        // Its normal is the meadow's: with both of its sides it returns light as that does, and the ground before it does not shade it.
+        // Its normal is the ground's: with both of its sides it returns light as that does, and the ground before it does not shade it.
         const std::size_t before = out.low.vertices.size();
         out.low.add({foot + across, foot - across, tip}, index_of(Stuff::grass));
         for (std::size_t k = before; k < out.low.vertices.size(); ++k)

@@ -148,12 +148,23 @@ void Dresser::add_bollards(const Road& road) {
     }
 }
 
-/// On the ground beside a road, so far out from its edge.
+/// On the ground beside a road, so far out from its edge, level.
 Pose Dresser::beside(const Road& road, double s_m, bool left, double out_m) const {
     const Pose edge = surface_pose(network_, road, s_m, outer_edge_m(road, s_m, left));
     const double yaw = std::atan2(edge.forward().y, edge.forward().x), side = left ? 1.0 : -1.0;
     return {edge.position_m + glm::dvec3(-std::sin(yaw) * side * out_m, std::cos(yaw) * side * out_m, -ground_drop_m(out_m)),
             axes_from_angles(yaw, 0.0, 0.0)};
+}
+
+/// The same, standing on the ground as it slopes.
+Pose Dresser::grown_beside(const Road& road, double s_m, bool left, double out_m) const {
+    constexpr double apart_m = 0.1;
+    const auto at = [&](double s, double out) { return beside(road, s, left, out).position_m; };
+    const double before = std::max(0.0, s_m - apart_m), after = std::min(road.length_m, s_m + apart_m);
+    const glm::dvec3 forward = glm::normalize(at(after, out_m) - at(before, out_m)),
+                     outward = at(s_m, out_m + apart_m) - at(s_m, out_m - apart_m),
+                     up = glm::normalize(left ? glm::cross(forward, outward) : glm::cross(outward, forward));
+    return {at(s_m, out_m), glm::dmat3(forward, glm::cross(up, forward), up)};
 }
 
 /// Whether nothing else is there: another road, or an object within so many metres.
@@ -182,7 +193,7 @@ void Dresser::add_verge(const Road& road, bool left) {
             continue;
         for (double s = from; s < to; s += here.between(0.6, 2.2)) {
             const double share = here.share(), out = 0.7 + 6.3 * share * share; // denser towards the road
-            const Pose pose = beside(road, s, left, out);
+            const Pose pose = grown_beside(road, s, left, out);
             const double most = ground_drop_m(out) + 0.05;
             const bool in_ditch = out > 2.0 && out < 4.5 && has_ditch(road, left, {s, s}, settings_.seed);
             if (!in_ditch && is_free(road, pose.position_m, 0.3))

@@ -38,7 +38,7 @@ FilmLayout film_layout(FilmArrangement arrangement, int panels, int width_px, in
     const std::string found = fmt::format("found {} panel{}, one for each lamp set of each drive", panels, panels == 1 ? "" : "s");
     const bool two = arrangement == FilmArrangement::side_by_side || arrangement == FilmArrangement::wipe;
     if (two && panels != 2)
-        refuse(arrangement == FilmArrangement::wipe ? "--wipe" : "--side-by-side", found, "two; --lamp-set chooses");
+        refuse(arrangement == FilmArrangement::wipe ? "--wipe" : "--side-by-side", found, "two; --lamp-sets chooses");
     if (panels > most_film_panels)
         refuse("--lamp-sets", found, fmt::format("at most {}", most_film_panels));
     FilmLayout layout{.width_px = width_px, .height_px = height_px, .wipe = arrangement == FilmArrangement::wipe};

@@ -19,11 +19,12 @@ std::string source_of(const StudyResult& result, const std::vector<std::size_t>&
     std::vector<std::string> names;
     for (const std::size_t cell : cells)
         names.push_back(result.cells[cell].cell.name);
-    return fmt::format("Source: moments of {} {} in the study {}{}.", names.size() == 1 ? "the cell" : "the cells", fmt::join(names, ", "),
-                       result.study.name,
+    return fmt::format("Source: moments of {} {} in the study {}{}.{}", names.size() == 1 ? "the cell" : "the cells",
+                       fmt::join(names, ", "), result.study.name,
                        result.context.versions.empty()
                            ? ""
-                           : fmt::format(", {} {}", result.context.versions.front().first, result.context.versions.front().second));
+                           : fmt::format(", {} {}", result.context.versions.front().first, result.context.versions.front().second),
+                       result.played_in_part.empty() ? "" : " " + result.played_in_part + ".");
 }
 
 Table data_of(const plots::Figure& figure) {

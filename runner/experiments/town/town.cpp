@@ -34,8 +34,8 @@ Pose place_of(const SceneGround& ground, const TownRequest& request) {
     if (!request.at_m) {
         const std::optional<Pose> found = ground.longest_free_way();
         if (!found)
-            throw InputError({{}, 0, 0, "--place"}, "no ground that a car could stand on",
-                             "X,Y in the model's frame, or a model with ground");
+            throw InputError({{}, 0, 0, "MODEL"}, "found no ground that a car could stand on",
+                             "streets in metres (--metres-per-unit), or --place X,Y over ground");
         if (!request.heading_rad)
             return *found;
         return *ground.car_at(found->position_m.x, found->position_m.y, *request.heading_rad);
@@ -100,7 +100,7 @@ TownFound look_at_town(const Model& model, const TownRequest& request) {
     if (found.free_way_m < street_m)
         found.doubt =
             fmt::format("the way ahead is free for {:.0f} m only: is this a model of streets (a car by itself has a roof for ground), "
-                        "in metres (--scale), and --place on a street?",
+                        "in metres (--metres-per-unit), and --place on a street?",
                         found.free_way_m);
     const Moment moment = in_two_lamps(request.lamp, found.car);
     Device device = open_device(request.backend);

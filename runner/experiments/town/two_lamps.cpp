@@ -16,7 +16,7 @@ std::shared_ptr<const LampFile> lamp_named(const std::string& name) {
         return std::make_shared<const LampFile>(lamp_of_model(*known));
     std::error_code ignored;
     if (!std::filesystem::exists(name, ignored))
-        throw InputError({{}, 0, 0, "--lamp"}, "found '" + printable(name) + "'",
+        throw InputError({{}, 0, 0, "--low-beams"}, "found '" + printable(name) + "'",
                          "a lamp's file, or halogen-low, halogen-high, xenon-low or xenon-high");
     return std::make_shared<const LampFile>(read_lamp(name));
 }

@@ -150,9 +150,12 @@ class Side {
             points[k].first = glm::mix(rib.points_m[1], rib.points_m[2], along) - glm::dvec3(0.0, 0.0, depth * ditch_profile[k].drop_m);
             out[k] = {ditch_profile[k].out_m, rib.points_m[1].z - points[k].first.z};
         }
+        // Grass lets light through: what faces away from the road is as bright as the ground would be.
+        const double fall = (rib.points_m[1].z - rib.points_m[2].z) / (ditch_end_m - verge_m);
         for (std::size_t k = 0; k < out.size(); ++k) {
             const glm::dvec2 way = out[std::min(k + 1, out.size() - 1)] - out[k == 0 ? 0 : k - 1];
-            points[k].second = glm::normalize(glm::dvec3(0.0, 0.0, 1.0) + way.y / way.x * rib.outward - rib.grade * rib.forward);
+            points[k].second =
+                glm::normalize(glm::dvec3(0.0, 0.0, 1.0) + std::min(way.y / way.x, fall) * rib.outward - rib.grade * rib.forward);
         }
         return points;
     }

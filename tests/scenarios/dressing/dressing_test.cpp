@@ -188,6 +188,22 @@ TEST(Dressing, OfAMirroredDriveIsItsImage) {
     EXPECT_GT(compared, 100U);
 }
 
+TEST(Dressing, GrassGrowsAsTheGroundSlopes) {
+    RoadNetwork network = opendrive_text::library_road("straight.xodr");
+    constexpr double grade = 0.1;
+    network.roads.front().elevation = {Cubic{0.0, 0.0, grade, 0.0, 0.0}};
+    Scene scene = build_scene(network, {.leave_out = is_dressed});
+    add_dressing(scene, network, Route(network, {}), {});
+    std::size_t blades = 0;
+    for (const Mesh& mesh : scene.meshes)
+        if (mesh.name.starts_with("grass"))
+            for (const Vertex& v : mesh.vertices) {
+                ASSERT_NEAR(v.normal.x / v.normal.z, -grade, 0.001) << "or lamps below it would not light it";
+                ++blades;
+            }
+    EXPECT_GT(blades, 1000U);
+}
+
 TEST(Dressing, HousesKeepTheirDetailAsFarAsAPixelShowsIt) {
     RoadNetwork network = opendrive_text::library_road("straight.xodr");
     RoadObject house;
