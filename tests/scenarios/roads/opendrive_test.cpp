@@ -135,11 +135,11 @@ TEST(OpenDrive, MisspeltLaneTypesAndWallsWithoutLengthAreTold) {
 TEST(OpenDrive, NamesThatAreNearlyRightAreTold) {
     RoadText text;
     text.lanes = section(0.0, lane(1),
-                         R"(<lane id="-1" type="driving"><widht sOffset="0" a="3.5" b="0" c="0" d="0"/>
+                         R"(<lane id="-1" type="driving"><widthh sOffset="0" a="3.5" b="0" c="0" d="0"/>
         <roadMark sOffset="0" type="solid" weight="heavy" colour="white"/><speed sOffset="0" max="50" unit="kph"/><ourOwn myKey="1"/></lane>)");
     const RoadNetwork network = network_of(text);
     EXPECT_THAT(network.warnings,
-                Contains(HasSubstr("the element 'widht' of 'lane' is not OpenDRIVE's and is not read: is 'width' meant?")));
+                Contains(HasSubstr("the element 'widthh' of 'lane' is not OpenDRIVE's and is not read: is 'width' meant?")));
     EXPECT_THAT(network.warnings, Contains(HasSubstr("lane -1 (driving) has neither width nor border: it has no surface")));
     EXPECT_THAT(network.warnings,
                 Contains(HasSubstr("the attribute 'colour' of 'roadMark' is not OpenDRIVE's and is not read: is 'color' meant?")));
