@@ -256,7 +256,7 @@ data part_of(const PictureStrip& strip, const std::filesystem::path& folder, std
 }
 
 const char* mark_of(const std::string& verdict) {
-    return verdict == "none" ? "–" : verdict == "pass" ? "✓" : verdict == "fail" ? "✗" : "?";
+    return verdict == "none" ? "" : verdict == "pass" ? "✓" : verdict == "fail" ? "✗" : "?";
 }
 
 bool needs_script(const DocumentPart& block) {

@@ -343,7 +343,7 @@ data verdict_part(const Report& report, Section section) {
     data part;
     part.set("word", std::exchange(section.title, ""));
     part.set("class", none ? "none" : verdict_name(verdict));
-    part.set("mark", none                            ? "\u2013"
+    part.set("mark", none                            ? ""
                      : verdict == VerdictKind::fail  ? "\u2717"
                      : verdict == VerdictKind::flaky ? "\u2260"
                      : verdict == VerdictKind::pass  ? "\u2713"

@@ -81,7 +81,7 @@ TEST(Town, WhereNoCarCanStandIsSaid) {
     EXPECT_THAT(tests::refusal_of([&] { look_at_town(wall, request); }), testing::HasSubstr("no ground that a car could stand on"));
     request = small_request();
     request.lamp = "nothing.ies";
-    EXPECT_THAT(tests::refusal_of([&] { look_at_town(town(), request); }), testing::HasSubstr("--lamp: found 'nothing.ies'"));
+    EXPECT_THAT(tests::refusal_of([&] { look_at_town(town(), request); }), testing::HasSubstr("--low-beams: found 'nothing.ies'"));
 }
 
 } // namespace
