@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 namespace fernlicht::flip {
 namespace {
@@ -87,12 +88,16 @@ float colour_and_features(float colour, float feature) {
     return unit(quick_exp2(left * quick_log2(colour)));
 }
 
-/// Sixteen floats that lie anywhere in memory.
-typedef float Lanes __attribute__((vector_size(64), aligned(4), may_alias));
+typedef float Lanes __attribute__((vector_size(64)));
 constexpr int lanes = 16;
 
-[[gnu::always_inline]] inline const Lanes& load(const float* at) { return *reinterpret_cast<const Lanes*>(at); }
-[[gnu::always_inline]] inline void store(float* at, const Lanes& value) { *reinterpret_cast<Lanes*>(at) = value; }
+/// Sixteen floats that lie anywhere in memory.
+[[gnu::always_inline]] inline Lanes load(const float* at) {
+    Lanes value;
+    std::memcpy(&value, at, sizeof value);
+    return value;
+}
+[[gnu::always_inline]] inline void store(float* at, const Lanes& value) { std::memcpy(at, &value, sizeof value); }
 
 /// A tile with its surroundings: where its rows lie in the buffers.
 struct Ground {

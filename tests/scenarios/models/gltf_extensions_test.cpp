@@ -63,7 +63,7 @@ WrittenGltf square() {
 
 void give_picture(WrittenGltf& file, const std::string& picture, const char* extension = nullptr) {
     file.json["images"] = {{{"name", "leaves"}, {"mimeType", "image/webp"}, {"bufferView", add_view(file, picture)}}};
-    file.json["textures"] = {extension ? Json{{"extensions", {{extension, {{"source", 0}}}}}} : Json{{"source", 0}}};
+    file.json["textures"] = Json::array({extension ? Json{{"extensions", {{extension, {{"source", 0}}}}}} : Json{{"source", 0}}});
     file.json["materials"][0]["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
 }
 
