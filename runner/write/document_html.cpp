@@ -255,9 +255,7 @@ data part_of(const PictureStrip& strip, const std::filesystem::path& folder, std
     return part;
 }
 
-const char* mark_of(const std::string& verdict) {
-    return verdict == "none" ? "" : verdict == "pass" ? "✓" : verdict == "fail" ? "✗" : "?";
-}
+const char* mark_of(const std::string& verdict) { return verdict == "none" ? "" : verdict == "pass" ? "✓" : verdict == "fail" ? "✗" : "?"; }
 
 bool needs_script(const DocumentPart& block) {
     const auto* table = std::get_if<Table>(&block);
