@@ -20,7 +20,7 @@ class OwnFolder {
         ::setenv("TMPDIR", path_.c_str(), 1);
         ::setenv("TEST_TMPDIR", path_.c_str(), 1);
         ::setenv("XDG_CACHE_HOME", path_.c_str(), 1);                             // the store of cells
-        ::setenv("MESA_SHADER_CACHE_DIR", FERNLICHT_TEST_FILES "/../shaders", 0); // compiled once for all tests, most of whose time it took
+        ::setenv("MESA_SHADER_CACHE_DIR", FERNLICHT_TEST_FILES "/../shaders", 0); // compiled shaders stay for the next run
     }
     ~OwnFolder() {
         std::error_code ignored;

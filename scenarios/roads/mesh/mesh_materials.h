@@ -76,6 +76,7 @@ glm::dvec3 mean_reflectance(const SurfaceTexture& texture, TextureMode mode, con
 /// terrain; both kinds of paint. Albedo and retro_rl become such that their means over a repetition are what they were.
 void add_road_textures(Scene& scene, std::uint64_t seed);
 
+/// Remembers what it has drawn: one thread at a time.
 class TilingNoise {
   public:
     /// `stream` tells apart what is drawn with one seed.
