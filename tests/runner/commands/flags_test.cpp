@@ -1,4 +1,6 @@
 // The command line as one: what its flags are called, what it says of those that it cannot use, what goes to which stream.
+#include "runner/commands/flag_values.h"
+#include "scenarios/values/errors.h"
 #include "tests/runner/program.h"
 
 #include <algorithm>
@@ -128,6 +130,12 @@ TEST(Flags, HelpHasOneGrammar) {
         for (std::string line; std::getline(lines, line);)
             EXPECT_TRUE(line.size() <= 112 || !line.starts_with("  ")) << line;
     }
+}
+
+TEST(Flags, FramesAreARangeOrOne) {
+    EXPECT_EQ(std::pair(tick_range("20").first, tick_range("20").last), std::pair(20, 20));
+    EXPECT_EQ(std::pair(tick_range(":5").first, tick_range("3:5").last), std::pair(0, 5));
+    EXPECT_THROW(tick_range("two"), InputError);
 }
 
 TEST(Streams, ResultsGoOutAndAllElseGoesToStandardError) {

@@ -294,6 +294,16 @@ TEST(Dressing, DitchesAreSeenInTheGroundThatIsMeasuredAlone) {
     EXPECT_GT(seen_m2, 2000.0);
     EXPECT_NEAR(seen_m2, measured_m2, 1e-3 * measured_m2) << "one lies over the other";
     EXPECT_NEAR(steepest, 0.5 / 0.75 + 0.26 / 3.5, 0.05) << "1 : 1.5 under ground that falls by 0.26 m over 3.5 m";
+    double most_tilted = 0.0; // away from a road on the way east, which falls by 0.26 m over 3.5 m beside it
+    const Scene straight =
+        dressed(opendrive_text::library_road("straight.xodr"), Route(opendrive_text::library_road("straight.xodr"), {}), 1);
+    for (const Mesh& mesh : straight.meshes)
+        if (is_ditch(mesh))
+            for (const Vertex& v : mesh.vertices)
+                most_tilted = std::max(most_tilted, static_cast<double>(v.normal.y / v.normal.z) *
+                                                        (mesh.origin_m.y + static_cast<double>(v.position_m.y) > 0.0 ? 1.0 : -1.0));
+    EXPECT_GT(most_tilted, 0.01);
+    EXPECT_LT(most_tilted, 0.26 / 3.5 + 0.01) << "a slope that faces away is lit as the ground";
     for (const Mesh& mesh : scene.meshes) {
         EXPECT_FALSE(mesh.casts && (mesh.measured_alone || is_ditch(mesh))) << mesh.name << ": one would speckle the other";
         for (const Batch& batch : mesh.batches)

@@ -104,6 +104,14 @@ TEST(Decision, TwoPlacesWithOneResultCountOnce) {
     EXPECT_THAT(same_results(study.result, MadeStudy().on(0, reach, 40.0, 50.0).on(1, reach, 41.0, 51.0).decided()), IsEmpty());
 }
 
+TEST(Decision, TheSentenceNamesThePointOfTheAxes) {
+    MadeStudy study;
+    study.on(0, reach, 40.0, 42.0).on(1, reach, 50.0, 60.0);
+    for (std::size_t i = 2; i < 4; ++i)
+        study.result.cells[i].cell.axes = {{"pitch_deg", "0.3"}, {"weather.wetness", ""}};
+    EXPECT_THAT(decision_sentence(study.result, study.decided().front()), HasSubstr(", most on drive-1, pitch_deg 0.3."));
+}
+
 TEST(Decision, TheSentenceNamesWhereMostChangedAndWhatIsWithinAim) {
     MadeStudy study;
     study.on(0, reach, 40.0, 42.0).on(1, reach, 50.0, 60.0).on(2, reach, 60.0, 64.0);

@@ -1,3 +1,4 @@
+#include "runner/findings/plots/drawing.h"
 #include "runner/write/plots/png.h"
 #include "runner/write/plots/svg.h"
 
@@ -198,6 +199,21 @@ TEST(Svg, ALongSubtitleGoesOnInTheNextLine) {
     for (std::size_t at = svg.find("word-"); at != std::string::npos; at = svg.find("word-", svg.find('<', at)))
         ++lines;
     EXPECT_EQ(lines, 3U);
+}
+
+TEST(Svg, ALongTitleIsSmallerInsteadOfCutOff) {
+    Figure figure = small_figure();
+    const auto size_of = [&](const std::string& title) {
+        figure.title = title;
+        const std::string svg = svg_of(figure);
+        const std::size_t text = svg.rfind("<text", svg.rfind(">" + title + "<")), at = svg.find("font-size=\"", text) + 11;
+        return std::stod(svg.substr(at));
+    };
+    EXPECT_EQ(size_of("Light"), 16.0);
+    const std::string longest(120, 'm');
+    const double size_px = size_of(longest);
+    EXPECT_LT(size_px, 16.0);
+    EXPECT_LE(text_width(longest, size_px), figure.width_px);
 }
 
 TEST(Svg, WhatWasNotMeasuredInterruptsTheLine) {

@@ -301,6 +301,21 @@ TEST_F(PlacedTraffic, AResolvedDriveReadsBackToTheSameTraffic) {
     EXPECT_EQ(write_drive(read("")).find("traffic:"), std::string::npos) << "a drive without traffic says nothing of it";
 }
 
+TEST_F(PlacedTraffic, PedestriansCarryNoLampsUnlessTheirRowGivesThem) {
+    const auto lamps_of = [&](const std::string& keys) {
+        Drive drive = read("traffic: {other: {ahead: {gap_m: 30}, speed_mps: 20, " + keys + "}}\n");
+        const std::string written = write_drive(drive);
+        EXPECT_EQ(write_drive(read_drive(tests::written("again.yaml", written))), written) << keys;
+        moment(drive, 0.0);
+        return drive.traffic.front().lamps.size();
+    };
+    EXPECT_EQ(lamps_of("kind: car"), 4U);
+    EXPECT_EQ(lamps_of("kind: pedestrian"), 0U);
+    EXPECT_GT(lamps_of("kind: pedestrian, tail_cd: 6"), 0U);
+    EXPECT_EQ(lamps_of("kind: bicycle"), lamps_of("kind: bicycle, brake_cd: 0"));
+    EXPECT_LT(lamps_of("kind: bicycle"), lamps_of("kind: bicycle, brake_cd: 80"));
+}
+
 TEST_F(PlacedTraffic, EachHasABodyInItsOwnFrame) {
     Drive drive = read(row("ahead: {gap_m: 30}, speed_mps: 20, repeat: {count: 2, every_m: 20}"));
     moment(drive, 0.0);
