@@ -149,9 +149,9 @@ TEST(OpenDrive, NamesThatAreNearlyRightAreTold) {
     EXPECT_THAT(
         tests::refusal_of([] {
             network_of(file(
-                R"(<road id="1" length="10"><planView><geometry s="0" x="0" y="0" hdg="0" lengthh="10"><line/></geometry></planView></road>)"));
+                R"(<road id="1" length="10"><planView><geometry s="0" x="0" y="0" hdg="0" longth="10"><line/></geometry></planView></road>)"));
         }),
-        HasSubstr("geometry@length: is missing (found 'lengthh')"));
+        HasSubstr("geometry@length: is missing (found 'longth')"));
     text.lanes = section(0.0, lane(1), lane(-1, "350"));
     EXPECT_THAT(network_of(text).warnings, Contains(HasSubstr("lane -1 is 350 m wide at s = 0")));
 }
