@@ -2,7 +2,6 @@
 #include "scenarios/models/cut_outs.h"
 #include "scenarios/models/material_doubts.h"
 #include "scenarios/values/errors.h"
-#include "scenarios/values/png_file.h"
 #include "tests/scenarios/models/written_gltf.h"
 #include "tests/trial.h"
 
@@ -25,47 +24,8 @@
 namespace fernlicht {
 namespace {
 
-using test::Json, test::WrittenGltf;
+using test::add_accessor, test::add_view, test::attributes, test::bytes_of, test::give_picture, test::Json, test::square, test::WrittenGltf;
 using testing::HasSubstr;
-
-template <class T> std::string bytes_of(const std::vector<T>& values) {
-    return std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-}
-
-/// A view of these bytes at the end of the buffer, on a boundary of 4.
-std::size_t add_view(WrittenGltf& file, const std::string& bytes) {
-    file.buffer.append((4 - file.buffer.size() % 4) % 4, '\0');
-    file.json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", file.buffer.size()}, {"byteLength", bytes.size()}});
-    file.buffer += bytes;
-    return file.json["bufferViews"].size() - 1;
-}
-
-std::size_t add_accessor(WrittenGltf& file, const std::string& bytes, int component, std::size_t count, const char* type,
-                         bool normalized = false) {
-    file.json["accessors"].push_back({{"bufferView", add_view(file, bytes)},
-                                      {"componentType", component},
-                                      {"count", count},
-                                      {"type", type},
-                                      {"normalized", normalized}});
-    return file.json["accessors"].size() - 1;
-}
-
-Json& attributes(WrittenGltf& file) { return file.json["meshes"][0]["primitives"][0]["attributes"]; }
-
-/// Two triangles of 1 m x 1 m on the ground, texture coordinates from 0 to 1, of material 0.
-WrittenGltf square() {
-    WrittenGltf file({{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, {0, 1, 2, 0, 2, 3});
-    attributes(file)["TEXCOORD_0"] = add_accessor(file, bytes_of<float>({0, 0, 0, 1, 1, 1, 1, 0}), 5126, 4, "VEC2");
-    file.json["meshes"][0]["primitives"][0]["material"] = 0;
-    file.json["materials"] = {{{"name", "leaf"}}};
-    return file;
-}
-
-void give_picture(WrittenGltf& file, const std::string& picture, const char* extension = nullptr) {
-    file.json["images"] = {{{"name", "leaves"}, {"mimeType", "image/webp"}, {"bufferView", add_view(file, picture)}}};
-    file.json["textures"] = Json::array({extension ? Json{{"extensions", {{extension, {{"source", 0}}}}}} : Json{{"source", 0}}});
-    file.json["materials"][0]["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
-}
 
 /// `pixel(x, y)` as red, green, blue, opacity.
 template <class Pixel> std::string webp(int side, Pixel pixel) {
@@ -184,13 +144,6 @@ class GltfExtensions : public testing::Test {
     }
     std::string refusal(const WrittenGltf& file) const {
         return tests::refusal_of([&] { read(file); });
-    }
-    std::string doubts(const WrittenGltf& file) const {
-        const Model model = read(file);
-        std::string all;
-        for (const MaterialDoubt& doubt : model.doubts)
-            all += doubt.text + "\n";
-        return all;
     }
     const std::filesystem::path folder_ = tests::new_folder();
 };
@@ -449,48 +402,6 @@ TEST_F(GltfExtensions, SparseAccessorsReplaceWhatTheyName) {
         {"indices", {{"bufferView", add_view(file, bytes_of<std::uint16_t>({2}))}, {"componentType", 5123}}},
         {"values", {{"bufferView", add_view(file, bytes_of<float>({5, 0, 0}))}}}};
     EXPECT_EQ(read(file).high_m, glm::dvec3(1, 5, 0));
-}
-
-TEST_F(GltfExtensions, WhatNoSurfaceReflectsIsDoubted) {
-    const auto with = [&](const Json& material) {
-        WrittenGltf file = square();
-        file.json["materials"][0] = material;
-        return doubts(file);
-    };
-    const auto factor = [](double r, double g, double b) { return Json{{"pbrMetallicRoughness", {{"baseColorFactor", {r, g, b, 1}}}}}; };
-    EXPECT_THAT(with(factor(0.95, 0.95, 0.95)), HasSubstr("reflects 0.95"));
-    EXPECT_EQ(with(factor(0.8, 0.8, 0.8)), "");
-    EXPECT_THAT(with(factor(0.01, 0.01, 0.01)), HasSubstr("reflects 0.010"));
-    EXPECT_THAT(with(factor(128 / 255.0, 64 / 255.0, 32 / 255.0)), HasSubstr("steps of 1/255"));
-    EXPECT_EQ(with(factor(0.2158605, 0.0512695, 0.0144438)), "") << "the same as linear numbers";
-    Json sign = factor(0.5, 0.5, 0.5);
-    sign["emissiveFactor"] = {1, 1, 1};
-    sign["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 900;
-    EXPECT_EQ(with(sign), "");
-    sign["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 5000;
-    EXPECT_THAT(with(sign), HasSubstr("shines with 5000 cd/m2"));
-    Json sheet = factor(0.5, 0.5, 0.5); // 500 cd/(lx m2) over a lobe of 0.02 rad, from the angle 0: 2 pi 500 0.02^2 = 1.26
-    sheet["extras"] = {{"retro_rl", 500}, {"retro_reference_rad", 1e-5}, {"retro_falloff_rad", 0.02}};
-    EXPECT_THAT(with(sheet), HasSubstr("reflects 0.50 diffusely and returns 1.26"));
-}
-
-TEST_F(GltfExtensions, APictureThatIsNoColourIsDoubted) {
-    const auto png = [](int r, int g, int b, bool linear) {
-        const std::vector<std::uint8_t> rgb{static_cast<std::uint8_t>(r), static_cast<std::uint8_t>(g), static_cast<std::uint8_t>(b)};
-        std::string bytes = encode_png({1, 1, 8, rgb.data()}, 1);
-        if (linear) // gAMA of 1.0, with its checksum, behind the head
-            bytes.insert(33, std::string("\0\0\0\4gAMA\0\1\x86\xa0\x31\xe8\x96\x5f", 16));
-        return bytes;
-    };
-    WrittenGltf file = square();
-    give_picture(file, png(128, 130, 100, false));
-    EXPECT_EQ(doubts(file), "");
-    give_picture(file, png(128, 130, 100, true));
-    EXPECT_THAT(doubts(file), HasSubstr("says it is linear"));
-    give_picture(file, png(128, 127, 250, false));
-    EXPECT_THAT(doubts(file), HasSubstr("looks like directions of a surface"));
-    file.json["materials"].push_back({{"normalTexture", {{"index", 0}}}});
-    EXPECT_THAT(doubts(file), HasSubstr("is directions of a surface elsewhere"));
 }
 
 /// Each file cut off at every step and with bits flipped all over: read, or refused in one sentence.

@@ -64,4 +64,43 @@ struct WrittenGltf {
     }
 };
 
+template <class T> std::string bytes_of(const std::vector<T>& values) {
+    return std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+/// A view of these bytes at the end of the buffer, on a boundary of 4.
+inline std::size_t add_view(WrittenGltf& file, const std::string& bytes) {
+    file.buffer.append((4 - file.buffer.size() % 4) % 4, '\0');
+    file.json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", file.buffer.size()}, {"byteLength", bytes.size()}});
+    file.buffer += bytes;
+    return file.json["bufferViews"].size() - 1;
+}
+
+inline std::size_t add_accessor(WrittenGltf& file, const std::string& bytes, int component, std::size_t count, const char* type,
+                                bool normalized = false) {
+    file.json["accessors"].push_back({{"bufferView", add_view(file, bytes)},
+                                      {"componentType", component},
+                                      {"count", count},
+                                      {"type", type},
+                                      {"normalized", normalized}});
+    return file.json["accessors"].size() - 1;
+}
+
+inline Json& attributes(WrittenGltf& file) { return file.json["meshes"][0]["primitives"][0]["attributes"]; }
+
+/// Two triangles of 1 m x 1 m on the ground, texture coordinates from 0 to 1, of material 0.
+inline WrittenGltf square() {
+    WrittenGltf file({{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, {0, 1, 2, 0, 2, 3});
+    attributes(file)["TEXCOORD_0"] = add_accessor(file, bytes_of<float>({0, 0, 0, 1, 1, 1, 1, 0}), 5126, 4, "VEC2");
+    file.json["meshes"][0]["primitives"][0]["material"] = 0;
+    file.json["materials"] = {{{"name", "leaf"}}};
+    return file;
+}
+
+inline void give_picture(WrittenGltf& file, const std::string& picture, const char* extension = nullptr) {
+    file.json["images"] = {{{"name", "leaves"}, {"mimeType", "image/webp"}, {"bufferView", add_view(file, picture)}}};
+    file.json["textures"] = Json::array({extension ? Json{{"extensions", {{extension, {{"source", 0}}}}}} : Json{{"source", 0}}});
+    file.json["materials"][0]["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
+}
+
 } // namespace fernlicht::test
