@@ -112,7 +112,8 @@ void append_clump(TriangleSoup& soup, const glm::dvec3& centre, const glm::dvec3
 /// A twig of leaves as a flat triangle with two sides, 1 cm apart.
 void append_sprig(TriangleSoup& soup, const glm::dvec3& at, const glm::dvec3& outward, double size_m, const PlantBox& bounds, Stuff stuff,
                   Dice& dice) {
-    const glm::dvec3 any = glm::normalize(glm::dvec3(dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1)) + 0.01 * outward);
+    const double any_z = dice.between(-1, 1), any_y = dice.between(-1, 1), any_x = dice.between(-1, 1);
+    const glm::dvec3 any = glm::normalize(glm::dvec3(any_x, any_y, any_z) + 0.01 * outward);
     const glm::dvec3 along = glm::normalize(outward + 0.8 * any), across = glm::normalize(glm::cross(along, any + glm::dvec3(0, 0, 1e-3)));
     const std::array<glm::dvec3, 3> flat{bounds.kept(at - 0.5 * size_m * across), bounds.kept(at + 0.4 * size_m * across),
                                          bounds.kept(at + size_m * along + dice.between(-0.3, 0.3) * size_m * across)};
@@ -133,7 +134,8 @@ void append_sprigs(TriangleSoup& soup, int count, const glm::dvec3& centre, cons
     for (int i = 0; i < count; ++i) {
         const double z = dice.between(-0.8, 1.0), angle = 2.0 * pi * dice.share(), level = std::sqrt(1.0 - z * z);
         const glm::dvec3 out(level * std::cos(angle), level * std::sin(angle), z);
-        append_sprig(soup, centre + radii * out * dice.between(0.80, 0.98), out, size_m * dice.between(0.7, 1.3), bounds, stuff, dice);
+        const double own_size_m = size_m * dice.between(0.7, 1.3);
+        append_sprig(soup, centre + radii * out * dice.between(0.80, 0.98), out, own_size_m, bounds, stuff, dice);
     }
 }
 
@@ -173,7 +175,8 @@ DressedObject dressed_tree(double height_m, double radius_m, Dice dice, Detail d
     const double free_m = 0.25 * height_m, foot_m = 0.025 * height_m;
     const PlantBox bounds{radius_m, height_m};
     // About as thick as the plain trunk, slightly bent; roots spread at its foot.
-    const glm::dvec2 bend = 0.35 * foot_m * glm::dvec2(dice.between(-1, 1), dice.between(-1, 1));
+    const double bend_y = dice.between(-1, 1), bend_x = dice.between(-1, 1);
+    const glm::dvec2 bend = 0.35 * foot_m * glm::dvec2(bend_x, bend_y);
     std::vector<TubeRing> trunk;
     for (const double z_m : {0.0, 0.4, 0.7, 1.2, 2.4})
         if (z_m < free_m - 0.3 && (near || z_m == 0.0 || z_m == 1.2)) {
@@ -233,11 +236,12 @@ DressedObject dressed_tuft(double height_m, Dice dice) {
     DressedObject out;
     for (int i = 0; i < 5; ++i) {
         // Blades bend towards one way along x or the other: who drives along it sees their faces.
-        const double angle = dice.between(-1.1, 1.1) + (dice.share() < 0.5 ? pi : 0.0), lean = dice.between(0.1, 0.7) * height_m;
+        const double bent = dice.between(-1.1, 1.1), angle = bent + (dice.share() < 0.5 ? pi : 0.0),
+                     lean = dice.between(0.1, 0.7) * height_m;
         const glm::dvec3 forward(std::cos(angle), std::sin(angle), 0.0),
             across = dice.between(0.008, 0.020) * glm::dvec3(-forward.y, forward.x, 0.0);
-        const glm::dvec3 foot(0.3 * (dice.share() - 0.5), 0.3 * (dice.share() - 0.5), 0.0),
-            tip = foot + lean * forward + glm::dvec3(0, 0, height_m * dice.between(0.5, 1.0));
+        const double foot_y = 0.3 * (dice.share() - 0.5), foot_x = 0.3 * (dice.share() - 0.5);
+        const glm::dvec3 foot(foot_x, foot_y, 0.0), tip = foot + lean * forward + glm::dvec3(0, 0, height_m * dice.between(0.5, 1.0));
         // Its normal is the ground's: with both of its sides it returns light as that does, and the ground before it does not shade it.
         const std::size_t before = out.low.vertices.size();
         out.low.add({foot + across, foot - across, tip}, index_of(Stuff::grass));
@@ -256,7 +260,8 @@ DressedObject dressed_hedge(double length_m, double width_m, double height_m, do
     for (int i = 0; i < stations; ++i) {
         const double x = length_m * (static_cast<double>(i) / (stations - 1) - 0.5), half = 0.5 * width_m;
         const auto rough = [&](double y, double z) {
-            return glm::dvec3(x, y * dice.between(0.86, 1.0), z > 0.0 ? z * dice.between(0.93, 1.0) : z);
+            const double own_z = z > 0.0 ? z * dice.between(0.93, 1.0) : z;
+            return glm::dvec3(x, y * dice.between(0.86, 1.0), own_z);
         };
         rings.push_back({rough(-half, -fall_m), rough(-half, 0.55 * height_m), rough(-0.8 * half, height_m), rough(0.8 * half, height_m),
                          rough(half, 0.55 * height_m), rough(half, -fall_m)});

@@ -75,9 +75,10 @@ void Dresser::add_garden(const Road& road, const RoadObject& object, Dice drawn,
     for (int i = 0; i <= steps; ++i)
         if (!is_clear(road, to_parent(pose, {(static_cast<double>(i) / steps - 0.5) * length, 0.0, 0.0}), 0))
             return;
-    if (kind < 0.45)
-        add(dressed_hedge(length, drawn.between(0.6, 0.9), drawn.between(0.9, 1.5), 0.4, drawn), pose, "hedge of " + name);
-    else
+    if (kind < 0.45) {
+        const double height = drawn.between(0.9, 1.5), width = drawn.between(0.6, 0.9);
+        add(dressed_hedge(length, width, height, 0.4, drawn), pose, "hedge of " + name);
+    } else
         add(dressed_fence(length, drawn.between(0.8, 1.1), 0.3), pose, "fence of " + name);
 }
 
@@ -196,16 +197,20 @@ void Dresser::add_verge(const Road& road, bool left) {
             const Pose pose = grown_beside(road, s, left, out);
             const double most = ground_drop_m(out) + 0.05;
             const bool in_ditch = out > 2.0 && out < 4.5 && has_ditch(road, left, {s, s}, settings_.seed);
-            if (!in_ditch && is_free(road, pose.position_m, 0.3))
-                append_placed(grass, dressed_tuft(std::min(0.45, most) * here.between(0.7, 1.0), here.fork()).low, pose);
+            if (!in_ditch && is_free(road, pose.position_m, 0.3)) {
+                const Dice of_tuft = here.fork();
+                append_placed(grass, dressed_tuft(std::min(0.45, most) * here.between(0.7, 1.0), of_tuft).low, pose);
+            }
         }
         add_mesh(grass, {}, fmt::format("grass, road {} s {:.0f}-{:.0f}", road.id, from, to), true, false, false);
         for (double s = from + here.between(0.0, 50.0); s < to; s += here.between(20.0, 70.0)) {
             const double radius = here.between(0.6, 1.5);
             const Pose pose = beside(road, s, left, here.between(9.5, 15.0));
-            if (is_free(road, pose.position_m, radius))
-                add(dressed_bush(radius * here.between(1.0, 1.6), radius, here.fork()), pose,
+            if (is_free(road, pose.position_m, radius)) {
+                const Dice of_bush = here.fork();
+                add(dressed_bush(radius * here.between(1.0, 1.6), radius, of_bush), pose,
                     fmt::format("bush, road {} s {:.0f} {}", road.id, s, left ? "left" : "right"));
+            }
         }
         TriangleSoup fence;
         bool open = fence_m > 0.0; // nothing stands in its way

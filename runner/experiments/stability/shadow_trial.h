@@ -66,7 +66,7 @@ void add_triangles(Scene& scene, const std::string& name, std::uint32_t material
 Triangles box(const glm::dvec3& half_m, double yaw_rad = 0.0);
 Triangles turned_round(Triangles triangles);
 
-/// Numbers by chance, the same on every machine.
+/// Numbers by chance, the same on every machine. Compilers order the arguments of a call as they like: draw into braces or variables.
 class Chance {
   public:
     explicit Chance(std::uint64_t seed) : engine_(seed) {}

@@ -120,9 +120,10 @@ Image<glm::vec3> night_picture(int width, int height) {
     for (int y = horizon; y < height; ++y)
         for (int x = 0; x < width; ++x)
             picture.at(x, y) = glm::vec3(6.0F * static_cast<float>(y - horizon) / static_cast<float>(height));
-    for (int i = 0; i < 12; ++i)
-        picture.at(static_cast<int>(random() % static_cast<unsigned>(width)), static_cast<int>(random() % static_cast<unsigned>(height))) =
-            glm::vec3(3000.0F, 2500.0F, 2000.0F);
+    for (int i = 0; i < 12; ++i) {
+        const auto y = static_cast<int>(random() % static_cast<unsigned>(height)); // one after the other: compilers order arguments freely
+        picture.at(static_cast<int>(random() % static_cast<unsigned>(width)), y) = glm::vec3(3000.0F, 2500.0F, 2000.0F);
+    }
     return picture;
 }
 

@@ -78,10 +78,11 @@ void warp_search(StabilityBench& bench, Found& worst) {
         Chance chance(StabilityBench::seed);
         ShadowTally all;
         for (int i = 0; i < (bench.thorough ? 200 : 20); ++i) {
-            const Moment moment =
-                lit_by({{chance.between(-3.0, 3.0), chance.between(-1.0, 1.0), chance.between(0.2, 2.0)}}, chance.between(-0.3, 0.3));
-            const View view = camera({chance.between(-15.0, 60.0), chance.between(-15.0, 15.0), chance.between(0.2, 8.0)},
-                                     chance.between(-pi, pi), chance.between(-0.4, 0.1), std::exp(chance.between(0.0, 4.9)), 40, 30);
+            const glm::dvec3 lamp{chance.between(-3.0, 3.0), chance.between(-1.0, 1.0), chance.between(0.2, 2.0)};
+            const Moment moment = lit_by({lamp}, chance.between(-0.3, 0.3));
+            const glm::dvec3 eye{chance.between(-15.0, 60.0), chance.between(-15.0, 15.0), chance.between(0.2, 8.0)};
+            const double yaw = chance.between(-pi, pi), pitch = chance.between(-0.4, 0.1), fov_deg = std::exp(chance.between(0.0, 4.9));
+            const View view = camera(eye, yaw, pitch, fov_deg, 40, 30);
             all.add(trial.tally(moment, view, warped_shadow_tolerance()));
         }
         judge_tally(worst, all, std::string(name(method)));
