@@ -14,17 +14,20 @@ namespace {
 /// Of lines: apart in grey print, too.
 constexpr const char *paper_dashes[] = {"", "6 3", "1.5 2.5", "9 3 2 3"}, *dash_names[] = {"full", "dashed", "dotted", "dash-dotted"};
 
+/// ". 9 of 660 moments of each drive were asked for (--frames 0:8)"; "" where all were.
+std::string part_of_drives(const StudyResult& result) { return result.played_in_part.empty() ? "" : ". " + result.played_in_part; }
+
 /// "Source: cells country_halogen and country_xenon of the study standard-1, fernlicht 1.2".
 std::string source_of(const StudyResult& result, const std::vector<std::size_t>& cells) {
     std::vector<std::string> names;
     for (const std::size_t cell : cells)
         names.push_back(result.cells[cell].cell.name);
-    return fmt::format("Source: moments of {} {} in the study {}{}.{}", names.size() == 1 ? "the cell" : "the cells",
+    return fmt::format("Source: moments of {} {} in the study {}{}{}.", names.size() == 1 ? "the cell" : "the cells",
                        fmt::join(names, ", "), result.study.name,
                        result.context.versions.empty()
                            ? ""
                            : fmt::format(", {} {}", result.context.versions.front().first, result.context.versions.front().second),
-                       result.played_in_part.empty() ? "" : " " + result.played_in_part + ".");
+                       part_of_drives(result));
 }
 
 Table data_of(const plots::Figure& figure) {
@@ -70,8 +73,8 @@ std::vector<PaperFigure> paper_figures(const StudyResult& result) {
                      "What {} changes against {}, in per cent of the old value, better to the right. Dots: the median of the changes that "
                      "are real, of two the smaller; lines: what numerical error, noise of the candela tables and 0.1° of aim leave open; "
                      "ticks: single routes. Hollow: within that. Numbers at the right: the same in the reading's unit. Source: "
-                     "study.json of the study {}.",
-                     pair.tested, pair.against, result.study.name),
+                     "study.json of the study {}{}.",
+                     pair.tested, pair.against, result.study.name, part_of_drives(result)),
                  two_columns_mm, decision_table(result, {decision})});
         }
     for (const StudyFigure& drawn : result.figures)
@@ -83,10 +86,14 @@ std::vector<PaperFigure> paper_figures(const StudyResult& result) {
 Document paper_tables(const StudyResult& result) {
     const std::vector<Decision> decisions = decide(result);
     Section section{result.study.title, {study_sentence(result)}};
-    for (const DocumentPart& block : answer_section(result, decisions).blocks)
-        if (std::holds_alternative<PlaceMatrix>(block))
-            section.blocks.push_back(block);
-    section.blocks.emplace_back(decision_table(result, decisions));
+    for (DocumentPart& block : answer_section(result, decisions).blocks)
+        if (auto* const matrix = std::get_if<PlaceMatrix>(&block)) {
+            matrix->caption += part_of_drives(result);
+            section.blocks.push_back(std::move(block));
+        }
+    Table decided = decision_table(result, decisions);
+    decided.caption += part_of_drives(result);
+    section.blocks.emplace_back(std::move(decided));
     section.blocks.emplace_back("Source: study.json and study.csv of the study " + result.study.name +
                                 "; ± 0.1° of aim: what an aim wrong by so much changes.");
     return {result.study.title, {section}};

@@ -143,6 +143,13 @@ TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
     EXPECT_THAT(content_of(folder / "out/paper/tables.tex"),
                 AllOf(HasSubstr("\\caption{Old, new and change"), HasSubstr("\\label{tab:decision}")));
     EXPECT_THAT(content_of(folder / "out/paper/figures.tex"), HasSubstr("\\begin{figure*}"));
+    for (const auto& [name, captions] : {std::pair("figures.tex", "Source: "), std::pair("tables.tex", "\\caption{")}) {
+        std::istringstream lines(content_of(folder / (std::string("out/paper/") + name)));
+        for (std::string line; std::getline(lines, line);)
+            if (line.find(captions) != std::string::npos) {
+                EXPECT_THAT(line, HasSubstr("moments of each drive were asked for"));
+            }
+    }
     EXPECT_FALSE(std::filesystem::exists(folder / "out/INCOMPLETE"));
     if (run_shell("command -v chromium").exit_code != 0)
         GTEST_SKIP() << "no Chromium on this machine: the page is not opened";

@@ -4,8 +4,12 @@
 #include "scenarios/light/light.h"
 #include "scenarios/models/triangle_soup.h"
 #include "scenarios/values/errors.h"
+#include "tests/runner/program.h"
+#include "tests/scenarios/models/written_gltf.h"
 #include "tests/trial.h"
 
+#include <filesystem>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace fernlicht {
@@ -82,6 +86,21 @@ TEST(Town, WhereNoCarCanStandIsSaid) {
     request = small_request();
     request.lamp = "nothing.ies";
     EXPECT_THAT(tests::refusal_of([&] { look_at_town(town(), request); }), testing::HasSubstr("--low-beams: found 'nothing.ies'"));
+}
+
+TEST(Town, TheCommandWritesToANewFolderAlone) {
+    const TemporaryFolder folder;
+    test::WrittenGltf({{-30, 0, -100}, {-30, 0, 200}, {30, 0, 200}, {30, 0, -100}}, {0, 1, 2, 0, 2, 3}).write_glb(folder / "ground.glb");
+    const std::string call = fmt::format("town {}/ground.glb --out {}/night", folder.path().string(), folder.path().string());
+    const Outcome drawn = run_program(call);
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.output;
+    const std::string picture = content_of(folder / "night/driver.png");
+    EXPECT_THAT(content_of(folder / "night/town.txt"), testing::HasSubstr("lux on the ground"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "night/INCOMPLETE"));
+    const Outcome again = run_program(call + " --yaw 90");
+    EXPECT_EQ(again.exit_code, 2) << again.output;
+    EXPECT_THAT(again.output, testing::HasSubstr("night"));
+    EXPECT_EQ(content_of(folder / "night/driver.png"), picture);
 }
 
 } // namespace
