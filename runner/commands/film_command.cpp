@@ -160,7 +160,7 @@ void add_film_command(CLI::App& app, const std::vector<std::string>&, std::funct
         ->default_str("all");
     flags->rate = "25";
     add_shared(*sub, "--rate", flags->rate)->capture_default_str();
-    add_shared(*sub, "--frames", flags->frames);
+    add_shared(*sub, "--frames", flags->frames)->description("film only these pictures, counted from 0; either end may be left out");
     flags->resolution = "1280x720";
     add_shared(*sub, "--resolution", flags->resolution)->capture_default_str();
     add_shared(*sub, "--vertical-fov", flags->vertical_fov_deg)->default_str("the drive's");

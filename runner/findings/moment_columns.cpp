@@ -117,7 +117,7 @@ std::vector<MomentColumn> moment_columns(const PlayedCell& played) {
     for (std::size_t i = 0; i < moments; ++i)
         columns.text("frame", i, fmt::format("{}", played.first_tick + static_cast<int>(i)));
     for (std::size_t i = 0; i < played.speed_mps.size(); ++i) {
-        columns.number("time_s", i, played.speed_mps[i].first);
+        columns.number("time_s", i, std::round(1.0e9 * played.speed_mps[i].first) / 1.0e9); // 3 x 0.2 s as 0.6
         columns.number("car.speed_mps", i, played.speed_mps[i].second);
     }
     for (std::size_t i = 0; i < played.extents.size(); ++i)

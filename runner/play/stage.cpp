@@ -36,6 +36,7 @@ RoadNetwork network_of(Drive& drive) {
 /// Lanes are named as the road's file has them.
 Route::Start start_of(const Drive& drive) {
     Route::Start start = drive.start;
+    start.asked_in = drive.file;
     if (drive.mirrored_road)
         start.lane = -start.lane;
     return start;

@@ -17,8 +17,9 @@ namespace {
 
 constexpr double longest_route_m = 5e6;
 
-[[noreturn]] void refuse(const RoadNetwork& network, const std::string& found, const std::string& expected) {
-    throw InputError({network.opened.empty() ? std::filesystem::path() : network.opened.front().path, 0, 0, "route"}, found, expected);
+[[noreturn]] void refuse(const RoadNetwork& network, const Route::Start& start, const std::string& found, const std::string& expected) {
+    const std::filesystem::path road_file = network.opened.empty() ? std::filesystem::path() : network.opened.front().path;
+    throw InputError({start.asked_in.empty() ? road_file : start.asked_in, 0, 0, "route"}, found, expected);
 }
 
 std::string road_list(const RoadNetwork& network) {
@@ -55,23 +56,24 @@ int outermost_driving_lane(const Road& road, double s) {
     return wide != 0 ? wide : outermost_driving_lane(road, s, 0.0);
 }
 
-std::size_t start_road(const RoadNetwork& network, const std::string& id) {
+std::size_t start_road(const RoadNetwork& network, const Route::Start& start) {
+    const std::string& id = start.road;
     for (std::size_t i = 0; i < network.roads.size(); ++i) {
         const Road& road = network.roads[i];
         if (id.empty() ? outermost_driving_lane(road, 0.0) != 0 : road.id == id)
             return i;
     }
     if (id.empty())
-        refuse(network, "the network has no road with driving lanes", "at least one");
-    refuse(network, fmt::format("found no road '{}'", printable(id)), road_list(network));
+        refuse(network, {}, "the network has no road with driving lanes", "at least one"); // the road's fault
+    refuse(network, start, fmt::format("found no road '{}'", printable(id)), road_list(network));
 }
 
 LanePlace start_place(const RoadNetwork& network, const Route::Start& start) {
     LanePlace place;
-    place.road = start_road(network, start.road);
+    place.road = start_road(network, start);
     const Road& road = network.roads[place.road];
     if (!(start.s_m >= 0.0 && start.s_m <= road.length_m))
-        refuse(network, fmt::format("the start s = {} m lies outside road '{}'", start.s_m, road.id),
+        refuse(network, start, fmt::format("the start s = {} m lies outside road '{}'", start.s_m, road.id),
                fmt::format("a station from 0 to {} m", road.length_m));
     const LaneSection& section = section_at(road, start.s_m);
     place.section = static_cast<std::size_t>(&section - road.sections.data());
@@ -85,7 +87,7 @@ LanePlace start_place(const RoadNetwork& network, const Route::Start& start) {
         if (lane.id != 0)
             ids.push_back(lane.id);
     }
-    refuse(network,
+    refuse(network, start,
            fmt::format("found no {} at s = {} m of road '{}'", place.lane == 0 ? "driving lane" : fmt::format("lane {}", place.lane),
                        start.s_m, road.id),
            ids.empty() ? "a road with lanes" : fmt::format("one of the lanes {}", fmt::join(ids, ", ")));
@@ -177,14 +179,14 @@ Route::Route(const RoadNetwork& network, Start start, const std::vector<std::str
         add_cells(legs_.size() - 1);
         if (length_m_ > longest_route_m)
             refuse(
-                network,
+                network, start,
                 fmt::format("the way from road '{}' is longer than {} km", network.roads[legs_.front().road].id, longest_route_m / 1000.0),
                 "a shorter one");
         const std::vector<LanePlace> next = next_places(network, place);
         if (next.empty()) {
             if (met < via.size())
                 refuse(
-                    network,
+                    network, start,
                     fmt::format("the way does not meet road '{}': it ends on road '{}'", printable(via[met]), network.roads[place.road].id),
                     "roads that follow one another");
             break;
@@ -192,9 +194,10 @@ Route::Route(const RoadNetwork& network, Start start, const std::vector<std::str
         place = choose(network, next, met < via.size() ? &via[met] : nullptr);
     }
     if (visits.back().met < via.size())
-        refuse(network, fmt::format("the way does not meet road '{}'", printable(via[visits.back().met])), "roads that follow one another");
+        refuse(network, start, fmt::format("the way does not meet road '{}'", printable(via[visits.back().met])),
+               "roads that follow one another");
     if (!(length_m_ > 0.0))
-        refuse(network,
+        refuse(network, start,
                fmt::format("lane {} of road '{}' ends at the start s = {} m: traffic on it moves towards {} s", legs_.front().lane,
                            network.roads[legs_.front().road].id, start.s_m, legs_.front().with_s ? "growing" : "falling"),
                "a start from which there is a way to go");

@@ -3,6 +3,7 @@
 
 #include "scenarios/roads/plan.h"
 
+#include <filesystem>
 #include <span>
 
 namespace fernlicht {
@@ -29,6 +30,7 @@ class Route {
         std::string road; ///< id; "" = the first road that has driving lanes
         int lane = 0;     ///< 0 = outermost driving lane in travel direction of the traffic rule's side
         double s_m = 0.0;
+        std::filesystem::path asked_in = {}; ///< the file that messages name; "": the road's
     };
     /// Follows the lane in its direction of travel as far as the network goes, at junctions by the connection with the least turn,
     /// or by `via` (road ids in order) where given. A ring is driven once round. Throws InputError for unknown roads or lanes, naming

@@ -2,6 +2,7 @@
 
 #include "metrics/beam/intake.h"
 #include "metrics/strictness/strictness.h"
+#include "renderer/technique.h"
 #include "runner/experiments/fit/lux_points.h"
 #include "runner/experiments/study/study_run.h"
 #include "runner/files/picture_file.h"
@@ -23,6 +24,7 @@
 #include "scenarios/openscenario/reader/read_storyboard.h"
 #include "scenarios/ratings/rating.h"
 #include "scenarios/roads/road_network.h"
+#include "scenarios/values/files.h"
 #include "scenarios/values/library_folders.h"
 #include "scenarios/values/picture_decoding.h"
 #include "scenarios/values/program_module.h"
@@ -102,6 +104,19 @@ void look_at_stage(const Drive& drive, FileLook& look, bool* left_hand = nullptr
     });
 }
 
+/// A drive's reader takes any name of a technique; the renderer alone knows which there are. What is no YAML is told by the reader.
+void look_at_technique(const fs::path& path, FileLook& look) {
+    std::optional<YamlValue> document;
+    FilesRead opened;
+    FileLook().tries([&] { document = parse_yaml(read_file(path, opened), path); });
+    for (const YamlMember& member : document ? document->members : std::vector<YamlMember>{})
+        if (member.key == "technique" && member.value.kind == YamlValue::Kind::scalar &&
+            !look.tries([&] { technique_named(member.value.text, path); })) {
+            look.problems.back().where.line = member.value.line;
+            look.problems.back().where.column = member.value.column;
+        }
+}
+
 void check_drive_file(const fs::path& path, FileLook& look) {
     std::optional<Drive> drive;
     FileLook first;
@@ -113,8 +128,12 @@ void check_drive_file(const fs::path& path, FileLook& look) {
         if (first.tries([&] { drive = read_drive(path, edits); }))
             look.warn({path, 0, 0, {}}, "has no lamp sets: `fernlicht rate` brings some, `fernlicht run` refuses it");
     }
+    const bool is_good = drive && first.problems.empty();
+    look_at_technique(path, first);
+    if (is_good && !first.problems.empty())
+        drive->technique = Drive().technique; // so that the rest is looked at
     std::ranges::move(first.problems, std::back_inserter(look.problems));
-    if (drive && first.problems.empty())
+    if (is_good)
         look_at_stage(*drive, look);
 }
 
