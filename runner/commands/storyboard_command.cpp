@@ -28,6 +28,7 @@ struct StoryboardFlags {
 osc::StoryboardOptions options_of(const StoryboardFlags& flags) {
     osc::StoryboardOptions options;
     options.lenient = flags.lenient;
+    options.road = flags.road;
     for (const std::string& folder : flags.road_folders)
         options.road_folders.emplace_back(folder);
     for (const std::string& parameter : flags.parameters) {
@@ -59,8 +60,7 @@ void add_rows(const osc::PlayedStory& story, const RoadNetwork& network, int num
 void play(const StoryboardFlags& flags, const std::filesystem::path& file, const osc::StoryboardOptions& options, int number,
           std::string& rows) {
     const osc::Storyboard story = osc::read_storyboard(file, options);
-    const std::filesystem::path road = flags.road.empty() ? story.road_file : std::filesystem::path(flags.road);
-    const RoadNetwork network = road.empty() ? RoadNetwork{} : read_opendrive(road);
+    const RoadNetwork network = story.road_file.empty() ? RoadNetwork{} : read_opendrive(story.road_file);
     const osc::PlayedStory played = osc::play_story(story, network, {.step_s = flags.step_s, .max_s = flags.max_s});
     add_rows(played, network, number, rows);
     std::FILE* const told = flags.out == "-" ? stderr : stdout;

@@ -59,6 +59,7 @@ bool is_storyboard_file(const fs::path& path) { return lower_case(path.extension
 std::string storyboard_drive_text(const fs::path& path, const DriveEdits& edits) {
     osc::StoryboardOptions options;
     options.lenient = edits.lenient;
+    options.road = edits.road.value_or("");
     for (const fs::path& folder : edits.road_folders)
         options.road_folders.push_back(fs::absolute(folder).lexically_normal());
     const osc::Storyboard story = osc::read_storyboard(path, options);

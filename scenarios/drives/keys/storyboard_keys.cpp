@@ -94,6 +94,7 @@ void read_storyboard_keys(const YamlMap& keys, const DriveEdits& edits, Drive& d
     for (const auto& folder : edits.road_folders)
         source.options.road_folders.push_back(std::filesystem::absolute(folder).lexically_normal());
     source.options.lenient = source.options.lenient || edits.lenient;
+    source.options.road = edits.road.value_or("");
     if (const auto duration = keys.find("duration_s"))
         source.max_s = duration->number_above(0.0, 1.0e4);
     const osc::Storyboard story = osc::read_storyboard(source.file, source.options);

@@ -121,16 +121,17 @@ void read_init(const OscNode& storyboard, const Selections& selections, Storyboa
 }
 
 void read_network(const OscNode& scenario, const StoryboardOptions& options, Storyboard& out) {
+    out.road_file = options.road;
     const auto network = scenario.find("RoadNetwork");
     if (!network)
         return;
-    if (const auto logic = network->find("LogicFile"); logic && !logic->text("filepath").empty()) {
+    if (const auto logic = network->find("LogicFile"); options.road.empty() && logic && !logic->text("filepath").empty()) {
         const fs::path named = (fs::absolute(out.file).parent_path() / logic->text("filepath")).lexically_normal();
         out.road_file = find_road(named, options.road_folders);
         if (out.road_file.empty())
             logic->refuse("filepath", fmt::format("found '{}', where there is no file", printable(logic->text("filepath"), 200)),
-                          options.road_folders.empty() ? "a road file there, or a folder for --road-folder that holds it"
-                                                       : "a road file there or in the road folders");
+                          options.road_folders.empty() ? "a road file there, a folder for --road-folder that holds it, or another by --road"
+                                                       : "a road file there or in the road folders, or another by --road");
     }
     const auto signals = network->find("TrafficSignals");
     for (const OscNode& node : signals ? signals->children("TrafficSignalController") : std::vector<OscNode>{}) {

@@ -9,6 +9,7 @@ struct StoryboardOptions {
     bool lenient = false;                                 ///< what is not supported is left out, each with a note
     std::vector<std::filesystem::path> road_folders = {}; ///< where a road is looked for that is not where the file says
     std::map<std::string, std::string> parameters = {};   ///< values for parameters that the file declares
+    std::filesystem::path road = {};                      ///< in place of the road that the file names, which need not be there
 };
 
 /// Throws InputError, file and line first: not XML, no scenario (a catalog, a distribution), another version, unknown references, values

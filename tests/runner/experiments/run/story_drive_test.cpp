@@ -201,6 +201,12 @@ TEST(StoryAlone, IsPlayedWithDefaults) {
         run_program("run " + (folder / "alone.xosc") + small + "--road-folder " + (folder / "roads") + " --out " + (folder / "e"));
     ASSERT_EQ(found.exit_code, 0) << found.output;
     EXPECT_THAT(content_of(folder / "e/alone.yaml"), HasSubstr("ego: \"hero\""));
+    // Another road in place of one that is not there.
+    const std::string replaced = " --road " + (folder / "roads/here.xodr");
+    const Outcome elsewhere = run_program("run " + (folder / "alone.xosc") + small + replaced + " --out " + (folder / "f"));
+    ASSERT_EQ(elsewhere.exit_code, 0) << elsewhere.output;
+    EXPECT_THAT(printed("storyboard " + (folder / "alone.xosc") + replaced), HasSubstr("alone.xosc: "));
+    EXPECT_THAT(printed("storyboard " + (folder / "alone.xosc"), 2), HasSubstr("or another by --road"));
 }
 
 /// A car that turns where its lane does not lead: real files of others.
