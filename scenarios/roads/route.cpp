@@ -19,7 +19,7 @@ constexpr double longest_route_m = 5e6;
 
 [[noreturn]] void refuse(const RoadNetwork& network, const Route::Start& start, const std::string& found, const std::string& expected) {
     const std::filesystem::path road_file = network.opened.empty() ? std::filesystem::path() : network.opened.front().path;
-    throw InputError({start.asked_in.empty() ? road_file : start.asked_in, 0, 0, "route"}, found, expected);
+    throw InputError({start.asked_in.empty() ? road_file : start.asked_in, 0, 0, start.key}, found, expected);
 }
 
 std::string road_list(const RoadNetwork& network) {

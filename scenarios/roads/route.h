@@ -31,6 +31,7 @@ class Route {
         int lane = 0;     ///< 0 = outermost driving lane in travel direction of the traffic rule's side
         double s_m = 0.0;
         std::filesystem::path asked_in = {}; ///< the file that messages name; "": the road's
+        std::string key = "route";           ///< of that file, in messages
     };
     /// Follows the lane in its direction of travel as far as the network goes, at junctions by the connection with the least turn,
     /// or by `via` (road ids in order) where given. A ring is driven once round. Throws InputError for unknown roads or lanes, naming

@@ -45,6 +45,8 @@ template <class Names> std::string nearest_name(const std::string& word, const N
     std::size_t best_distance = word.size() / 2 + 1;
     for (const auto& candidate : candidates) {
         const std::string_view name = candidate;
+        if (word.size() >= 4 && name.starts_with(word) && name.size() <= word.size() + 3) // cut off: `reach_..._own` for `reach_..._own_m`
+            return std::string(name);
         if (const std::size_t d = edit_distance(word, name); d < best_distance) {
             best_distance = d;
             best = name;

@@ -39,6 +39,7 @@
 #include <memory>
 #include <regex>
 #include <set>
+#include <sstream>
 
 namespace fernlicht {
 
@@ -104,17 +105,29 @@ void look_at_stage(const Drive& drive, FileLook& look, bool* left_hand = nullptr
     });
 }
 
-/// A drive's reader takes any name of a technique; the renderer alone knows which there are. What is no YAML is told by the reader.
-void look_at_technique(const fs::path& path, FileLook& look) {
-    std::optional<YamlValue> document;
-    FilesRead opened;
-    FileLook().tries([&] { document = parse_yaml(read_file(path, opened), path); });
-    for (const YamlMember& member : document ? document->members : std::vector<YamlMember>{})
-        if (member.key == "technique" && member.value.kind == YamlValue::Kind::scalar &&
-            !look.tries([&] { technique_named(member.value.text, path); })) {
-            look.problems.back().where.line = member.value.line;
-            look.problems.back().where.column = member.value.column;
+/// A drive's reader takes any name of a technique; the renderer alone knows which there are.
+void look_at_technique(const YamlValue& document, const fs::path& path, FileLook& look) {
+    for (const YamlMember& member : document.members)
+        if (member.key == "technique" && member.value.kind == YamlValue::Kind::scalar)
+            look.tries([&] { technique_named(member.value.text, path); });
+}
+
+/// What is only found wrong on the road knows its key alone: it stands where that does, or the nearest key above it.
+void give_places(const YamlValue& document, const fs::path& path, FileLook& look) {
+    for (FileProblem& problem : look.problems) {
+        if (problem.where.line > 0 || fs::absolute(problem.where.file).lexically_normal() != fs::absolute(path).lexically_normal())
+            continue;
+        const YamlValue* in = &document;
+        std::istringstream parts(problem.where.key);
+        for (std::string part; in && std::getline(parts, part, '.');) {
+            const auto member = std::ranges::find(in->members, part, &YamlMember::key);
+            in = member == in->members.end() ? nullptr : &member->value;
+            if (in) {
+                problem.where.line = member->line;
+                problem.where.column = member->column;
+            }
         }
+    }
 }
 
 void check_drive_file(const fs::path& path, FileLook& look) {
@@ -128,13 +141,18 @@ void check_drive_file(const fs::path& path, FileLook& look) {
         if (first.tries([&] { drive = read_drive(path, edits); }))
             look.warn({path, 0, 0, {}}, "has no lamp sets: `fernlicht rate` brings some, `fernlicht run` refuses it");
     }
+    YamlValue document; // of what is no YAML the reader has told
+    FilesRead opened;
+    FileLook().tries([&] { document = parse_yaml(read_file(path, opened), path); });
     const bool is_good = drive && first.problems.empty();
-    look_at_technique(path, first);
+    look_at_technique(document, path, first);
     if (is_good && !first.problems.empty())
         drive->technique = Drive().technique; // so that the rest is looked at
-    std::ranges::move(first.problems, std::back_inserter(look.problems));
     if (is_good)
-        look_at_stage(*drive, look);
+        look_at_stage(*drive, first);
+    give_places(document, path, first);
+    look.kind += first.kind;
+    std::ranges::move(first.problems, std::back_inserter(look.problems));
 }
 
 constexpr std::size_t most_cells = 500, most_problems = 1000;

@@ -137,6 +137,8 @@ void place_row(Drive& drive, const TrafficRow& row, const RoadNetwork& network, 
     std::vector<double> starts_m;
     if (row.place == TrafficPlace::lane) {
         Route::Start start = row.start;
+        start.asked_in = drive.file;
+        start.key = "traffic." + row.name + ".lane";
         if (drive.mirrored_road) // lanes are named as the road's file has them
             start.lane = -start.lane;
         const Route way(network, start);

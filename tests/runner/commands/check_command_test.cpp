@@ -150,17 +150,24 @@ TEST(Check, NamesTheNearestShippedFileAndReadingAndAllThatIsWrong) {
                                                         drive + "lamp_sets: {a: {file: fernlicht:lamps/halogen-low.ies}}\nlimits:\n"
                                                                 "- {reading: glare_oposite_facing_max_lx, at_most: 2}\n"
                                                                 "- {reading: reach_5lx_roda_own_m, at_least: 40}\n"
+                                                                "- {reading: reach_5lx_target_own, at_least: 40}\n"
                                                                 "technique: photometri\n"),
                                      2);
-    EXPECT_THAT(said, HasSubstr("limits.yaml:10:12: error: technique: found 'photometri', expected 'photometric'"));
+    EXPECT_THAT(said, HasSubstr("limits.yaml:11:1: error: technique: found 'photometri', expected 'photometric'"));
     EXPECT_THAT(said, HasSubstr("limits.yaml:8: error: limits: found reading 'glare_oposite_facing_max_lx', expected a reading of this "
                                 "drive (the nearest is 'glare_opposite_facing_max_lx')"));
     EXPECT_THAT(said, HasSubstr("(the nearest is 'reach_5lx_road_own_m')"));
+    EXPECT_THAT(said, HasSubstr("(the nearest is 'reach_5lx_target_own_m')")) << "cut off, not misspelt";
     EXPECT_THAT(printed("check " + written(folder, "way.yaml",
                                            drive + "lamp_sets: {a: {file: fernlicht:lamps/halogen-low.ies}}\nroute: {road: 7}\n"),
                         2),
-                HasSubstr("way.yaml: error: route: found no road '7', expected one of the roads 1"))
+                HasSubstr("way.yaml:7:1: error: route: found no road '7', expected one of the roads 1"))
         << "the drive's fault, not the road's";
+    EXPECT_THAT(printed("check " + written(folder, "walker.yaml",
+                                           drive + "lamp_sets: {a: {file: fernlicht:lamps/halogen-low.ies}}\n"
+                                                   "traffic:\n  walker: {kind: pedestrian, speed_kmh: 5, lane: {road: 9, lane: -1}}\n"),
+                        2),
+                HasSubstr("walker.yaml:8:44: error: traffic.walker.lane: found no road '9'"));
 }
 
 TEST(Check, TakesAnythingForAFile) {
