@@ -1,5 +1,6 @@
 #include "runner/commands/commands.h"
 
+#include "runner/commands/flag_values.h"
 #include "runner/commands/words/shared_flags.h"
 #include "runner/experiments/check/check_files.h"
 #include "runner/files/json_text.h"
@@ -131,8 +132,10 @@ int check(const CheckFlags& flags) {
 void add_check_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto flags = std::make_shared<CheckFlags>();
     CLI::App* sub = app.add_subcommand("check", "report everything that is wrong with files, without playing them");
-    sub->add_option("FILE", flags->files,
-                    "files of any kind that fernlicht reads, told by their content; folders with all such files in them; -: standard input")
+    take_shipped_lamps(
+        sub->add_option("FILE", flags->files,
+                        "files of any kind that fernlicht reads, told by their content; folders with all such files in them; "
+                        "shipped lamps by name; -: standard input"))
         ->required();
     sub->add_flag("--fail-on-warning", flags->strict, "exit with 1 if there are warnings");
     add_shared(*sub, "--json", flags->json);

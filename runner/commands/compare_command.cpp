@@ -207,9 +207,11 @@ void add_compare_command(CLI::App& app, const std::vector<std::string>& command,
     const auto flags = std::make_shared<CompareFlags>();
     CLI::App* sub = app.add_subcommand(
         "compare", "show how two pictures, runs or lamps differ, in numbers and pictures, and whether they are close enough");
-    sub->add_option("A", flags->reference, "the reference: a picture (PNG or EXR as run writes them), a run's folder, or a lamp file")
+    take_shipped_lamps(sub->add_option("A", flags->reference,
+                                       "the reference: a picture (PNG or EXR as run writes them), a run's folder, or a lamp: a file, or a "
+                                       "shipped one by name"))
         ->required();
-    sub->add_option("B", flags->tested, "what to compare with A, of the same kind")->required();
+    take_shipped_lamps(sub->add_option("B", flags->tested, "what to compare with A, of the same kind"))->required();
     sub->add_option("--strictness", flags->strictness,
                     "exit with 1 if B fails it: identical, same-driver, same-light, same-picture, or a YAML file (docs/comparing.md)")
         ->option_text("NAME|FILE");

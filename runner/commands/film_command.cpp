@@ -66,7 +66,7 @@ DriveEdits film_edits(const FilmFlags& flags) {
     if (!flags.aim.empty())
         edits.aim = flags.aim == "auto"    ? BeamAim::automatic
                     : flags.aim == "as-is" ? BeamAim::as_is
-                                           : (refuse_flag("--aim", flags.aim, "as-is or auto"), BeamAim::as_is);
+                                           : (refuse_flag("--aim", flags.aim, aim_expected), BeamAim::as_is);
     if (!flags.technique.empty())
         edits.technique = std::string(technique_named(flags.technique, {}, "--technique").name);
     set_dressing(edits, flags.dressing);

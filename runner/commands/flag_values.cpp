@@ -10,6 +10,7 @@
 #include "scenarios/lamps/grid_recipe.h"
 #include "scenarios/values/errors.h"
 #include "scenarios/values/files.h"
+#include "scenarios/values/library_folders.h"
 #include "scenarios/yaml/library_file.h"
 
 #include <CLI/CLI.hpp>
@@ -60,6 +61,23 @@ std::filesystem::path named_file(const std::string& kind, const std::filesystem:
     return is_path ? typed : library_file(kind, typed.string(), "", {{}, 0, 0, key});
 }
 
+std::string named_lamp(const std::string& typed) {
+    constexpr std::string_view ours = "fernlicht:";
+    if (typed.starts_with(ours))
+        return shipped_file(typed.substr(ours.size()), "a shipped lamp").string();
+    std::error_code ignored;
+    if (typed.empty() || typed == "-" || typed.find('/') != std::string::npos || std::filesystem::exists(typed, ignored))
+        return typed;
+    for (const char* ending : {"", ".ies", ".yaml"})
+        if (const std::filesystem::path found = shipped_path("lamps/" + typed + ending); !found.empty())
+            return found.string();
+    return typed;
+}
+
+CLI::Option* take_shipped_lamps(CLI::Option* option) {
+    return option->transform([](const std::string& value) { return named_lamp(value); }, "", "shipped lamps by name");
+}
+
 void check_target(const char* flag, const std::filesystem::path& path, bool force) {
     if (path.empty() || path == "-")
         return;
@@ -73,7 +91,8 @@ std::vector<std::pair<std::string, std::filesystem::path>> lamps_of(const std::v
     std::vector<std::pair<std::string, std::filesystem::path>> lamps;
     for (const std::string& text : texts) {
         const std::size_t at = text.find('=');
-        lamps.emplace_back(at == std::string::npos ? "" : text.substr(0, at), at == std::string::npos ? text : text.substr(at + 1));
+        lamps.emplace_back(at == std::string::npos ? "" : text.substr(0, at),
+                           named_lamp(at == std::string::npos ? text : text.substr(at + 1)));
     }
     return lamps;
 }

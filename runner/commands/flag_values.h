@@ -27,6 +27,15 @@ namespace fernlicht {
 /// Throws InputError naming the flag.
 std::pair<int, int> two_numbers(const char* flag, const std::string& text, char separator, bool open, const char* expected);
 
+/// What --aim may be, for refusals.
+inline constexpr const char* aim_expected = "as-is or auto; an angle stands in the drive or study, as aim: {pitch_deg: -0.3}";
+
+/// A lamp's file as typed: a path as it is; `fernlicht:lamps/led-low.ies` and a bare `led-low` or `led-low.ies` without a file of this name
+/// are shipped ones. Throws InputError for what follows `fernlicht:` and is none.
+std::string named_lamp(const std::string& typed);
+/// The same of a flag's or argument's value.
+CLI::Option* take_shipped_lamps(CLI::Option* option);
+
 /// The items of "a,b" and of a flag given several times, in order. Throws InputError naming the flag for an item that is empty.
 std::vector<std::string> items_of(const char* flag, const std::vector<std::string>& lists);
 

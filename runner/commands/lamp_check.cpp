@@ -48,6 +48,10 @@ std::string cut_off_fact(const Intake& intake) {
     if (!intake.cut_off_v_deg)
         return intake.function == BeamFunction::low ? "none found" : "";
     std::string text = facts_direction(*intake.cut_off_v_deg, "U", "D");
+    constexpr double regular_deg = -0.573, notable_deg = 0.05; // 1 % down, as on the goniometer in regulation aim
+    if (const double up_deg = *intake.cut_off_v_deg - regular_deg; intake.function == BeamFunction::low && std::abs(up_deg) > notable_deg)
+        text +=
+            fmt::format(", {:.2f} degrees {} 1 % down, which `aim: auto` takes away", std::abs(up_deg), up_deg > 0.0 ? "above" : "below");
     if (intake.rise_deg)
         text += std::abs(*intake.rise_deg) < 0.1 ? ", level"
                                                  : fmt::format(", {:.1f} degrees higher on the {}", std::abs(*intake.rise_deg),

@@ -317,7 +317,8 @@ int lamp_turn(LampRequest request, WatchTurn& turn) {
 void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::function<int()>& chosen) {
     const auto request = std::make_shared<LampRequest>();
     CLI::App* command = app.add_subcommand("lamp", "describe a lamp file; scale, mirror, add, convert or plot it");
-    command->add_option("FILE", request->file, lamp_format_list() + "; text grids with --recipe; or - for standard input");
+    take_shipped_lamps(command->add_option(
+        "FILE", request->file, lamp_format_list() + "; text grids with --recipe; a shipped one by name; or - for standard input"));
     add_shared(*command, "--lamp-model", request->model);
     add_shared(*command, "--json", request->json);
     add_shared(*command, "--picture", request->picture);
@@ -351,10 +352,9 @@ void add_lamp_command(CLI::App& app, const std::vector<std::string>&, std::funct
         ->add_option("--other-side", request->other_side,
                      "the lamp of the other side, for --check and for tables that judge half the sum of both")
         ->option_text("FILE");
-    command
-        ->add_option("--against", request->against,
-                     "report what differs from this lamp (aim, cut-off, level, zones, and at 75R, 50V, B50L, kerb shoulder, "
-                     "foreground and other named places) and what is only noise")
+    take_shipped_lamps(command->add_option("--against", request->against,
+                                           "report what differs from this lamp (aim, cut-off, level, zones, and at 75R, 50V, B50L, kerb "
+                                           "shoulder, foreground and other named places) and what is only noise"))
         ->option_text("FILE");
     add_shared_taken(*command, "--noise", [request](const std::string& text) { request->noise_relative = share_of("--noise", text); });
     add_choice(*command, "--rule", request->reading.rule, {{"linear", BetweenSamples::linear_cd}, {"log", BetweenSamples::log_cd}},

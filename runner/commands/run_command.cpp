@@ -48,7 +48,7 @@ DriveEdits edits_of(const RunFlags& flags) {
     if (flags.aim)
         edits.aim = *flags.aim == "auto"    ? BeamAim::automatic
                     : *flags.aim == "as-is" ? BeamAim::as_is
-                                            : (refuse_flag("--aim", *flags.aim, "as-is or auto"), BeamAim::as_is);
+                                            : (refuse_flag("--aim", *flags.aim, aim_expected), BeamAim::as_is);
     if (!flags.road.empty())
         edits.road = flags.road;
     if (!flags.technique.empty())

@@ -60,7 +60,8 @@ InputError about_commands(const CLI::App& command) {
     std::vector<std::string> names;
     for (const CLI::App* one : commands_below(command))
         names.push_back(one->get_name());
-    return InputError({}, fmt::format("found no command behind {}", full_name(command)), fmt::format("one of {}", fmt::join(names, ", ")));
+    return InputError({}, command.get_parent() ? full_name(command) + " needs a command" : "found no command",
+                      fmt::format("one of {}", fmt::join(names, ", ")));
 }
 
 } // namespace

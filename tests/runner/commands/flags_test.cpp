@@ -97,7 +97,7 @@ TEST(Flags, WhatCannotBeParsedIsOneSentenceOfOurs) {
              {"techniques --json=abc", "--json: found a value with it, expected none"},
              {"run", "found no DRIVE, expected fernlicht run [options] DRIVE..."},
              {"film first-light", "found no --film, expected fernlicht film [options] DRIVE... --film FILE"},
-             {"store", "found no command behind fernlicht store, expected one of ls, verify, prune"},
+             {"store", "fernlicht store needs a command, expected one of ls, verify, prune"},
              {"importance first-light --row 7", "--row: found without --rating, expected both"},
              {"film first-light --film a.webm --wipe --grid", "--wipe: found beside --grid, expected one of them"},
              {"run first-light --out a --out b", "--out: given twice, expected it once"},

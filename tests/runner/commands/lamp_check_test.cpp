@@ -24,6 +24,28 @@ TEST(LampCheckCommand, TellsFunctionCutOffAndVoltage) {
     EXPECT_THAT(text, HasSubstr("No finding."));
     EXPECT_THAT(checked_lamp("--function low --voltage 12.8 --strict"), HasSubstr("low (stated)"));
     EXPECT_THAT(checked_lamp("--function other"), HasSubstr("Not checked"));
+    EXPECT_THAT(text, testing::Not(HasSubstr("1 % down"))) << "it is in regulation aim";
+}
+
+/// Its cut-off at 0.46 D instead of 0.57 D.
+TEST(LampCheckCommand, SaysHowFarACutOffLiesFromRegulationAim) {
+    LampFile lamp = read_lamp(library_file("lamps/xenon-low.ies"));
+    for (double& v : lamp.table.v_deg)
+        v += 0.11;
+    const TemporaryFolder folder;
+    write_lamp(lamp, folder / "high.ies");
+    EXPECT_THAT(printed("lamp " + (folder / "high.ies") + " --check"),
+                HasSubstr("0.11 degrees above 1 % down, which `aim: auto` takes away"));
+}
+
+/// By name, wherever a lamp's file is asked for; a file of that name comes first.
+TEST(LampCheckCommand, TakesShippedLampsByName) {
+    const std::string by_file = printed("lamp " + library_file("lamps/led-low.ies"));
+    for (const char* name : {"led-low", "led-low.ies", "fernlicht:lamps/led-low.ies"})
+        EXPECT_EQ(printed(std::string("lamp ") + name), by_file);
+    EXPECT_THAT(printed("lamp fernlicht:lamps/led-lo.ies", 2), HasSubstr("lamps/led-lo.ies"));
+    EXPECT_THAT(printed("lamp led-lo", 2), HasSubstr("led-lo: cannot be read"));
+    EXPECT_THAT(printed("compare led-low xenon-low"), HasSubstr("against"));
 }
 
 TEST(LampCheckCommand, AFindingIsAnErrorWhereStrict) {
