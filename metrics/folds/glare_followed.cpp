@@ -91,9 +91,10 @@ std::string FollowedFigure::unknown_between(double near_m, double far_m, const s
         return why_none;
     const double from_m = std::min(approach.front().distance_m, far_m), to_m = std::max(approach.back().distance_m, near_m);
     if (from_m < to_m)
-        return fmt::format("the drive comes from {:.1f} m away to {:.1f} m", approach.front().distance_m, approach.back().distance_m);
+        return fmt::format("the drive comes from {:.1f} m away to {:.1f} m, and {:g} to {:g} m are asked for", approach.front().distance_m,
+                           approach.back().distance_m, near_m, far_m);
     if (from_m < far_m || to_m > near_m)
-        return fmt::format("the drive covers only {:.1f} to {:.1f} m", to_m, from_m);
+        return fmt::format("the drive covers only {:.1f} to {:.1f} m of {:g} to {:g} m", to_m, from_m, near_m, far_m);
     for (std::size_t i = 0; i < approach.size(); ++i) {
         const double here_m = approach[i].distance_m;
         const bool touches = here_m > far_m    ? i + 1 < approach.size() && approach[i + 1].distance_m < far_m

@@ -80,7 +80,7 @@ struct StudyCell {
     std::size_t drive = 0, lamp = 0, technique = 0, time_of_day = 0, aim = 0, voltage = 0, mirror = 0,
                 point = 0;       ///< indices into the study's lists
     std::vector<AxisValue> axes; ///< of its point, all axes of the study
-    std::string condition;       ///< "night, aim -1 %, 13.2 V, mirrored, weather.wetness 0.5"; for people
+    std::string condition;       ///< "night, mirrored, weather.wetness 0.5"; aim and voltage where they are not the usual ones; for people
 };
 
 /// Reads and checks a study file, version 1 (scenarios/study.example.yaml explains every key). Throws InputError with file, line, column

@@ -38,8 +38,13 @@ StudyCell named(const Study& study, StudyCell cell) {
     const StudyConditions& c = study.conditions;
     cell.name = fmt::format("{}_{}{}{}", name_from(study.drives[cell.drive]), study.lamps[cell.lamp].name,
                             part(study.techniques.size() > 1, study.techniques[cell.technique]), condition_part(study, cell));
-    cell.condition = fmt::format("{}, aim {:g} %, {:g} V{}", c.times_of_day[cell.time_of_day].name, c.aim_percent[cell.aim],
-                                 c.voltage_v[cell.voltage], c.mirror[cell.mirror] ? ", mirrored" : "");
+    const StudyConditions usual; // what nobody asked for is no condition: a file of whatever aim is at -1 % of its own
+    cell.condition = c.times_of_day[cell.time_of_day].name;
+    if (c.aim_percent != usual.aim_percent)
+        cell.condition += fmt::format(", aim {:g} %", c.aim_percent[cell.aim]);
+    if (c.voltage_v != usual.voltage_v)
+        cell.condition += fmt::format(", {:g} V", c.voltage_v[cell.voltage]);
+    cell.condition += c.mirror[cell.mirror] ? ", mirrored" : "";
     for (std::size_t i = 0; i < study.axes.size(); ++i)
         cell.axes.push_back({study.axes[i].name, study.points[cell.point][i]});
     if (!study.axes.empty())

@@ -2,6 +2,7 @@
 
 #include "runner/experiments/study/study_document.h"
 #include "runner/files/output_folder.h"
+#include "scenarios/studies/study_axes.h"
 #include "scenarios/values/errors.h"
 
 #include <fmt/format.h>
@@ -9,10 +10,8 @@
 namespace fernlicht {
 namespace {
 
-/// As StudyCell has it, which a study's JSON does not keep.
+/// Whole, with what is usual: nights that other versions kept are known by it.
 std::string condition_of(const StudyResult& result, const StudyCell& cell) {
-    if (!cell.condition.empty())
-        return cell.condition;
     const StudyConditions& all = result.study.conditions;
     std::string condition;
     const auto add = [&](bool is_there, const std::string& part) {
@@ -26,8 +25,11 @@ std::string condition_of(const StudyResult& result, const StudyCell& cell) {
     if (cell.voltage < all.voltage_v.size())
         add(true, fmt::format("{:g} V", all.voltage_v[cell.voltage]));
     add(cell.mirror < all.mirror.size() && all.mirror[cell.mirror], "mirrored");
-    for (const AxisValue& axis : cell.axes)
-        add(true, axis.axis + " " + axis.value);
+    if (cell.point < result.study.points.size() && !result.study.axes.empty())
+        add(true, point_text(result.study.axes, result.study.points[cell.point]));
+    else // of a study read back
+        for (const AxisValue& axis : cell.axes)
+            add(true, axis.axis + " " + axis.value);
     return condition;
 }
 

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t max_zones = 3; ///< that are told; lamps of two makes differ in dozens
 
 /// The named places that a shift of the light changed most, of all and of those that it is to keep dark:
-/// " (75R +56.2 %, 50V +53.1 %; glare: BR +5.5 %, zone III +4.5 %)"; "" where it changed none.
+/// " (in all: 75R +56.2 %, 50V +53.1 %; glare: BR +5.5 %, zone III +4.5 %)"; "" where it changed none.
 std::string most_changed(const LampDifference& d) {
     std::vector<const PlaceChange*> places;
     for (const PlaceChange& found : d.places)
@@ -27,7 +27,7 @@ std::string most_changed(const LampDifference& d) {
     }
     if (texts.empty() && glare.empty())
         return "";
-    return fmt::format(" ({}{}{}{})", fmt::join(texts, ", "), texts.empty() || glare.empty() ? "" : "; ",
+    return fmt::format(" (in all: {}{}{}{})", fmt::join(texts, ", "), texts.empty() || glare.empty() ? "" : "; ",
                        glare.empty() ? "" : "glare: ", fmt::join(glare, ", "));
 }
 

@@ -155,6 +155,8 @@ std::string where_words(const StudyResult& result, const std::vector<const Chang
     const auto told = [&](const Change& change) {
         return fmt::format("{} ({})", result.place_of(change.tested), signed_words(change, !best_is_tested));
     };
+    if (const std::string words = signed_words(**most, !best_is_tested); real.size() > 1 && words == signed_words(**least, !best_is_tested))
+        return text + fmt::format(", {} on each", words);
     text += fmt::format(", most on {}", told(**most));
     return (*most)->least() > (*least)->least() ? text + fmt::format(", least on {}", told(**least)) : text;
 }
@@ -241,7 +243,8 @@ std::string against_words(const StudyResult& result, const std::vector<Decision>
             measured.insert(kind);
     }
     std::erase_if(kinds, [&](const std::string& kind) { return measured.contains(kind); });
-    return kinds.empty() ? text : fmt::format("{} Not measured: {}.", text, fmt::join(kinds, ", "));
+    std::ranges::replace(kinds, std::string("uniformity"), std::string("evenness")); // as its readings are called
+    return kinds.empty() ? text : fmt::format("{} Of what decides nothing was measured of: {}.", text, fmt::join(kinds, ", "));
 }
 
 } // namespace
@@ -309,6 +312,9 @@ Section answer_section(const StudyResult& result, const std::vector<Decision>& d
     const Answer answer = answer_of(result, groups, *key);
     Section section{answer.heading.empty() ? reading_label(*key) : answer.heading, {}};
     section.is_answer = true;
+    if (const std::string mounted = decisions.size() == 1 ? mounted_words(decisions.front()) : "";
+        !answer.heading.empty() && !mounted.empty())
+        section.title += fmt::format("; the cut-off of {} lies {}", result.study.comparisons.front().tested, mounted);
     if (!answer.where.empty())
         section.blocks.emplace_back(answer.where);
     if (std::string against = against_words(result, decisions); !against.empty())

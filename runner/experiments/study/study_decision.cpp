@@ -226,11 +226,16 @@ std::vector<std::string> decision_parts(const StudyResult& result, const Decisio
         parts.push_back(fmt::format("{} without a difference", counted(same, "reading")));
     if (decision.aim_alone)
         parts.emplace_back("Both beams differ by their aim alone: it is the aim, not the lamp");
-    else if (std::abs(decision.aimed_up_deg.value_or(0.0)) > notable_deg)
-        parts.push_back(fmt::format("As mounted its cut-off lies {:.2f}° {}: part of this is aim, which `aim: auto` takes away",
-                                    std::abs(*decision.aimed_up_deg), *decision.aimed_up_deg > 0.0 ? "higher" : "lower"));
+    else if (!mounted_words(decision).empty())
+        parts.push_back(fmt::format("As mounted its cut-off lies {}: some or all of this is aim, which `aim: auto` takes away",
+                                    mounted_words(decision)));
     std::erase(parts, "");
     return parts;
+}
+
+std::string mounted_words(const Decision& decision) {
+    const double up_deg = decision.aimed_up_deg.value_or(0.0);
+    return std::abs(up_deg) > notable_deg ? fmt::format("{:.2f}° {}", std::abs(up_deg), up_deg > 0.0 ? "higher" : "lower") : "";
 }
 
 std::string decision_sentence(const StudyResult& result, const Decision& decision) {
@@ -280,7 +285,9 @@ std::vector<std::string> same_results(const StudyResult& result, const std::vect
 Table decision_table(const StudyResult& result, const std::vector<Decision>& decisions) {
     const bool several = decisions.size() > 1;
     Table table{.name = "decision",
-                .caption = "Old, new and change: on the route with the median of the changes that count, of two the smaller",
+                .caption =
+                    "Old, new and change where the change in per cent is the median of the real ones, else of those within aim (of two in "
+                    "the middle the smaller)",
                 .columns = columns_of(std::string(several ? "new / old<|" : "") +
                                       "reading<|is<|old|new|change|%|± 0.1° of aim|unit<|results|where<"),
                 .rows = {},

@@ -47,6 +47,8 @@ enum class DecisionParts { all, doubts };
 std::vector<std::string> decision_parts(const StudyResult& result, const Decision& decision, DecisionParts which = DecisionParts::all);
 /// "xenon against halogen: better by .... Worse by .... Undecided: ... because ...."
 std::string decision_sentence(const StudyResult& result, const Decision& decision);
+/// "0.11° higher": the new lamp's cut-off as mounted; "" within 0.05°, or where it is not known.
+std::string mounted_words(const Decision& decision);
 /// "xenon is better in 9, worse in 4 of 22 deciding readings".
 std::string decision_count(const StudyResult& result, const Decision& decision);
 /// That of one comparison, "What 2 comparisons decide" of several.

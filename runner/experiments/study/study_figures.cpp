@@ -154,7 +154,8 @@ void add_reach(const StudyResult& result, const std::vector<std::size_t>& group,
     const double within_m = result.cells[group.front()].grid_cell_m;
     for (StudyFigure& drawn : figures)
         if (auto* const same = std::get_if<plots::Figure>(&drawn.plot.figure); same && is_same_flat(*same, lines.figure, within_m)) {
-            const std::string also = "; the same: " + result.cells[group.front()].drive;
+            const std::string also =
+                fmt::format("{} {}", drawn.plot.places.size() > 1 ? "," : "; the same on", result.place_of(group.front()));
             drawn.plot.places.push_back(result.place_of(group.front()));
             same->subtitle += also;
             drawn.title += also;

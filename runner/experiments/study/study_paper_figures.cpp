@@ -71,7 +71,8 @@ std::vector<PaperFigure> paper_figures(const StudyResult& result) {
                 {file_name_of(fmt::format("ranking_{}-{}", pair.tested, pair.against)), drawing_of(*dots),
                  fmt::format(
                      "What {} changes against {}, in per cent of the old value, better to the right. Dots: the median of the changes that "
-                     "are real, of two the smaller; lines: what numerical error, noise of the candela tables and 0.1° of aim leave open; "
+                     "are real, else of those within aim, of two in the middle the smaller; lines: what numerical error, noise of the "
+                     "candela tables and 0.1° of aim leave open; "
                      "ticks: single routes. Hollow: within that. Numbers at the right: the same in the reading's unit. Source: "
                      "study.json of the study {}{}.",
                      pair.tested, pair.against, result.study.name, part_of_drives(result)),

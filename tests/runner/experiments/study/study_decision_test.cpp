@@ -150,7 +150,7 @@ TEST(Decision, PlacesThatDrawOneFlatLineHaveItOnce) {
     }
     const std::vector<StudyFigure> figures = study_figures(study.result, {});
     ASSERT_EQ(figures.size(), 2U);
-    EXPECT_THAT(figures[0].title, testing::EndsWith("; the same: drive-1"));
+    EXPECT_THAT(figures[0].title, testing::EndsWith("; the same on drive-1"));
     EXPECT_THAT(figures[0].cells, ElementsAre(0U, 1U, 2U, 3U));
     EXPECT_THAT(figures[0].plot.places, ElementsAre("drive-0", "drive-1"));
     EXPECT_THAT(figures[1].cells, ElementsAre(4U, 5U));
@@ -190,8 +190,8 @@ TEST(Decision, ALampThatIsOnlyAimedOtherwiseIsCalledSo) {
     EXPECT_THAT(mount(-0.6), HasSubstr("it is the aim, not the lamp"));
     EXPECT_THAT(mount(-1.0), Not(HasSubstr("it is the aim")));
     study.result.lamps.front().difference.level.emplace();
-    EXPECT_THAT(mount(-0.6), HasSubstr("As mounted its cut-off lies 0.23° higher: part of this is aim"));
-    EXPECT_THAT(mount(-1.05), Not(HasSubstr("part of this is aim")));
+    EXPECT_THAT(mount(-0.6), HasSubstr("As mounted its cut-off lies 0.23° higher: some or all of this is aim"));
+    EXPECT_THAT(mount(-1.05), Not(HasSubstr("of this is aim")));
     EXPECT_THAT(decision_sentence(study.result, decide(study.result).front()), Not(HasSubstr("it is the aim")));
 }
 
@@ -204,6 +204,16 @@ struct FirstScreen {
         return std::get<PlaceMatrix>(section.blocks.at(2)).rows.at(row).second.at(lamp);
     }
 };
+
+TEST(Answer, TellsOneSizeOnceAndHowFarApartTheCutOffsLie) {
+    MadeStudy study;
+    study.on(0, reach, 40.0, 50.0, 2.0).on(1, reach, 40.0, 50.0, 2.0);
+    for (CellResult& cell : study.result.cells)
+        cell.aims = {{.lamp = "left", .percent = cell.cell.lamp == 1 ? -0.6 : -1.0}};
+    const FirstScreen screen(study);
+    EXPECT_EQ(screen.where(), "Median over 2 routes: better on 2 of 2 routes, +10.0 m on each.");
+    EXPECT_THAT(screen.section.title, testing::EndsWith("(+10.0 m, +25 %); the cut-off of new lies 0.23° higher"));
+}
 
 TEST(Answer, NamesBestAndWorstByHowMuchAndWhere) {
     MadeStudy study;
@@ -222,7 +232,8 @@ TEST(Answer, NamesBestAndWorstByHowMuchAndWhere) {
     EXPECT_EQ(screen.entry(1, 1).shade, 0.0) << "what aim would do as well is not marked";
     EXPECT_THAT(std::get<std::string>(screen.section.blocks.at(1)),
                 testing::AllOf(HasSubstr("new is better in 1, worse in 1 of 2 deciding readings."),
-                               HasSubstr("Worse by largest illuminance"), HasSubstr(" Not measured: foreground.")));
+                               HasSubstr("Worse by largest illuminance"),
+                               HasSubstr(" Of what decides nothing was measured of: foreground.")));
     const std::string page = document_html(document(study.result), study.result);
     EXPECT_LT(page.find(screen.section.title), page.find("class=\"wide matrix"));
     EXPECT_THAT(page, HasSubstr("<td class=\"gain\" style=\"--shade:0.62\""));
