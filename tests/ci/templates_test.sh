@@ -134,6 +134,19 @@ job 0 verdict
 [[ $said == "Limits exceeded" ]] || { echo "the verdict is '$said'"; ((++failures)); }
 FERNLICHT_STORE_SIZE=5GiB CODE=1 job 1 play my.yaml
 called "prune --at-most 5GiB"
+[[ $said == *"fernlicht accept out --readings-only"* ]] || { echo "a red study does not say how a change is accepted: $said"; ((++failures)); }
+mkdir "$tree/job/baselines"
+job 0 play my.yaml
+called "--backend software --baselines baselines $tree/job"
+job 0 play my.yaml --baselines others
+grep --quiet -- "--baselines baselines" "$CALLS" && { echo "judged by two: $(<"$CALLS")"; ((++failures)); }
+rmdir "$tree/job/baselines"
+mv "$tree/job/.fernlicht" "$tree/built" # an installed one will do
+cp "$tree/fernlicht/fernlicht" "$tree/bin/"
+job 0 play my.yaml
+called "fernlicht study my.yaml --out out"
+rm "$tree/bin/fernlicht"
+mv "$tree/built" "$tree/job/.fernlicht"
 CODE=2 job 2 play my.yaml # the program says why; nothing else does
 if [[ -n $said ]] || grep --quiet prune "$CALLS"; then echo "a refused study: $said"; ((++failures)); fi
 export GITHUB_ACTIONS=true GITHUB_STEP_SUMMARY=$tree/summary
