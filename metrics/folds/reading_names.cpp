@@ -69,7 +69,16 @@ void check_names(const Drive& drive, const Readings& others) {
             if (const auto key = key_of(limit.reading); !key || key->aspect != Aspect::value || !can_be_read(drive, others, *key))
                 throw InputError({drive.file, 0, 0, "measure.tolerances.limits"}, "found reading '" + printable(limit.reading) + "'",
                                  "a reading of this drive, as reach_5lx_target_own_right_edge_m");
-    std::vector<std::string> known{"reach_5lx_road_own_m", "width_3lx_target_all_at_50m_m"};
+    const ExtentParameters extent = drive.extent.value_or(ExtentParameters{});
+    std::vector<std::string> known; // of extents the usual ones
+    for (const double lx : extent.thresholds_lx)
+        for (const char* const surface : {"road", "target"}) {
+            for (const char* const lane : {"own", "all", "own_right_edge"})
+                known.push_back(fmt::format("reach_{:g}lx_{}_{}_m", lx, surface, lane));
+            known.push_back(fmt::format("area_{:g}lx_{}_own_m2", lx, surface));
+            for (const double at_m : extent.width_at_m)
+                known.push_back(fmt::format("width_{:g}lx_{}_all_at_{:g}m_m", lx, surface, at_m));
+        }
     for (const Reading& other : others)
         known.push_back(name_of(other.key));
     for (const Limit& limit : drive.limits)

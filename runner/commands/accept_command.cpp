@@ -55,6 +55,8 @@ int accept(const AcceptFlags& flags) {
         readings += accepted.baselines[i].readings.size();
         fmt::print("{}\n", stored_text(accepted.baselines[i], accepted.stored[i]));
     }
+    for (const std::string& id : accepted.others)
+        fmt::print("{} of other inputs stays: `fernlicht baselines remove {}` if it is right no more\n", id, id);
     fmt::print("accepted into {}: {} lamp sets with {} frames and {} readings{}\n", flags.baselines, accepted.baselines.size(), frames,
                readings, flags.readings_only ? "; frames were left out" : "");
     return 0;
@@ -117,6 +119,11 @@ Accepted accept_run(const std::filesystem::path& run_folder, const std::filesyst
     Accepted accepted;
     accepted.stored = store_baselines(baselines_folder, results.baselines, how, note, results.started_utc);
     accepted.baselines = std::move(results.baselines);
+    for (const StoredBaseline& entry : list_baselines(baselines_folder))
+        for (std::size_t i = 0; i < accepted.baselines.size(); ++i)
+            if (const BaselineKey& key = accepted.baselines[i].key;
+                accepted.stored[i].is_new && same_but_inputs(entry.key, key) && entry.key.inputs != key.inputs)
+                accepted.others.push_back(short_id(entry.id));
     return accepted;
 }
 

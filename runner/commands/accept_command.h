@@ -13,7 +13,8 @@ RunResults read_run(const std::filesystem::path& run_folder);
 
 struct Accepted {
     std::vector<Baseline> baselines;
-    std::vector<Stored> stored; ///< one for each baseline
+    std::vector<Stored> stored;      ///< one for each baseline
+    std::vector<std::string> others; ///< short ids of what was accepted for other inputs, a former lamp say: it stays
 };
 /// `readings_only` leaves the frames out. Throws as read_run and store_baselines; what was accepted before then still holds.
 Accepted accept_run(const std::filesystem::path& run_folder, const std::filesystem::path& baselines_folder,

@@ -160,7 +160,7 @@ void add_film_command(CLI::App& app, const std::vector<std::string>&, std::funct
         ->default_str("all");
     flags->rate = "25";
     add_shared(*sub, "--rate", flags->rate)->capture_default_str();
-    add_shared(*sub, "--frames", flags->frames)->description("film only these pictures, counted from 0; either end may be left out");
+    add_shared(*sub, "--frames", flags->frames);
     flags->resolution = "1280x720";
     add_shared(*sub, "--resolution", flags->resolution)->capture_default_str();
     add_shared(*sub, "--vertical-fov", flags->vertical_fov_deg)->default_str("the drive's");
@@ -171,9 +171,9 @@ void add_film_command(CLI::App& app, const std::vector<std::string>&, std::funct
     add_shared(*sub, "--backend", flags->request.backend);
     add_light_pass_flag(*sub, flags->request.light_pass);
     add_shared(*sub, "--quiet", flags->request.quiet);
-    sub->footer(
-        "Each lamp set of each drive has a panel; the size is the film's, and a rate may be a fraction: 30000/1001. docs/film.md tells "
-        "more.");
+    sub->footer("Each lamp set of each drive has a panel; the size is the film's, and so are the pictures that --frames counts; a rate may "
+                "be a fraction: 30000/1001. docs/film.md tells "
+                "more.");
     sub->callback([flags, &chosen] { chosen = [flags] { return film(*flags); }; });
 }
 

@@ -112,10 +112,10 @@ std::string nothing_accepted(const std::filesystem::path& store, const std::vect
         std::vector<std::string> texts;
         for (const std::string& other : others)
             texts.push_back(input_text(other, run.producer.inputs, opened));
-        nearest = fmt::format(" with these inputs; since {}, {} changed: {}", short_id(entry.id), fmt::join(texts, ", "), moved.text);
+        nearest = fmt::format("{} changed since {}: {}; ", fmt::join(texts, ", "), short_id(entry.id), moved.text);
     }
     if (!nearest.empty())
-        return text + nearest;
+        return nearest + text + " with these inputs";
     for (const StoredBaseline& entry : entries)
         if (same_but_lamp_set(entry.key, run.key))
             return text + fmt::format("; of this drive {} ({}) is accepted: {}", printable(entry.key.lamp_set), short_id(entry.id),

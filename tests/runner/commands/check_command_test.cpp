@@ -157,7 +157,7 @@ TEST(Check, NamesTheNearestShippedFileAndReadingAndAllThatIsWrong) {
     EXPECT_THAT(said, HasSubstr("limits.yaml:8: error: limits: found reading 'glare_oposite_facing_max_lx', expected a reading of this "
                                 "drive (the nearest is 'glare_opposite_facing_max_lx')"));
     EXPECT_THAT(said, HasSubstr("(the nearest is 'reach_5lx_road_own_m')"));
-    EXPECT_THAT(said, HasSubstr("(the nearest is 'reach_5lx_target_own_m')")) << "cut off, not misspelt";
+    EXPECT_THAT(said, HasSubstr("(the nearest is 'reach_5lx_target_own_m')")) << "among those of the extent";
     EXPECT_THAT(printed("check " + written(folder, "way.yaml",
                                            drive + "lamp_sets: {a: {file: fernlicht:lamps/halogen-low.ies}}\nroute: {road: 7}\n"),
                         2),

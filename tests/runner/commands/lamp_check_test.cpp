@@ -34,8 +34,7 @@ TEST(LampCheckCommand, SaysHowFarACutOffLiesFromRegulationAim) {
         v += 0.11;
     const TemporaryFolder folder;
     write_lamp(lamp, folder / "high.ies");
-    EXPECT_THAT(printed("lamp " + (folder / "high.ies") + " --check"),
-                HasSubstr("0.11 degrees above 1 % down, which `aim: auto` takes away"));
+    EXPECT_THAT(printed("lamp " + (folder / "high.ies") + " --check"), HasSubstr("0.11 degrees above 1 % down"));
 }
 
 /// By name, wherever a lamp's file is asked for; a file of that name comes first.

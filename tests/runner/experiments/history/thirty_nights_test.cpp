@@ -323,8 +323,8 @@ TEST(HistoryCauses, ADriveThatIsPlayedOtherwiseIsOneChange) {
     std::vector<Night> nights;
     for (int i = 0; i < 3; ++i) {
         StudyResult result = planted.play(i, i == 1 ? brighter : World{});
+        result.study.conditions.aim_percent = {i < 2 ? -1.0 : -1.1};
         for (CellResult& cell : result.cells) {
-            cell.cell.condition = i < 2 ? "night, aim -1 %" : "night, aim -1.1 %";
             std::erase_if(cell.inputs, [](const CellInput& input) { return input.kind == InputKind::program; });
             if (i > 0)
                 cell.inputs.push_back({InputKind::lamp, "another.ies", "0"});
@@ -338,9 +338,10 @@ TEST(HistoryCauses, ADriveThatIsPlayedOtherwiseIsOneChange) {
     ASSERT_EQ(found.events.size(), 2U);
     EXPECT_EQ(phrase_of(found.events[0].causes),
               "inputs: drive straight.yaml (lamp_sets, start) as it is played, lamp another.ies (none → 0)");
-    EXPECT_EQ(phrase_of(found.events[1].causes), "inputs: conditions night, aim -1 % → night, aim -1.1 %");
+    EXPECT_EQ(phrase_of(found.events[1].causes), "inputs: conditions night, aim -1 %, 13.2 V → night, aim -1.1 %, 13.2 V");
     const std::string text = document_text(document(found));
-    EXPECT_THAT(text, AllOf(HasSubstr("on country, night, aim -1 %: "), HasSubstr("on country, night, aim -1.1 %: "))) << text;
+    EXPECT_THAT(text, AllOf(HasSubstr("on country, night, aim -1 %, 13.2 V: "), HasSubstr("on country, night, aim -1.1 %, 13.2 V: ")))
+        << text;
 }
 
 TEST(HistoryCauses, AnUncertaintyMayMoveByRoundingOfItsReading) {

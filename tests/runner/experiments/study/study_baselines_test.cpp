@@ -95,10 +95,13 @@ TEST_F(StudyAgainstBaselines, WhatMovesIsRedAndNamed) {
     EXPECT_EQ(lamp.exit_code, 1);
     EXPECT_THAT(
         lamp.output,
-        ContainsRegex("FAIL straight_halogen: baseline: nothing accepted in .* with these inputs; since [0-9a-f]+, "
-                      "lamp file \\(brighter.ies\\) changed: of [0-9]+ readings [1-9][0-9]+ differ, largest deviation among the readings "
-                      "that decide by default: "));
+        ContainsRegex("FAIL straight_halogen: baseline: lamp file \\(brighter.ies\\) changed since [0-9a-f]+: of [0-9]+ readings "
+                      "[1-9][0-9]+ differ, largest deviation among the readings that decide by default: .*; nothing accepted in .* with "
+                      "these inputs"));
     EXPECT_EQ(std::string::npos, lamp.output.find("FAIL straight_xenon"));
+    const std::string accept = "accept " + (temporary / "lamp") + " " + against + " --readings-only";
+    EXPECT_THAT(printed(accept), ContainsRegex("[0-9a-f]+ of other inputs stays: `fernlicht baselines remove [0-9a-f]+`"));
+    EXPECT_EQ(printed(accept).find("of other inputs"), std::string::npos) << "it was accepted before";
 }
 
 TEST_F(StudyAgainstBaselines, RefusesFlagsWithoutEffect) {

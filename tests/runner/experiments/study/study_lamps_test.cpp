@@ -140,13 +140,14 @@ TEST_F(StudyOfLamps, NamesEachDifferenceAndNothingElse) {
     expect_nothing_but(raised, "cut_off_up_deg");
     EXPECT_NEAR(raised.at("cut_off_up_deg").at("value"), 0.2, 0.05);
     EXPECT_THAT(lamp("raised").at("says"),
-                MatchesRegex(".*the cut-off is 0.2.* not moved [(]75R [+].* %, .*; glare: .*zone III [+].* %[)]. Nothing else .*"));
+                MatchesRegex(".*the cut-off is 0.2.* not moved [(]in all: 75R [+].* %, .*; glare: .*zone III [+].* %[)]. Nothing else .*"));
     const json high = lamp("high").at("difference");
     expect_nothing_but(high, "aim_up_deg");
     EXPECT_NEAR(high.at("aim_up_deg").at("value"), 0.3, 0.05); // asked for: 0.05
     EXPECT_THAT(
         lamp("high").at("says"),
-        MatchesRegex(".*the whole beam is aimed 0.30 degrees higher [(]HV [+].* %, .*; glare: .*zone III [+].* %[)]. Nothing else .*"));
+        MatchesRegex(
+            ".*the whole beam is aimed 0.30 degrees higher [(]in all: HV [+].* %, .*; glare: .*zone III [+].* %[)]. Nothing else .*"));
     EXPECT_GT(real_changes("high"), 10U) << "and its readings say so";
     const json same = lamp("same").at("difference");
     EXPECT_EQ(same.at("differs"), false);
