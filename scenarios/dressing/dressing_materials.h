@@ -63,8 +63,8 @@ std::vector<Material> dressing_materials();
 /// lighter; without those, as road_materials() has them. The same seed gives the same bytes.
 std::uint32_t add_dressing_materials(Scene& scene, bool textures, std::uint64_t seed);
 
-/// Draws by SplitMix64 (Steele, Lea, Flood 2014): the same on every machine. Compilers order the arguments of a call as they like: two draws
-/// go into variables.
+/// Draws by SplitMix64 (Steele, Lea, Flood 2014): the same on every machine. Compilers order the arguments of a call as they like: two
+/// draws go into variables.
 class Dice {
   public:
     /// What is drawn for `name` with one seed is independent of what is drawn for another.
