@@ -56,7 +56,7 @@ int accept(const AcceptFlags& flags) {
         fmt::print("{}\n", stored_text(accepted.baselines[i], accepted.stored[i]));
     }
     for (const std::string& id : accepted.others)
-        fmt::print("{} of other inputs stays: `fernlicht baselines remove {}` if it is right no more\n", id, id);
+        fmt::print("{} of other inputs stays: `fernlicht baselines remove {}` removes it if it is no longer right\n", id, id);
     fmt::print("accepted into {}: {} lamp sets with {} frames and {} readings{}\n", flags.baselines, accepted.baselines.size(), frames,
                readings, flags.readings_only ? "; frames were left out" : "");
     return 0;

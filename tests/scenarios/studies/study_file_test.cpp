@@ -170,7 +170,7 @@ TEST_F(StudyFile, RefusesInOneSentenceWithItsPlace) {
                                          "finds the cut-off in the file"));
     EXPECT_THAT(refusal(with("measure: {visibility: {k: 0}}\n")), HasSubstr("measure.visibility.k"));
     EXPECT_THAT(refusal(with("measure: {extent: true}\n")), HasSubstr("extent"));
-    EXPECT_THAT(refusal(with("conditons: {}\n")), HasSubstr("conditions"));
+    EXPECT_THAT(refusal(with("conditionz: {}\n")), HasSubstr("conditions"));
     EXPECT_THAT(refusal(with("conditions: {time_of_day: dusk}\n")), HasSubstr("night"));
     EXPECT_THAT(refusal(with("conditions: {mirror: [true, true]}\n")),
                 HasSubstr("value 2 again, the same as value 1, expected each value once"));
@@ -282,7 +282,7 @@ TEST_F(StudySchema, AgreesWithTheReader) {
               {"pictured_moments", "0|13"},
               {"resolution_px", "[64]|[64, 48]"},
               {"lamp_noise_percent", "-1|1"},
-              {"measure", "{visibility: true}|{visibilty: true}"},
+              {"measure", "{visibility: true}|{visibilityy: true}"},
               {"", "nonsense: 1"}})) {
         const std::string yaml = lamps + ending + "\n", by_reader = refusal(yaml), by_schema = violation(yaml);
         EXPECT_EQ(by_reader == "not refused", by_schema.empty()) << ending << "\n reader: " << by_reader << "\n schema: " << by_schema;
