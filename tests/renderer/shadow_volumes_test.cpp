@@ -224,6 +224,18 @@ Moment busy_moment(double time_s) {
     return moment;
 }
 
+/// Maps have a window, 24 degrees downwards; hulls and planes do not need one.
+TEST_F(ShadowVolumesTest, WhatStandsBelowTheWindowOfAMapCastsToo) {
+    Scene scene = level_road_for_shadows();
+    scene.meshes.push_back(box({5.5, 0.6, 0.6}, {-0.1F, -0.1F, 0.0F}, {0.1F, 0.1F, 0.2F}));
+    const Moment moment = one_lamp({3.5, 0.6, 2.0}); // 31 degrees above it
+    for (const ShadowMethod method : {ShadowMethod::volumes, ShadowMethod::planar}) {
+        const HiddenPixels pixels = hidden_pixels(device_, scene, moment, map_for_shadows(10.0, 3.0, 20), {.method = method});
+        EXPECT_EQ(pixels.wrong_inside(), 0) << name(method);
+        EXPECT_GT(pixels.count(1), 30) << name(method);
+    }
+}
+
 TEST_F(ShadowVolumesTest, PrunedAndUnprunedGiveTheSameBytesWhateverWasDrawnBefore) {
     const Scene scene = busy_scene();
     for (const ShadowMethod method : {ShadowMethod::volumes, ShadowMethod::planar, ShadowMethod::under_car}) {

@@ -108,6 +108,9 @@ bool faces_lamp(const SceneBuffers& scene, const Piece& piece, const glm::dvec3&
                        [&](const glm::vec4& plane) { return glm::dot(glm::vec3(plane), lamp) + plane.w > 0.0F; });
 }
 
+ShadowCasters::ShadowCasters(const SceneBuffers& scene, const ShadowSettings& settings)
+    : scene_(scene), settings_(settings), windowed_(settings.method != ShadowMethod::planar && settings.method != ShadowMethod::volumes) {}
+
 void ShadowCasters::set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m) {
     ego_m_ = ego_m;
     lamps_.clear();
@@ -125,7 +128,7 @@ void ShadowCasters::set(const std::vector<LitLamp>& lamps, const std::vector<con
             const Piece& piece = scene_.pieces()[k];
             const glm::dvec3 from_lamp = centre_of(piece, ego_m) - found.lamp_m;
             const double distance = glm::length(from_lamp), nearest = distance - piece.radius_m;
-            if (nearest > shadow_farthest_m || frustum.outside(centre_of(piece, ego_m), piece.radius_m))
+            if (nearest > shadow_farthest_m || (windowed_ && frustum.outside(centre_of(piece, ego_m), piece.radius_m)))
                 continue;
             if (!piece.casts || (piece.ground && !piece.above_ground && faces_lamp(scene_, piece, found.lamp_m, ego_m)))
                 continue;
@@ -162,7 +165,7 @@ void ShadowCasters::add_bodies(LampCasters& found) {
         for (const Corners& body : scene_.pieces()[k].bodies_m) {
             const glm::dvec3 offset = scene_.pieces()[k].origin_m - ego_m_ - found.lamp_m;
             Caster caster = caster_of(in_lamp_space(found.lamp, offset, body), margin);
-            if (caster.around && settings_.redraw_texels > 0.0) {
+            if (caster.around && windowed_ && settings_.redraw_texels > 0.0) {
                 if (!begins_m)
                     begins_m = begins_in(found, k, window);
                 caster = {window.left, window.right, window.bottom, window.top, *begins_m - margin_m, true};

@@ -66,7 +66,8 @@ struct LampCasters {
 
 class ShadowCasters {
   public:
-    ShadowCasters(const SceneBuffers& scene, const ShadowSettings& settings) : scene_(scene), settings_(settings) {}
+    /// Methods that draw no map have no window: whatever the beam reaches casts.
+    ShadowCasters(const SceneBuffers& scene, const ShadowSettings& settings);
 
     void set(const std::vector<LitLamp>& lamps, const std::vector<const Beam*>& beams, const glm::dvec3& ego_m);
     /// One lamp in place of all that shine: what any of them has of pieces, seen from there. `window`: of the map from there.
@@ -88,6 +89,7 @@ class ShadowCasters {
 
     const SceneBuffers& scene_;
     ShadowSettings settings_;
+    bool windowed_;
     std::vector<LampCasters> lamps_;
     glm::dvec3 ego_m_{0.0};
     std::map<std::uint32_t, std::vector<glm::vec3>> corners_; ///< of pieces about the lamps

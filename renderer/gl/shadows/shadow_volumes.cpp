@@ -163,7 +163,6 @@ void ShadowVolumes::set(const std::vector<LitLamp>& lamps, const std::vector<con
 /// As ShadowCasters chooses pieces, body by body of a mesh: in the lit part of the beam, where its last contour is.
 std::vector<bool> ShadowVolumes::casting_bodies(const Silhouettes& silhouettes, const Piece& piece, std::size_t lamp) const {
     const LampCasters& casters = casters_.lamps()[lamp];
-    const Frustum frustum(casters.clip);
     const glm::dquat turn = turn_of(piece);
     std::vector<bool> casts;
     for (const Silhouettes::Body& body : silhouettes.bodies()) {
@@ -171,8 +170,7 @@ std::vector<bool> ShadowVolumes::casting_bodies(const Silhouettes& silhouettes, 
         const glm::dvec3 centre = piece.origin_m - ego_m() + turn * (0.5 * (body.low + body.high)), from_lamp = centre - casters.lamp_m;
         const double nearest = glm::length(from_lamp) - radius;
         const double max_cd = beams_[lamp]->bounds.max_towards(to_lamp_space(casters.lamp, from_lamp), radius);
-        casts.push_back(nearest <= shadow_farthest_m && !frustum.outside(centre, radius) && max_cd > 0.0 &&
-                        (nearest <= 0.0 || max_cd >= last_contour_lx * nearest * nearest));
+        casts.push_back(nearest <= shadow_farthest_m && max_cd > 0.0 && (nearest <= 0.0 || max_cd >= last_contour_lx * nearest * nearest));
     }
     return casts;
 }

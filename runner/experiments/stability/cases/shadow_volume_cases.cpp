@@ -19,7 +19,8 @@ glm::dvec3 within_cube(Chance& chance, double half) {
 
 /// Closed, open, inside out, with a side missing, doubled, or triangles of any sort, about 0.
 Triangles any_body(Chance& chance, double size_m) {
-    const glm::dvec3 half(size_m * chance.between(0.02, 1.0), size_m * chance.between(0.02, 1.0), size_m * chance.between(0.02, 1.0));
+    // Braces and variables: arguments would be drawn in the compiler's order.
+    const glm::dvec3 half = size_m * glm::dvec3{chance.between(0.02, 1.0), chance.between(0.02, 1.0), chance.between(0.02, 1.0)};
     Triangles body = box(half, chance.between(0.0, 2.0 * pi));
     switch (chance.below(7)) {
     case 0:
@@ -29,7 +30,10 @@ Triangles any_body(Chance& chance, double size_m) {
         return body;
     case 2: // triangles missing and turned round
         body.erase(body.begin() + chance.below(12));
-        std::swap(body[static_cast<std::size_t>(chance.below(11))][0], body[static_cast<std::size_t>(chance.below(11))][1]);
+        {
+            const auto one = static_cast<std::size_t>(chance.below(11)), other = static_cast<std::size_t>(chance.below(11));
+            std::swap(body[one][0], body[other][1]);
+        }
         return body;
     case 3: // a sheet, once or from both sides
         body.resize(2);
@@ -73,14 +77,19 @@ void shadow_crowds(StabilityBench& bench, Found& worst) {
         for (int k = 0; k < 8; ++k) {
             const bool within = chance.below(3) == 0; // a body, or its shadow
             const auto any_place = [&] { return places[static_cast<std::size_t>(chance.below(10))]; };
-            const glm::dvec3 at = within ? any_place() + within_cube(chance, 0.02)
-                                         : glm::dvec3(chance.between(-5.0, 20.0), chance.between(-5.0, 5.0), chance.between(0.05, 3.0));
-            moment.lamps.front().pose = {at, axes_from_angles(chance.between(-0.5, 0.5), chance.between(-0.3, 0.3), 0.0)};
+            const auto near = [&](double half) {
+                const glm::dvec3 place = any_place();
+                return place + within_cube(chance, half);
+            };
+            const glm::dvec3 at =
+                within ? near(0.02) : glm::dvec3{chance.between(-5.0, 20.0), chance.between(-5.0, 5.0), chance.between(0.05, 3.0)};
+            const double lamp_yaw = chance.between(-0.5, 0.5), lamp_pitch = chance.between(-0.3, 0.3);
+            moment.lamps.front().pose = {at, axes_from_angles(lamp_yaw, lamp_pitch, 0.0)};
             const glm::dvec3 eye = chance.below(3) == 0
-                                       ? any_place() + within_cube(chance, 0.3)
-                                       : glm::dvec3(chance.between(-10.0, 30.0), chance.between(-10.0, 10.0), chance.between(0.2, 6.0));
-            const View view = camera(eye, chance.between(-0.7, 0.7), chance.between(-0.5, 0.1), chance.between(20.0, 110.0), 48, 36);
-            all.add(trial.tally(moment, view, volume_shadow_tolerance()));
+                                       ? near(0.3)
+                                       : glm::dvec3{chance.between(-10.0, 30.0), chance.between(-10.0, 10.0), chance.between(0.2, 6.0)};
+            const double yaw = chance.between(-0.7, 0.7), pitch = chance.between(-0.5, 0.1), fov_deg = chance.between(20.0, 110.0);
+            all.add(trial.tally(moment, camera(eye, yaw, pitch, fov_deg, 48, 36), volume_shadow_tolerance()));
         }
         judge_tally(worst, all, fmt::format("crowd {}", i));
     }
