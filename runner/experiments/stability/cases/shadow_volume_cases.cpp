@@ -85,9 +85,10 @@ void shadow_crowds(StabilityBench& bench, Found& worst) {
                 within ? near(0.02) : glm::dvec3{chance.between(-5.0, 20.0), chance.between(-5.0, 5.0), chance.between(0.05, 3.0)};
             const double lamp_yaw = chance.between(-0.5, 0.5), lamp_pitch = chance.between(-0.3, 0.3);
             moment.lamps.front().pose = {at, axes_from_angles(lamp_yaw, lamp_pitch, 0.0)};
-            const glm::dvec3 eye = chance.below(3) == 0
-                                       ? near(0.3)
-                                       : glm::dvec3{chance.between(-10.0, 30.0), chance.between(-10.0, 10.0), chance.between(0.2, 6.0)};
+            glm::dvec3 eye = chance.below(3) == 0
+                                 ? near(0.3)
+                                 : glm::dvec3{chance.between(-10.0, 30.0), chance.between(-10.0, 10.0), chance.between(0.2, 6.0)};
+            eye.z = std::max(eye.z, 0.2); // so that the near plane cuts no hole into the road: what is below it, it hides from rays alone
             const double yaw = chance.between(-0.7, 0.7), pitch = chance.between(-0.5, 0.1), fov_deg = chance.between(20.0, 110.0);
             all.add(trial.tally(moment, camera(eye, yaw, pitch, fov_deg, 48, 36), volume_shadow_tolerance()));
         }
