@@ -16,8 +16,9 @@ void check_subjects(const Drive& drive) {
     const auto check = [&](SubjectKind kind, const std::string& key, const auto& named) {
         for (const auto& each : named)
             if (!is_clear_subject(kind, each.name))
-                throw InputError({drive.file, 0, 0, "measure." + key}, "found the name '" + printable(each.name) + "'",
-                                 "one that no reading's name would take for a part of its own, such as _min, _max, _twin or own");
+                refuse_and_go_on(
+                    InputError({drive.file, 0, 0, "measure." + key}, "found the name '" + printable(each.name) + "'",
+                               "one that no reading's name would take for a part of its own, such as _min, _max, _twin or own"));
     };
     const SeeingParameters& asked = drive.seeing;
     check(SubjectKind::probe, "probes", drive.probes);
@@ -67,8 +68,9 @@ void check_names(const Drive& drive, const Readings& others) {
     if (drive.seeing.tolerances)
         for (const Limit& limit : drive.seeing.tolerances->limits)
             if (const auto key = key_of(limit.reading); !key || key->aspect != Aspect::value || !can_be_read(drive, others, *key))
-                throw InputError({drive.file, 0, 0, "measure.tolerances.limits"}, "found reading '" + printable(limit.reading) + "'",
-                                 "a reading of this drive, as reach_5lx_target_own_right_edge_m");
+                refuse_and_go_on(InputError({drive.file, 0, 0, "measure.tolerances.limits"},
+                                            "found reading '" + printable(limit.reading) + "'",
+                                            "a reading of this drive, as reach_5lx_target_own_right_edge_m"));
     const ExtentParameters extent = drive.extent.value_or(ExtentParameters{});
     std::vector<std::string> known; // of extents the usual ones
     for (const double lx : extent.thresholds_lx)

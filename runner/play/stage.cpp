@@ -10,9 +10,12 @@
 #include "scenarios/drives/story/apply_storyboard.h"
 #include "scenarios/roads/road_network.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/library_folders.h"
+#include "scenarios/values/refusals.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <optional>
 
 namespace fernlicht {
 
@@ -56,6 +59,21 @@ Stage::Stage(Drive d)
             "other road users: pictures and lux maps show the light of all lamps; reach, width and area are of the own lamps "
             "alone. Rendered, they end where a body hides road or target; the twin, and what aim and flux change, know "
             "no bodies");
+}
+
+void refuse_each(Drive drive) {
+    EachRead each;
+    std::optional<RoadNetwork> network;
+    std::optional<Route> route;
+    each([&] { aim_lamps(drive); });
+    const bool has_route = each([&] { route.emplace(network.emplace(network_of(drive)), start_of(drive), drive.via); });
+    if (!has_route)
+        route.emplace(network.emplace(read_opendrive(shipped_path("roads/straight.xodr"))), Route::Start{});
+    Readings readings;
+    const auto finds_readings = [&] { readings = SeeingFold(drive, *route).readings(); };
+    if (has_route ? each(finds_readings) : all_refusals(finds_readings).empty()) // whose places may lie beyond a road that is not its own
+        each([&] { check_names(drive, readings); });
+    each.end();
 }
 
 bool left_hand_traffic(const Stage& stage) {

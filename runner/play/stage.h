@@ -18,6 +18,10 @@ struct Stage {
     Stage& operator=(const Stage&) = delete;
 };
 
+/// Of a drive that has no stage, told by EachRead: what its lamps, its route and its readings lack, each by itself. Readings are judged on
+/// a straight road where the route cannot be found.
+void refuse_each(Drive drive);
+
 /// The side of the road on which the route begins to drive.
 bool left_hand_traffic(const Stage& stage);
 

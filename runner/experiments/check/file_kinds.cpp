@@ -92,7 +92,7 @@ void look_at_stage(const Drive& drive, FileLook& look, bool* left_hand = nullptr
         look.tries([&] { read_opendrive(drive.road_file); });
         return;
     }
-    look.tries([&] {
+    const bool is_staged = look.tries([&] {
         const Stage stage(drive);
         for (const std::string& warning : stage.network.warnings)
             warn_as_told(look, drive.road_file, warning);
@@ -103,6 +103,8 @@ void look_at_stage(const Drive& drive, FileLook& look, bool* left_hand = nullptr
         for (const std::string& warning : lamp_warnings(lamps.files()))
             look.warn({drive.file, 0, 0, {}}, warning);
     });
+    if (!is_staged)
+        look.tries([&] { refuse_each(drive); });
 }
 
 /// A drive's reader takes any name of a technique; the renderer alone knows which there are.

@@ -15,6 +15,7 @@
 #include "scenarios/values/errors.h"
 #include "scenarios/values/glob.h"
 #include "scenarios/values/pose.h"
+#include "scenarios/values/refusals.h"
 #include "scenarios/values/trace.h"
 
 #include <algorithm>
@@ -186,9 +187,9 @@ void refuse_unknown_readings(const Study& study) {
         if (name.find_first_of("*?") != std::string::npos || key_of(name))
             return;
         const std::string nearest = nearest_name(name, decides_by_default());
-        throw InputError({study.file, line, 0, key}, fmt::format("found '{}', which is no reading's name", printable(name)),
-                         nearest.empty() ? "one that `fernlicht readings` lists"
-                                         : "one that `fernlicht readings` lists, such as " + nearest);
+        refuse_and_go_on(InputError({study.file, line, 0, key}, fmt::format("found '{}', which is no reading's name", printable(name)),
+                                    nearest.empty() ? "one that `fernlicht readings` lists"
+                                                    : "one that `fernlicht readings` lists, such as " + nearest));
     };
     for (const std::string& name : study.decide)
         refuse(name, 0, "decide");

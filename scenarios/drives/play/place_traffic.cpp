@@ -2,6 +2,7 @@
 
 #include "scenarios/drives/play/advance.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/refusals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +29,7 @@ int oncoming_lane(const Drive& drive, const TrafficRow& row, const Route& route,
         if (!lane.same_direction && lane.type == "driving" && (nearest == nullptr || offset(lane) < offset(*nearest)))
             nearest = &lane;
     if (nearest == nullptr)
-        refuse(drive, row, fmt::format("no driving lane of the other direction {:.4g} m along the route", at_m),
+        refuse(drive, row, fmt::format("no driving lane of the other direction {:.6g} m along the route", at_m),
                "a road with oncoming traffic, or lane: {road, lane, s_m}");
     return nearest->road_lane_id;
 }
@@ -145,16 +146,18 @@ void place_row(Drive& drive, const TrafficRow& row, const RoadNetwork& network, 
         for (int i = 0; i < row.count; ++i)
             starts_m.push_back(i * row.every_m);
         if (starts_m.back() > way.length_m())
-            refuse(drive, row, fmt::format("{} road users over {:.4g} m", row.count, starts_m.back()),
-                   fmt::format("at most the {:.4g} m that their lane goes on", way.length_m()));
+            refuse(drive, row, fmt::format("{} road users over {:.6g} m", row.count, starts_m.back()),
+                   fmt::format("at most the {:.6g} m that their lane goes on", way.length_m()));
         return add(drive, row, way, starts_m);
     }
     std::vector<double> gaps_m;
     for (int i = 0; i < row.count; ++i)
         gaps_m.push_back(row.gap_m + i * row.every_m);
     if (gaps_m.front() < 0.0 || gaps_m.back() > route.length_m())
-        refuse(drive, row, fmt::format("road users from {:.4g} to {:.4g} m along the route", gaps_m.front(), gaps_m.back()),
-               fmt::format("places from 0 to {:.4g} m, where it ends", route.length_m()));
+        refuse(drive, row,
+               row.count == 1 ? fmt::format("found a road user {:.6g} m along the route", row.gap_m)
+                              : fmt::format("found road users from {:.6g} to {:.6g} m along the route", gaps_m.front(), gaps_m.back()),
+               fmt::format("0 to {:.6g} m, where it ends", route.length_m()));
     if (row.place == TrafficPlace::ahead)
         return add(drive, row, route, gaps_m);
     const auto [road, s_m] = route.place(gaps_m.back());
@@ -167,9 +170,11 @@ void place_row(Drive& drive, const TrafficRow& row, const RoadNetwork& network, 
 } // namespace
 
 void place_traffic(Drive& drive, const RoadNetwork& network, const Route& route) {
+    EachRead each;
     for (const TrafficRow& row : drive.traffic_rows)
         if (row.place != TrafficPlace::storyboard)
-            place_row(drive, row, network, route);
+            each([&] { place_row(drive, row, network, route); });
+    each.end();
 }
 
 } // namespace fernlicht

@@ -170,6 +170,28 @@ TEST(Check, NamesTheNearestShippedFileAndReadingAndAllThatIsWrong) {
                 HasSubstr("walker.yaml:8:44: error: traffic.walker.lane: found no road '9'"));
 }
 
+TEST(Check, TellsWhatRoadTrafficAndReadingsLackAtOnce) {
+    const TemporaryFolder folder;
+    const std::string drive = "fernlicht: 1\nroad: fernlicht:roads/straight.xodr\nspeed_kmh: 50\nduration_s: 1\n"
+                              "lamp_sets: {a: {file: fernlicht:lamps/halogen-low.ies}}\nlimits:\n"
+                              "- {reading: reach_5lx_roda_own_m, at_least: 40}\n- {reading: glare_opposite_facing_max_lx, at_most: 2}\n"
+                              "measure: {glare: {oncoming: {opposite: {at_m: 250}}}}\n",
+                      limit = "wrong.yaml:7: error: limits: found reading 'reach_5lx_roda_own_m'";
+    std::string said =
+        printed("check " + written(folder, "wrong.yaml",
+                                   drive + "traffic:\n  walker: {kind: pedestrian, speed_kmh: 5, lane: {road: 9, lane: -1}}\n"
+                                           "  car: {kind: car, speed_kmh: 50, ahead: {gap_m: 90000}}\n"),
+                2);
+    for (const std::string& problem : {limit, std::string("traffic.walker.lane: found no road '9'"),
+                                       std::string("traffic.car: found a road user 90000 m along the route, expected 0 to 1000 m")})
+        EXPECT_THAT(said, HasSubstr(problem));
+    EXPECT_THAT(said, HasSubstr("1 file, 3 errors"));
+    said = printed("check " + written(folder, "wrong.yaml", drive + "route: {road: 7}\n"), 2);
+    EXPECT_THAT(said, HasSubstr(limit)) << "judged on another road";
+    EXPECT_THAT(said, HasSubstr("route: found no road '7'"));
+    EXPECT_THAT(said, HasSubstr("1 file, 2 errors"));
+}
+
 TEST(Check, TakesAnythingForAFile) {
     const TemporaryFolder folder;
     written(folder, "empty.yaml", "");
