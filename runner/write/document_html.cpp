@@ -172,6 +172,9 @@ data part_of(const Plot& plot, const std::filesystem::path& folder, std::size_t&
     part.set("is_plot", true);
     part.set("svg", plot_svg(plot));
     part.set("beside", plot.beside);
+    constexpr double narrow_px = 450.0;
+    const auto* const figure = std::get_if<plots::Figure>(&plot.figure);
+    part.set("small", figure && figure->width_px < narrow_px);
     part.set("place", plot.places.empty()
                           ? std::string()
                           : fmt::format(" data-place=\"{}\" data-rank=\"{}\"", xml_text(fmt::format("{}", fmt::join(plot.places, " | "))),

@@ -330,10 +330,17 @@ std::string study_sentence(const StudyResult& result) {
 }
 
 Document document(const StudyResult& result, const std::vector<std::string>& papers) {
-    Section lamps = lamps_section(result), reach{"Reach over the drive", {}}, glare{"Glare over the drive", {}},
+    Section lamps = lamps_section(result), over{"Over the axes", {}}, reach{"Reach over the drive", {}}, glare{"Glare over the drive", {}},
             maps{"Lux from above", {"All maps in one scale, 0.1 to 100 lx; below each pair the ratio of new to old."}}, cells{"Cells", {}};
+    Listing runs_of_axes;
+    for (const StudyFigure& figure : result.figures)
+        if (figure.plot.name.starts_with("figures/axis_"))
+            runs_of_axes.items.emplace_back(figure.title);
+    if (!runs_of_axes.items.empty())
+        over.blocks.emplace_back(std::move(runs_of_axes));
     for (const StudyFigure& figure : result.figures)
         for (const auto& [beginning, section] : {std::pair("figures/lamps_", &lamps),
+                                                 {"figures/axis_", &over},
                                                  {"figures/reach_", &reach},
                                                  {"figures/glare-", &glare},
                                                  {"figures/lux", &maps},
@@ -380,7 +387,7 @@ Document document(const StudyResult& result, const std::vector<std::string>& pap
     add(decision_section(result, decisions), false);
     if (was_judged(result))
         document.sections.push_back(verdict_section(result));
-    for (Section* const section : {&reach, &glare})
+    for (Section* const section : {&over, &reach, &glare})
         add(std::move(*section), false);
     add(largest_section(result), false);
     for (const Section& section : {lamps, aims_section(result), readings, cars_section(result), views_section(result), maps, cells})

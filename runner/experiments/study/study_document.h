@@ -34,6 +34,11 @@ inline constexpr const char* unchanged_verdict = "history";
 /// Reach over each drive, lux from above and its difference, error over time, the lamps' difference. EXR files are read below `folder`.
 std::vector<StudyFigure> study_figures(const StudyResult& result, const std::filesystem::path& folder);
 
+/// Adds a figure for each axis of numbers and each of the first readings of what decides that run over it: a line a lamp through the
+/// medians of the cells at each value; of a sample, whose cells all have values of their own, dots. Titles say where each line begins and
+/// ends.
+void add_over_axes(const StudyResult& result, std::vector<StudyFigure>& figures);
+
 /// Lanes and car on the shown maps of cells that are played over the same road from the same drive; `drive` is one of theirs.
 void add_map_edges(const Drive& drive, std::vector<CellResult*> cells);
 

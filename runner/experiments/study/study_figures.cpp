@@ -278,6 +278,7 @@ std::vector<std::vector<std::size_t>> groups_of(const StudyResult& result) {
 
 std::vector<StudyFigure> study_figures(const StudyResult& result, const std::filesystem::path& folder) {
     std::vector<StudyFigure> figures;
+    add_over_axes(result, figures);
     add_lamp_differences(result, figures);
     std::vector<std::vector<std::size_t>> groups = groups_of(result);
     groups.resize(std::min(groups.size(), max_pictured_places));

@@ -1,6 +1,7 @@
 #include "runner/experiments/study/study_decision.h"
 #include "runner/experiments/study/study_document.h"
 #include "runner/files/output_folder.h"
+#include "runner/findings/figures.h"
 #include "runner/findings/paper_figure.h"
 
 #include <algorithm>
@@ -19,11 +20,14 @@ std::string part_of_drives(const StudyResult& result) { return result.played_in_
 
 /// "Source: cells country_halogen and country_xenon of the study standard-1, fernlicht 1.2".
 std::string source_of(const StudyResult& result, const std::vector<std::size_t>& cells) {
+    constexpr std::size_t most_named = 6;
     std::vector<std::string> names;
     for (const std::size_t cell : cells)
         names.push_back(result.cells[cell].cell.name);
-    return fmt::format("Source: moments of {} {} in the study {}{}{}.", names.size() == 1 ? "the cell" : "the cells",
-                       fmt::join(names, ", "), result.study.name,
+    return fmt::format("Source: moments of {} in the study {}{}{}.",
+                       names.size() > most_named ? counted(names.size(), "cell")
+                                                 : fmt::format("the cell{} {}", names.size() == 1 ? "" : "s", fmt::join(names, ", ")),
+                       result.study.name,
                        result.context.versions.empty()
                            ? ""
                            : fmt::format(", {} {}", result.context.versions.front().first, result.context.versions.front().second),
@@ -79,7 +83,8 @@ std::vector<PaperFigure> paper_figures(const StudyResult& result) {
                  two_columns_mm, decision_table(result, {decision})});
         }
     for (const StudyFigure& drawn : result.figures)
-        if (!drawn.plot.places.empty() && std::holds_alternative<plots::Figure>(drawn.plot.figure))
+        if ((!drawn.plot.places.empty() || drawn.plot.name.starts_with("figures/axis_")) &&
+            std::holds_alternative<plots::Figure>(drawn.plot.figure))
             figures.push_back(lines_for_paper(result, drawn));
     return figures;
 }

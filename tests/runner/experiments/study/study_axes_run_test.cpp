@@ -88,6 +88,8 @@ TEST_F(StudyAxesProgram, PlaysEveryPointAndTellsItsValues) {
     std::getline(csv, line);
     EXPECT_THAT(line, HasSubstr(",0,0.5\r"));
     EXPECT_THAT(content_of(folder / "out/report.html"), HasSubstr("weather.wetness 1, mount_height_m 0.8"));
+    EXPECT_THAT(content_of(folder / "out/report.html"), HasSubstr("mount_height_m from 0.5 to 0.8: old from "));
+    EXPECT_TRUE(fs::exists(folder / "out/figures/axis_mount_height_m_reach_5lx_target_own_m.svg"));
     EXPECT_THAT(content_of(folder / "out/cells/straight_new_p04/straight-1.yaml"), HasSubstr("wetness: 1"));
 }
 
