@@ -168,15 +168,18 @@ template <class List, class Inner> JsonPart one_for_each(List& list, Inner inner
     return part;
 }
 
+template <class Value> nlohmann::ordered_json schema_of_one(const std::vector<Value>& all) {
+    Value one{};
+    nlohmann::ordered_json schema = json_leaf(one).schema();
+    if (!all.empty())
+        schema = {{"enum", all}};
+    return schema;
+}
 /// A number of an enumerator or an index, as that element of what `list` gives.
 template <class E, class List> JsonPart one_of(E& value, List list) {
     return {[&value, list] { return nlohmann::ordered_json(list().at(static_cast<std::size_t>(value))); },
             [&value, list](const CheckedJson& json) { value = static_cast<E>(place_in(list(), json)); },
-            [list] {
-                auto all = list();
-                typename decltype(all)::value_type one{};
-                return all.empty() ? json_leaf(one).schema() : nlohmann::ordered_json{{"enum", all}};
-            }};
+            [list] { return schema_of_one(list()); }};
 }
 /// The names of the first `count` enumerators, for one_of().
 template <class E, class Name> auto names_of(Name name, int count) {
