@@ -1,10 +1,12 @@
 #include "scenarios/fields/read_fields.h"
 
 #include "scenarios/values/refusals.h"
+#include "scenarios/values/xml_file.h"
 
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/vec3.hpp>
 
 namespace fernlicht {
@@ -37,6 +39,20 @@ void read_named(const Field& field, const YamlEntry& entry, void* whole) {
     each.end();
 }
 
+/// A number where a word stands alone is another field's: it is told where it belongs.
+void read_short(const Field& field, const YamlEntry& entry, void* whole) {
+    const Field& alone = field_named(*field.group, field.short_key);
+    if (alone.kind == FieldKind::choice && to_number(entry.text())) {
+        std::string others;
+        for (const Field& other : field.group->fields)
+            if (other.kind == FieldKind::number)
+                others += fmt::format("{}{}: ...", others.empty() ? "" : ", ",
+                                      other.rule.units.empty() ? std::string_view(other.key) : std::string_view(other.rule.units[0].key));
+        entry.refuse(fmt::format("one of {}, or a map as {{{}}}", fmt::join(alone.rule.words, ", "), others));
+    }
+    read_value(alone, entry, whole);
+}
+
 void read_inner(const Field& field, const YamlEntry& entry, void* whole) {
     if (field.short_is_list ? !entry.is_list() : !entry.is_scalar())
         return read_group(*field.group, entry, field.member.make(whole));
@@ -45,7 +61,7 @@ void read_inner(const Field& field, const YamlEntry& entry, void* whole) {
     else if (!field.default_word.empty())
         entry.choice(field.default_word), field.member.make(whole);
     else if (!field.short_key.empty())
-        read_value(field_named(*field.group, field.short_key), entry, field.member.make(whole));
+        read_short(field, entry, field.member.make(whole));
     else if (!field.absent_word.empty())
         entry.choice({&field.absent_word, 1}), field.member.clear(whole);
     else

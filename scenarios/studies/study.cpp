@@ -314,7 +314,11 @@ Study read_study(const std::filesystem::path& path) {
     Study study;
     study.file = path;
     study.text = to_utf8(read_file(path, study.opened, max_bytes));
+    refuse_lamp_text(study.text, path, "a study");
     const YamlValue document = parse_yaml(study.text, path);
+    const auto has = [&](const char* key) { return std::ranges::find(document.members, key, &YamlMember::key) != document.members.end(); };
+    if (has("fernlicht") && !has("fernlicht_study"))
+        throw InputError({path, 0, 0, {}}, "is a drive", "a study; `fernlicht run` plays drives");
     const YamlEntry whole(document, path, "");
     const YamlMap keys(whole, keys_of(study_fields()));
     if (keys.require("fernlicht_study").whole(0, 1'000'000) != schema_version)

@@ -142,6 +142,7 @@ YamlValue document_of(const std::string& text, const std::filesystem::path& path
 Drive read_drive(const std::filesystem::path& path, const DriveEdits& edits) {
     FilesRead opened;
     const std::string text = is_storyboard_file(path) ? storyboard_drive_text(path, edits) : to_utf8(read_file(path, opened, max_bytes));
+    refuse_lamp_text(text, path, "a drive");
     const YamlValue document = document_of(text, path, edits);
     if (std::ranges::find(document.members, "fernlicht_study", &YamlMember::key) != document.members.end())
         throw InputError({path, 0, 0, {}}, "is a study", "a drive; `fernlicht study` plays studies");

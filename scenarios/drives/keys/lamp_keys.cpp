@@ -1,7 +1,9 @@
 #include "scenarios/drives/keys/lamp_keys.h"
 
 #include "scenarios/fields/read_fields.h"
+#include "scenarios/lamps/eulumdat.h"
 #include "scenarios/lamps/grid_recipe.h"
+#include "scenarios/lamps/ies.h"
 #include "scenarios/yaml/yaml_tree.h"
 
 #include <algorithm>
@@ -280,6 +282,14 @@ LampColour read_colour(const YamlMap& keys, SourceKind source, LampCache& cache,
     if (source == SourceKind::led)
         asked_by.refuse("an LED without a colour", "temperature_k or spectrum");
     return colour_of_temperature(source == SourceKind::arc ? 4300.0 : 3200.0);
+}
+
+void refuse_lamp_text(const std::string& text, const std::filesystem::path& path, const char* expected) {
+    if (looks_like_ies(text) || looks_like_eulumdat(text))
+        throw InputError({path, 0, 0, {}}, "is a lamp",
+                         fmt::format("{} that names it; `fernlicht new drive` and `new study` write one with comments, `fernlicht lamp` "
+                                     "tells of a lamp by itself",
+                                     expected));
 }
 
 } // namespace fernlicht

@@ -83,4 +83,7 @@ std::optional<SourceKind> read_source(const YamlMap& keys);
 LampColour read_colour(const YamlMap& keys, SourceKind source, LampCache& cache, const YamlEntry& asked_by);
 bool gives_colour(const YamlMap& keys);
 
+/// Throws InputError for the text of an IES or EULUMDAT file where another kind was `expected`: "a drive".
+void refuse_lamp_text(const std::string& text, const std::filesystem::path& path, const char* expected);
+
 } // namespace fernlicht
