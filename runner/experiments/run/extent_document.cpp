@@ -107,7 +107,10 @@ std::vector<Cell> extent_cells(const ComparedDrive& drive, const ExtentSummary& 
 Table extent_table(const ComparedDrive& drive, const Axes& axes, Surface surface, const std::string& lane) {
     const bool own = lane == "own";
     Table table{fmt::format("{}-extent-{}-{}", drive.name, surface_name(surface), lane),
-                lane_title(lane) + (surface == Surface::road ? ", on the road\u2019s surface" : ", on a target that faces the lamps"),
+                lane_title(lane) +
+                    (surface == Surface::road
+                         ? ", on the road\u2019s surface"
+                         : ", on a target (a plate that faces the lamps, 0.25 m above the road unless the drive says otherwise)"),
                 extent_columns(drive, axes, own),
                 {},
                 !own};
