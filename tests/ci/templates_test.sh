@@ -100,7 +100,14 @@ cat >"$tree/fernlicht/fernlicht" <<'END'
 echo "fernlicht $* $XDG_CACHE_HOME" >>"$CALLS"
 [ "$1" = study ] || exit 4 # whatever becomes of pruning, the exit code is the study's
 [ "$CODE" -lt 2 ] || exit "$CODE"
-mkdir -p out && printf '# A study\n\n## Limits exceeded\n\nFAIL it\n' >out/study.md
+mkdir -p out
+if [ -n "${SLOW:-}" ]; then
+    trap 'echo ended >>"$CALLS"; touch out/INCOMPLETE out/study.md; exit 1' TERM
+    touch "$SLOW"
+    sleep 30 &
+    wait
+fi
+printf '# A study\n\n## Limits exceeded\n\nFAIL it\n' >out/study.md
 exit "$CODE"
 END
 chmod +x "$tree/fernlicht/fernlicht"
@@ -134,9 +141,20 @@ job 0 verdict
 [[ $said == "Limits exceeded" ]] || { echo "the verdict is '$said'"; ((++failures)); }
 FERNLICHT_STORE_SIZE=5GiB CODE=1 job 1 play my.yaml
 called "prune --at-most 5GiB"
-[[ $said == *"fernlicht accept out --readings-only"* ]] || { echo "a red study does not say how a change is accepted: $said"; ((++failures)); }
+[[ $said == *"accept an intended change"*"fernlicht accept out --readings-only"* ]] || { echo "a red study does not say how a change is accepted: $said"; ((++failures)); }
+job 0 play my.yaml
+[[ $said == *"no baselines"* ]] || { echo "a green study without baselines does not say so: $said"; ((++failures)); }
+(cd "$tree/job" && SLOW=$tree/begun CODE=0 exec ci/study-job play my.yaml) >"$tree/said" 2>&1 &
+for ((i = 0; i < 100; ++i)); do [[ ! -e $tree/begun ]] || break; sleep 0.1; done
+kill -TERM $!
+code=0
+wait $! || code=$?
+((code == 1)) || { echo "a job that was told to end: exit code $code"; ((++failures)); }
+called ended
+grep --quiet accept "$tree/said" && { echo "an incomplete study is to be accepted: $(<"$tree/said")"; ((++failures)); }
 mkdir "$tree/job/baselines"
 job 0 play my.yaml
+[[ $said != *"no baselines"* ]] || { echo "a study with baselines has none: $said"; ((++failures)); }
 called "--backend software --baselines baselines $tree/job"
 job 0 play my.yaml --baselines others
 grep --quiet -- "--baselines baselines" "$CALLS" && { echo "judged by two: $(<"$CALLS")"; ((++failures)); }
