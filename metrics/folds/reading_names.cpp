@@ -32,6 +32,18 @@ void check_subjects(const Drive& drive) {
         check(SubjectKind::target, "visibility.targets", asked.visibility->targets);
 }
 
+/// What `measure: extent` lacks for the reading; "" for nothing, and where there is no extent.
+std::string lacks_of_extent(const Drive& drive, const ReadingKey& key) {
+    if (!drive.extent || !is_extent(key))
+        return "";
+    const auto has = [](const std::vector<double>& values, double value) { return std::ranges::find(values, value) != values.end(); };
+    if (key.threshold.unit == ThresholdUnit::lx && !has(drive.extent->thresholds_lx, key.threshold.value))
+        return fmt::format("{:g} in `thresholds_lx` of `measure: extent`, which asks for it", key.threshold.value);
+    if (key.quantity == Quantity::width && key.distance_m && !has(drive.extent->width_at_m, *key.distance_m))
+        return fmt::format("{:g} in `width_at_m` of `measure: extent`, which asks for it", *key.distance_m);
+    return "";
+}
+
 bool can_be_read(const Drive& drive, const Readings& others, ReadingKey key) {
     if (is_of_cars(key)) {
         if (!drive.seeing.tolerances)
@@ -41,7 +53,7 @@ bool can_be_read(const Drive& drive, const Readings& others, ReadingKey key) {
             return key.subject == "all" ? limits.size() > 1 : std::ranges::find(limits, key.subject, &Limit::reading) != limits.end();
         key.aspect = Aspect::value;
     }
-    return is_extent(key) || is_time(key) ||
+    return (is_extent(key) && lacks_of_extent(drive, key).empty()) || is_time(key) ||
            (key.quantity == Quantity::probe_illuminance &&
             std::ranges::find(drive.probes, key.subject, &Probe::name) != drive.probes.end()) ||
            std::ranges::find(others, key, &Reading::key) != others.end();
@@ -89,11 +101,13 @@ void check_names(const Drive& drive, const Readings& others) {
             const bool is_measured =
                 std::ranges::any_of(others, [&](const auto& other) { return asked_for_by(name_of(other.key)) == measure; });
             const std::string nearest = nearest_name(limit.reading, known);
+            const std::string lacks = key ? lacks_of_extent(drive, *key) : "";
             refuse_and_go_on(InputError({drive.file, limit.line, 0, "limits"}, "found reading '" + printable(limit.reading) + "'",
-                                        !measure.empty() && !is_measured ? fmt::format("`{}` in `measure:`, which asks for it", measure)
-                                        : nearest.empty()                ? "a name as reach_5lx_road_own_m, width_3lx_target_all_at_50m_m, "
-                                                                           "probe_NAME_lx of a probe of this drive or frame_time_median_ms"
-                                                                         : "a reading of this drive (the nearest is '" + nearest + "')"));
+                                        !lacks.empty()                     ? lacks
+                                        : !measure.empty() && !is_measured ? fmt::format("`{}` in `measure:`, which asks for it", measure)
+                                        : nearest.empty() ? "a name as reach_5lx_road_own_m, width_3lx_target_all_at_50m_m, "
+                                                            "probe_NAME_lx of a probe of this drive or frame_time_median_ms"
+                                                          : "a reading of this drive (the nearest is '" + nearest + "')"));
         }
 }
 

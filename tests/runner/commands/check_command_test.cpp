@@ -186,6 +186,14 @@ TEST(Check, TellsWhatRoadTrafficAndReadingsLackAtOnce) {
                                        std::string("traffic.car: found a road user 90000 m along the route, expected 0 to 1000 m")})
         EXPECT_THAT(said, HasSubstr(problem));
     EXPECT_THAT(said, HasSubstr("1 file, 3 errors"));
+    const std::string extent =
+        "- {reading: reach_10lx_target_own_m, at_least: 5}\n- {reading: width_3lx_target_all_at_33m_m, at_least: 5}\n"
+        "- {reading: width_3lx_target_all_at_50m_m, at_least: 5}\nmeasure: {extent: {thresholds_lx: [3]}}\n";
+    said = printed("check " + written(folder, "extent.yaml", drive.substr(0, drive.find("- {")) + extent), 2);
+    EXPECT_THAT(said,
+                HasSubstr("extent.yaml:7: error: limits: found reading 'reach_10lx_target_own_m', expected 10 in `thresholds_lx` of"));
+    EXPECT_THAT(said, HasSubstr("expected 33 in `width_at_m` of `measure: extent`"));
+    EXPECT_THAT(said, HasSubstr("1 file, 2 errors"));
     said = printed("check " + written(folder, "wrong.yaml", drive + "route: {road: 7}\n"), 2);
     EXPECT_THAT(said, HasSubstr(limit)) << "judged on another road";
     EXPECT_THAT(said, HasSubstr("route: found no road '7'"));
