@@ -111,7 +111,7 @@ constexpr std::array rows{
               "photometric with everything compiled in and nothing culled, to the same bytes", "as photometric", 1, true, true, true, ""},
     Technique{"photometric-naive", TechniqueKind::ours, 0, "", ours,
               "the equations of photometric as they stand, in a loop over the lamps, every look-up by hand, shadow maps of everything",
-              "as photometric", 1, true, true, true, ""},
+              "light of other vehicles' and street lamps; as photometric", 1, true, true, true, ""},
 };
 
 } // namespace

@@ -144,6 +144,10 @@ Section drive_section(const DriveAccuracy& drive) {
         section.blocks.emplace_back("Shadows where no method is named: " + drive.shadow_choice + ".");
     if (const auto note = point_lamps_note(drive))
         section.blocks.emplace_back("Note: " + *note + ".");
+    if (drive.others_shine)
+        section.blocks.emplace_back(
+            "Note: lamps of other vehicles and of streets shine, in the reference too; of the techniques photometric and "
+            "photometric-unpruned alone render their light, and the others' errors include it.");
     section.blocks.emplace_back(errors_table(drive));
     section.blocks.emplace_back(places_table(drive));
     if (drive.twin && drive.twin->flat)

@@ -68,6 +68,7 @@ struct DriveAccuracy {
     std::vector<std::string> missing;                                ///< what was not measured because the sweep was ended, one clause each
     std::vector<std::pair<Configuration, std::string>> refused = {}; ///< ways that cannot draw the scene, and why
     std::vector<EdgeRow> edges = {}; ///< where photometric took part: the one exact ray, then each of its ways at that size
+    bool others_shine = false;       ///< lamps of other vehicles or of streets, which the reference has and few techniques
     std::string shadow_choice = {};  ///< where the drive says `shadows: auto`: what was chosen and why, a clause
 };
 

@@ -273,6 +273,8 @@ DriveAccuracy sweep_techniques(const Stage& stage, Device& device, const SweepRe
     const LampSet& lamp_set = lamp_set_of(stage.drive, request.lamp_set);
     const std::vector<Moment> moments = without_faces(moments_at(ticks_over(tick_count(stage.drive), request.moments), stage, lamp_set));
     DriveAccuracy result{stage.drive.name, stage.drive.title, lamp_set.name, {}, {}, {}, {}, {}, {}};
+    result.others_shine = !stage.drive.street_lamps.empty() ||
+                          std::ranges::any_of(stage.drive.traffic, [](const RoadUser& user) { return !user.lamps.empty(); });
     for (const Moment& moment : moments)
         result.moments.emplace_back(moment.tick, moment.time_s);
     ReferencePictures references(stage, drive, device, moments, reference_settings(drive, request));
