@@ -115,7 +115,7 @@ std::string nothing_accepted(const std::filesystem::path& store, const std::vect
         nearest = fmt::format("{} changed since {}: {}; ", fmt::join(texts, ", "), short_id(entry.id), moved.text);
     }
     if (!nearest.empty())
-        return nearest + text + " with these inputs";
+        return nearest + "no baseline has these inputs; `fernlicht accept` takes them if they are meant";
     for (const StoredBaseline& entry : entries)
         if (same_but_lamp_set(entry.key, run.key))
             return text + fmt::format("; of this drive {} ({}) is accepted: {}", printable(entry.key.lamp_set), short_id(entry.id),

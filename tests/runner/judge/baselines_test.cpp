@@ -291,8 +291,9 @@ TEST_F(Baselines, OtherInputsAreAnotherKeyAndAreNamed) {
     other.report.played[0].input_hashes[1].second = "another hash";
     const auto verdicts = other.judged(store);
     ASSERT_EQ(verdicts.size(), 1U);
-    EXPECT_THAT(verdicts[0].text, HasSubstr("road changed since " + id_of("halogen") + ": all 2 readings agree; nothing accepted in "));
-    EXPECT_THAT(verdicts[0].text, testing::EndsWith("with these inputs"));
+    EXPECT_THAT(verdicts[0].text,
+                HasSubstr("road changed since " + id_of("halogen") + ": all 2 readings agree; no baseline has these inputs"));
+    EXPECT_THAT(verdicts[0].text, testing::EndsWith("`fernlicht accept` takes them if they are meant"));
     other.report.played[0].readings[0].value = 61.8;
     EXPECT_THAT(
         other.judged(store)[0].text,
