@@ -338,7 +338,7 @@ int study(const StudyFlags& flags, const std::vector<std::string>& command, Watc
     trace.finish();
     if (!no_history.empty())
         throw DeviceError("the report is written, but not into the history: " + no_history);
-    return overall(result) == VerdictKind::pass ? 0 : 1;
+    return overall(result) == VerdictKind::pass ? 0 : met_full_disk(result) ? 3 : 1;
 }
 
 } // namespace

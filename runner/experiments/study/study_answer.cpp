@@ -166,10 +166,29 @@ struct Answer {
     std::string heading, where;
 };
 
-Answer answer_of(const StudyResult& result, const Groups& groups, const ReadingKey& key) {
-    const auto [lamps, ranked_places] = lamps_ranked(result, groups, key);
+/// What the decision tells of the reading, of two lamps of which one is better wherever they were compared; nullptr where none is.
+const DecidedReading* decided_alike(const StudyResult& result, const std::vector<Decision>& decisions, const ReadingKey& key) {
+    if (decisions.size() != 1 || result.study.lamps.size() != 2)
+        return nullptr;
+    const auto found = std::ranges::find(decisions.front().readings, key, &DecidedReading::reading);
+    return found != decisions.front().readings.end() &&
+                   (found->outcome == DecisionOutcome::better || found->outcome == DecisionOutcome::worse) &&
+                   found->decided_by.size() == found->changes.size()
+               ? &*found
+               : nullptr;
+}
+
+Answer answer_of(const StudyResult& result, const Groups& groups, const std::vector<Decision>& decisions, const ReadingKey& key) {
+    auto [lamps, ranked_places] = lamps_ranked(result, groups, key);
     if (lamps.size() < 2 || better_is(key) == 0.0)
         return {};
+    const DecidedReading* const decided = decided_alike(result, decisions, key);
+    if (decided) { // the same figures as everywhere else on the page
+        const Change& told = result.changes[decided->told];
+        lamps = {{result.cells[told.tested].cell.lamp, told.new_value}, {result.cells[told.against].cell.lamp, told.old_value}};
+        if (real_gain(told) < 0.0)
+            std::swap(lamps.front(), lamps.back());
+    }
     const auto& [best, best_value] = lamps.front();
     const auto& [worst, worst_value] = lamps.back();
     const std::string &best_name = result.study.lamps[best].name, &worst_name = result.study.lamps[worst].name;
@@ -177,10 +196,13 @@ Answer answer_of(const StudyResult& result, const Groups& groups, const ReadingK
     for (const std::vector<std::size_t>& group : groups)
         drives.insert(result.cells[group.front()].cell.drive);
     const char* const places = drives.size() == groups.size() ? (groups.size() == 1 ? "route" : "routes") : "places";
+    const char* const median_words = !decided || decided->decided_by.size() == 1 ? ""
+                                     : decided->decided_by.size() % 2 == 1       ? " by change in per cent"
+                                                                           : " by change in per cent, of two in the middle the smaller";
     const std::string over =
         groups.size() == 1 ? "On " + result.place_of(groups.front().front())
-                           : fmt::format("Median over {}{} {}", ranked_places < groups.size() ? fmt::format("{} of ", ranked_places) : "",
-                                         groups.size(), places);
+                           : fmt::format("Median over {}{} {}{}", ranked_places < groups.size() ? fmt::format("{} of ", ranked_places) : "",
+                                         groups.size(), places, median_words);
     const std::string reading = capitalised(reading_label(key)) + ": ";
     bool forward = true;
     std::vector<const Change*> changes = changes_of_lamps(result, best, worst, key);
@@ -293,6 +315,10 @@ std::optional<plots::DotPlot> ranking_of(const StudyResult& result, const Decisi
             for (const std::size_t i : decided.changes)
                 if (const auto other = result.changes[i].relative(); other && i != decided.told)
                     row.others.push_back(100.0 * better * *other);
+        } else if (const Value by = change.change(); by.censored() && change.old_value.figure().value_or(0.0) != 0.0) {
+            row.value = row.low = row.high =
+                100.0 * better * *by.figure() / std::abs(*change.old_value.figure()); // at least; `figure` says so
+            row.sure = change.kind == ChangeKind::real;
         }
         dots.rows.push_back(std::move(row));
     }
@@ -309,7 +335,7 @@ Section answer_section(const StudyResult& result, const std::vector<Decision>& d
     if (!key)
         return {};
     const Groups groups = groups_of(result);
-    const Answer answer = answer_of(result, groups, *key);
+    const Answer answer = answer_of(result, groups, decisions, *key);
     Section section{answer.heading.empty() ? reading_label(*key) : answer.heading, {}};
     section.is_answer = true;
     if (const std::string mounted = decisions.size() == 1 ? mounted_words(decisions.front()) : "";

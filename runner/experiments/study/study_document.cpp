@@ -227,6 +227,25 @@ Section decision_section(const StudyResult& result, const std::vector<Decision>&
     return section;
 }
 
+/// "country-1, reach_5lx_target_own_m: 61.2 m, limit at least 60 m": the first few limits that all that was played keeps.
+Listing limits_held(const StudyResult& result) {
+    constexpr std::size_t most = 5;
+    std::vector<std::string> held;
+    const auto add = [&](const std::string& where, const std::vector<Verdict>& verdicts) {
+        for (const Verdict& verdict : verdicts)
+            if (verdict.line > 0)
+                held.push_back(fmt::format("{}{}: {}", where, verdict.name, verdict.text));
+    };
+    add("", result.verdicts);
+    for (const CellResult& cell : result.cells)
+        add(cell.cell.name + ", ", cell.verdicts);
+    Listing list{{}, "Limits that hold"};
+    list.items.insert(list.items.end(), held.begin(), held.begin() + static_cast<std::ptrdiff_t>(std::min(most, held.size())));
+    if (held.size() > most)
+        list.items.emplace_back(fmt::format("and {} more", held.size() - most));
+    return list;
+}
+
 /// Only where something was judged or is missing.
 Section verdict_section(const StudyResult& result) {
     Section section{verdict_words(result), {}, 2, false, verdict_name(overall(result))};
@@ -234,6 +253,8 @@ Section verdict_section(const StudyResult& result) {
         section.blocks.emplace_back("The study did not end; --resume goes on.");
     if (Table failures = failures_table(result); !failures.rows.empty())
         section.blocks.emplace_back(std::move(failures));
+    else if (Listing held = limits_held(result); !held.items.empty())
+        section.blocks.emplace_back(std::move(held));
     return section;
 }
 

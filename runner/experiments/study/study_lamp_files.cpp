@@ -12,7 +12,7 @@ void add_lamp_files(const StudyResult& result, Document& document) {
     if (!warnings.empty())
         section.blocks.emplace_back(Listing(warnings));
     Table table = lamp_files_table(result.lamp_files);
-    table.caption = "";
+    table.caption = "What the check found";
     section.blocks.emplace_back(std::move(table));
     const auto place = warnings.empty() ? document.sections.end() - (document.sections.size() > 1 ? 1 : 0) : document.sections.begin();
     document.sections.insert(place, std::move(section));

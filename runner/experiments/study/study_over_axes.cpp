@@ -13,7 +13,7 @@
 namespace fernlicht {
 namespace {
 
-constexpr std::size_t most_readings = 4;
+constexpr std::size_t most_readings = 6;
 
 /// Of two in the middle the smaller.
 double median_of(std::vector<double> values) {
@@ -67,21 +67,35 @@ OverAxis over(const StudyResult& result, const StudyAxis& axis, const ReadingKey
     return found;
 }
 
-/// Of what decides and runs over the axis: the first of each quantity, the most important first.
+/// Of what decides and runs over the axis: first one of each quantity, then more, the most important first.
 std::vector<std::pair<ReadingKey, OverAxis>> readings_over(const StudyResult& result, const StudyAxis& axis) {
     std::set<std::pair<std::size_t, ReadingKey>> deciding;
     for (const ReadingKey& key : result.keys)
         if (const auto place = place_among(key, result.study.decide))
             deciding.emplace(*place, key);
-    std::set<Quantity> seen;
+    std::set<Quantity> quantities;
     std::vector<std::pair<ReadingKey, OverAxis>> all;
-    for (const auto& [place, key] : deciding)
-        if (all.size() < most_readings && !seen.contains(key.quantity))
+    for (const bool anew : {true, false})
+        for (const auto& [place, key] : deciding) {
+            if (all.size() == most_readings || std::ranges::count(all, key, [](const auto& one) { return one.first; }) > 0 ||
+                (anew && quantities.contains(key.quantity)))
+                continue;
             if (OverAxis found = over(result, axis, key); found.is_line() && found.varies()) {
-                seen.insert(key.quantity);
+                quantities.insert(key.quantity);
                 all.emplace_back(key, std::move(found));
             }
+        }
     return all;
+}
+
+/// Drive and condition of a cell but for the axis.
+std::string place_off_axis(const CellResult& cell, const StudyAxis& axis) {
+    std::string text = cell.title + "; " + cell.cell.condition;
+    for (const AxisValue& value : cell.cell.axes)
+        if (const std::string told = fmt::format(", {} {}", axis.name, value.value);
+            value.axis == axis.name && text.find(told) < text.size())
+            text.erase(text.find(told), told.size());
+    return text;
 }
 
 std::string words_over(const StudyResult& result, const StudyAxis& axis, const ReadingKey& key, const OverAxis& found) {
@@ -103,7 +117,7 @@ void add_over_axes(const StudyResult& result, std::vector<StudyFigure>& figures)
             const std::size_t most = found.most_a_point();
             plots::Figure figure;
             figure.title = capitalised(reading_label(key));
-            figure.subtitle = most == 1 ? result.place_of(found.cells.front())
+            figure.subtitle = most == 1 ? place_off_axis(result.cells[found.cells.front()], axis)
                                         : fmt::format("median of up to {} cells a point, of two in the middle the smaller", most);
             figure.width_px = 420.0;
             figure.height_px = 230.0;

@@ -104,6 +104,9 @@ void judge(StudyResult& result);
 /// too), else pass.
 VerdictKind overall(const StudyResult& result);
 
+/// Whether a cell was not played as a disk was full: the machine's fault, not the lamps'.
+bool met_full_disk(const StudyResult& result);
+
 /// As of a run, over all cells (known_failures.h); a cell's own report does not know of it.
 void apply_known_failures(StudyResult& result, const KnownFailures& known, const std::string& today);
 

@@ -2,7 +2,10 @@
 
 #include "runner/findings/run_context.h"
 
+#include <algorithm>
+#include <cerrno>
 #include <fmt/format.h>
+#include <system_error>
 
 namespace fernlicht {
 namespace {
@@ -30,6 +33,11 @@ Report as_report(const StudyResult& result) {
 } // namespace
 
 VerdictKind overall(const StudyResult& result) { return overall(as_report(result)); }
+
+bool met_full_disk(const StudyResult& result) {
+    const std::string full = std::generic_category().message(ENOSPC);
+    return std::ranges::any_of(result.cells, [&](const CellResult& cell) { return cell.failed.find(full) != std::string::npos; });
+}
 
 void apply_known_failures(StudyResult& result, const KnownFailures& known, const std::string& today) {
     Report report = as_report(result);

@@ -277,8 +277,11 @@ TEST(Answer, OfTheLampComparedAgainstSignsAreItsOwn) {
     MadeStudy study;
     study.on(0, reach, 52.0, 40.0).on(1, reach, 60.0, 52.0).on(2, reach, Value::at_least(200.0), 50.0);
     const FirstScreen screen(study);
-    EXPECT_EQ(screen.section.title, "Reach at 5 lx on a target, own lane: old is better than new: 60.0 m against 50.0 m (+10.0 m, +20 %)");
-    EXPECT_THAT(screen.where(), HasSubstr("better on 3 of 3 routes, most on drive-2 (> +150 m), least on drive-1 (+8.00 m)"));
+    EXPECT_EQ(screen.section.title, "Reach at 5 lx on a target, own lane: old is better than new: 52.0 m against 40.0 m (+12.0 m, +30 %)");
+    EXPECT_THAT(
+        screen.where(),
+        HasSubstr(
+            "Median over 3 routes by change in per cent: better on 3 of 3 routes, most on drive-2 (> +150 m), least on drive-1 (+8.00 m)"));
 }
 
 TEST(Answer, MedianCountsTheRoutesThatItIsOver) {
@@ -298,6 +301,15 @@ TEST(Answer, RanksWhatDecidesWithIntervals) {
             text && text->lettering.anchor == "end" && text->text.find("worse") == std::string::npos)
             names.push_back(text->text);
     EXPECT_THAT(names, ElementsAre("reach at 5 lx on a target, own lane", "largest illuminance on the mirror left of a car", "15 m ahead"));
+}
+
+TEST(FullDisk, IsTheMachinesFault) {
+    StudyResult study;
+    study.cells.resize(2);
+    study.cells[1].failed = "it took longer than 5 minutes";
+    EXPECT_FALSE(met_full_disk(study));
+    study.cells[0].failed = "store/playing/a.exr: cannot be written: No space left on device";
+    EXPECT_TRUE(met_full_disk(study));
 }
 
 } // namespace
