@@ -184,6 +184,29 @@ TEST(ReferenceWet, PathsSeeAShiningWallInAWetRoad) {
     }
 }
 
+TEST(ReferenceWet, PathsSeeALampInAGlossyRoadDryAndWet) {
+    Material road = lambert(0.2);
+    road.gloss = 0.5F;
+    const Scene scene = level_ground(40.0, road);
+    const glm::dvec3 lamp_m(14.0, 0.0, 1.0), eye(0.0, 0.3, 1.2), at(7.0, 0.1, 0.0), n(0.0, 0.0, 1.0),
+        to_eye = glm::normalize(eye - at), to_lamp = lamp_m - at, albedo(road.albedo), direction = at - eye;
+    const double d = glm::length(to_lamp), e = 10000.0 / (d * d);
+    const View view = camera(eye, degrees(std::atan2(direction.y, direction.x)),
+                             degrees(std::atan2(direction.z, std::hypot(direction.x, direction.y))), 1, 1);
+    for (const double wetness : {0.0, 0.4, 1.0}) {
+        Moment moment;
+        moment.lamps = {even_lamp(10000.0, looking(lamp_m, 180.0, -4.0))};
+        moment.weather.wetness = wetness;
+        const double truth = partly_wet(albedo * (e * to_lamp.z / d / pi) + gloss_light(facets_of(road), n, to_lamp / d, to_eye, e),
+                                        wet_light(albedo, n, to_lamp / d, to_eye, e), wetness)
+                                 .x;
+        for (const Integrator integrator : {Integrator::direct, Integrator::path}) {
+            const ReferenceImage image = Reference(scene).render(moment, view, everything, by(integrator, 0.003, Footprint::centre));
+            expect_estimate(image.luminance_cdm2, truth, 1e-5);
+        }
+    }
+}
+
 TEST(ReferenceWet, AWetRoomMakesNoEnergy) {
     // Below the sum of the two: light sent on by film and ground is at most all of it.
     Material wall = lambert(0.8, SurfaceKind::road, 1.0);
