@@ -25,7 +25,7 @@ install(CODE "set(folder site-functions)
     set(folder vendor-completions)
   endif()
   file(INSTALL \"${manual}/zsh\" DESTINATION \"\${CMAKE_INSTALL_PREFIX}/share/zsh/\${folder}\" RENAME _fernlicht)" COMPONENT completions)
-install(FILES README.md CHANGELOG.md ARCHITECTURE.md SECURITY.md DESTINATION share/doc/fernlicht COMPONENT docs)
+install(FILES README.md CHANGELOG.md ARCHITECTURE.md SECURITY.md CITATION.cff DESTINATION share/doc/fernlicht COMPONENT docs)
 install(DIRECTORY docs DESTINATION share/doc/fernlicht COMPONENT docs)
 
 # Packages of Debian. What brings many libraries along is a package of its own.

@@ -75,13 +75,13 @@ TEST_F(AutomaticShadows, TheWorstOfAllViewsDecides) {
 
 /// Own lamps that reach nothing are no reason to leave out what others' lamps throw.
 TEST_F(AutomaticShadows, OthersLampsAreAskedToo) {
-    const json choice = played(drive_with("oncoming", "{method: auto, error_bound: 0.9}"), "out").at("shadow_choice");
+    const json choice = played(drive_with("oncoming", "{method: auto, error_bound: 0.9}"), "out", "3:3").at("shadow_choice");
     EXPECT_GT(choice.at("moments_shadowed"), 0);
     std::string text = content_of(drive_with("oncoming", "{method: auto, error_bound: 0.004}"));
     const std::string own = "lamp_sets:";
     ASSERT_NE(text.find(own), std::string::npos);
     std::ofstream(folder / "oncoming.yaml") << text << "changes: [{at_s: 0, level: 0}]\n";
-    const json dark = played(folder / "oncoming.yaml", "dark").at("shadow_choice");
+    const json dark = played(folder / "oncoming.yaml", "dark", "3:3").at("shadow_choice");
     EXPECT_GT(dark.at("moments_shadowed"), 0);
     EXPECT_NE(dark.at("chosen"), "none");
 }
@@ -125,7 +125,7 @@ TEST_F(AutomaticShadows, WhereNoneStaysWithinTheLeastWrongIsTakenAndSaid) {
 /// Maps that find no room are no reason to give up: other methods are tried.
 TEST_F(AutomaticShadows, MethodsWithoutRoomArePassedOver) {
     const json choice =
-        played(drive_with("first-light", "{method: auto, error_bound: 0, map_texels: [8192, 8192], lamp_places: 64}"), "out")
+        played(drive_with("first-light", "{method: auto, error_bound: 0, map_texels: [4096, 4096], lamp_places: 64}"), "out", "3:3")
             .at("shadow_choice");
     const json& soft = choice.at("tried").back();
     EXPECT_EQ(soft.at("method"), "soft-map");
