@@ -20,7 +20,7 @@ TEST(New, WritesFilesThatPlayAsTheyStand) {
     EXPECT_THAT(here("new drive"), HasSubstr("fernlicht run drive.yaml"));
     EXPECT_THAT(here("new study nights"), HasSubstr("fernlicht study nights.yaml"));
     EXPECT_THAT(here("new lamp"), HasSubstr("run first-light --lamp lamp.csv"));
-    here("new lamp mine.ies");
+    EXPECT_THAT(here("new lamp mine.ies"), HasSubstr("lamp mine.ies --regulation r149-c"));
     here("new lamp --kind pixels matrix");
     EXPECT_THAT(here("check --fail-on-warning drive.yaml nights.yaml lamp.csv mine.ies matrix.yaml"),
                 HasSubstr("5 files, 0 errors, 0 warnings"));
