@@ -41,7 +41,7 @@ Value Value::between(double low, double high, const std::string& reason_for_none
     if (low == high)
         return low;
     if (std::isfinite(low) && std::isfinite(high))
-        return not_measured(fmt::format("between {:.4g} and {:.4g}", low, high));
+        return not_measured(fmt::format("between {:.6g} and {:.6g}", low, high));
     if (std::isfinite(low))
         return at_least(low);
     return std::isfinite(high) ? at_most(high) : not_measured(reason_for_none);
@@ -53,7 +53,7 @@ Value difference(const Value& a, const Value& b, std::string_view unit) {
     const auto end = [](double x, double y) { return std::isfinite(x) && std::isfinite(y) ? x - y : std::isfinite(x) ? -y : x; };
     const bool up = a.kind() == Value::Kind::at_least;
     return Value::between(end(a.low(), b.high()), end(a.high(), b.low()),
-                          *a.figure() == *b.figure() ? fmt::format("both {} {:.4g} {}", up ? "beyond" : "below", *a.figure(), unit)
+                          *a.figure() == *b.figure() ? fmt::format("both {} {:.6g} {}", up ? "beyond" : "below", *a.figure(), unit)
                                                      : fmt::format("one {0} {1:.6g} {3}, the other {0} {2:.6g} {3}",
                                                                    up ? "beyond" : "below", *a.figure(), *b.figure(), unit));
 }

@@ -479,28 +479,4 @@ Document study_paper(const StudyResult& result) {
     return {result.study.title, {section}};
 }
 
-void study_csv(const StudyResult& result, const TakePiece& take) {
-    const std::vector<AxisValue> axes = result.cells.empty() ? std::vector<AxisValue>{} : result.cells.front().cell.axes;
-    std::string csv = "id,new,against,drive,technique,condition,reading,unit,old_value,new_value,change,uncertainty,by_tenth_degree,by_"
-                      "tenth_flux,by_10mm,by_75kg,by_noise,kind,decides,"
-                      "new_cell,old_cell,why_not,old_bound,new_bound,change_bound";
-    for (const AxisValue& axis : axes)
-        csv += "," + csv_text(axis.axis);
-    take(csv + "\r\n");
-    each_change(result, [&](const Change& c) {
-        const CellResult &now = result.cells[c.tested], &before = result.cells[c.against];
-        csv = csv_line(c.id, csv_text(result.study.lamps[now.cell.lamp].name), csv_text(result.study.lamps[before.cell.lamp].name),
-                       csv_text(now.drive), csv_text(result.study.techniques[now.cell.technique]), csv_text(now.cell.condition),
-                       csv_text(name_of(c.reading)), csv_text(c.unit()), csv_number(c.old_value.figure()), csv_number(c.new_value.figure()),
-                       csv_number(c.change().figure()), csv_number(c.uncertainty), csv_number(c.aim_effect), csv_number(c.flux_effect),
-                       csv_number(c.height_effect), csv_number(c.load_effect), csv_number(c.noise_effect), change_name(c.kind),
-                       c.decides ? "yes" : "no", csv_text(now.cell.name), csv_text(before.cell.name), csv_text(c.reason_unknown),
-                       bound_name(c.old_value), bound_name(c.new_value), bound_name(c.change()));
-        csv.resize(csv.size() - 2); // before the line's end
-        for (const AxisValue& axis : now.cell.axes)
-            csv += "," + csv_text(axis.value);
-        take(csv + "\r\n");
-    });
-}
-
 } // namespace fernlicht

@@ -200,6 +200,19 @@ TEST(Check, TellsWhatRoadTrafficAndReadingsLackAtOnce) {
     EXPECT_THAT(said, HasSubstr("1 file, 2 errors"));
 }
 
+TEST(Check, WhatStandsInAnothersPlaceIsNamed) {
+    const TemporaryFolder folder;
+    EXPECT_THAT(printed("check " + written(folder, "aim.yaml",
+                                           "fernlicht: 1\nroad: fernlicht:roads/straight.xodr\nspeed_kmh: 50\nduration_s: 1\n"
+                                           "lamp_sets: {a: {file: fernlicht:lamps/halogen-low.ies, aim: -0.3}}\n"),
+                        2),
+                HasSubstr("found '-0.3', expected one of as-is, auto, or a map as {cut_off_percent: ..., pitch_deg: ..."));
+    const std::string lamp = library_file("lamps/halogen-low.ies"), out = " --out " + (folder / "out");
+    EXPECT_THAT(printed("run " + lamp + out, 2), HasSubstr("is a lamp, expected a drive that names it"));
+    EXPECT_THAT(printed("study " + lamp + out, 2), HasSubstr("is a lamp, expected a study that names it"));
+    EXPECT_THAT(printed("study " + library_file("drives/straight.yaml") + out, 2), HasSubstr("is a drive, expected a study"));
+}
+
 TEST(Check, TakesAnythingForAFile) {
     const TemporaryFolder folder;
     written(folder, "empty.yaml", "");
