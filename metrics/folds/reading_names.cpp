@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -32,9 +33,28 @@ void check_subjects(const Drive& drive) {
         check(SubjectKind::target, "visibility.targets", asked.visibility->targets);
 }
 
-/// What `measure: extent` lacks for the reading; "" for nothing, and where there is no extent.
-std::string lacks_of_extent(const Drive& drive, const ReadingKey& key) {
-    if (!drive.extent || !is_extent(key))
+/// "own", "left 1" ... "all": what extents along the route are of.
+std::vector<std::string> lanes_of(const Route& route) {
+    constexpr double every_m = 1.0; // shorter lanes are no lanes to set a limit on
+    std::set<std::string> beside;
+    for (double at_m = 0.0; at_m < route.length_m(); at_m += every_m)
+        for (const RouteLane& lane : route.cross_section(at_m).lanes)
+            beside.insert(lane.name);
+    beside.erase("own");
+    std::vector<std::string> lanes{"own"};
+    lanes.insert(lanes.end(), beside.begin(), beside.end());
+    lanes.emplace_back("all");
+    return lanes;
+}
+
+/// What extents lack for the reading: a key of `measure: extent`, where that is there, or the lane. "" for nothing.
+std::string lacks_of_extent(const Drive& drive, const Route* route, const ReadingKey& key) {
+    if (!is_extent(key))
+        return "";
+    if (route && key.lane != "own" && key.lane != "all")
+        if (const std::vector<std::string> lanes = lanes_of(*route); std::ranges::find(lanes, key.lane) == lanes.end())
+            return fmt::format("a lane of this route: {}", fmt::join(lanes, ", "));
+    if (!drive.extent)
         return "";
     const auto has = [](const std::vector<double>& values, double value) { return std::ranges::find(values, value) != values.end(); };
     if (key.threshold.unit == ThresholdUnit::lx && !has(drive.extent->thresholds_lx, key.threshold.value))
@@ -44,7 +64,7 @@ std::string lacks_of_extent(const Drive& drive, const ReadingKey& key) {
     return "";
 }
 
-bool can_be_read(const Drive& drive, const Readings& others, ReadingKey key) {
+bool can_be_read(const Drive& drive, const Readings& others, const Route* route, ReadingKey key) {
     if (is_of_cars(key)) {
         if (!drive.seeing.tolerances)
             return false;
@@ -53,7 +73,7 @@ bool can_be_read(const Drive& drive, const Readings& others, ReadingKey key) {
             return key.subject == "all" ? limits.size() > 1 : std::ranges::find(limits, key.subject, &Limit::reading) != limits.end();
         key.aspect = Aspect::value;
     }
-    return (is_extent(key) && lacks_of_extent(drive, key).empty()) || is_time(key) ||
+    return (is_extent(key) && lacks_of_extent(drive, route, key).empty()) || is_time(key) ||
            (key.quantity == Quantity::probe_illuminance &&
             std::ranges::find(drive.probes, key.subject, &Probe::name) != drive.probes.end()) ||
            std::ranges::find(others, key, &Reading::key) != others.end();
@@ -75,11 +95,11 @@ std::string asked_for_by(std::string_view name) {
     return found == std::end(rows) ? "" : found->second;
 }
 
-void check_names(const Drive& drive, const Readings& others) {
+void check_names(const Drive& drive, const Readings& others, const Route* route) {
     check_subjects(drive);
     if (drive.seeing.tolerances)
         for (const Limit& limit : drive.seeing.tolerances->limits)
-            if (const auto key = key_of(limit.reading); !key || key->aspect != Aspect::value || !can_be_read(drive, others, *key))
+            if (const auto key = key_of(limit.reading); !key || key->aspect != Aspect::value || !can_be_read(drive, others, route, *key))
                 refuse_and_go_on(InputError({drive.file, 0, 0, "measure.tolerances.limits"},
                                             "found reading '" + printable(limit.reading) + "'",
                                             "a reading of this drive, as reach_5lx_target_own_right_edge_m"));
@@ -96,12 +116,12 @@ void check_names(const Drive& drive, const Readings& others) {
     for (const Reading& other : others)
         known.push_back(name_of(other.key));
     for (const Limit& limit : drive.limits)
-        if (const auto key = key_of(limit.reading); !key || !can_be_read(drive, others, *key)) {
+        if (const auto key = key_of(limit.reading); !key || !can_be_read(drive, others, route, *key)) {
             const std::string measure = key ? asked_for_by(limit.reading) : "";
             const bool is_measured =
                 std::ranges::any_of(others, [&](const auto& other) { return asked_for_by(name_of(other.key)) == measure; });
             const std::string nearest = nearest_name(limit.reading, known);
-            const std::string lacks = key ? lacks_of_extent(drive, *key) : "";
+            const std::string lacks = key ? lacks_of_extent(drive, route, *key) : "";
             refuse_and_go_on(InputError({drive.file, limit.line, 0, "limits"}, "found reading '" + printable(limit.reading) + "'",
                                         !lacks.empty()                     ? lacks
                                         : !measure.empty() && !is_measured ? fmt::format("`{}` in `measure:`, which asks for it", measure)

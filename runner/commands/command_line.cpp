@@ -6,13 +6,16 @@
 #include "runner/commands/words/parse_errors.h"
 #include "runner/files/log.h"
 #include "scenarios/values/errors.h"
+#include "scenarios/values/library_folders.h"
 #include "scenarios/values/version.h"
+#include <CLI/CLI.hpp>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <map>
@@ -102,6 +105,21 @@ void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>&
         refuse_unknown_command(*called, line, at + 1);
 }
 
+/// The words behind the program in CLI11's order, which is from the last: fernlicht:NAME is the path of a shipped file where there is one.
+std::vector<std::string> words_of(const std::vector<std::string>& command) {
+    constexpr std::string_view ours = "fernlicht:";
+    std::vector<std::string> words(command.rbegin(), command.rend());
+    if (!words.empty())
+        words.pop_back();
+    for (std::string& word : words) {
+        const std::size_t at = word.find(ours);
+        if (at == 0 || (at != std::string::npos && word[at - 1] == '=')) // --flag=..., high=...
+            if (const std::filesystem::path file = fernlicht::shipped_path(word.substr(at + ours.size())); !file.empty())
+                word.replace(at, std::string::npos, file.string());
+    }
+    return words;
+}
+
 } // namespace
 
 int fernlicht::command_line(int argc, char** argv) {
@@ -121,7 +139,7 @@ int fernlicht::command_line(int argc, char** argv) {
         add_message_flags(app);
         if (argc > 1)
             refuse_unknown_command(app, command);
-        app.parse(argc, argv);
+        app.parse(words_of(command));
         if (std::exchange(log_settings().github, log_settings().github && !log_settings().json) && log_settings().json)
             throw InputError({{}, 0, 0, "--annotate"}, "found beside --log-json", "one of them: both write lines to standard error");
         const int code = chosen();

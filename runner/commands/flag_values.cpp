@@ -64,7 +64,7 @@ std::filesystem::path named_file(const std::string& kind, const std::filesystem:
 std::string named_lamp(const std::string& typed) {
     constexpr std::string_view ours = "fernlicht:";
     if (typed.starts_with(ours))
-        return shipped_file(typed.substr(ours.size()), "a shipped lamp").string();
+        return shipped_file(typed.substr(ours.size()), "").string();
     std::error_code ignored;
     if (typed.empty() || typed == "-" || typed.find('/') != std::string::npos || std::filesystem::exists(typed, ignored))
         return typed;

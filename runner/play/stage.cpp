@@ -6,6 +6,7 @@
 #include "runner/play/aim_lamps.h"
 #include "scenarios/drives/edits/adapting_white.h"
 #include "scenarios/drives/play/advance.h"
+#include "scenarios/drives/play/place_traffic.h"
 #include "scenarios/drives/play/staged_scene.h"
 #include "scenarios/drives/story/apply_storyboard.h"
 #include "scenarios/roads/road_network.h"
@@ -50,7 +51,7 @@ Route::Start start_of(const Drive& drive) {
 Stage::Stage(Drive d)
     : drive(with_aimed_lamps(std::move(d))), network(network_of(drive)), route(network, start_of(drive), drive.via),
       scene(staged_scene(drive, network, route)) {
-    check_names(drive, SeeingFold(drive, route).readings());
+    check_names(drive, SeeingFold(drive, route).readings(), &route);
     if (technique_named(drive.technique, drive.file).kind != TechniqueKind::ours)
         drive.display.white.degree = 0.0; // what was published knows no colours of lamps
     close_white(drive, white_of_lamps(drive));
@@ -66,13 +67,19 @@ void refuse_each(Drive drive) {
     std::optional<RoadNetwork> network;
     std::optional<Route> route;
     each([&] { aim_lamps(drive); });
-    const bool has_route = each([&] { route.emplace(network.emplace(network_of(drive)), start_of(drive), drive.via); });
+    const bool has_network = each([&] { network = network_of(drive); });
+    const bool has_route = has_network && each([&] { route.emplace(*network, start_of(drive), drive.via); });
+    if (has_network && !has_route) {
+        Drive in_lanes = drive; // whose places need no route
+        std::erase_if(in_lanes.traffic_rows, [](const TrafficRow& row) { return row.place != TrafficPlace::lane; });
+        each([&] { place_traffic(in_lanes, *network, Route(*network, {})); });
+    }
     if (!has_route)
         route.emplace(network.emplace(read_opendrive(shipped_path("roads/straight.xodr"))), Route::Start{});
     Readings readings;
     const auto finds_readings = [&] { readings = SeeingFold(drive, *route).readings(); };
     if (has_route ? each(finds_readings) : all_refusals(finds_readings).empty()) // whose places may lie beyond a road that is not its own
-        each([&] { check_names(drive, readings); });
+        each([&] { check_names(drive, readings, has_route ? &*route : nullptr); });
     each.end();
 }
 

@@ -13,6 +13,7 @@ using kainjow::mustache::data;
 data context_part(const RunContext& context) {
     data part;
     part.set("command", clean_text(context.command));
+    part.set("has_out", context.command.find(" --out") != std::string::npos);
     part.set("started_utc", clean_text(context.started_utc));
     data facts{data::type::list}, inputs{data::type::list};
     const auto fact = [&](const std::string& name, const std::string& text) {

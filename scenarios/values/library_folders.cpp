@@ -70,6 +70,11 @@ fs::path shipped_path(const fs::path& name) {
 fs::path shipped_file(const fs::path& name, const std::string& flag) {
     if (fs::path found = shipped_path(name); !found.empty())
         return found;
+    if (const fs::path beside = shipped_path(name.parent_path()); name.has_parent_path() && !beside.empty()) {
+        const std::string nearest = nearest_shipped(name);
+        throw InputError({{}, 0, 0, flag}, "found 'fernlicht:" + printable(name.string(), 400) + "', which is no shipped file",
+                         nearest.empty() ? "one in " + printable(beside.string(), 400) : "one as 'fernlicht:" + nearest + "'");
+    }
     throw InputError({{}, 0, 0, flag}, fmt::format("found no {} in {}", name.string(), library_places()),
                      "fernlicht's data there, FERNLICHT_DATA to name its folder, or another file here");
 }

@@ -2,6 +2,7 @@
 
 #include "scenarios/fields/field.h"
 #include "scenarios/fields/field_bits.h"
+#include "scenarios/fields/key_list.h"
 #include "scenarios/fields/read_fields.h"
 #include "scenarios/fields/schema.h"
 #include "scenarios/fields/write_fields.h"
@@ -146,7 +147,7 @@ const Fields<VisibilityTarget>& target_fields() {
         field("level", 4, &VisibilityTarget::level, range(0.01, 1.0e4), "visibility level at which it counts as detected").required(),
         own("across", 5, read_places_across, places_across, R"({"type": "array", "minItems": 1, "maxItems": 3,
             "items": {"enum": ["own-centre", "oncoming-centre", "right-edge", "left-edge"]}})",
-            "where across the road it stands"),
+            "where across the road: a list of own-centre, oncoming-centre, right-edge, left-edge"),
     };
     return fields;
 }
@@ -206,7 +207,21 @@ std::string targets_bits(const VisibilityParameters& visibility) {
     return bits;
 }
 
+/// With the keys of a target, which no list below `targets` can have: a usual one's name has none.
+std::string targets_meaning() {
+    std::vector<std::string> keys;
+    const std::vector<KeyList> lists = key_lists("", target_fields(), target_fields().usual.get());
+    for (const KeyLine& line : lists.front().lines) {
+        std::vector<std::string> said{line.allowed.empty() ? line.meaning : line.allowed};
+        if (line.is_required || !line.usual.empty())
+            said.push_back(line.is_required ? "required" : line.usual);
+        keys.push_back(fmt::format("`{}` ({})", line.names.front(), fmt::join(said, ", ")));
+    }
+    return fmt::format("a list of usual ones, or a map: behind a usual one's name true, behind one of your own {}", fmt::join(keys, ", "));
+}
+
 const Fields<VisibilityParameters>& visibility_fields() {
+    static const std::string meaning = targets_meaning();
     static const std::string targets_schema = fmt::format(
         R"({{"anyOf": [{{"type": "array", "minItems": 1, "maxItems": 3, "items": {{"enum": ["card", "pedestrian-dark", "pedestrian-light"]}}}},
             {{"type": "object", "minProperties": 1, "maxProperties": 16, "properties": {{"card": {{"type": "boolean"}},
@@ -215,9 +230,7 @@ const Fields<VisibilityParameters>& visibility_fields() {
         schema_of(target_fields()));
     static const Fields<VisibilityParameters> fields =
         Fields<VisibilityParameters>{
-            own("targets", 1, read_targets, targets_text, targets_schema,
-                "the usual ones by name, or a map: true behind a usual one's name, a map behind a name of the drive's own")
-                .bits_by(targets_bits),
+            own("targets", 1, read_targets, targets_text, targets_schema, meaning).bits_by(targets_bits),
             field("dark_cdm2", 2, &VisibilityParameters::dark_cdm2, range(0.0, 1.0e3),
                   "luminance of what is not road behind a target, without daylight"),
             field("age_years", 3, &VisibilityParameters::age_years, range(23.0, 75.0), "of who looks"),

@@ -194,10 +194,14 @@ TEST(Check, TellsWhatRoadTrafficAndReadingsLackAtOnce) {
                 HasSubstr("extent.yaml:7: error: limits: found reading 'reach_10lx_target_own_m', expected 10 in `thresholds_lx` of"));
     EXPECT_THAT(said, HasSubstr("expected 33 in `width_at_m` of `measure: extent`"));
     EXPECT_THAT(said, HasSubstr("1 file, 2 errors"));
-    said = printed("check " + written(folder, "wrong.yaml", drive + "route: {road: 7}\n"), 2);
+    said = printed("check " + written(folder, "wrong.yaml",
+                                      drive + "route: {road: 7}\ntraffic:\n  car: {speed_kmh: 50, ahead: {gap_m: 90000}}\n"
+                                              "  walker: {kind: pedestrian, speed_kmh: 5, lane: {road: 9, lane: -1}}\n"),
+                   2);
     EXPECT_THAT(said, HasSubstr(limit)) << "judged on another road";
     EXPECT_THAT(said, HasSubstr("route: found no road '7'"));
-    EXPECT_THAT(said, HasSubstr("1 file, 2 errors"));
+    EXPECT_THAT(said, HasSubstr("traffic.walker.lane: found no road '9'"));
+    EXPECT_THAT(said, HasSubstr("1 file, 3 errors")) << "a gap along the route needs one";
 }
 
 TEST(Check, WhatStandsInAnothersPlaceIsNamed) {
@@ -239,6 +243,21 @@ TEST(Check, TakesAnythingForAFile) {
     EXPECT_THAT(said, Not(HasSubstr("notes.txt")));
     EXPECT_THAT(lines_of(said).back(), HasSubstr("of other kinds left out"));
     EXPECT_THAT(said, Not(HasSubstr("below/up")));
+}
+
+TEST(Check, ShippedFilesHaveTheirNameOnAnyCommandLine) {
+    EXPECT_THAT(printed("check fernlicht:drives/straight.yaml fernlicht:roads/country.xodr"), HasSubstr("2 files, 0 errors, 0 warnings"));
+    EXPECT_THAT(printed("check fernlicht:drives/straigth.yaml", 2),
+                HasSubstr("fernlicht: found 'fernlicht:drives/straigth.yaml', which is no shipped file"));
+    const TemporaryFolder folder;
+    const std::string out = (folder / "out");
+    printed("run fernlicht:drives/straight.yaml --road=fernlicht:roads/country.xodr --lamp left=fernlicht:lamps/led-low.ies --frames 0:0 "
+            "--no-accuracy --quiet --out " +
+            out);
+    std::ifstream report(out + "/report.json");
+    const std::string text{std::istreambuf_iterator<char>(report), {}};
+    for (const char* read : {"roads/country.xodr", "lamps/led-low.ies"})
+        EXPECT_THAT(text, HasSubstr(read));
 }
 
 TEST(Check, ReadsStandardInput) {

@@ -42,7 +42,8 @@ TEST(LampCheckCommand, TakesShippedLampsByName) {
     const std::string by_file = printed("lamp " + library_file("lamps/led-low.ies"));
     for (const char* name : {"led-low", "led-low.ies", "fernlicht:lamps/led-low.ies"})
         EXPECT_EQ(printed(std::string("lamp ") + name), by_file);
-    EXPECT_THAT(printed("lamp fernlicht:lamps/led-lo.ies", 2), HasSubstr("lamps/led-lo.ies"));
+    EXPECT_THAT(printed("lamp fernlicht:lamps/led-lo.ies", 2), HasSubstr("expected one as 'fernlicht:lamps/led-low.ies'"));
+    EXPECT_THAT(printed("lamp fernlicht:lamps/a-name-far-from-all.ies", 2), HasSubstr("which is no shipped file, expected one in "));
     EXPECT_THAT(printed("lamp led-lo", 2), HasSubstr("led-lo: cannot be read"));
     EXPECT_THAT(printed("compare led-low xenon-low"), HasSubstr("against"));
 }

@@ -177,6 +177,11 @@ TEST(Seeing, LimitsKnowItsReadings) {
     EXPECT_THROW(check_names(straight.drive, readings), InputError);
     straight.drive.limits[0].reading = "foreground_own_lx"; // of a name, but nobody asks for it
     EXPECT_THAT(tests::refusal_of([&] { check_names(straight.drive, readings); }), testing::HasSubstr("`homogeneity` in `measure:`"));
+    straight.drive.limits[0].reading = "reach_1lx_road_right_1_m";
+    EXPECT_NO_THROW(check_names(straight.drive, readings, &straight.route));
+    straight.drive.limits[0].reading = "reach_1lx_road_left_4_m";
+    EXPECT_THAT(tests::refusal_of([&] { check_names(straight.drive, readings, &straight.route); }),
+                testing::HasSubstr("expected a lane of this route: own, left 1, left 2, right 1, all"));
 }
 
 } // namespace
