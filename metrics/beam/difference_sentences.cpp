@@ -104,6 +104,8 @@ std::vector<std::string> sentences_of(const LampDifference& difference) {
     if (difference.level)
         out.push_back(fmt::format("{:.2f} % {} all over ({})", 100.0 * std::abs(difference.level->value),
                                   difference.level->value < 0.0 ? "dimmer" : "brighter", uncertainty_text(difference.level->uncertainty)));
+    if (!difference.undecided.empty())
+        out.push_back(difference.undecided);
     for (const BeamZone& zone : difference.zones)
         out.push_back(fmt::format("{} ({}; {}, {} direction{})", named_text(zone), coordinates_text(zone),
                                   uncertainty_text(zone.uncertainty), zone.samples, zone.samples == 1 ? "" : "s"));
@@ -113,8 +115,6 @@ std::vector<std::string> sentences_of(const LampDifference& difference) {
                 out.push_back(fmt::format("{} ({})", place_text(change), uncertainty_text(change.uncertainty.value_or(0.0))));
     if (out.empty())
         out.push_back("no difference beyond noise");
-    if (!difference.undecided.empty())
-        out.push_back(difference.undecided);
     return out;
 }
 

@@ -7,6 +7,7 @@
 #include "scenarios/drives/play/place_street_lamps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -186,6 +187,9 @@ Readings MirrorFold::readings() const {
         const std::string none = "the car ahead is beyond the route's end in every moment";
         for (std::size_t k = 0; k < mirrors.mirrors.size(); ++k) {
             const std::optional<Spread> spread = spread_of(gaps_[i].mirror_lx[k]);
+            std::array<std::vector<double>, 2> halves;
+            for (std::size_t moment = 0; moment < gaps_[i].mirror_lx[k].size(); ++moment)
+                halves[moment % 2].push_back(gaps_[i].mirror_lx[k][moment]);
             const auto say = [&](Statistic statistic, const char* what, double Spread::*figure) {
                 readings.push_back({{.quantity = Quantity::mirror_illuminance,
                                      .subject = mirrors.mirrors[k].name,
@@ -195,6 +199,10 @@ Readings MirrorFold::readings() const {
                                     : spread                  ? Value(*spread.*figure)
                                                               : Value::not_measured(none),
                                     fmt::format("{}, {} mirror, facing the lamps, {}", where, mirrors.mirrors[k].name, what)});
+                for (const std::vector<double>& half : halves)
+                    if (const std::optional<Spread> of_half = spread_of(half); of_half && readings.back().value.measured())
+                        readings.back().between_moments =
+                            std::max(readings.back().between_moments.value_or(0.0), std::abs((*of_half).*figure - (*spread).*figure));
             };
             say(Statistic::median, "median", &Spread::median);
             say(Statistic::p95, "95th percentile", &Spread::p95);

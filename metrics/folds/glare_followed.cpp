@@ -7,11 +7,13 @@
 #include <fmt/format.h>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace fernlicht {
 namespace {
 
+constexpr double everywhere_m = std::numeric_limits<double>::infinity();
 const char* const no_moment = "no moment of the drive was measured";
 
 /// The figure over the drive, or why some moment lacks it: an extreme over the rest could be another.
@@ -42,6 +44,35 @@ constexpr Told of_more_is_worse[] = {{Statistic::median, "median", 0.5},
                                      {Statistic::maximum, "largest", {}}},
                of_less_is_worse[] = {
                    {Statistic::median, "median", 0.5}, {Statistic::p05, "5th percentile", 0.05}, {Statistic::minimum, "smallest", {}}};
+
+/// Reading::between_moments of what is told over `figure`'s moments from `near_m` to `far_m`: the larger of what every second moment alone
+/// would move it by and, of a quantile, what one moment more or less on either side would. Where half of the moments do not tell it, or the
+/// approach ends at its extreme, which may grow on until the next moment: all that those moments and the ones beside them differ by.
+std::optional<double> between_moments(const FollowedFigure& figure, const std::optional<double>& share,
+                                      const std::function<Value(const FollowedFigure&)>& told, double near_m = -everywhere_m,
+                                      double far_m = everywhere_m) {
+    const std::optional<double> all = told(figure).number();
+    if (!all)
+        return std::nullopt;
+    const Approach around = figure.around(near_m, far_m);
+    const std::optional<double> even = told(figure.every_second(0)).number(), odd = told(figure.every_second(1)).number();
+    const bool ends_there = !share && far_m == everywhere_m && around.back().value == all;
+    if (!even || !odd || ends_there) {
+        const std::optional<double> most = largest(around), least = smallest(around);
+        return most && least ? std::optional(*most - *least) : std::nullopt;
+    }
+    double moved = std::max(std::abs(*even - *all), std::abs(*odd - *all));
+    if (share) {
+        Approach moments = far_m == everywhere_m ? figure.approach : figure.within(near_m, far_m);
+        const double one = 1.0 / static_cast<double>(moments.size());
+        if (far_m != everywhere_m) // the one more may lie at either end
+            for (const double end_m : {far_m, near_m})
+                moments.push_back({0.0, end_m, value_at(figure.approach, end_m).number()});
+        for (const double beside : {*share - one, *share + one})
+            moved = std::max(moved, std::abs(quantile_over(moments, std::clamp(beside, 0.0, 1.0)).value_or(*all) - *all));
+    }
+    return moved;
+}
 
 std::vector<double> numbers_in(const std::vector<Value>& values) {
     std::vector<double> numbers;
@@ -111,6 +142,26 @@ Approach FollowedFigure::within(double near_m, double far_m) const {
     std::ranges::copy_if(approach, std::back_inserter(moments),
                          [&](const ApproachSample& sample) { return sample.distance_m >= near_m && sample.distance_m <= far_m; });
     return moments;
+}
+
+Approach FollowedFigure::around(double near_m, double far_m) const {
+    Approach moments;
+    for (std::size_t i = 0; i < approach.size(); ++i) { // which comes nearer
+        const bool is_before = i + 1 < approach.size() && approach[i + 1].distance_m <= far_m,
+                   is_behind = i > 0 && approach[i - 1].distance_m >= near_m;
+        if ((approach[i].distance_m <= far_m || is_before) && (approach[i].distance_m >= near_m || is_behind))
+            moments.push_back(approach[i]);
+    }
+    return moments;
+}
+
+FollowedFigure FollowedFigure::every_second(std::size_t first) const {
+    FollowedFigure half;
+    for (std::size_t i = first; i < approach.size(); i += 2) {
+        half.approach.push_back(approach[i]);
+        half.why_not.push_back(why_not[i]);
+    }
+    return half;
 }
 
 Value FollowedFigure::extreme_between(double near_m, double far_m, bool of_largest, const std::string& why_none) const {
@@ -194,10 +245,14 @@ void GlareFollowed::say(Readings& readings, const ReadingKey& eye, const std::st
                 const std::string lightless =
                     of_largest || !unadapted.empty() || facing.approach.empty() ? followed.why_none : "no light reaches the eye";
                 const std::string& why = why_none.empty() ? lightless : why_none;
+                const auto over = [&](const FollowedFigure& figure) {
+                    return told.share ? figure.quantile_between(near_m, far_m, *told.share, why)
+                                      : figure.extreme_between(near_m, far_m, of_largest, why);
+                };
                 add(followed.quantity, told.statistic, {},
                     fmt::format("the bumper {} to {} m before it, {}{}{}", near_m, far_m, followed.before, told.word, followed.behind),
-                    told.share ? followed.figure.quantile_between(near_m, far_m, *told.share, why)
-                               : followed.figure.extreme_between(near_m, far_m, of_largest, why));
+                    over(followed.figure));
+                readings.back().between_moments = between_moments(followed.figure, told.share, over, near_m, far_m);
                 readings.back().key.distance_m = near_m;
                 readings.back().key.to_m = far_m;
             }
@@ -206,12 +261,15 @@ void GlareFollowed::say(Readings& readings, const ReadingKey& eye, const std::st
         for (const Told& told : followed.told) {
             if (told.share && approaches)
                 continue;
-            const Approach& moments = followed.figure.approach;
-            add(followed.quantity, told.statistic, {}, followed.before + told.word + followed.behind,
-                over_drive(told.share                             ? quantile_over(moments, *told.share)
-                           : told.statistic == Statistic::minimum ? smallest(moments)
-                                                                  : largest(moments),
-                           followed.figure.missing(), followed.why_none));
+            const auto over = [&](const FollowedFigure& figure) {
+                const Approach& moments = figure.approach;
+                return over_drive(told.share                             ? quantile_over(moments, *told.share)
+                                  : told.statistic == Statistic::minimum ? smallest(moments)
+                                                                         : largest(moments),
+                                  figure.missing(), followed.why_none);
+            };
+            add(followed.quantity, told.statistic, {}, followed.before + told.word + followed.behind, over(followed.figure));
+            readings.back().between_moments = between_moments(followed.figure, told.share, over);
         }
     add(Quantity::glare_adaptation, Statistic::median, {},
         parameters.adaptation_cdm2

@@ -37,9 +37,14 @@ struct FollowedFigure {
     /// extreme_between(), and not measured where no moment lies there.
     Value quantile_between(double near_m, double far_m, double share, const std::string& why_none) const;
 
+    /// Of moments, every second one from `first` (0 or 1) on.
+    FollowedFigure every_second(std::size_t first) const;
+    /// The moments from `near_m` to `far_m`, and the one before and the one behind.
+    Approach around(double near_m, double far_m) const;
+    Approach within(double near_m, double far_m) const; ///< those from `near_m` to `far_m` alone
+
   private:
     std::string unknown_between(double near_m, double far_m, const std::string& why_none) const; ///< why; "" where it is known
-    Approach within(double near_m, double far_m) const;                                          ///< the moments there
 };
 
 /// Figures of one eye over the moments.

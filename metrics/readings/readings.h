@@ -13,6 +13,8 @@ struct Reading {
     std::string where = {}; ///< "own lane, centre" - free text for people
     int tick = -1;          ///< -1: of the whole drive
     Sensitivity sensitivity = {};
+    /// Of extremes and percentiles over moments: how far, in its unit, every second moment alone would move it; nullopt of all else.
+    std::optional<double> between_moments = {};
 
     std::string name() const { return name_of(key); }
     const char* unit() const { return unit_of(key); }

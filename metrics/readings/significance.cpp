@@ -60,7 +60,7 @@ std::optional<double> numerical_uncertainty(const ReadingsOfCell& played, const 
     }
     switch (row_of(reading.key.quantity).exactness) {
     case Exactness::double_precision:
-        return double_precision * std::abs(*reading.value.figure());
+        return double_precision * std::abs(*reading.value.figure()) + reading.between_moments.value_or(0.0);
     case Exactness::grid_and_drawing:
         return of_grid_and_drawing(played, reading.key);
     case Exactness::grid:
@@ -128,10 +128,17 @@ std::optional<double> noise_effect(const Reading& a, const Reading& b, double la
     return by_light ? std::optional(noise_deviations * lamp_noise * *by_light) : std::nullopt;
 }
 
+/// The key that looks farther, of what lies beyond.
+std::string beyond(const ReadingKey& key) {
+    return key.quantity == Quantity::reach   ? " (`measure.extent.ahead_m` looks farther)"
+           : key.quantity == Quantity::width ? " (`measure.extent.beside_m` looks farther)"
+                                             : "";
+}
+
 void judge(ReadingChange& change, const std::optional<double>& tested, const std::optional<double>& against) {
     const Value found = change.change();
     if (!found.measured()) {
-        change.reason_unknown = found.reason();
+        change.reason_unknown = found.reason() + (change.new_value.censored() && change.old_value.censored() ? beyond(change.reading) : "");
         return;
     }
     if (!tested || !against) {
@@ -158,7 +165,7 @@ void judge(ReadingChange& change, const std::optional<double>& tested, const std
         change.kind = ChangeKind::real;
     if (found.censored() && change.kind != ChangeKind::real) { // it may be much more
         change.kind = ChangeKind::unknown;
-        change.reason_unknown = "one of both lies beyond what was looked at";
+        change.reason_unknown = "one of both lies beyond what was looked at" + beyond(change.reading);
     }
 }
 

@@ -53,9 +53,9 @@ Value difference(const Value& a, const Value& b, std::string_view unit) {
     const auto end = [](double x, double y) { return std::isfinite(x) && std::isfinite(y) ? x - y : std::isfinite(x) ? -y : x; };
     const bool up = a.kind() == Value::Kind::at_least;
     return Value::between(end(a.low(), b.high()), end(a.high(), b.low()),
-                          *a.figure() == *b.figure() ? fmt::format("both {} {:.6g} {}", up ? "beyond" : "below", *a.figure(), unit)
-                                                     : fmt::format("one {0} {1:.6g} {3}, the other {0} {2:.6g} {3}",
-                                                                   up ? "beyond" : "below", *a.figure(), *b.figure(), unit));
+                          *a.figure() == *b.figure() ? fmt::format("both are {} {:.4g} {}", up ? "over" : "below", *a.figure(), unit)
+                                                     : fmt::format("one is {0} {1:.4g} {3}, the other {0} {2:.4g} {3}",
+                                                                   up ? "over" : "below", *a.figure(), *b.figure(), unit));
 }
 
 std::string with_bound(const Value& value, const std::string& figure) {

@@ -117,7 +117,8 @@ void add_accuracy_command(CLI::App& app, const std::vector<std::string>& command
     add_shared(*sub, "--out", flags->out);
     add_tables_flag(*sub, flags->tables);
     add_shared(*sub, "--quiet", flags->quiet);
-    sub->footer("Of resolutions, shadow maps and beams the first holds for all, the others are varied. docs/accuracy.md tells more.");
+    sub->footer("Everything is rendered with the first of --resolutions, --shadow-maps and --beams, then with each other one in its place. "
+                "docs/accuracy.md tells more.");
     sub->callback([flags, command, &chosen] { chosen = [flags, command] { return accuracy(*flags, command); }; });
 }
 

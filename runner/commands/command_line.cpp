@@ -20,6 +20,7 @@
 #include <fmt/ranges.h>
 #include <map>
 #include <system_error>
+#include <unistd.h>
 #include <utility>
 
 namespace {
@@ -120,6 +121,15 @@ std::vector<std::string> words_of(const std::vector<std::string>& command) {
     return words;
 }
 
+/// So that a log says what ended a program that has nothing to report yet. Calls nothing that a signal's handler may not.
+extern "C" void tell_and_end(int signal) {
+    constexpr std::string_view plain = "fernlicht: ended by SIGTERM\n", json = "{\"level\":\"error\",\"message\":\"ended by SIGTERM\"}\n";
+    const std::string_view told = fernlicht::log_settings().json ? json : plain;
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, told.data(), told.size());
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+}
+
 } // namespace
 
 int fernlicht::command_line(int argc, char** argv) {
@@ -133,6 +143,7 @@ int fernlicht::command_line(int argc, char** argv) {
     std::function<int()> chosen;
     const std::vector<std::string> command(argv, argv + argc);
     log_settings().json = std::ranges::find(command, "--log-json") != command.end(); // a line that cannot be parsed is told so, too
+    std::signal(SIGTERM, tell_and_end);
     try {
         for (fernlicht::AddCommand* add : commands)
             add(app, command, chosen);

@@ -56,6 +56,11 @@ std::filesystem::path result_folder(const std::string& out, const std::string& n
 
 std::filesystem::path named_file(const std::string& kind, const std::filesystem::path& typed, const char* key) {
     std::error_code ignored;
+    if (kind == "drive" && !typed.empty() && !typed.has_parent_path() && !std::filesystem::exists(typed, ignored))
+        for (const char* ending : {"", ".xosc"})
+            if (const std::filesystem::path story = shipped_path("storyboards" / std::filesystem::path(typed.string() + ending));
+                !story.empty())
+                return story;
     const bool is_path = typed == "-" || typed.has_parent_path() || typed.has_extension() || typed.empty() ||
                          std::filesystem::is_regular_file(typed, ignored);
     return is_path ? typed : library_file(kind, typed.string(), "", {{}, 0, 0, key});

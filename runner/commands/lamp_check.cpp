@@ -73,7 +73,8 @@ Document document(const LampFile& lamp, const Intake& intake, const LampRequest&
     fact("flux", fmt::format("{:.0f} lm", intake.flux_lm));
     fact("cut-off", cut_off_fact(intake));
     fact("its steps", intake.step_deg ? fmt::format("{:.2g} degrees between samples in V", *intake.step_deg) : "");
-    fact("measured at", voltage_text(true, request.voltage_v) + (request.voltage_v ? "" : "; lamps without a filament keep theirs"));
+    fact("measured at",
+         voltage_text(true, request.voltage_v) + (request.voltage_v ? "" : "; without a filament the voltage changes nothing"));
     Section section{"", {std::move(facts)}};
     if (intake.findings.empty()) {
         section.blocks.emplace_back(intake.function == BeamFunction::other

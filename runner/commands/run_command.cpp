@@ -141,7 +141,7 @@ void tell_kept_sources(const RunFlags& flags, const std::vector<Drive>& drives) 
             if (lamp.source == SourceKind::filament && lamp.name.find("high") == std::string::npos) {
                 tell(LogLevel::info,
                      fmt::format("{}: --lamp replaces the file alone: the lamp stays a filament at {:g} V; an LED is a lamp set "
-                                 "with source: led (docs/lamps.md)",
+                                 "with source: led (docs/drives.md)",
                                  drive.name, lamp.voltage_v));
                 break;
             }

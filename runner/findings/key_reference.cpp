@@ -171,6 +171,10 @@ Document keys_document() {
     std::erase_if(of_study.fields, [](const Field& field) { return field.key == "measure"; }); // a drive's
     const std::vector<std::string> files = {"drive", "study", "rating", "recipe", "pixel lamp"};
     add_file(lists, "study", of_study, study_fields().usual.get());
+    KeyLine measure;
+    measure.names = {"measure"};
+    measure.meaning = "as in a drive, but for extents and probes; for every drive that does not ask itself";
+    std::ranges::find(lists, "study", &KeyList::path)->lines.push_back(std::move(measure));
     add_file(lists, "rating", rating_fields(), rating_fields().usual.get());
     add_file(lists, "recipe", grid_recipe_fields(), grid_recipe_fields().usual.get());
     add_file(lists, "pixel lamp", pixel_lamp_fields(), pixel_lamp_fields().usual.get());

@@ -61,13 +61,13 @@ ResultDifference compare(const AcceptedReading& tested, const AcceptedReading& a
     const double rounding = tolerance.absolute + tolerance.relative * std::abs(was) + tolerance.of_other * std::abs(other);
     const std::string unit = unit_suffix(unit_of(accepted.key)),
                       figures = fmt::format("{}, off by {:.3g}{}{}", text, off, unit,
-                                            was == 0.0 ? "" : fmt::format(" ({:.3g} % of it)", 100.0 * off / std::abs(was)));
+                                            was == 0.0 ? "" : fmt::format(" ({:.3g} %)", 100.0 * off / std::abs(was)));
     const auto test = spread_test({tested.count, tested.variance}, {accepted.count, accepted.variance}, tolerance.false_alarm, comparisons);
     if (test)
         return judge_by_spread(difference, off, rounding, *test, figures, tolerance);
     difference.of_allowed = off / rounding;
     difference.agreement = off <= rounding ? Agreement::agrees : Agreement::differs;
-    difference.text = fmt::format("{}, at most {:.3g}{} for rounding", figures, rounding, unit);
+    difference.text = fmt::format("{}, allowed for rounding: {:.3g}{}", figures, rounding, unit);
     return difference;
 }
 

@@ -30,6 +30,8 @@ int listening = 0;                               ///< by the one thread that pla
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free,
               "the handler may only touch what needs no lock");
 
+void (*before_terminated)(int) = SIG_DFL;
+
 extern "C" void on_signal(int signal) {
     const int error = errno;
     timespec now{};
@@ -96,14 +98,14 @@ Interruption::Interruption() {
     was_requested.store(false);
     requested_at_ns.store(0);
     std::signal(SIGINT, on_signal);
-    std::signal(SIGTERM, on_signal);
+    before_terminated = std::signal(SIGTERM, on_signal);
 }
 
 Interruption::~Interruption() {
     if (--listening > 0)
         return;
     std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
+    std::signal(SIGTERM, before_terminated);
 }
 
 bool Interruption::requested() { return was_requested.load(); }

@@ -16,7 +16,7 @@ std::string report_csv(const Report& report) {
                       "statistic,subject,bound,value,unit,reason,where,name";
     for (const SensitivityRow& row : sensitivity_rows)
         out += fmt::format(",{}", row.name);
-    out += "\r\n";
+    out += ",between_moments\r\n";
     for (const PlayedCell& played : report.played)
         for (const Reading& reading : played.readings) {
             const ReadingKey& key = reading.key;
@@ -29,7 +29,7 @@ std::string report_csv(const Report& report) {
                             csv_text(key.subject), bound_name(reading.value), csv_number(reading.value.figure()), csv_text(reading.unit()),
                             csv_text(reading.value.reason()), csv_text(reading.where), csv_text(reading.name()), csv_number(s.aim_up),
                             csv_number(s.aim_down), csv_number(s.brighter), csv_number(s.dimmer), csv_number(s.higher), csv_number(s.lower),
-                            csv_number(s.loaded));
+                            csv_number(s.loaded), csv_number(reading.between_moments));
         }
     return out;
 }

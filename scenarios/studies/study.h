@@ -68,6 +68,9 @@ struct Study {
     FilesRead opened;
 };
 
+/// Whether the axis has more than one value: else it says nothing of a cell that is not true of all.
+bool varies(const Study& study, std::size_t axis);
+
 template <class Struct> struct Fields;
 const Fields<Study>& study_fields(); ///< the keys of its file
 

@@ -47,8 +47,15 @@ StudyCell named(const Study& study, StudyCell cell) {
     cell.condition += c.mirror[cell.mirror] ? ", mirrored" : "";
     for (std::size_t i = 0; i < study.axes.size(); ++i)
         cell.axes.push_back({study.axes[i].name, study.points[cell.point][i]});
-    if (!study.axes.empty())
-        cell.condition += ", " + point_text(study.axes, study.points[cell.point]);
+    std::vector<StudyAxis> told;
+    StudyPoint values;
+    for (std::size_t i = 0; i < study.axes.size(); ++i)
+        if (varies(study, i)) {
+            told.push_back(study.axes[i]);
+            values.push_back(study.points[cell.point][i]);
+        }
+    if (!told.empty())
+        cell.condition += ", " + point_text(told, values);
     return cell;
 }
 
@@ -125,6 +132,10 @@ void aim_changes(const StudyLamp& lamp, double aim_percent, LampSet& lamp_set) {
 }
 
 } // namespace
+
+bool varies(const Study& study, std::size_t axis) {
+    return std::ranges::any_of(study.points, [&](const StudyPoint& point) { return point[axis] != study.points.front()[axis]; });
+}
 
 std::vector<StudyCell> cells_of(const Study& study) {
     const StudyConditions& c = study.conditions;

@@ -44,7 +44,7 @@ holds() {
     out=$(mktemp --directory --tmpdir="$tree")
     snippets "$1" "$out" || return
     shellcheck "$out"/* "$1/study-job" || return
-    mapfile -t commands < <(grep --no-filename --only-matching 'ci/study-job [a-z]*' "$out"/* | sort --unique | cut --delimiter=' ' --fields=2)
+    mapfile -t commands < <(grep --no-filename --only-matching 'ci/study-job [a-z-]*' "$out"/* | sort --unique | cut --delimiter=' ' --fields=2)
     for command in "${commands[@]}"; do
         grep --quiet "^$command)" "$1/study-job" || { echo "study-job does not know '$command'"; return 1; }
     done
@@ -107,7 +107,7 @@ if [ -n "${SLOW:-}" ]; then
     sleep 30 &
     wait
 fi
-printf '# A study\n\n## Limits exceeded\n\nFAIL it\n' >out/study.md
+printf '# A study\n\n## Limits exceeded\n\nFAIL it: %s: it\n' "${RED:-baseline}" >out/study.md
 exit "$CODE"
 END
 chmod +x "$tree/fernlicht/fernlicht"
@@ -135,6 +135,9 @@ cp "$tree/fernlicht/fernlicht" "$tree/job/.fernlicht/build/release/"
 job 2 verdict
 job 2 play
 job 0 play my.yaml --strict
+grep --quiet prune "$CALLS" && { echo "a store that is not there is pruned: $(<"$CALLS")"; ((++failures)); }
+mkdir --parents "$tree/job/.fernlicht-cache/fernlicht/store"
+job 0 play my.yaml --strict
 called "fernlicht study my.yaml --strict --out out --backend software $tree/job/.fernlicht-cache"
 called "fernlicht store prune --at-most 2GiB $tree/job/.fernlicht-cache"
 job 0 verdict
@@ -142,6 +145,13 @@ job 0 verdict
 FERNLICHT_STORE_SIZE=5GiB CODE=1 job 1 play my.yaml
 called "prune --at-most 5GiB"
 [[ $said == *"accept an intended change"*"fernlicht accept out --readings-only"* ]] || { echo "a red study does not say how a change is accepted: $said"; ((++failures)); }
+RED=history CODE=1 job 1 play my.yaml
+[[ $said == *"study-job accept-night WHY"* && $said != *"fernlicht accept"* ]] || { echo "a night that the history finds red: $said"; ((++failures)); }
+RED=straight_old CODE=1 job 1 play my.yaml # a limit
+[[ $said != *accept* ]] || { echo "a limit that is exceeded is to be accepted: $said"; ((++failures)); }
+job 2 accept-night
+job 4 accept-night "new optics" # the stand-in's
+called "fernlicht history accept last --note new optics --history $tree/job/.fernlicht-cache/nights.db"
 job 0 play my.yaml
 [[ $said == *"no baselines"* ]] || { echo "a green study without baselines does not say so: $said"; ((++failures)); }
 (cd "$tree/job" && SLOW=$tree/begun CODE=0 exec ci/study-job play my.yaml) >"$tree/said" 2>&1 &

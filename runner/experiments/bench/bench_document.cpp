@@ -22,7 +22,7 @@ std::vector<Cell> with_ratio(std::vector<Cell> cells, const BenchRow& row) {
     else
         cells.insert(cells.end(), {{fmt::format("{:.2f}", row.ratio->median), row.ratio->median},
                                    is_reference ? "" : fmt::format("{:.2f}..{:.2f}", row.ratio->p05, row.ratio->p95),
-                                   is_reference ? "is what they are held against" : difference_name(row.ratio->difference)});
+                                   is_reference ? "the reference" : difference_name(row.ratio->difference)});
     return cells;
 }
 

@@ -374,7 +374,7 @@ JsonMembers report_members(Report& report) {
 void take_readings(const CsvFile& csv, Report& report) {
     const std::size_t drive = csv.column("drive"), set = csv.column("lamp_set"), frame = csv.column("frame"), name = csv.column("name"),
                       unit = csv.column("unit"), bound = csv.column("bound"), value = csv.column("value"), reason = csv.column("reason"),
-                      where = csv.column("where");
+                      where = csv.column("where"), between = csv.column("between_moments");
     for (std::size_t i = 0; i < csv.rows.size(); ++i) {
         const std::vector<std::string>& row = csv.rows[i];
         const auto key = key_of(row[name]);
@@ -393,6 +393,8 @@ void take_readings(const CsvFile& csv, Report& report) {
         for (const SensitivityRow& moves : sensitivity_rows)
             if (const std::size_t column = csv.column(moves.name); !row[column].empty())
                 reading.sensitivity.*moves.member = csv.number(i, column);
+        if (!row[between].empty())
+            reading.between_moments = csv.number(i, between);
         for (PlayedCell& played : report.played)
             if (clean_text(played.drive) == row[drive] && clean_text(played.lamp_set) == row[set])
                 played.readings.push_back(reading);

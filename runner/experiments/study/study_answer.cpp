@@ -84,12 +84,15 @@ MatrixEntry entry_of(const StudyResult& result, std::size_t cell, const ReadingK
 }
 
 PlaceMatrix matrix_of(const StudyResult& result, const Groups& groups, const ReadingKey& key) {
-    PlaceMatrix matrix{
-        .name = "matrix", .caption = reading_label(key), .corner = "route", .unit = unit_label(unit_of(key)), .open_by = "aim"};
+    PlaceMatrix matrix{.name = "matrix",
+                       .caption = capitalised(reading_label(key)),
+                       .corner = "route",
+                       .unit = unit_label(unit_of(key)),
+                       .open_by = "aim"};
     for (std::size_t i = 0; i < result.study.lamps.size(); ++i)
         matrix.columns.push_back(Cell::of_series(short_text(result.study.lamps[i].name, 24), i));
     for (const std::vector<std::size_t>& group : groups) {
-        auto& [name, entries] = matrix.rows.emplace_back(Cell(short_text(result.place_of(group.front()), 60)), std::vector<MatrixEntry>());
+        auto& [name, entries] = matrix.rows.emplace_back(Cell(clean_text(result.place_of(group.front()))), std::vector<MatrixEntry>());
         name = std::move(name).hinted(result.cells[group.front()].title + "; " + result.cells[group.front()].cell.condition);
         for (std::size_t lamp = 0; lamp < result.study.lamps.size(); ++lamp) {
             const auto cell = std::ranges::find_if(group, [&](std::size_t i) { return result.cells[i].cell.lamp == lamp; });
@@ -132,22 +135,27 @@ std::vector<const Change*> changes_of_lamps(const StudyResult& result, std::size
     return changes;
 }
 
+/// On routes, at places.
+const char* preposition(const std::string& places) { return places == "places" ? "at" : "on"; }
+
 /// "better on 5 of 5 routes, most on village-1 (+12.1 m), least on straight-1 (+8.0 m)".
-std::string where_words(const StudyResult& result, const std::vector<const Change*>& changes, bool best_is_tested, const char* places) {
+std::string where_words(const StudyResult& result, const std::vector<const Change*>& changes, bool best_is_tested,
+                        const std::string& places) {
+    const char* const at = preposition(places);
     std::vector<const Change*> real;
     for (const Change* const change : changes)
         if (change->kind == ChangeKind::real)
             real.push_back(change);
     const auto is_better = [&](const Change* change) { return (real_gain(*change) > 0.0) == best_is_tested; };
     const auto better = std::ranges::count_if(real, is_better), worse = std::ssize(real) - better;
-    std::string text = fmt::format("better on {} of {} {}", better, changes.size(), places);
+    std::string text = fmt::format("better {} {} of {} {}", at, better, changes.size(), places);
     if (worse > 0)
-        text += fmt::format(", worse on {}", worse);
+        text += fmt::format(", worse {} {}", at, worse);
     const auto unknown = std::ranges::count(changes, ChangeKind::unknown, &Change::kind);
     if (const auto open = std::ssize(changes) - std::ssize(real) - unknown; open > 0)
-        text += fmt::format(", on {} within what calculation, noise and 0.1° of aim leave open", open);
+        text += fmt::format(", {} {} within what calculation, noise and 0.1° of aim leave open", at, open);
     if (unknown > 0)
-        text += fmt::format(", on {} not known", unknown);
+        text += fmt::format(", {} {} not known", at, unknown);
     std::erase_if(real, [&](const Change* change) { return !is_better(change); });
     if (real.empty())
         return text;
@@ -156,7 +164,7 @@ std::string where_words(const StudyResult& result, const std::vector<const Chang
         return fmt::format("{} ({})", result.place_of(change.tested), signed_words(change, !best_is_tested));
     };
     if (const std::string words = signed_words(**most, !best_is_tested); real.size() > 1 && words == signed_words(**least, !best_is_tested))
-        return text + fmt::format(", {} on each", words);
+        return text + fmt::format(", {} {} each", words, at);
     text += fmt::format(", most on {}", told(**most));
     return (*most)->least() > (*least)->least() ? text + fmt::format(", least on {}", told(**least)) : text;
 }
@@ -195,10 +203,10 @@ Answer answer_of(const StudyResult& result, const Groups& groups, const std::vec
     std::set<std::size_t> drives;
     for (const std::vector<std::size_t>& group : groups)
         drives.insert(result.cells[group.front()].cell.drive);
-    const char* const places = drives.size() == groups.size() ? (groups.size() == 1 ? "route" : "routes") : "places";
+    const std::string places = drives.size() == groups.size() ? (groups.size() == 1 ? "route" : "routes") : "places";
     const char* const median_words = !decided || decided->decided_by.size() == 1 ? ""
                                      : decided->decided_by.size() % 2 == 1       ? " by change in per cent"
-                                                                           : " by change in per cent, of two in the middle the smaller";
+                                                                                 : " by change in per cent, the smaller of the middle two";
     const std::string over =
         groups.size() == 1 ? "On " + result.place_of(groups.front().front())
                            : fmt::format("Median over {}{} {}{}", ranked_places < groups.size() ? fmt::format("{} of ", ranked_places) : "",
@@ -228,11 +236,11 @@ Answer answer_of(const StudyResult& result, const Groups& groups, const std::vec
     if (better == 0 && worse == 0)
         heading = fmt::format("{} and {} do not differ by more than aim and noise: {}", best_name, worst_name, figures);
     else if (better == 0)
-        heading = fmt::format("{} is worse than {} on {} of {} {}, better on none: {}", best_name, worst_name, worse, changes.size(),
-                              places, figures);
+        heading = fmt::format("{} is worse than {} {} {} of {} {}, better {} none: {}", best_name, worst_name, preposition(places), worse,
+                              changes.size(), places, preposition(places), figures);
     else if (worse > 0)
-        heading = fmt::format("{} is better than {} on {} of {} {}, worse on {}: {}", best_name, worst_name, better, changes.size(), places,
-                              worse, figures);
+        heading = fmt::format("{} is better than {} {} {} of {} {}, worse {} {}: {}", best_name, worst_name, preposition(places), better,
+                              changes.size(), places, preposition(places), worse, figures);
     else if (lamps.size() > 2)
         heading = fmt::format("{} is best, {} worst: {}", best_name, worst_name, figures);
     else
@@ -266,7 +274,7 @@ std::string against_words(const StudyResult& result, const std::vector<Decision>
     }
     std::erase_if(kinds, [&](const std::string& kind) { return measured.contains(kind); });
     std::ranges::replace(kinds, std::string("uniformity"), std::string("evenness")); // as its readings are called
-    return kinds.empty() ? text : fmt::format("{} Of what decides nothing was measured of: {}.", text, fmt::join(kinds, ", "));
+    return kinds.empty() ? text : fmt::format("{} Not measured, though it would decide: {}.", text, fmt::join(kinds, ", "));
 }
 
 } // namespace

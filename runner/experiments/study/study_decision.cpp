@@ -104,17 +104,17 @@ const StudyComparison& comparison_of(const StudyResult& result, const Decision& 
     return result.study.comparisons[decision.comparison];
 }
 
-/// "reach at 5 lx on a target, own lane +14.2 m (+21 %) at 3 of 4 places that differ, most on country-1"
+/// "reach at 5 lx on a target, own lane +14.2 m (+21 %) in 3 of 4 results, most on country-1"
 std::string told(const StudyResult& result, const DecidedReading& decided) {
     const std::size_t of = decided.changes.size(), by = decided.decided_by.size();
     const std::size_t largest = *std::ranges::max_element(decided.decided_by, {}, [&](std::size_t i) { return result.changes[i].size(); });
     const CellResult& cell = result.cells[result.changes[largest].tested];
     std::string place = cell.drive;
-    for (const AxisValue& at : cell.cell.axes)
-        if (!at.value.empty())
+    for (std::size_t i = 0; i < cell.cell.axes.size(); ++i)
+        if (const AxisValue& at = cell.cell.axes[i]; !at.value.empty() && varies(result.study, i))
             place += fmt::format(", {} {}", at.axis, at.value);
     return fmt::format("{} {}{}{}", reading_label(decided.reading), change_words(result.changes[decided.told]),
-                       by < of ? fmt::format(" at {} of {} places that differ", by, of) : "",
+                       by < of ? fmt::format(" in {} of {} results", by, of) : "",
                        of > 1 ? fmt::format(", {}on {}", by > 1 ? "most " : "", place) : "");
 }
 
@@ -254,7 +254,8 @@ std::string decision_count(const StudyResult& result, const Decision& decision) 
         if (const std::size_t count = decision.count(outcome))
             parts.push_back(fmt::format("{} {}", words, count));
     if (!parts.empty())
-        return fmt::format("{} is {} of {}", pair.tested, fmt::join(parts, ", "), counted(decision.readings.size(), "deciding reading"));
+        return fmt::format("{} against {}: {} of {}", pair.tested, pair.against, fmt::join(parts, ", "),
+                           counted(decision.readings.size(), "deciding reading"));
     return decision.count(DecisionOutcome::within_aim) > 0 ? fmt::format("{} is within 0.1° of aim of {}", pair.tested, pair.against)
            : decision.count(DecisionOutcome::undecided) > 0
                ? fmt::format("{} and {}: undecided", pair.tested, pair.against)
@@ -277,21 +278,21 @@ std::vector<std::string> same_results(const StudyResult& result, const std::vect
     std::vector<std::string> sentences;
     for (const auto& [drives, readings] : alike)
         if (drives.first != drives.second)
-            sentences.push_back(fmt::format("{} and {} give the same result in {}, so it counts once", drives.first, drives.second,
-                                            counted(readings, "deciding reading")));
+            sentences.push_back(
+                fmt::format("{} repeats {} of {}, which count once", drives.second, counted(readings, "result"), drives.first));
     return sentences;
 }
 
 Table decision_table(const StudyResult& result, const std::vector<Decision>& decisions) {
     const bool several = decisions.size() > 1;
-    Table table{.name = "decision",
-                .caption =
-                    "Old, new and change where the change in per cent is the median of the real ones, else of those within aim (of two in "
-                    "the middle the smaller)",
-                .columns = columns_of(std::string(several ? "new / old<|" : "") +
-                                      "reading<|is<|old|new|change|%|± 0.1° of aim|unit<|results|where<"),
-                .rows = {},
-                .off_terminal = true};
+    Table table{
+        .name = "decision",
+        .caption =
+            "The result whose change in per cent is the median of the real ones, else of those within aim; the smaller of the middle two",
+        .columns =
+            columns_of(std::string(several ? "new / old<|" : "") + "reading<|is<|old|new|change|%|± 0.1° of aim|unit<|results|where<"),
+        .rows = {},
+        .off_terminal = true};
     for (const Decision& decision : decisions)
         for (const DecidedReading& decided : decision.readings) {
             const Change& change = result.changes[decided.told];

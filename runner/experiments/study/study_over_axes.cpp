@@ -118,7 +118,7 @@ void add_over_axes(const StudyResult& result, std::vector<StudyFigure>& figures)
             plots::Figure figure;
             figure.title = capitalised(reading_label(key));
             figure.subtitle = most == 1 ? place_off_axis(result.cells[found.cells.front()], axis)
-                                        : fmt::format("median of up to {} cells a point, of two in the middle the smaller", most);
+                                        : fmt::format("median of up to {} cells a point, the smaller of the middle two", most);
             figure.width_px = 420.0;
             figure.height_px = 230.0;
             if (found.bounds)

@@ -15,7 +15,7 @@ namespace {
 /// Of lines: apart in grey print, too.
 constexpr const char *paper_dashes[] = {"", "6 3", "1.5 2.5", "9 3 2 3"}, *dash_names[] = {"full", "dashed", "dotted", "dash-dotted"};
 
-/// ". 9 of 660 moments of each drive were asked for (--frames 0:8)"; "" where all were.
+/// ". 9 of 660 moments of each drive were played (--frames 0:8)"; "" where all were.
 std::string part_of_drives(const StudyResult& result) { return result.played_in_part.empty() ? "" : ". " + result.played_in_part; }
 
 /// "Source: cells country_halogen and country_xenon of the study standard-1, fernlicht 1.2".
@@ -75,7 +75,7 @@ std::vector<PaperFigure> paper_figures(const StudyResult& result) {
                 {file_name_of(fmt::format("ranking_{}-{}", pair.tested, pair.against)), drawing_of(*dots),
                  fmt::format(
                      "What {} changes against {}, in per cent of the old value, better to the right. Dots: the median of the changes that "
-                     "are real, else of those within aim, of two in the middle the smaller; lines: what numerical error, noise of the "
+                     "are real, else of those within aim, the smaller of the middle two; lines: what numerical error, noise of the "
                      "candela tables and 0.1° of aim leave open; "
                      "ticks: single routes. Hollow: within that. Numbers at the right: the same in the reading's unit. Source: "
                      "study.json of the study {}{}.",

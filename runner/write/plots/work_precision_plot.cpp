@@ -240,7 +240,7 @@ std::string plots::svg_of(const WorkPrecision& diagram, int zlib) {
     canvas.rectangle(0.0, 0.0, total_width, total_height, {.fill = "#ffffff"});
     canvas.text(16.0, title_px, diagram.title, {.size_px = 16.0, .colour = ink, .bold = true});
     canvas.text(16.0, title_px + 18.0,
-                "filled, on the line: nobody is better in both; hollow: somebody is, as the list says; arrow: somewhere below",
+                "filled, on the line: no other is better in both; hollow: another is, as the list says; arrow: somewhere below",
                 {.size_px = 12.0, .colour = faint});
     draw_ground(canvas, ground, diagram);
     draw_front(canvas, ground, diagram, standing);

@@ -120,6 +120,35 @@ TEST(Seeing, EachRangeHasItsOwnMaxima) {
         EXPECT_FALSE(reading.key.to_m) << reading.name();
 }
 
+// Against a moment every 5 cm: what every second moment would move a figure by covers what lies between the moments.
+TEST(Seeing, FiguresOfEyesKnowWhatLiesBetweenMoments) {
+    const auto played = [](double step_s) {
+        OneLampStraight straight;
+        straight.drive.step_s = step_s;
+        GlareParameters& glare = straight.drive.seeing.glare.emplace();
+        glare.oncoming = {{"opposite", 100.0, 1.1}};
+        glare.ranges_m = {15.0, 30.0, 60.0};
+        glare.mirrors = MirrorParameters{{30.0}, {1.3, 0.35, 1.2}, 0.5, {{"left", {1.9, 0.95, 1.0}}}};
+        return straight.played().readings();
+    };
+    const Readings fine = played(0.005);
+    std::size_t told = 0;
+    for (const double step_s : {0.1, 0.4, 1.0})
+        for (const Reading& reading : played(step_s)) {
+            if (!reading.between_moments)
+                continue;
+            const Reading exact = named(fine, reading.name());
+            if (*reading.between_moments > 0.5 * *reading.value.number() && !reading.key.to_m)
+                continue; // 1/d^2 up to the lamp: nothing bounds it
+            EXPECT_LE(std::abs(*reading.value.number() - *exact.value.number()), *reading.between_moments + 1e-9)
+                << reading.name() << " at " << step_s;
+            EXPECT_LE(exact.between_moments.value(), 0.02 * std::abs(*exact.value.number())) << reading.name();
+            ++told;
+        }
+    EXPECT_GT(told, 60U);
+    EXPECT_FALSE(named(fine, "glare_opposite_at_50m_lx").between_moments) << "a figure at a place";
+}
+
 // The car ahead at 30 m from the bumper: its mirror 1.9 m before its rear axle, 0.95 m to the left, 1 m up.
 TEST(Seeing, AMirrorAheadGetsTheSameAllAlong) {
     OneLampStraight straight;

@@ -29,7 +29,7 @@ TEST(ReadingWithoutSpread, IsJudgedByRoundingAlone) {
     EXPECT_EQ(compared(reading(100.11), reading(100.0)).agreement, Agreement::differs);
     EXPECT_EQ(compared(reading(99.89), reading(100.0)).agreement, Agreement::differs);
     EXPECT_EQ(compared(reading(100.11, 5), reading(100.0, 7)).agreement, Agreement::differs) << "equal repeats have no spread";
-    EXPECT_THAT(compared(reading(100.11), reading(100.0)).text, HasSubstr("at most 0.1 lx for rounding"));
+    EXPECT_THAT(compared(reading(100.11), reading(100.0)).text, HasSubstr("allowed for rounding: 0.1 lx"));
 }
 
 // A grid error of 1.6 mm at a reach of 60 m is the difference of two figures of 60 m: these may round by 0.6 mm, and it by 0.1 mm of its
@@ -44,7 +44,7 @@ TEST(ReadingWithoutSpread, IsRoundedAsTheOtherWhoseErrorItTells) {
     };
     EXPECT_EQ(judged(0.0016 + 0.0007).agreement, Agreement::agrees);
     EXPECT_EQ(judged(0.0016 + 0.00071).agreement, Agreement::differs);
-    EXPECT_THAT(judged(0.003).text, HasSubstr("at most 0.000702 m for rounding"));
+    EXPECT_THAT(judged(0.003).text, HasSubstr("allowed for rounding: 0.000702 m"));
 }
 
 // Accepted: 20 repeats with a standard deviation of 0.05 lx. Student's t with 19 degrees of freedom at 0.001: 3.883 (printed tables); the

@@ -82,7 +82,7 @@ std::string edge_text(const LampDescription& d) {
     if (d.covered_share > 1.0 - 1e-9)
         return "nothing: the table covers every direction";
     if (d.edge_cd <= 1e-9 * d.peak.cd) // rounding of resampled angles
-        return "no light, and none is cut off: intensity is 0 all along the table's edges";
+        return "no light, and nothing is lost: intensity is 0 all along the table's edges";
     return fmt::format("taken as 0; at the edges the table still has up to {:.4g} cd ({:.3g} % of the peak)", d.edge_cd,
                        100.0 * d.edge_cd / d.peak.cd);
 }

@@ -128,12 +128,24 @@ plots::Axis ratio_axis(const Image<float>& values) {
     return {"new over old", "", 1.0 - share, 1.0 + share};
 }
 
+/// Of two low beams whose cut-offs lie notably apart; nullopt of others.
+std::optional<double> cut_off_up_deg(const LampFile& tested, const LampFile& against) {
+    constexpr double notable_deg = 0.1; // as well as a cut-off is found in coarse tables
+    const std::optional<double> now_deg = check_intake(tested).cut_off_v_deg, before_deg = check_intake(against).cut_off_v_deg;
+    return now_deg && before_deg && std::abs(*now_deg - *before_deg) > notable_deg ? std::optional(*now_deg - *before_deg) : std::nullopt;
+}
+
 LampDifference difference_of(const LampFile& tested, const LampFile& against, double noise_relative) {
     refuse_darkness(tested);
     refuse_darkness(against);
     LampDifference difference = compare_by_name(tested, against, {.noise_relative = noise_relative});
     difference.function = clear_function(tested);
     difference.function_against = clear_function(against);
+    if (!difference.aim_up_deg && !difference.cut_off_up_deg && difference.any())
+        if (const auto up_deg = cut_off_up_deg(tested, against))
+            difference.undecided =
+                fmt::format("its cut-off lies {:.2f} degrees {}, and more than that differs: what does so near and above it may be aim",
+                            std::abs(*up_deg), *up_deg > 0.0 ? "higher" : "lower");
     return difference;
 }
 
@@ -199,8 +211,12 @@ JsonPart difference_part(LampDifference& difference) {
         read(json);
         if (difference.aim_up_deg.has_value() != difference.aim_right_deg.has_value())
             json.refuse("an aim up and to the right, or neither");
-        const std::vector<CheckedJson> says = json.at("says").items(); // what is undecided is said after all else
-        difference.undecided = says.size() > sentences_of(difference).size() ? says.back().text() : "";
+        const std::vector<CheckedJson> says = json.at("says").items(); // what is undecided among all else
+        const std::vector<std::string> others = sentences_of(difference);
+        std::size_t at = 0;
+        while (at < others.size() && at < says.size() && says[at].text() == others[at])
+            ++at;
+        difference.undecided = says.size() > others.size() ? says[at].text() : "";
     };
     return part;
 }

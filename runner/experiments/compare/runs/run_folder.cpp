@@ -37,6 +37,15 @@ double grid_cell_m(const YamlValue& document, const fs::path& file, double other
     return cell ? YamlEntry(*cell, file, "measure.extent.cell_m").number_above(0.0, 1e6) : otherwise;
 }
 
+/// Of targets on the road; 0 where the drive has none.
+double look_step_m(const YamlValue& document, const fs::path& file) {
+    const YamlValue* visibility = member_of(member_of(document, "measure"), "visibility");
+    if (!visibility || visibility->text == "false")
+        return 0.0;
+    const YamlValue* step = member_of(*visibility, "step_m");
+    return step ? YamlEntry(*step, file, "measure.visibility.step_m").number_above(0.0, 1e6) : VisibilityParameters{}.step_m;
+}
+
 void read_resolved(const fs::path& folder, RunDrive& drive) {
     const fs::path file = folder / (file_name_of(drive.drive) + ".yaml");
     FilesRead ignored;
@@ -53,6 +62,7 @@ void read_resolved(const fs::path& folder, RunDrive& drive) {
         for (const SpeedPoint& point : read_speed(keys))
             drive.step_m = std::max(drive.step_m, point.speed_mps * drive.step_s);
     drive.grid_cell_m = grid_cell_m(drive.resolved, file, drive.grid_cell_m);
+    drive.look_step_m = look_step_m(drive.resolved, file);
     if (const YamlValue* road = member_of(drive.resolved, "road"))
         if (const auto hash = drive.hashes.find(road->text); hash != drive.hashes.end())
             drive.road_hash = hash->second;

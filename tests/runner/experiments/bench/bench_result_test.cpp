@@ -113,7 +113,7 @@ TEST(BenchText, AlignsColumns) { EXPECT_EQ(aligned_table("<>", {{"a", "long"}, {
 TEST(BenchText, TablesStandBesideTheThesis) {
     const std::string text = document_text(document(sample_bench()));
     EXPECT_THAT(text, HasSubstr("#  technique       thesis, frames/s  here, frames/s  ratio      spread  verdict\n"
-                                "3  texturing-only             >= 60           100.0   1.00           -  is what they are held against\n"
+                                "3  texturing-only             >= 60           100.0   1.00           -  the reference\n"
                                 "4  full                         ~22            50.0   2.00  2.00..2.00  slower\n"
                                 "8  clamped                      ~30            49.5   2.02  1.98..2.02  slower\n"));
     EXPECT_THAT(text, HasSubstr("technique  frames/s  ratio      spread  verdict\n"

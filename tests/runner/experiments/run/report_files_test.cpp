@@ -218,7 +218,7 @@ TEST(ReportCsv, MatchesByHand) {
         report_csv(report),
         "drive,lamp_set,technique,frame,quantity,aspect,threshold,threshold_unit,surface,lane,place,distance_m,to_m,statistic,subject,"
         "bound,value,"
-        "unit,reason,where,name,aim_up,aim_down,brighter,dimmer,higher,lower,loaded\r\n"
+        "unit,reason,where,name,aim_up,aim_down,brighter,dimmer,higher,lower,loaded,between_moments\r\n"
         "\"S bend, 150 m\",xenon,photometric,7,reach,value,5,lx,road,left 1,,,,p05,,,61.25,m,,\"own lane, \"\"centre\"\"\","
         "reach_5lx_road_left_1_p05_m,4.5,,,,,,-2\r\n"
         "\"S bend, 150 m\",xenon,photometric,,probe_illuminance,value,,,,,,,,median,'-wall,,-0.5,lx,,'=1+1,probe_-wall_lx,,,,,,,\r\n"

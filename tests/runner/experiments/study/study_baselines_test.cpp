@@ -61,7 +61,7 @@ TEST_F(StudyAgainstBaselines, WhatMovesIsRedAndNamed) {
     EXPECT_THAT(
         moved.output,
         ContainsRegex("FAIL straight_halogen: baseline reading reach_5lx_road_own_m: [0-9.]+ m, accepted [0-9.]+ m, "
-                      "off by [0-9.]+ m \\(2.91 % of it\\), at most 0.0[0-9]+ m for rounding \\([0-9a-f]+, accepted without pictures\\)"));
+                      "off by [0-9.]+ m \\(2.91 %\\), allowed for rounding: 0.0[0-9]+ m \\([0-9a-f]+, accepted without pictures\\)"));
     EXPECT_EQ(std::string::npos, moved.output.find("FAIL straight_xenon"));
     EXPECT_THAT(content_of(temporary / "moved/junit.xml"), HasSubstr("baseline reading reach_5lx_road_own_m"));
     EXPECT_THAT(content_of(temporary / "moved/report.html"), HasSubstr("baseline reading reach_5lx_road_own_m"));
