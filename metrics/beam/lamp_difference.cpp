@@ -94,7 +94,8 @@ class Comparison {
         result.z_limit = z_limit_;
         result.floor_cd = compared_share * peak_cd_;
         Explanation best;
-        if (!explain_by_cut_off(best, result))
+        best.shift.up_deg = options_.tested_up_deg;
+        if (options_.tested_up_deg == 0.0 && !explain_by_cut_off(best, result))
             explain_by_aim(best, result);
         set_noise(best); // without what the shift made of it
         explain_by_level(best, result);

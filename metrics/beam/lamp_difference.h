@@ -21,7 +21,10 @@ struct LampDifferenceOptions {
     /// Standard deviation of a sample of either table, relative. The estimate from the tables comes on top where it is larger. A tolerance
     /// of +-a is a / sqrt(3) when all within it is as likely.
     double noise_relative = 0.0;
-    double false_claim_chance = 0.005;  ///< of any claim at all between two tables of one lamp, were the noise known
+    double false_claim_chance = 0.005; ///< of any claim at all between two tables of one lamp, were the noise known
+    /// The tested beam lies so much higher, degrees, which is known already: level and zones are of what differs beside it, and nothing is
+    /// claimed of aim and cut-off. 0: they are looked for.
+    double tested_up_deg = 0.0;
     std::vector<BeamPlace> places = {}; ///< by whose names differences are told; metrics/regulation/named_places.h has the trade's
 };
 

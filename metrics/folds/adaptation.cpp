@@ -69,9 +69,13 @@ std::vector<LitLamp> low_beams(const Drive& drive, const LampSet& lamp_set, cons
     for (const MountedLamp& mounted : lamp_set.lamps) {
         if (!is_low_beam(lamp_set, mounted.name))
             continue;
-        LitLamp& lamp = his.lamps.emplace_back(lit_lamp(mounted, car));
-        if (drive.adaptation_lamp)
+        MountedLamp lamp = mounted;
+        if (drive.adaptation_lamp) { // in its own aim: what turns the lamp set's lamps is theirs
             lamp.file = drive.adaptation_lamp;
+            lamp.yaw_rad = lamp.pitch_rad = lamp.roll_rad = 0.0;
+            lamp.aligned = {};
+        }
+        his.lamps.push_back(lit_lamp(lamp, car));
     }
     if (drive.adaptation_lamp)
         return his.lamps;

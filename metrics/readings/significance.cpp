@@ -135,7 +135,8 @@ std::string beyond(const ReadingKey& key) {
                                              : "";
 }
 
-void judge(ReadingChange& change, const std::optional<double>& tested, const std::optional<double>& against) {
+/// `of_moments`: what both would leave open were there a moment everywhere.
+void judge(ReadingChange& change, const std::optional<double>& tested, const std::optional<double>& against, double of_moments) {
     const Value found = change.change();
     if (!found.measured()) {
         change.reason_unknown = found.reason() + (change.new_value.censored() && change.old_value.censored() ? beyond(change.reading) : "");
@@ -153,6 +154,8 @@ void judge(ReadingChange& change, const std::optional<double>& tested, const std
     const double size = change.least(), unsure = change.total_uncertainty();
     // Aim and what is not known of either are bounds: they add as such.
     const auto unknown_because = [&](const char* reason) { change.reason_unknown = reason; };
+    if (size <= unsure && size > std::hypot(of_moments, change.noise_effect.value_or(0.0)))
+        return unknown_because("too few moments were played to tell: a higher `rate_hz` plays more");
     if (size <= unsure)
         change.kind = ChangeKind::none;
     else if (!change.aim_effect)
@@ -201,7 +204,12 @@ ReadingChange change_of_reading(const ReadingKey& key, const ReadingsOfCell& now
                          .height_effect = larger(by_height(tested.sensitivity), by_height(against.sensitivity)),
                          .load_effect = larger(by_load(tested.sensitivity), by_load(against.sensitivity)),
                          .noise_effect = noise_effect(tested, against, lamp_noise)};
-    judge(change, with_repeats(now, tested), with_repeats(before, against));
+    const auto everywhere = [](const ReadingsOfCell& cell, Reading reading) {
+        reading.between_moments.reset();
+        return with_repeats(cell, reading).value_or(0.0);
+    };
+    judge(change, with_repeats(now, tested), with_repeats(before, against),
+          std::hypot(everywhere(now, tested), everywhere(before, against)));
     return change;
 }
 

@@ -30,7 +30,7 @@ std::vector<Verdict> verdicts_on(const std::vector<ResultDifference>& difference
                                 kind + " " + difference.what, difference.text + accepted_as, ""});
     if (verdicts.empty() && farthest)
         verdicts.push_back({VerdictKind::pass, kind,
-                            farthest->of_allowed == 0.0 ? fmt::format("{} {} are as accepted{}", differences.size(), things, accepted_as)
+                            farthest->of_allowed == 0.0 ? fmt::format("{} {} agree exactly{}", differences.size(), things, accepted_as)
                                                         : fmt::format("{} {} agree; largest deviation: {}, {}{}", differences.size(),
                                                                       things, farthest->what, farthest->text, accepted_as),
                             ""});

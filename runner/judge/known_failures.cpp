@@ -75,9 +75,11 @@ bool mark_all(Report& report, const KnownFailures& known, const KnownFailure& en
 
 std::string nearest_id(const Report& report, const std::string& id) {
     std::vector<std::string> ids;
-    for (const PlayedCell& played : report.played)
-        for (const Verdict& verdict : played.verdicts)
-            ids.push_back(verdict_id(played, verdict));
+    for (const bool red : {true, false}) // what is green needs no entry
+        for (const PlayedCell& played : report.played)
+            for (const Verdict& verdict : played.verdicts)
+                if (is_red(verdict) == red && (red || ids.empty()))
+                    ids.push_back(verdict_id(played, verdict));
     const std::string nearest = nearest_name(id, ids);
     return printable(!nearest.empty() ? nearest : ids.empty() ? "none" : ids.front(), 200);
 }

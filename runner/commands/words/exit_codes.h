@@ -23,7 +23,7 @@ constexpr ExitMeaning exit_meanings[] = {
     {ExitCode::limits_exceeded,
      "a limit or a baseline exceeded, a requested reading not measured, a class of strictness not kept, a case failed, or a "
      "run interrupted"},
-    {ExitCode::users_input, "the input cannot be used"},
+    {ExitCode::users_input, "what was given cannot be used: a file, a flag, a folder for the results"},
     {ExitCode::device, "the machine cannot do it"},
     {ExitCode::ours, "a bug in fernlicht"},
     {ExitCode::interrupted, "Ctrl-C before the first picture, in stability, or in live, which leaves its report"},

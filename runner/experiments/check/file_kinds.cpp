@@ -1,6 +1,8 @@
 #include "runner/experiments/check/file_kinds.h"
 
 #include "metrics/beam/intake.h"
+#include "metrics/folds/reading_names.h"
+#include "metrics/folds/seeing_fold.h"
 #include "metrics/strictness/strictness.h"
 #include "renderer/technique.h"
 #include "runner/experiments/fit/lux_points.h"
@@ -36,6 +38,8 @@
 #include <cctype>
 #include <charconv>
 #include <fmt/format.h>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <regex>
 #include <set>
@@ -84,7 +88,7 @@ void warn_as_told(FileLook& look, const fs::path& file, const std::string& told)
 
 /// The road and all else that is made before the first frame; with that gives the side of the road. Plug-ins are not run, nor what comes
 /// after them.
-void look_at_stage(const Drive& drive, FileLook& look, bool* left_hand = nullptr) {
+void look_at_stage(const Drive& drive, FileLook& look, bool* left_hand = nullptr, const std::function<void(const Stage&)>& more = {}) {
     const bool has_plugins = std::ranges::any_of(
         drive.lamp_sets, [](const LampSet& lamp_set) { return lamp_set.control && !lamp_set.control->plugins.empty(); });
     if (has_plugins) {
@@ -96,6 +100,8 @@ void look_at_stage(const Drive& drive, FileLook& look, bool* left_hand = nullptr
         const Stage stage(drive);
         for (const std::string& warning : stage.network.warnings)
             warn_as_told(look, drive.road_file, warning);
+        if (more)
+            more(stage);
         if (left_hand)
             return void(*left_hand = left_hand_traffic(stage));
         LampFileChecks lamps;
@@ -159,6 +165,44 @@ void check_drive_file(const fs::path& path, FileLook& look) {
 
 constexpr std::size_t most_cells = 500, most_problems = 1000;
 
+/// Readings that a study names and no drive of it can have: each refusal by name, as the drive says it that was looked at first.
+class StudyReadings {
+  public:
+    explicit StudyReadings(const Study& study) {
+        for (const StudyLimit& limit : study.limits)
+            asked_.emplace(limit.reading, Asked{{study.file, limit.line, 0, "limits"}, {}});
+        if (study.decide != decides_by_default())
+            for (const std::string& name : study.decide)
+                asked_.emplace(name, Asked{{study.file, 0, 0, "decide"}, {}});
+        std::erase_if(asked_, [](const auto& one) { return one.first.find_first_of("*?") != std::string::npos; });
+    }
+    void look_at(const Stage& stage) {
+        const Readings readings = asked_.empty() ? Readings{} : SeeingFold(stage.drive, stage.route).readings();
+        for (auto one = asked_.begin(); one != asked_.end();) {
+            Drive drive = stage.drive;
+            drive.file = one->second.where.file;
+            drive.limits = {{one->first, 0.0, std::nullopt, one->second.where.line}};
+            const std::vector<InputError> refused = all_refusals([&] { check_names(drive, readings, &stage.route); });
+            if (!refused.empty() && one->second.why.empty()) {
+                const std::string why = problem_of(refused.front()).text; // "limits: found ..."
+                one->second.why = one->second.where.key + why.substr(why.find(':'));
+            }
+            one = refused.empty() ? asked_.erase(one) : std::next(one);
+        }
+    }
+    void tell(FileLook& look) const {
+        for (const auto& [name, asked] : asked_)
+            look.problems.push_back({asked.where, true, asked.why});
+    }
+
+  private:
+    struct Asked {
+        InputError::Where where;
+        std::string why;
+    };
+    std::map<std::string, Asked> asked_;
+};
+
 void check_study_file(const fs::path& path, FileLook& look) {
     std::optional<Study> study;
     if (!look.tries([&] { study = read_study(path); }))
@@ -191,15 +235,22 @@ void check_study_file(const fs::path& path, FileLook& look) {
         return;
     std::set<std::size_t> drives_seen, lamps_seen;
     bool left_hand = false;
+    StudyReadings readings(*study);
+    const std::size_t told = look.problems.size();
     for (const StudyCell& cell : cells) { // each road and each lamp once
         const bool is_new_drive = drives_seen.insert(cell.drive).second, is_new_lamp = lamps_seen.insert(cell.lamp).second;
         if (!is_new_drive && !is_new_lamp)
             continue;
         const Drive drive = cell_drive(*study, cell);
         if (is_new_drive)
-            look_at_stage(drive, look, &left_hand);
+            look_at_stage(drive, look, &left_hand, [&](const Stage& stage) { readings.look_at(stage); });
         if (is_new_lamp)
             lamps.add(drive, left_hand);
+    }
+    if (look.problems.size() == told) { // else some drive was not looked at
+        readings.tell(look);
+        FilesRead opened;
+        give_places(parse_yaml(read_file(path, opened), path), path, look);
     }
     for (const std::string& warning : lamp_warnings(lamps.files()))
         look.warn({path, 0, 0, {}}, warning);

@@ -68,24 +68,30 @@ std::string worded(const Reading& reading) {
     return with_bound(reading.value, key_number(*reading.value.figure())) + unit_suffix(reading.unit());
 }
 
-/// One reading of the lamp set that has the best of it, against the first one.
+/// Of the lamp sets behind the first one that which has most of the reading: it reaches farthest, or dazzles most. 0: there are none.
+std::size_t told_lamp_set(const ComparedDrive& drive, const ReadingKey& key) {
+    std::size_t told = 0;
+    const auto figure_of = [&](std::size_t i) { return *whole_drive(*drive.lamp_sets[i], key)->value.figure(); };
+    for (std::size_t i = 1; i < drive.lamp_sets.size(); ++i)
+        if (told == 0 || figure_of(i) > figure_of(told))
+            told = i;
+    return told;
+}
+
+/// One reading of a lamp set against the first one's.
 struct KeyFigure {
-    const Reading *first = nullptr, *best = nullptr;
-    std::size_t lamp_set = 0;
+    const Reading *first = nullptr, *other = nullptr;
+    std::size_t lamp_set;
     Value change;
     std::optional<double> by_aim;
 
-    KeyFigure(const ComparedDrive& drive, const ReadingKey& key) : first(whole_drive(*drive.lamp_sets.front(), key)) {
-        const double better = row_of(key.quantity).better == Better::lower ? -1.0 : 1.0;
-        for (std::size_t i = 1; i < drive.lamp_sets.size(); ++i)
-            if (const Reading* const other = whole_drive(*drive.lamp_sets[i], key);
-                !best || better * *other->value.figure() > better * *best->value.figure()) {
-                best = other;
-                lamp_set = i;
-            }
-        if (best)
-            change = difference(best->value, first->value, first->unit());
-        by_aim = by_aim_of(*first, best ? *best : *first);
+    KeyFigure(const ComparedDrive& drive, const ReadingKey& key, std::size_t told)
+        : first(whole_drive(*drive.lamp_sets.front(), key)), lamp_set(told) {
+        if (told > 0) {
+            other = whole_drive(*drive.lamp_sets[told], key);
+            change = difference(other->value, first->value, first->unit());
+        }
+        by_aim = by_aim_of(*first, other ? *other : *first);
     }
     std::string share() const {
         const double old = first->value.number().value_or(0.0);
@@ -100,18 +106,20 @@ struct KeyFigure {
 
 Cards key_figures(const ComparedDrive& drive) {
     Cards cards;
-    for (const ReadingKey& key : key_readings(drive)) {
-        const KeyFigure found(drive, key);
+    const std::vector<ReadingKey> keys = key_readings(drive);
+    const std::size_t told = keys.empty() ? 0 : told_lamp_set(drive, keys.front());
+    for (const ReadingKey& key : keys) {
+        const KeyFigure found(drive, key, told);
         const std::string unit = unit_label(unit_of(key)),
                           aim =
                               found.by_aim ? fmt::format("±{}{} by 0.1° of aim", key_number(*found.by_aim), unit_suffix(unit_of(key))) : "";
-        if (!found.best) {
+        if (!found.other) {
             cards.push_back({reading_label(key), with_bound(found.first->value, key_number(*found.first->value.figure())), unit, "", aim,
                              lamp_cell(drive, 0)});
             continue;
         }
         const std::string from_to = fmt::format("{} {} → {} {}", short_text(drive.lamp_sets.front()->lamp_set, 24), worded(*found.first),
-                                                short_text(drive.lamp_sets[found.lamp_set]->lamp_set, 24), worded(*found.best));
+                                                short_text(drive.lamp_sets[found.lamp_set]->lamp_set, 24), worded(*found.other));
         cards.push_back({reading_label(key), found.changed().empty() ? "?" : found.changed(), unit,
                          found.share().empty() ? "" : "(" + found.share() + ")", from_to + (aim.empty() ? "" : "; " + aim), Cell("")});
     }
@@ -122,23 +130,23 @@ std::string key_sentence(const ComparedDrive& drive) {
     const std::vector<ReadingKey> keys = key_readings(drive);
     if (keys.empty())
         return "";
-    const KeyFigure found(drive, keys.front());
+    const KeyFigure found(drive, keys.front(), told_lamp_set(drive, keys.front()));
     const std::string lamp = short_text(drive.lamp_sets[found.lamp_set]->lamp_set, 24),
                       first = short_text(drive.lamp_sets.front()->lamp_set, 24);
-    if (!found.best)
+    if (!found.other)
         return fmt::format("{}: {} {}", first, reading_label(keys.front()), worded(*found.first));
     const Better better = row_of(keys.front().quantity).better;
     const bool is_more = found.change.low() > 0.0, is_less = found.change.high() < 0.0; // neither: a bound leaves it open
     const bool within = found.change.measured() && found.by_aim && std::abs(*found.change.figure()) <= *found.by_aim;
     if (!is_more && !is_less) {
-        const std::string now = worded(*found.best), before = worded(*found.first);
+        const std::string now = worded(*found.other), before = worded(*found.first);
         return fmt::format("{} and {}: {}{} {}", lamp, first, now, now == before ? "" : " and " + before, reading_label(keys.front()));
     }
     return fmt::format("{} is {} than {}{}: {} against {} ({}{}), {}", lamp,
                        better == Better::neither               ? "other"
                        : is_more == (better == Better::higher) ? "better"
                                                                : "worse",
-                       first, within ? " by no more than 0.1° of aim" : "", worded(*found.best), worded(*found.first),
+                       first, within ? ", but within 0.1° of aim" : "", worded(*found.other), worded(*found.first),
                        found.changed() + unit_suffix(found.first->unit()), found.share().empty() ? "" : ", " + found.share(),
                        reading_label(keys.front()));
 }

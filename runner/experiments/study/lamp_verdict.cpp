@@ -1,4 +1,5 @@
 #include "runner/experiments/study/study_document.h"
+#include "runner/files/clean_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +83,7 @@ std::string lamp_verdict(const LampComparison& lamps) {
     else
         text += fmt::format("the same light; no difference beyond {}.", noise);
     if (!d.undecided.empty())
-        text += " " + d.undecided + ".";
+        text += " " + capitalised(d.undecided) + ".";
     if (lamps.is_turned_later)
         text += " This is of the files; the drives have beams turned by `aim: auto`.";
     return text;

@@ -278,8 +278,7 @@ std::vector<std::string> same_results(const StudyResult& result, const std::vect
     std::vector<std::string> sentences;
     for (const auto& [drives, readings] : alike)
         if (drives.first != drives.second)
-            sentences.push_back(
-                fmt::format("{} repeats {} of {}, which count once", drives.second, counted(readings, "result"), drives.first));
+            sentences.push_back(fmt::format("{} repeats {} of {}, counted once", drives.second, counted(readings, "result"), drives.first));
     return sentences;
 }
 

@@ -6,6 +6,7 @@
 #include "runner/files/clean_text.h"
 #include "runner/findings/extent_keys.h"
 #include "runner/findings/figures.h"
+#include "runner/judge/known_failures.h"
 #include "runner/judge/verdict_line.h"
 #include "scenarios/values/errors.h"
 
@@ -146,17 +147,22 @@ std::vector<std::string> lines_not_green(const StudyResult& result) {
     constexpr std::size_t most = 100;
     std::vector<std::string> lines;
     std::size_t more = 0;
-    for (const PlayedCell& suite : suites_of(result).played)
-        for (const Verdict& verdict : suite.verdicts) {
+    const Report suites = suites_of(result), judged = as_report(result);
+    for (std::size_t i = 0; i < suites.played.size(); ++i)
+        for (const Verdict& verdict : suites.played[i].verdicts) {
             if (verdict.kind == VerdictKind::pass && !is_red(verdict))
                 continue;
             if (lines.size() == most) {
                 ++more;
                 continue;
             }
-            const std::string line = verdict_line(verdict, suite.drive + ": ");
+            const std::string line = verdict_line(verdict, suites.played[i].drive + ": ");
+            const bool may_be_known =
+                verdict.known.empty() && verdict.name != "history" && !verdict.name.starts_with("known failure ") &&
+                std::ranges::find(judged.played[i].verdicts, verdict.name, &Verdict::name) != judged.played[i].verdicts.end();
             lines.push_back(line.substr(0, line.find_last_not_of("\n.") + 1) +
-                            (verdict.rerun.empty() ? "." : fmt::format(". Repeat with `{}`", verdict.rerun)));
+                            (verdict.rerun.empty() ? "." : fmt::format(". Repeat with `{}`", verdict.rerun)) +
+                            (may_be_known ? fmt::format("; `--known` calls it `{}`", verdict_id(judged.played[i], verdict)) : ""));
         }
     if (more > 0)
         lines.push_back(fmt::format("And {} more, all in report.html.", more));

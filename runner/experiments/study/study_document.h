@@ -22,6 +22,8 @@ JsonMembers study_members(StudyResult& result); ///< of its JSON; what was playe
 void study_csv(const StudyResult& result, const TakePiece& take);
 /// The verdicts as those of a run: one suite a cell, and one of the study's own limits.
 Report suites_of(const StudyResult& result);
+/// The cells in the names of their drives and lamp sets, as known failures have them, and last the study's own verdicts.
+Report as_report(const StudyResult& result);
 
 /// Pictures are of the first so many places: a page shows no thousands.
 inline constexpr std::size_t max_pictured_places = 48;

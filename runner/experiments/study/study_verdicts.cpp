@@ -8,9 +8,7 @@
 #include <system_error>
 
 namespace fernlicht {
-namespace {
 
-/// All verdicts of a study as those of a run: a lamp set for each cell, by the names of its drive and its lamp set.
 Report as_report(const StudyResult& result) {
     Report report;
     report.context = result.context;
@@ -29,8 +27,6 @@ Report as_report(const StudyResult& result) {
     report.played.push_back(std::move(own));
     return report;
 }
-
-} // namespace
 
 VerdictKind overall(const StudyResult& result) { return overall(as_report(result)); }
 

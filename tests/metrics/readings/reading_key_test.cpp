@@ -364,7 +364,8 @@ TEST(Significance, ABoundIsExactAsABound) {
         EXPECT_NEAR(found.least(), 143.1, 1e-9);
     }
     EXPECT_EQ(change(Value::at_least(200.0), 199.9).kind, ChangeKind::unknown) << "it may be much more";
-    EXPECT_EQ(change(Value::at_least(200.0), Value::at_least(200.0)).reason_unknown, "both beyond 200 m");
+    EXPECT_EQ(change(Value::at_least(200.0), Value::at_least(200.0)).reason_unknown,
+              "both are over 200 m (`measure.extent.ahead_m` looks farther)");
 }
 
 TEST(Significance, QuantilesOfGlareAreJudgedAsTheLargestIs) {
@@ -407,10 +408,10 @@ TEST(Value, ADifferenceIsWhatBothLetItBe) {
     EXPECT_EQ(difference(60.0, Value::at_least(200.0), "m"), Value::at_most(-140.0));
     EXPECT_EQ(difference(60.0, Value::at_most(10.0), "m"), Value::at_least(50.0));
     EXPECT_EQ(difference(Value::at_least(200.0), Value::at_most(10.0), "m"), Value::at_least(190.0));
-    EXPECT_EQ(difference(Value::at_least(200.0), Value::at_least(200.0), "m"), Value::not_measured("both beyond 200 m"));
-    EXPECT_EQ(difference(Value::at_most(5.0), Value::at_most(5.0), "m"), Value::not_measured("both below 5 m"));
+    EXPECT_EQ(difference(Value::at_least(200.0), Value::at_least(200.0), "m"), Value::not_measured("both are over 200 m"));
+    EXPECT_EQ(difference(Value::at_most(5.0), Value::at_most(5.0), "m"), Value::not_measured("both are below 5 m"));
     EXPECT_EQ(difference(Value::at_least(40.0), Value::at_least(200.0), "m"),
-              Value::not_measured("one beyond 40 m, the other beyond 200 m"));
+              Value::not_measured("one is over 40 m, the other over 200 m"));
     EXPECT_EQ(difference(none, 60.0, "m"), none);
     EXPECT_EQ(difference(60.0, none, "m"), none);
 }

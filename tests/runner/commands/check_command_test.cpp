@@ -245,6 +245,25 @@ TEST(Check, TakesAnythingForAFile) {
     EXPECT_THAT(said, Not(HasSubstr("below/up")));
 }
 
+TEST(Check, FindsReadingsThatNoDriveOfAStudyCanHave) {
+    const TemporaryFolder folder;
+    const std::string study =
+        "fernlicht_study: 1\nlamps: {a: {low: fernlicht:lamps/led-low.ies}, b: {low: fernlicht:lamps/halogen-low.ies}}\n"
+        "drives: [fernlicht:drives/straight.yaml, fernlicht:drives/s-bend.yaml]\nmeasure: {visibility: true}\n";
+    const std::string said =
+        printed("check " + written(folder, "s.yaml",
+                                   study + "decide: [detection_pedestrian_light_left_m, detection_card_own_m]\nlimits:\n"
+                                           "  - {reading: reach_7lx_target_own_m, at_least: 5}\n"
+                                           "  - {reading: glare_own_facing_max_lx, at_most: 5}\n"),
+                2);
+    EXPECT_THAT(said,
+                HasSubstr("s.yaml:5:1: error: decide: found reading 'detection_pedestrian_light_left_m', expected a reading of this drive "
+                          "(the nearest is 'detection_pedestrian-light_left_m')"));
+    EXPECT_THAT(said, HasSubstr("s.yaml:7: error: limits: found reading 'reach_7lx_target_own_m', expected 7 in `thresholds_lx`"));
+    EXPECT_THAT(said, HasSubstr("s.yaml:8: error: limits: found reading 'glare_own_facing_max_lx', expected `glare` in `measure:`"));
+    EXPECT_THAT(said, HasSubstr("1 file, 3 errors"));
+}
+
 TEST(Check, ShippedFilesHaveTheirNameOnAnyCommandLine) {
     EXPECT_THAT(printed("check fernlicht:drives/straight.yaml fernlicht:roads/country.xodr"), HasSubstr("2 files, 0 errors, 0 warnings"));
     EXPECT_THAT(printed("check fernlicht:drives/straigth.yaml", 2),
@@ -258,6 +277,7 @@ TEST(Check, ShippedFilesHaveTheirNameOnAnyCommandLine) {
     const std::string text{std::istreambuf_iterator<char>(report), {}};
     for (const char* read : {"roads/country.xodr", "lamps/led-low.ies"})
         EXPECT_THAT(text, HasSubstr(read));
+    EXPECT_THAT(printed("run s-bend-dusk --frames 0:0 --no-accuracy --quiet --out " + (folder / "story")), HasSubstr("s-bend-dusk"));
 }
 
 TEST(Check, ReadsStandardInput) {

@@ -150,6 +150,16 @@ TEST(Streams, ResultsGoOutAndAllElseGoesToStandardError) {
 }
 
 /// A bar for eyes alone: on a terminal that may be written anew.
+/// As a CI server ends a job: its log says so although there is nothing to report yet.
+TEST(Streams, WhatSigtermEndsSaysSo) {
+    const std::string program = "'" FERNLICHT_BINARY "' ", ended = "sleep 3 | timeout --preserve-status --signal=TERM 0.7 " + program;
+    Outcome killed = run_shell("( " + ended + "lamp - )");
+    EXPECT_EQ(killed.exit_code, 143);
+    EXPECT_EQ(killed.output, "fernlicht: ended by SIGTERM\n");
+    killed = run_shell("( " + ended + "lamp - --log-json )");
+    EXPECT_EQ(nlohmann::json::parse(killed.output).at("message"), "ended by SIGTERM");
+}
+
 TEST(Streams, ProgressIsForTerminals) {
     if (run_shell("command -v script").exit_code != 0)
         GTEST_SKIP() << "script of bsdutils is not installed";

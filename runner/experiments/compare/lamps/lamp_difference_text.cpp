@@ -139,13 +139,15 @@ LampDifference difference_of(const LampFile& tested, const LampFile& against, do
     refuse_darkness(tested);
     refuse_darkness(against);
     LampDifference difference = compare_by_name(tested, against, {.noise_relative = noise_relative});
+    const std::optional<double> up_deg =
+        !difference.aim_up_deg && !difference.cut_off_up_deg && difference.any() ? cut_off_up_deg(tested, against) : std::nullopt;
+    if (up_deg) {
+        difference = compare_by_name(tested, against, {.noise_relative = noise_relative, .tested_up_deg = *up_deg});
+        difference.undecided = fmt::format("its cut-off lies {:.2f} degrees {}; all else is told with both cut-offs at one height",
+                                           std::abs(*up_deg), *up_deg > 0.0 ? "higher" : "lower");
+    }
     difference.function = clear_function(tested);
     difference.function_against = clear_function(against);
-    if (!difference.aim_up_deg && !difference.cut_off_up_deg && difference.any())
-        if (const auto up_deg = cut_off_up_deg(tested, against))
-            difference.undecided =
-                fmt::format("its cut-off lies {:.2f} degrees {}, and more than that differs: what does so near and above it may be aim",
-                            std::abs(*up_deg), *up_deg > 0.0 ? "higher" : "lower");
     return difference;
 }
 

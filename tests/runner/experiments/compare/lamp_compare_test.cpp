@@ -1,6 +1,9 @@
 // Two lamps against each other, through the program.
+#include "metrics/beam/lamp_difference.h"
 #include "runner/experiments/compare/lamps/lamp_comparison.h"
+#include "runner/experiments/compare/lamps/lamp_difference_text.h"
 #include "runner/files/picture_file.h"
+#include "scenarios/lamps/lamp_file.h"
 #include "tests/runner/program.h"
 #include "tests/runner/schema_check.h"
 
@@ -46,6 +49,18 @@ TEST_F(LampCompare, SaysWhatTheCommandsOfOneLampSay) {
         EXPECT_EQ(found.at("regulation").at("rows").at(i).at("new_margin"), rows.at(i).at("margin"));
     }
     EXPECT_EQ(found.at("passed"), true);
+}
+
+/// Where neither a turn nor a moved cut-off explains what differs, it still says how far apart the cut-offs lie.
+TEST_F(LampCompare, CutOffsThatLieApartAreToldBesideOtherDifferences) {
+    const LampFile other = read_lamp(halogen);
+    LampFile lamp = read_lamp(library_file("lamps/led-low.ies"));
+    const auto said = [&] { return sentences_of(difference_of(lamp, other, 0.0)); };
+    EXPECT_THAT(said(), Not(testing::Contains(HasSubstr("its cut-off lies")))) << "both at 0.57 D";
+    for (double& v_deg : lamp.table.v_deg)
+        v_deg += 0.2;
+    EXPECT_THAT(said(), testing::Contains(testing::ContainsRegex(
+                            "its cut-off lies 0.(19|20|21) degrees higher; all else is told with both cut-offs at one height")));
 }
 
 /// Our halogen lamp made brighter keeps its own name: the files tell them apart.

@@ -115,6 +115,16 @@ TEST_F(RunCompare, EveryChangeIsThatOfTheReports) {
     EXPECT_TRUE(seen);
 }
 
+TEST_F(RunCompare, DetectionDistancesAreKnownToAStepAsInStudies) {
+    const std::string drive = edited("halogen", "measure:\n", "measure:\n  visibility: {step_m: 2}\n");
+    play("seen", drive, "");
+    play("seen-xenon", drive, "--lamp " + library_file("lamps/xenon-low.ies"));
+    const json found = json::parse(compare("seen", "seen-xenon", "--json").output);
+    const json change = change_in(found.at("drives").at(0), "detection_card_own_m");
+    EXPECT_NEAR(change.at("uncertainty").get<double>(), std::hypot(2.0, 2.0), 1e-12);
+    EXPECT_NE(change.at("kind"), "not known");
+}
+
 TEST_F(RunCompare, TheSameRunTwiceDiffersInNothing) {
     const Outcome outcome = compare("halogen", "again", "--strictness identical --out " + at("same"));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;

@@ -377,8 +377,9 @@ TEST(StudyCompare, WhereNothingWasPlayedNothingIsSaidToBeUnchanged) {
 TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
     StudyResult result = two_cells(40.0, 50.0);
     compare_cells(result);
-    EXPECT_THAT(document_text(study_summary(result)),
-                testing::StartsWith("by hand\nnew is better in 1 of 1 deciding reading\nnew against old: better by reach at 5 lx"));
+    EXPECT_THAT(
+        document_text(study_summary(result)),
+        testing::StartsWith("by hand\nnew against old: better in 1 of 1 deciding reading\nnew against old: better by reach at 5 lx"));
     EXPECT_THAT(document_html(document(result), result),
                 AllOf(HasSubstr("<p>No limits were set.</p>"), Not(HasSubstr("<h2>No limits")), Not(HasSubstr("Within limits"))));
     EXPECT_THAT(report_junit(suites_of(result)), HasSubstr("all moments"));
@@ -392,7 +393,7 @@ TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
     result.study.limits[0].reading = "reach_5lx_target_own_m";
     result.study.limits[0].at_least = 1.0;
     compare_cells(result);
-    const std::string part = "9 of 660 moments of each drive were asked for (--frames 0:8)";
+    const std::string part = "9 of 660 moments of each drive were played (--frames 0:8)";
     for (const std::string& text : {document_text(study_summary(result)), study_json_of(result), document_markdown(study_paper(result)),
                                     document_latex(study_paper(result)), document_html(document(result), result)})
         EXPECT_THAT(text, HasSubstr(part));
@@ -420,7 +421,8 @@ TEST(StudyCompare, ThePaperLeadsWithTheVerdictWhatIsRedAndTheDecision) {
     EXPECT_THAT(
         document_markdown(study_paper(result)),
         testing::StartsWith("# by hand\n\n## Limits exceeded\n\nFAIL by hand: one_old: reach_5lx_target_own_m: 40 m, limit at least 45 m. "
-                            "Repeat with `fernlicht study s.yaml --only one_old`\n\nnew against old: better by reach"));
+                            "Repeat with `fernlicht study s.yaml --only one_old`; `--known` calls it `by hand///one_old: "
+                            "reach_5lx_target_own_m`\n\nnew against old: better by reach"));
     result.interrupted = "interrupted by the user";
     result.cells[1].failed = "not reached";
     EXPECT_THAT(document_markdown(study_paper(result)), AllOf(HasSubstr("\n\nThe study did not end: interrupted by the user.\n"),
