@@ -266,8 +266,8 @@ TEST(Check, FindsReadingsThatNoDriveOfAStudyCanHave) {
 
 TEST(Check, ShippedFilesHaveTheirNameOnAnyCommandLine) {
     EXPECT_THAT(printed("check fernlicht:drives/straight.yaml fernlicht:roads/country.xodr"), HasSubstr("2 files, 0 errors, 0 warnings"));
-    EXPECT_THAT(printed("check fernlicht:drives/straigth.yaml", 2),
-                HasSubstr("fernlicht: found 'fernlicht:drives/straigth.yaml', which is no shipped file"));
+    EXPECT_THAT(printed("check fernlicht:drives/straigh.yaml", 2),
+                HasSubstr("fernlicht: found 'fernlicht:drives/straigh.yaml', which is no shipped file"));
     const TemporaryFolder folder;
     const std::string out = (folder / "out");
     printed("run fernlicht:drives/straight.yaml --road=fernlicht:roads/country.xodr --lamp left=fernlicht:lamps/led-low.ies --frames 0:0 "
