@@ -143,6 +143,23 @@ std::pair<double, double> stretch_of(const ResidualGrid& grid, const std::vector
     return {angles[beside], angles[angles.size() - 1 - beside]};
 }
 
+/// Of its shares.
+void set_scatter(const ResidualGrid& grid, BeamZone& zone) {
+    constexpr double notable = 0.02, beyond_noise = 3.0;
+    std::vector<double> logs;
+    double noise = 0.0;
+    for (const std::size_t at : zone.members) {
+        logs.push_back(grid.r[at]);
+        noise += std::numbers::sqrt2 * grid.noise[at] / static_cast<double>(zone.members.size());
+    }
+    std::ranges::sort(logs);
+    const std::size_t beside = logs.size() / 20;
+    const double low = logs[beside], high = logs[logs.size() - 1 - beside];
+    const bool scatters = high - low > std::max(notable, 2.0 * beyond_noise * noise);
+    zone.share_low = scatters ? std::expm1(low) : zone.share;
+    zone.share_high = scatters ? std::expm1(high) : zone.share;
+}
+
 BeamZone zone_of(const ResidualGrid& grid, const Smoothed& smoothed, const std::vector<std::size_t>& members) {
     const std::size_t columns = grid.h_deg.size();
     BeamZone zone;
@@ -162,6 +179,7 @@ BeamZone zone_of(const ResidualGrid& grid, const Smoothed& smoothed, const std::
     zone.members = members;
     zone.share = std::expm1(all.sum / all.weights);
     zone.uncertainty = (1.0 + zone.share) * (std::sqrt(noise.variance()) + all.open) / all.weights;
+    set_scatter(grid, zone);
     if (grid.un.empty()) {
         std::tie(zone.h_from_deg, zone.h_to_deg) = stretch(grid.h_deg, std::move(xs));
         std::tie(zone.v_from_deg, zone.v_to_deg) = stretch(grid.v_deg, std::move(ys));

@@ -30,6 +30,8 @@ enum class ZoneExtent { part, wide, all, below_cut_off, above_cut_off };
 struct BeamZone {
     double share = 0.0;       ///< tested over against, less 1: -0.05 is 5 % dimmer; weighted mean over the zone
     double uncertainty = 0.0; ///< standard error of `share` and what interpolation leaves open
+    /// Nine tenths of its samples have a share between these; both are `share` where they scatter by no more than noise, or by 2 %.
+    double share_low = 0.0, share_high = 0.0;
     double h_from_deg = 0.0, h_to_deg = 0.0, v_from_deg = 0.0, v_to_deg = 0.0; ///< borders halfway between samples in and out
     double z = 0.0;                                                            ///< of its clearest block of samples
     std::size_t samples = 0;

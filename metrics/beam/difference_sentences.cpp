@@ -22,7 +22,10 @@ std::string span_text(double from_deg, double to_deg, const char* less, const ch
 
 std::string named_text(const BeamZone& zone) {
     const std::string where = zone_where(zone);
-    return where.empty() ? share_text(zone.share) : where + " " + share_text(zone.share);
+    const double near = zone.share < 0.0 ? zone.share_high : zone.share_low, far = zone.share < 0.0 ? zone.share_low : zone.share_high;
+    return (where.empty() ? "" : where + " ") + share_text(zone.share) +
+           (zone.share_high > zone.share_low ? fmt::format(" on average, {} to {} in nine tenths of it", share_text(near), share_text(far))
+                                             : "");
 }
 
 /// "75R, 50R and 50V".

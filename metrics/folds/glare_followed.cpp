@@ -46,7 +46,7 @@ constexpr Told of_more_is_worse[] = {{Statistic::median, "median", 0.5},
                    {Statistic::median, "median", 0.5}, {Statistic::p05, "5th percentile", 0.05}, {Statistic::minimum, "smallest", {}}};
 
 /// Reading::between_moments of what is told over `figure`'s moments from `near_m` to `far_m`: the larger of what every second moment alone
-/// would move it by and, of a quantile, what one moment more or less on either side would. Where half of the moments do not tell it, or the
+/// would move it by and, of a quantile, what one moment more or less on either side would. Where neither half tells it, or the
 /// approach ends at its extreme, which may grow on until the next moment: all that those moments and the ones beside them differ by.
 std::optional<double> between_moments(const FollowedFigure& figure, const std::optional<double>& share,
                                       const std::function<Value(const FollowedFigure&)>& told, double near_m = -everywhere_m,
@@ -57,11 +57,11 @@ std::optional<double> between_moments(const FollowedFigure& figure, const std::o
     const Approach around = figure.around(near_m, far_m);
     const std::optional<double> even = told(figure.every_second(0)).number(), odd = told(figure.every_second(1)).number();
     const bool ends_there = !share && far_m == everywhere_m && around.back().value == all;
-    if (!even || !odd || ends_there) {
+    if ((!even && !odd) || ends_there) {
         const std::optional<double> most = largest(around), least = smallest(around);
         return most && least ? std::optional(*most - *least) : std::nullopt;
     }
-    double moved = std::max(std::abs(*even - *all), std::abs(*odd - *all));
+    double moved = std::max(std::abs(even.value_or(*all) - *all), std::abs(odd.value_or(*all) - *all));
     if (share) {
         Approach moments = far_m == everywhere_m ? figure.approach : figure.within(near_m, far_m);
         const double one = 1.0 / static_cast<double>(moments.size());

@@ -134,7 +134,7 @@ void aim_changes(const StudyLamp& lamp, double aim_percent, LampSet& lamp_set) {
 } // namespace
 
 bool varies(const Study& study, std::size_t axis) {
-    return std::ranges::any_of(study.points, [&](const StudyPoint& point) { return point[axis] != study.points.front()[axis]; });
+    return std::ranges::any_of(study.points, [&](const StudyPoint& point) { return point.at(axis) != study.points.front().at(axis); });
 }
 
 std::vector<StudyCell> cells_of(const Study& study) {

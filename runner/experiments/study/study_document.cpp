@@ -176,6 +176,11 @@ std::string verdict_words(const StudyResult& result) {
         return std::ranges::any_of(result.verdicts, is_one) ||
                std::ranges::any_of(result.cells, [&](const CellResult& cell) { return std::ranges::any_of(cell.verdicts, is_one); });
     };
+    const auto is_any_failed = [&](auto of) {
+        const auto is_one = [&](const Verdict& one) { return is_red(one) && one.kind == VerdictKind::fail && of(one.name); };
+        return std::ranges::any_of(result.verdicts, is_one) ||
+               std::ranges::any_of(result.cells, [&](const CellResult& cell) { return std::ranges::any_of(cell.verdicts, is_one); });
+    };
     const auto is_of_history = [](const std::string& name) { return name == unchanged_verdict; };
     const auto is_of_baseline = [](const std::string& name) { return name.starts_with("baseline"); };
     const auto is_of_list = [](const std::string& name) { return name.starts_with("known failure "); };
@@ -193,7 +198,7 @@ std::string verdict_words(const StudyResult& result) {
                          : fmt::format("Within limits; {} of {} as in the baselines", held, counted(result.cells.size(), "cell"));
     }
     case VerdictKind::fail:
-        return is_any_red(is_of_limit)      ? "Limits exceeded"
+        return is_any_failed(is_of_limit)   ? "Limits exceeded"
                : is_any_red(is_of_history)  ? "Changed since the accepted night"
                : is_any_red(is_of_baseline) ? "Differs from the baselines"
                                             : "The list of known failures is out of date";

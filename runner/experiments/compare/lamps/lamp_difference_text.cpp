@@ -22,6 +22,8 @@ std::vector<std::string> extent_names() { return {"part", "wide", "all", "below_
 JsonMembers beam_zone_members(BeamZone& zone) {
     return {{"share", zone.share},
             {"standard_error", zone.uncertainty},
+            {"share_low", zone.share_low},
+            {"share_high", zone.share_high},
             {"h_from_deg", zone.h_from_deg},
             {"h_to_deg", zone.h_to_deg},
             {"v_from_deg", zone.v_from_deg},
@@ -228,7 +230,7 @@ nlohmann::ordered_json difference_json(const LampDifference& difference) { retur
 plots::Figure difference_figure(const LampFile& tested, const LampFile& against, const LampDifference& difference) {
     plots::Figure figure;
     figure.title = printable(distinct_label(tested, against)) + " against " + printable(distinct_label(against, tested));
-    figure.subtitle = sentences_of(difference).front();
+    figure.subtitle = sentences_of(difference).front() + (difference.undecided.empty() ? "" : "; drawn as the files are");
     figure.height_px = 420.0;
     show_beam(figure, against.table);
     const Image<float> values = ratio(figure, tested.table, against.table, difference.floor_cd);

@@ -106,7 +106,8 @@ TEST(Decision, TheSentenceNamesThePointOfTheAxes) {
     MadeStudy study;
     study.on(0, reach, 40.0, 42.0).on(1, reach, 50.0, 60.0);
     for (std::size_t i = 2; i < 4; ++i)
-        study.result.cells[i].cell.axes = {{"pitch_deg", "0.3"}, {"weather.wetness", ""}};
+        study.result.cells[i].cell.axes = {{"pitch_deg", "0.3"}, {"weather.wetness", ""}, {"rate_hz", "1"}};
+    study.result.study.points = {{"0", "", "1"}, {"0.3", "", "1"}, {"0", "1", "1"}};
     EXPECT_THAT(decision_sentence(study.result, study.decided().front()), HasSubstr(", most on drive-1, pitch_deg 0.3."));
 }
 
@@ -134,7 +135,7 @@ TEST(Decision, WarningsOfTheAimStandOnTheFirstScreen) {
     study.result.study.decide = {reach};
     study.on(0, reach, 40.0, 50.0).decided();
     study.result.warnings = {"new, left and right: the cut-off lies at -0.30 %"};
-    EXPECT_THAT(document_text(study_summary(study.result)), testing::StartsWith("by hand\nnew is better"));
+    EXPECT_THAT(document_text(study_summary(study.result)), testing::StartsWith("by hand\nnew against old: better"));
     const std::string page = document_html(document(study.result), study.result);
     EXPECT_LT(page.find("the cut-off lies at -0.30 %"), page.find("The largest changes"));
 }
