@@ -62,6 +62,7 @@ std::optional<double> between_moments(const FollowedFigure& figure, const std::o
         return most && least ? std::optional(*most - *least) : std::nullopt;
     }
     double moved = std::max(std::abs(even.value_or(*all) - *all), std::abs(odd.value_or(*all) - *all));
+    moved *= even && odd ? 1.0 : 2.0; // one half alone tells less
     if (share) {
         Approach moments = far_m == everywhere_m ? figure.approach : figure.within(near_m, far_m);
         const double one = 1.0 / static_cast<double>(moments.size());

@@ -104,6 +104,12 @@ const StudyComparison& comparison_of(const StudyResult& result, const Decision& 
     return result.study.comparisons[decision.comparison];
 }
 
+/// Whether cells differ by the axis: else it says nothing of one that is not true of all.
+bool is_told(const StudyResult& result, std::size_t axis) {
+    const auto value_in = [&](const CellResult& cell) { return axis < cell.cell.axes.size() ? cell.cell.axes[axis].value : ""; };
+    return std::ranges::any_of(result.cells, [&](const CellResult& cell) { return value_in(cell) != value_in(result.cells.front()); });
+}
+
 /// "reach at 5 lx on a target, own lane +14.2 m (+21 %) in 3 of 4 results, most on country-1"
 std::string told(const StudyResult& result, const DecidedReading& decided) {
     const std::size_t of = decided.changes.size(), by = decided.decided_by.size();
@@ -111,7 +117,7 @@ std::string told(const StudyResult& result, const DecidedReading& decided) {
     const CellResult& cell = result.cells[result.changes[largest].tested];
     std::string place = cell.drive;
     for (std::size_t i = 0; i < cell.cell.axes.size(); ++i)
-        if (const AxisValue& at = cell.cell.axes[i]; !at.value.empty() && varies(result.study, i))
+        if (const AxisValue& at = cell.cell.axes[i]; !at.value.empty() && is_told(result, i))
             place += fmt::format(", {} {}", at.axis, at.value);
     return fmt::format("{} {}{}{}", reading_label(decided.reading), change_words(result.changes[decided.told]),
                        by < of ? fmt::format(" in {} of {} results", by, of) : "",
@@ -284,14 +290,13 @@ std::vector<std::string> same_results(const StudyResult& result, const std::vect
 
 Table decision_table(const StudyResult& result, const std::vector<Decision>& decisions) {
     const bool several = decisions.size() > 1;
-    Table table{
-        .name = "decision",
-        .caption =
-            "The result whose change in per cent is the median of the real ones, else of those within aim; the smaller of the middle two",
-        .columns =
-            columns_of(std::string(several ? "new / old<|" : "") + "reading<|is<|old|new|change|%|± 0.1° of aim|unit<|results|where<"),
-        .rows = {},
-        .off_terminal = true};
+    Table table{.name = "decision",
+                .caption = "Old, new and change of each reading's median result by per cent, of the real ones where there are any; the "
+                           "smaller of a middle two",
+                .columns = columns_of(std::string(several ? "new / old<|" : "") +
+                                      "reading<|is<|old|new|change|%|± 0.1° of aim|unit<|results|where<"),
+                .rows = {},
+                .off_terminal = true};
     for (const Decision& decision : decisions)
         for (const DecidedReading& decided : decision.readings) {
             const Change& change = result.changes[decided.told];

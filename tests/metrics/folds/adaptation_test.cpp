@@ -69,6 +69,15 @@ TEST(Adaptation, HighBeamsStayOffAndAnotherLampTakesTheLowBeamsPlace) {
     EXPECT_EQ(value(straight.played().readings(), "glare_eye_adaptation_cdm2"), low);
     straight.drive.adaptation_lamp = tests::file_of(tests::even_table(12000.0));
     EXPECT_NEAR(value(straight.played().readings(), "glare_eye_adaptation_cdm2"), 2.0 * low, 1e-8);
+    straight.drive.adaptation_lamp = tests::file_of(tests::even_table(12000.0, 180.0, 30.0));
+    for (MountedLamp& lamp : lamp_set.lamps) { // up and away from the road: as an aim may turn the lamp set's lamps
+        lamp.pitch_rad = 1.0;
+        lamp.aligned.pitch_rad = 0.5;
+        lamp.file = tests::file_of(tests::even_table(6000.0, 180.0, 30.0));
+    }
+    EXPECT_NEAR(value(straight.played().readings(), "glare_eye_adaptation_cdm2"), 2.0 * low, 1e-8) << "that lamp keeps its own aim";
+    straight.drive.adaptation_lamp.reset();
+    EXPECT_LT(value(straight.played().readings(), "glare_eye_adaptation_cdm2"), 0.5 * low) << "which would tell";
 }
 
 TEST(Adaptation, SkyAndStreetLampsCount) {

@@ -386,6 +386,23 @@ TEST(Significance, QuantilesOfGlareAreJudgedAsTheLargestIs) {
         }
 }
 
+TEST(Significance, WhatLiesBetweenMomentsLeavesAChangeOpen) {
+    const ReadingKey key = key_of("glare_a_facing_from_30_to_60m_max_lx").value();
+    const auto side = [&](double lx, std::optional<double> between) {
+        ReadingsOfCell played;
+        played.readings[key] = {key, Value(lx)};
+        played.readings[key].sensitivity.aim_up = 0.01;
+        played.readings[key].between_moments = between;
+        return played;
+    };
+    EXPECT_EQ(change_of_reading(key, side(0.6, {}), side(0.5, {})).kind, ChangeKind::real);
+    EXPECT_EQ(change_of_reading(key, side(0.6, 0.03), side(0.5, 0.04)).kind, ChangeKind::real) << "0.05, and 0.01 by aim";
+    const ReadingChange open = change_of_reading(key, side(0.6, 0.3), side(0.5, 0.4));
+    EXPECT_EQ(open.kind, ChangeKind::unknown);
+    EXPECT_THAT(open.reason_unknown, testing::HasSubstr("too few moments"));
+    EXPECT_EQ(change_of_reading(key, side(0.5, 0.3), side(0.5, 0.4)).kind, ChangeKind::none);
+}
+
 TEST(Significance, TheGridsErrorIsAReadingAtEveryPlaceThatRestsOnIt) {
     for (const QuantityRow& row : quantities())
         if (row.exactness == Exactness::grid || row.exactness == Exactness::grid_and_drawing)

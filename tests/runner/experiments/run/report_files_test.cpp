@@ -210,7 +210,7 @@ TEST(ReportCsv, MatchesByHand) {
     report.played[0].lamp_set = "xenon";
     report.played[0].technique = "photometric";
     report.played[0].readings = {
-        {key_of("reach_5lx_road_left_1_p05_m").value(), 61.25, "own lane, \"centre\"", 7, {.aim_up = 4.5, .loaded = -2.0}},
+        {key_of("reach_5lx_road_left_1_p05_m").value(), 61.25, "own lane, \"centre\"", 7, {.aim_up = 4.5, .loaded = -2.0}, 0.5},
         {key_of("probe_-wall_lx").value(), -0.5, "=1+1"},
         {key_of("glare_mirrors_at_15m_time_below_5_de_boer_s").value(), Value::not_measured("no clock")},
         {key_of("area_1lx_target_all_grid_error_m2").value(), Value::at_least(200.0)}};
@@ -220,12 +220,12 @@ TEST(ReportCsv, MatchesByHand) {
         "bound,value,"
         "unit,reason,where,name,aim_up,aim_down,brighter,dimmer,higher,lower,loaded,between_moments\r\n"
         "\"S bend, 150 m\",xenon,photometric,7,reach,value,5,lx,road,left 1,,,,p05,,,61.25,m,,\"own lane, \"\"centre\"\"\","
-        "reach_5lx_road_left_1_p05_m,4.5,,,,,,-2\r\n"
-        "\"S bend, 150 m\",xenon,photometric,,probe_illuminance,value,,,,,,,,median,'-wall,,-0.5,lx,,'=1+1,probe_-wall_lx,,,,,,,\r\n"
+        "reach_5lx_road_left_1_p05_m,4.5,,,,,,-2,0.5\r\n"
+        "\"S bend, 150 m\",xenon,photometric,,probe_illuminance,value,,,,,,,,median,'-wall,,-0.5,lx,,'=1+1,probe_-wall_lx,,,,,,,,\r\n"
         "\"S bend, 150 m\",xenon,photometric,,glare_time,value,5,de_boer,,,mirrors,15,,,,,,s,no clock,,"
-        "glare_mirrors_at_15m_time_below_5_de_boer_s,,,,,,,\r\n"
+        "glare_mirrors_at_15m_time_below_5_de_boer_s,,,,,,,,\r\n"
         "\"S bend, 150 m\",xenon,photometric,,area,grid_error,1,lx,target,all,,,,median,,at_least,200,m2,,,"
-        "area_1lx_target_all_grid_error_m2,,,,,,,\r\n");
+        "area_1lx_target_all_grid_error_m2,,,,,,,,\r\n");
 }
 
 TEST(ReportJunit, CountsAndEscapes) {

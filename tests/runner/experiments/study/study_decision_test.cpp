@@ -107,7 +107,8 @@ TEST(Decision, TheSentenceNamesThePointOfTheAxes) {
     study.on(0, reach, 40.0, 42.0).on(1, reach, 50.0, 60.0);
     for (std::size_t i = 2; i < 4; ++i)
         study.result.cells[i].cell.axes = {{"pitch_deg", "0.3"}, {"weather.wetness", ""}, {"rate_hz", "1"}};
-    study.result.study.points = {{"0", "", "1"}, {"0.3", "", "1"}, {"0", "1", "1"}};
+    for (std::size_t i = 0; i < 2; ++i)
+        study.result.cells[i].cell.axes = {{"pitch_deg", "0"}, {"weather.wetness", "1"}, {"rate_hz", "1"}};
     EXPECT_THAT(decision_sentence(study.result, study.decided().front()), HasSubstr(", most on drive-1, pitch_deg 0.3."));
 }
 
