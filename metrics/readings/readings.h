@@ -13,7 +13,7 @@ struct Reading {
     std::string where = {}; ///< "own lane, centre" - free text for people
     int tick = -1;          ///< -1: of the whole drive
     Sensitivity sensitivity = {};
-    /// Of extremes and percentiles over moments: how far, in its unit, every second moment alone would move it; nullopt of all else.
+    /// Of extremes and percentiles of eyes and mirrors: what lies between the moments may move it so far, in its unit; nullopt of all else.
     std::optional<double> between_moments = {};
 
     std::string name() const { return name_of(key); }

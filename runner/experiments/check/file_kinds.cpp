@@ -169,6 +169,8 @@ constexpr std::size_t most_cells = 500, most_problems = 1000;
 class StudyReadings {
   public:
     explicit StudyReadings(const Study& study) {
+        if (std::ranges::any_of(study.axes, [](const StudyAxis& axis) { return axis.key.starts_with("measure."); }))
+            return; // each point measures something else, and one drive is looked at
         for (const StudyLimit& limit : study.limits)
             asked_.emplace(limit.reading, Asked{{study.file, limit.line, 0, "limits"}, {}});
         if (study.decide != decides_by_default())
@@ -236,7 +238,8 @@ void check_study_file(const fs::path& path, FileLook& look) {
     std::set<std::size_t> drives_seen, lamps_seen;
     bool left_hand = false;
     StudyReadings readings(*study);
-    const std::size_t told = look.problems.size();
+    const auto errors = [&] { return std::ranges::count(look.problems, true, &FileProblem::is_error); };
+    const auto before = errors();
     for (const StudyCell& cell : cells) { // each road and each lamp once
         const bool is_new_drive = drives_seen.insert(cell.drive).second, is_new_lamp = lamps_seen.insert(cell.lamp).second;
         if (!is_new_drive && !is_new_lamp)
@@ -247,7 +250,7 @@ void check_study_file(const fs::path& path, FileLook& look) {
         if (is_new_lamp)
             lamps.add(drive, left_hand);
     }
-    if (look.problems.size() == told) { // else some drive was not looked at
+    if (errors() == before) { // else some drive was not looked at
         readings.tell(look);
         FilesRead opened;
         give_places(parse_yaml(read_file(path, opened), path), path, look);

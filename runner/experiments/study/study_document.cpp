@@ -171,15 +171,13 @@ std::vector<std::string> lines_not_green(const StudyResult& result) {
 
 /// The verdict as people say it.
 std::string verdict_words(const StudyResult& result) {
-    const auto is_any_red = [&](auto of) {
-        const auto is_one = [&](const Verdict& one) { return is_red(one) && of(one.name); };
-        return std::ranges::any_of(result.verdicts, is_one) ||
-               std::ranges::any_of(result.cells, [&](const CellResult& cell) { return std::ranges::any_of(cell.verdicts, is_one); });
+    const auto is_any = [&](auto holds) {
+        return std::ranges::any_of(result.verdicts, holds) ||
+               std::ranges::any_of(result.cells, [&](const CellResult& cell) { return std::ranges::any_of(cell.verdicts, holds); });
     };
+    const auto is_any_red = [&](auto of) { return is_any([&](const Verdict& one) { return is_red(one) && of(one.name); }); };
     const auto is_any_failed = [&](auto of) {
-        const auto is_one = [&](const Verdict& one) { return is_red(one) && one.kind == VerdictKind::fail && of(one.name); };
-        return std::ranges::any_of(result.verdicts, is_one) ||
-               std::ranges::any_of(result.cells, [&](const CellResult& cell) { return std::ranges::any_of(cell.verdicts, is_one); });
+        return is_any([&](const Verdict& one) { return is_red(one) && one.kind == VerdictKind::fail && of(one.name); });
     };
     const auto is_of_history = [](const std::string& name) { return name == unchanged_verdict; };
     const auto is_of_baseline = [](const std::string& name) { return name.starts_with("baseline"); };

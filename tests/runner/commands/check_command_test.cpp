@@ -262,6 +262,11 @@ TEST(Check, FindsReadingsThatNoDriveOfAStudyCanHave) {
     EXPECT_THAT(said, HasSubstr("s.yaml:7: error: limits: found reading 'reach_7lx_target_own_m', expected 7 in `thresholds_lx`"));
     EXPECT_THAT(said, HasSubstr("s.yaml:8: error: limits: found reading 'glare_own_facing_max_lx', expected `glare` in `measure:`"));
     EXPECT_THAT(said, HasSubstr("1 file, 3 errors"));
+    EXPECT_THAT(printed("check " + written(folder, "axis.yaml",
+                                           study + "axes: {measure.extent.thresholds_lx: [[3], [7]]}\nlimits:\n"
+                                                   "  - {reading: reach_7lx_target_own_m, at_least: 5}\n")),
+                HasSubstr("1 file, 0 errors"))
+        << "some point measures it";
 }
 
 TEST(Check, ShippedFilesHaveTheirNameOnAnyCommandLine) {
