@@ -13,6 +13,12 @@ constexpr std::size_t max_named = 6; ///< places of one zone
 
 std::string share_text(double share) { return fmt::format("{:.1f} % {}", 100.0 * std::abs(share), share < 0.0 ? "dimmer" : "brighter"); }
 
+/// "between 20.1 and 64.7 % brighter", "between 1.2 % dimmer and 4.0 % brighter".
+std::string shares_text(double from, double to) {
+    return (from < 0.0) == (to < 0.0) ? fmt::format("between {:.1f} and {}", 100.0 * std::abs(from), share_text(to))
+                                      : fmt::format("between {} and {}", share_text(from), share_text(to));
+}
+
 /// "8.2 to 2.9 degrees left", "1.0 degrees left to 2.0 degrees right".
 std::string span_text(double from_deg, double to_deg, const char* less, const char* more) {
     if (from_deg < 0.0 && to_deg > 0.0)
@@ -24,8 +30,7 @@ std::string named_text(const BeamZone& zone) {
     const std::string where = zone_where(zone);
     const double near = zone.share < 0.0 ? zone.share_high : zone.share_low, far = zone.share < 0.0 ? zone.share_low : zone.share_high;
     return (where.empty() ? "" : where + " ") + share_text(zone.share) +
-           (zone.share_high > zone.share_low ? fmt::format(" on average, {} to {} in nine tenths of it", share_text(near), share_text(far))
-                                             : "");
+           (zone.share_high > zone.share_low ? fmt::format(" on average, nine tenths of it {}", shares_text(near, far)) : "");
 }
 
 /// "75R, 50R and 50V".

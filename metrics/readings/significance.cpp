@@ -155,7 +155,7 @@ void judge(ReadingChange& change, const std::optional<double>& tested, const std
     // Aim and what is not known of either are bounds: they add as such.
     const auto unknown_because = [&](const char* reason) { change.reason_unknown = reason; };
     if (size <= unsure && size > std::hypot(of_moments, change.noise_effect.value_or(0.0)))
-        return unknown_because("too few moments were played to tell: a higher `rate_hz` plays more");
+        return unknown_because("too few moments were played to tell: a higher `rate_hz` or longer `--frames` plays more");
     if (size <= unsure)
         change.kind = ChangeKind::none;
     else if (!change.aim_effect)

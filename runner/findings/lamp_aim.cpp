@@ -3,6 +3,7 @@
 #include "runner/files/clean_text.h"
 #include "runner/files/described_json.h"
 #include "runner/findings/figures.h"
+#include "scenarios/values/pose.h"
 
 #include <algorithm>
 #include <cmath>
@@ -152,6 +153,26 @@ std::vector<std::string> aim_warnings(const std::string& lamp_set, const std::ve
         if (const std::string warning = told_apart(aims[group.front()]); !warning.empty())
             warnings.push_back(fmt::format("{}, {}: {}", lamp_set, names_in(aims, group), warning));
     return warnings;
+}
+
+std::optional<AimsApart> low_beams_apart(const std::vector<LampAim>& now, const std::vector<LampAim>& before) {
+    AimsApart apart;
+    int found = 0;
+    for (const LampAim& a : now)
+        for (const LampAim& b : before)
+            if (a.lamp == b.lamp && !a.high_beam && !b.high_beam && a.percent && b.percent) {
+                const double up = degrees(std::atan(0.01 * *a.percent) - std::atan(0.01 * *b.percent));
+                apart.most_deg = std::max(apart.most_deg, std::hypot(up, a.right_deg && b.right_deg ? *a.right_deg - *b.right_deg : 0.0));
+                apart.up_deg += up;
+                ++found;
+            }
+    apart.up_deg /= std::max(found, 1);
+    return found > 0 ? std::optional(apart) : std::nullopt;
+}
+
+std::string higher_words(double up_deg) {
+    constexpr double notable_deg = 0.05;
+    return std::abs(up_deg) > notable_deg ? fmt::format("{:.2f}° {}", std::abs(up_deg), up_deg > 0.0 ? "higher" : "lower") : "";
 }
 
 } // namespace fernlicht

@@ -33,6 +33,16 @@ struct LampAim {
 struct JsonMember;
 std::vector<JsonMember> lamp_aim_members(LampAim& aim);
 
+/// Marks of the low beams of one car as two lamp sets have them, lamp by lamp.
+struct AimsApart {
+    double most_deg = 0.0; ///< up and sideways together, at most
+    double up_deg = 0.0;   ///< the first ones lie higher on average
+};
+/// nullopt where no mark was found in both.
+std::optional<AimsApart> low_beams_apart(const std::vector<LampAim>& now, const std::vector<LampAim>& before);
+/// "0.20° higher"; "" up to 0.05°.
+std::string higher_words(double up_deg);
+
 /// Lamps that are told with the same words in one row, by name; before those columns stand the ones that the caller names, as columns_of()
 /// has them ("" for none), filled with `before`.
 std::vector<Column> aim_columns(const std::string& before);

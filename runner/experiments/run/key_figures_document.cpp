@@ -97,6 +97,13 @@ struct KeyFigure {
         const double old = first->value.number().value_or(0.0);
         return change.number() && old != 0.0 ? fmt::format("{} %", signed_figure(100.0 * *change.number() / std::abs(old), 0)) : "";
     }
+    /// 1: the other one is better; -1: worse; 0: neither, or a bound leaves it open.
+    int better() const {
+        const int side = change.low() > 0.0 ? 1 : change.high() < 0.0 ? -1 : 0;
+        const Better better = row_of(first->key.quantity).better;
+        return better == Better::neither ? 0 : better == Better::higher ? side : -side;
+    }
+    bool is_within_aim() const { return change.measured() && by_aim && std::abs(*change.figure()) <= *by_aim; }
     std::string changed() const {
         return change.measured() ? with_bound(change, (*change.figure() > 0.0 ? "+" : "") + key_number(*change.figure())) : "";
     }
@@ -131,24 +138,26 @@ std::string key_sentence(const ComparedDrive& drive) {
     if (keys.empty())
         return "";
     const KeyFigure found(drive, keys.front(), told_lamp_set(drive, keys.front()));
-    const std::string lamp = short_text(drive.lamp_sets[found.lamp_set]->lamp_set, 24),
-                      first = short_text(drive.lamp_sets.front()->lamp_set, 24);
+    const PlayedCell &other = *drive.lamp_sets[found.lamp_set], &one = *drive.lamp_sets.front();
+    const std::string lamp = short_text(other.lamp_set, 24), first = short_text(one.lamp_set, 24);
     if (!found.other)
         return fmt::format("{}: {} {}", first, reading_label(keys.front()), worded(*found.first));
-    const Better better = row_of(keys.front().quantity).better;
-    const bool is_more = found.change.low() > 0.0, is_less = found.change.high() < 0.0; // neither: a bound leaves it open
-    const bool within = found.change.measured() && found.by_aim && std::abs(*found.change.figure()) <= *found.by_aim;
-    if (!is_more && !is_less) {
+    std::string text = capitalised(reading_label(keys.front())) + ": ";
+    if (const int side = found.better(); side == 0) {
         const std::string now = worded(*found.other), before = worded(*found.first);
-        return fmt::format("{} and {}: {}{} {}", lamp, first, now, now == before ? "" : " and " + before, reading_label(keys.front()));
-    }
-    return fmt::format("{} is {} than {}{}: {} against {} ({}{}), {}", lamp,
-                       better == Better::neither               ? "other"
-                       : is_more == (better == Better::higher) ? "better"
-                                                               : "worse",
-                       first, within ? ", but within 0.1° of aim" : "", worded(*found.other), worded(*found.first),
-                       found.changed() + unit_suffix(found.first->unit()), found.share().empty() ? "" : ", " + found.share(),
-                       reading_label(keys.front()));
+        text += fmt::format("{} and {} {}{}", lamp, first, now, now == before ? "" : " and " + before);
+    } else
+        text += fmt::format("{} is {} than {}{}: {} against {} ({}{})", lamp, side > 0 ? "better" : "worse", first,
+                            found.is_within_aim() ? ", but within 0.1° of aim" : "", worded(*found.other), worded(*found.first),
+                            found.changed() + unit_suffix(found.first->unit()), found.share().empty() ? "" : ", " + found.share());
+    for (std::size_t i = 1; i < keys.size(); ++i)
+        if (const KeyFigure more(drive, keys[i], found.lamp_set); found.better() * more.better() < 0 && !more.is_within_aim())
+            text += fmt::format("; {} in {}, {}", more.better() > 0 ? "better" : "worse", reading_label(keys[i]),
+                                more.share().empty() ? more.changed() + unit_suffix(more.first->unit()) : more.share());
+    const auto apart = low_beams_apart(other.aims, one.aims);
+    if (const std::string higher = apart ? higher_words(apart->up_deg) : ""; !higher.empty())
+        text += fmt::format("; as mounted, the cut-off of {} lies {}", lamp, higher);
+    return text;
 }
 
 } // namespace fernlicht

@@ -19,9 +19,11 @@ bool is_same(const Value& a, const Value& b, double uncertainty) {
     return a.kind() == b.kind() && (!a.measured() || std::abs(*a.figure() - *b.figure()) <= uncertainty);
 }
 
+/// What is not known repeats nothing.
 bool is_same_result(const Change& a, const Change& b) {
     const double unsure = std::max(a.uncertainty.value_or(0.0), b.uncertainty.value_or(0.0));
-    return a.kind == b.kind && is_same(a.old_value, b.old_value, unsure) && is_same(a.new_value, b.new_value, unsure);
+    return a.kind == b.kind && a.kind != ChangeKind::unknown && is_same(a.old_value, b.old_value, unsure) &&
+           is_same(a.new_value, b.new_value, unsure);
 }
 
 /// By one change that is real.
@@ -37,10 +39,13 @@ void conclude(const StudyResult& result, DecidedReading& decided) {
         std::ranges::copy_if(decided.changes, std::back_inserter(found), [&](std::size_t i) { return result.changes[i].kind == kind; });
         return found;
     };
-    for (const auto& [kind, outcome] : {std::pair(ChangeKind::real, DecisionOutcome::changed),
-                                        {ChangeKind::within_aim, DecisionOutcome::within_aim},
-                                        {ChangeKind::none, DecisionOutcome::same},
-                                        {ChangeKind::unknown, DecisionOutcome::undecided}})
+    std::vector<std::pair<ChangeKind, DecisionOutcome>> kinds{{ChangeKind::real, DecisionOutcome::changed},
+                                                              {ChangeKind::within_aim, DecisionOutcome::within_aim},
+                                                              {ChangeKind::none, DecisionOutcome::same},
+                                                              {ChangeKind::unknown, DecisionOutcome::undecided}};
+    if (2 * of_kind(ChangeKind::unknown).size() > decided.changes.size()) // a few that are known to be small say nothing of these
+        std::swap(kinds[1], kinds[3]);
+    for (const auto& [kind, outcome] : kinds)
         if (decided.decided_by = of_kind(kind); !decided.decided_by.empty()) {
             decided.outcome = outcome;
             break;
@@ -55,39 +60,19 @@ void conclude(const StudyResult& result, DecidedReading& decided) {
     decided.told = by_size[(by_size.size() - 1) / 2]; // of two in the middle the smaller, which claims less
 }
 
-/// How far apart the marks of two aims lie, up and to the right together, and how much of that is up; nullopt where one was not found.
-std::optional<std::pair<double, double>> apart_deg(const LampAim& a, const LampAim& b) {
-    if (!a.percent || !b.percent)
-        return std::nullopt;
-    const double up = degrees(std::atan(0.01 * *a.percent) - std::atan(0.01 * *b.percent));
-    return std::pair(std::hypot(up, a.right_deg && b.right_deg ? *a.right_deg - *b.right_deg : 0.0), up);
-}
-
-/// Of the low beams of the first place that both lamps were played in: the largest distance, and the mean of what is up.
-std::optional<std::pair<double, double>> mounted_apart_deg(const StudyResult& result, const StudyComparison& comparison) {
-    for (const auto& [tested, against] : result.pairs_of(comparison)) {
-        double most = 0.0, up = 0.0;
-        int found = 0;
-        for (const LampAim& now : result.cells[tested].aims)
-            for (const LampAim& before : result.cells[against].aims)
-                if (now.lamp == before.lamp && !now.high_beam && !before.high_beam)
-                    if (const auto apart = apart_deg(now, before)) {
-                        most = std::max(most, apart->first);
-                        up += apart->second;
-                        ++found;
-                    }
-        if (found > 0)
-            return std::pair(most, up / found);
-    }
+/// Of the first place that both lamps were played in.
+std::optional<AimsApart> mounted_apart(const StudyResult& result, const StudyComparison& comparison) {
+    for (const auto& [tested, against] : result.pairs_of(comparison))
+        if (const auto apart = low_beams_apart(result.cells[tested].aims, result.cells[against].aims))
+            return apart;
     return std::nullopt;
 }
 
 constexpr double alike_deg = 0.02; ///< nearer, two marks are one: what they are found to in beams with noise
-constexpr double notable_deg = 0.05;
 
 /// Files that are one beam, perhaps turned, on lamps that are not aimed alike.
 bool differ_by_aim_alone(const StudyResult& result, const StudyComparison& comparison) {
-    const auto mounted = mounted_apart_deg(result, comparison);
+    const auto mounted = mounted_apart(result, comparison);
     bool turned = false, compared = false;
     for (const LampComparison& lamps : result.lamps)
         if (lamps.tested == comparison.tested && lamps.against == comparison.against) {
@@ -97,7 +82,7 @@ bool differ_by_aim_alone(const StudyResult& result, const StudyComparison& compa
             compared = true;
             turned = turned || (d.aim_up_deg && !lamps.is_turned_later);
         }
-    return compared && (mounted ? mounted->first > alike_deg : turned);
+    return compared && (mounted ? mounted->most_deg > alike_deg : turned);
 }
 
 const StudyComparison& comparison_of(const StudyResult& result, const Decision& decision) {
@@ -110,7 +95,7 @@ bool is_told(const StudyResult& result, std::size_t axis) {
     return std::ranges::any_of(result.cells, [&](const CellResult& cell) { return value_in(cell) != value_in(result.cells.front()); });
 }
 
-/// "reach at 5 lx on a target, own lane +14.2 m (+21 %) in 3 of 4 results, most on country-1"
+/// "reach at 5 lx on a target, own lane +14.2 m (+21 %) in 3 of 4 results, at most +18.0 m (+25 %) on country-1"
 std::string told(const StudyResult& result, const DecidedReading& decided) {
     const std::size_t of = decided.changes.size(), by = decided.decided_by.size();
     const std::size_t largest = *std::ranges::max_element(decided.decided_by, {}, [&](std::size_t i) { return result.changes[i].size(); });
@@ -119,9 +104,11 @@ std::string told(const StudyResult& result, const DecidedReading& decided) {
     for (std::size_t i = 0; i < cell.cell.axes.size(); ++i)
         if (const AxisValue& at = cell.cell.axes[i]; !at.value.empty() && is_told(result, i))
             place += fmt::format(", {} {}", at.axis, at.value);
-    return fmt::format("{} {}{}{}", reading_label(decided.reading), change_words(result.changes[decided.told]),
-                       by < of ? fmt::format(" in {} of {} results", by, of) : "",
-                       of > 1 ? fmt::format(", {}on {}", by > 1 ? "most " : "", place) : "");
+    const std::string told = change_words(result.changes[decided.told]), most = change_words(result.changes[largest]);
+    return fmt::format("{} {}{}{}", reading_label(decided.reading), told, by < of ? fmt::format(" in {} of {} results", by, of) : "",
+                       of == 1   ? ""
+                       : by == 1 ? ", on " + place
+                                 : fmt::format(", {} on {}", most == told ? "most" : "at most " + most, place));
 }
 
 std::string listed(const StudyResult& result, const Decision& decision, DecisionOutcome outcome, const char* words) {
@@ -203,8 +190,8 @@ std::vector<Decision> decide(const StudyResult& result) {
                 decided.changes.push_back(i);
         }
         Decision decision{.comparison = comparison, .readings = {}, .aim_alone = differ_by_aim_alone(result, pair)};
-        if (const auto mounted = mounted_apart_deg(result, pair))
-            decision.aimed_up_deg = mounted->second;
+        if (const auto mounted = mounted_apart(result, pair))
+            decision.aimed_up_deg = mounted->up_deg;
         for (auto& [place, decided] : by_place) {
             conclude(result, decided);
             decision.readings.push_back(std::move(decided));
@@ -239,10 +226,7 @@ std::vector<std::string> decision_parts(const StudyResult& result, const Decisio
     return parts;
 }
 
-std::string mounted_words(const Decision& decision) {
-    const double up_deg = decision.aimed_up_deg.value_or(0.0);
-    return std::abs(up_deg) > notable_deg ? fmt::format("{:.2f}° {}", std::abs(up_deg), up_deg > 0.0 ? "higher" : "lower") : "";
-}
+std::string mounted_words(const Decision& decision) { return higher_words(decision.aimed_up_deg.value_or(0.0)); }
 
 std::string decision_sentence(const StudyResult& result, const Decision& decision) {
     const StudyComparison& pair = comparison_of(result, decision);

@@ -13,7 +13,8 @@ namespace fernlicht {
 namespace {
 
 /// Of lines: apart in grey print, too.
-constexpr const char *paper_dashes[] = {"", "6 3", "1.5 2.5", "9 3 2 3"}, *dash_names[] = {"full", "dashed", "dotted", "dash-dotted"};
+constexpr const char *paper_dashes[] = {"", "6 3", "1.5 2.5", "9 3 2 3", "14 4", "9 3 2 3 2 3"},
+                     *dash_names[] = {"full", "dashed", "dotted", "dash-dotted", "long-dashed", "dash-dot-dotted"};
 
 /// ". 9 of 660 moments of each drive were played (--frames 0:8)"; "" where all were.
 std::string part_of_drives(const StudyResult& result) { return result.played_in_part.empty() ? "" : ". " + result.played_in_part; }

@@ -121,7 +121,8 @@ TEST(Messages, ARunSaysWhatItFoundAndWhatALampKeeps) {
         return printed("run " + drive + three_moments + flags + " --out " + (folder / out));
     };
     const std::string two = said("", "two");
-    EXPECT_THAT(two, testing::ContainsRegex("straight-1: xenon is better than halogen: [0-9.]+ m against [0-9.]+ m \\(\\+"));
+    EXPECT_THAT(two,
+                testing::ContainsRegex("straight-1: Reach at [^:]*: xenon is better than halogen: [0-9.]+ m against [0-9.]+ m \\(\\+"));
     EXPECT_THAT(two, Not(HasSubstr("--lamp replaces")));
     const std::string one = said("--lamp " + library_file("lamps/led-low.ies"), "one");
     EXPECT_THAT(one, HasSubstr("straight-1: --lamp replaces the file alone: the lamp stays a filament at 13.2 V"));

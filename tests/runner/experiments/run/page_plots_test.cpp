@@ -128,20 +128,45 @@ TEST(PagePlots, ASwayingCarSpreadsItsLight) {
         EXPECT_THAT(plots::svg_of(figures[static_cast<std::size_t>(figure)]), HasSubstr(part));
 }
 
-TEST(KeySentence, SaysBetterOrWorseOnlyOfWhatBoundsLeave) {
-    const auto sentence = [](const Value& first, const Value& other) {
-        PlayedCell a, b;
+class KeySentence : public testing::Test {
+  protected:
+    KeySentence() {
         a.lamp_set = "A";
         b.lamp_set = "B";
-        const ReadingKey key = key_of("reach_5lx_target_own_m").value();
-        a.readings = {{.key = key, .value = first}};
-        b.readings = {{.key = key, .value = other}};
-        return key_sentence(ComparedDrive{"drive", {&a, &b}});
-    };
-    EXPECT_THAT(sentence(Value::at_least(150.0), 160.0), testing::StartsWith("B and A: 160 m and > 150 m reach"));
-    EXPECT_THAT(sentence(150.0, 160.0), testing::StartsWith("B is better than A: 160 m against 150 m"));
-    EXPECT_THAT(sentence(Value::at_least(150.0), 140.0), testing::StartsWith("B is worse than A: 140 m against > 150 m"));
-    EXPECT_THAT(sentence(150.0, 150.0), testing::StartsWith("B and A: 150 m reach"));
+    }
+    void read(const char* name, const Value& first, const Value& other) {
+        const ReadingKey key = key_of(name).value();
+        a.readings.push_back({.key = key, .value = first});
+        b.readings.push_back({.key = key, .value = other});
+    }
+    std::string sentence() const { return key_sentence(ComparedDrive{"drive", {&a, &b}}); }
+    std::string of_reach(const Value& first, const Value& other) {
+        a.readings.clear();
+        b.readings.clear();
+        read("reach_5lx_target_own_m", first, other);
+        return sentence();
+    }
+
+    PlayedCell a, b;
+};
+
+TEST_F(KeySentence, SaysBetterOrWorseOnlyOfWhatBoundsLeave) {
+    const std::string reach = "Reach at 5 lx on a target, own lane: ";
+    EXPECT_EQ(of_reach(Value::at_least(150.0), 160.0), reach + "B and A 160 m and > 150 m");
+    EXPECT_EQ(of_reach(150.0, 160.0), reach + "B is better than A: 160 m against 150 m (+10.0 m, +7 %)");
+    EXPECT_THAT(of_reach(Value::at_least(150.0), 140.0), testing::StartsWith(reach + "B is worse than A: 140 m against > 150 m"));
+    EXPECT_EQ(of_reach(150.0, 150.0), reach + "B and A 150 m");
+}
+
+TEST_F(KeySentence, NamesWhatSpeaksAgainstAndTheAim) {
+    read("reach_5lx_target_own_m", 60.0, 66.0);
+    read("glare_opposite_facing_from_30_to_60m_max_lx", 0.5, 0.6);
+    EXPECT_THAT(sentence(), testing::EndsWith("; worse in largest illuminance at 30 to 60 m, eyes of oncoming driver opposite, +20 %"));
+    a.aims = {{.lamp = "left", .percent = -1.0}};
+    b.aims = {{.lamp = "left", .percent = -0.5}};
+    EXPECT_THAT(sentence(), testing::EndsWith(", +20 %; as mounted, the cut-off of B lies 0.29° higher"));
+    b.readings.back().value = 0.4;
+    EXPECT_THAT(sentence(), testing::Not(HasSubstr("illuminance"))) << "better in both";
 }
 
 } // namespace

@@ -50,6 +50,22 @@ TEST_F(StudyOverAxes, ALineALampThroughMedians) {
     EXPECT_THAT(figure(figures[0]).subtitle, testing::HasSubstr("median of up to 2 cells a point"));
 }
 
+TEST_F(StudyOverAxes, ALineADriveWhereTheyAreFew) {
+    for (std::size_t i = 0; i < study.cells.size(); ++i)
+        study.cells[i].drive = i % 2 == 0 ? "country" : "straight";
+    const std::vector<StudyFigure> figures = drawn();
+    const plots::Figure& wetness = figure(figures.at(0));
+    EXPECT_THAT(figures[0].title, EndsWith(": old, country from 40 to 48 m; old, straight from 42 to 50 m"));
+    ASSERT_EQ(wetness.series.size(), 2U);
+    EXPECT_NE(wetness.series[0].dash, wetness.series[1].dash);
+    EXPECT_EQ(wetness.y.label, "reach at 5 lx on a target");
+    study.study.lamps.resize(4, study.study.lamps.front());
+    for (const std::size_t lamp : {1U, 2U, 3U})
+        for (std::size_t i = 0; i < 6; ++i)
+            study.cells.emplace_back(study.cells[i]).cell.lamp = lamp;
+    EXPECT_EQ(figure(drawn().at(0)).series.size(), 4U) << "of eight lines one for each lamp, through the medians";
+}
+
 TEST_F(StudyOverAxes, ASampleIsDots) {
     study.study.sample.kind = SampleKind::low_discrepancy;
     EXPECT_EQ(figure(drawn().front()).series.size(), 3U);
