@@ -17,9 +17,9 @@
 namespace fernlicht {
 namespace {
 
-/// Each thing that differs by itself, those that agree in one sum.
-std::vector<Verdict> verdicts_on(const std::vector<ResultDifference>& differences, const std::string& kind, const std::string& things,
-                                 const std::string& accepted_as) {
+/// Each thing that differs by itself, called `kind` and its name; those that agree in one sum, called `green`.
+std::vector<Verdict> verdicts_on(const std::vector<ResultDifference>& differences, const std::string& kind, const std::string& green,
+                                 const std::string& things, const std::string& accepted_as) {
     std::vector<Verdict> verdicts;
     const ResultDifference* farthest = nullptr;
     for (const ResultDifference& difference : differences)
@@ -29,7 +29,7 @@ std::vector<Verdict> verdicts_on(const std::vector<ResultDifference>& difference
             verdicts.push_back({difference.agreement == Agreement::differs ? VerdictKind::fail : VerdictKind::not_measured,
                                 kind + " " + difference.what, difference.text + accepted_as, ""});
     if (verdicts.empty() && farthest)
-        verdicts.push_back({VerdictKind::pass, kind,
+        verdicts.push_back({VerdictKind::pass, green,
                             farthest->of_allowed == 0.0 ? fmt::format("{} {} agree exactly{}", differences.size(), things, accepted_as)
                                                         : fmt::format("{} {} agree; largest deviation: {}, {}{}", differences.size(),
                                                                       things, farthest->what, farthest->text, accepted_as),
@@ -116,7 +116,7 @@ std::string nothing_accepted(const std::filesystem::path& store, const std::vect
         nearest = fmt::format("{} changed since {}: {}; ", fmt::join(texts, ", "), short_id(entry.id), moved.text);
     }
     if (!nearest.empty())
-        return nearest + "no baseline has these inputs; `fernlicht accept` takes them if they are meant";
+        return nearest + "no baseline has these inputs; if that is meant, `fernlicht accept` takes these results";
     for (const StoredBaseline& entry : entries)
         if (same_but_lamp_set(entry.key, run.key))
             return text + fmt::format("; of this drive {} ({}) is accepted: {}", printable(entry.key.lamp_set), short_id(entry.id),
@@ -129,14 +129,15 @@ std::string nothing_accepted(const std::filesystem::path& store, const std::vect
 
 std::vector<Verdict> judge_readings(const Baseline& run, const std::vector<AcceptedReading>& accepted, const std::string& accepted_as,
                                     const BaselineTolerance& tolerance) {
-    return verdicts_on(compare_readings(run.readings, accepted, tolerance), "baseline reading", "readings", accepted_as);
+    return verdicts_on(compare_readings(run.readings, accepted, tolerance), "baseline reading", "baseline", "readings", accepted_as);
 }
 
 std::vector<Verdict> judge_frames(const Baseline& run, const Baseline& accepted, const std::string& accepted_as,
                                   const BaselineTolerance& tolerance) {
     if (accepted.frames_left_out)
         return {};
-    return verdicts_on(compare_frames(run.frames, accepted.frames, tolerance), "baseline frame", "channels of pictures", accepted_as);
+    return verdicts_on(compare_frames(run.frames, accepted.frames, tolerance), "baseline frame", "baseline frames", "channels of pictures",
+                       accepted_as);
 }
 
 /// Of the verdicts that each entry gives, those with the fewest that are not green. `judge` takes the results and how they are called.

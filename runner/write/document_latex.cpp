@@ -35,6 +35,8 @@ std::string latex_text(const std::string& words) {
             out += '\\';
         const auto sign = signs.find(std::string_view(clean).substr(at, length));
         out += sign == signs.end() ? clean.substr(at, length) : sign->second;
+        if (clean.compare(at, 2, "--") == 0) // no dash
+            out += "{}";
         at += length;
     }
     return out;

@@ -46,15 +46,16 @@ std::string turned_text(Direction turned) {
 /// Bounds are rounded up: none is printed as 0.
 std::string bound_text(double deg) { return fmt::format("{:.3f}", std::ceil(1000.0 * deg - 1e-9) / 1000.0); }
 
-/// "turned 0.30 L, 0.02 D, known to 0.049 and 0.010; 3 rounds left 0.001 and 0.000"; "known to 0.010 in V" where nothing aimed sideways.
+/// "turned 0.30 L, 0.02 D, ±0.049 and ±0.010; after 3 rounds off by 0.001 and 0.000"; "±0.010 in V" where nothing aimed sideways.
 std::string aim_text(const Aim& aim) {
     std::string text = turned_text(aim.turned);
     if (aim.bound.h_deg > 0.0)
-        text += fmt::format(", known to {} and {}", bound_text(aim.bound.h_deg), bound_text(aim.bound.v_deg));
+        text += fmt::format(", ±{} and ±{}", bound_text(aim.bound.h_deg), bound_text(aim.bound.v_deg));
     else if (aim.bound.v_deg > 0.0)
-        text += fmt::format(", known to {} in V", bound_text(aim.bound.v_deg));
+        text += fmt::format(", ±{} in V", bound_text(aim.bound.v_deg));
     if (aim.rounds > 1)
-        text += fmt::format("; {} rounds left {:.3f} and {:.3f}", aim.rounds, std::abs(aim.residual.h_deg), std::abs(aim.residual.v_deg));
+        text += fmt::format("; after {} rounds off by {:.3f} and {:.3f}", aim.rounds, std::abs(aim.residual.h_deg),
+                            std::abs(aim.residual.v_deg));
     return text;
 }
 

@@ -46,6 +46,27 @@ std::vector<std::string> notes_for(const Stage& stage, const LampSet& lamp_set, 
     return notes;
 }
 
+std::vector<std::string> gaze_warnings(const std::vector<PlayedCell>& played) {
+    constexpr double least_deg = 1.0, within_m = 120.0; // on a straight, lamps of the next lane stand 1.7 degrees aside at 120 m
+    std::map<std::pair<std::string, std::string>, double> nearest;
+    for (const PlayedCell& cell : played)
+        for (const SeeingSeries& series : cell.seeing)
+            for (const SeeingSeries::Column& column : series.columns)
+                for (std::size_t i = 0; i < column.values.size(); ++i)
+                    if (const auto theta = column.values[i].number(); theta && *theta < least_deg && column.name.starts_with("theta_") &&
+                                                                      series.over.ends_with("to the observer") &&
+                                                                      series.at_m[i] <= within_m) {
+                        double& known = nearest.try_emplace({cell.drive, series.title}, *theta).first->second;
+                        known = std::min(known, *theta);
+                    }
+    std::vector<std::string> warnings;
+    for (const auto& [eye, theta] : nearest)
+        warnings.push_back(fmt::format("{}: {}: the line of sight passes the lamps at {:.2f}°: veil and threshold increment are of one who "
+                                       "looks into them",
+                                       eye.first, eye.second, theta));
+    return warnings;
+}
+
 void add_warnings(const std::deque<Stage>& stages, const std::vector<Drive>& drives, const TickRange& ticks, Report& report) {
     for (const Stage& stage : stages)
         if (const int asked = ticks_to_play(stage.drive, ticks), all = tick_count(stage.drive); asked < all) {
@@ -71,6 +92,7 @@ void add_warnings(const std::deque<Stage>& stages, const std::vector<Drive>& dri
     for (const PlayedCell& played : report.played)
         for (const std::string& warning : aim_warnings(played.lamp_set, played.aims))
             report.warnings.push_back(fmt::format("{}: {}", played.drive, warning));
+    std::ranges::copy(gaze_warnings(report.played), std::back_inserter(report.warnings));
     for (const Drive& drive : drives)
         if (drive.display.profile)
             for (const std::string& warning : display_warnings(*drive.display.profile))

@@ -62,7 +62,7 @@ std::vector<std::string> findings(const LampDifference& d) {
     for (std::size_t i = 0; i < std::min(max_zones, d.zones.size()); ++i)
         found.push_back(zone_text(d.zones[i]));
     if (d.zones.size() > max_zones)
-        found.push_back(fmt::format("and {} more zones", d.zones.size() - max_zones));
+        found.push_back(fmt::format("and {} more zone{}", d.zones.size() - max_zones, d.zones.size() == max_zones + 1 ? "" : "s"));
     if (!d.is_explained())
         for (const PlaceChange& place : d.places)
             if (place.is_beyond_noise)

@@ -183,11 +183,7 @@ std::vector<Decision> decide(const StudyResult& result) {
                 continue;
             DecidedReading& decided = by_place[{*place, change.reading}];
             decided.reading = change.reading;
-            const auto same =
-                std::ranges::find_if(decided.changes, [&](std::size_t k) { return is_same_result(result.changes[k], change); });
-            decided.places.emplace_back(i, same == decided.changes.end() ? i : *same);
-            if (same == decided.changes.end())
-                decided.changes.push_back(i);
+            decided.changes.push_back(i);
         }
         Decision decision{.comparison = comparison, .readings = {}, .aim_alone = differ_by_aim_alone(result, pair)};
         if (const auto mounted = mounted_apart(result, pair))
@@ -213,8 +209,8 @@ std::vector<std::string> decision_parts(const StudyResult& result, const Decisio
             parts.push_back(listed(result, decision, outcome, words));
     if (all)
         parts.push_back(undecided(result, decision));
-    if (const std::size_t within = all ? decision.count(DecisionOutcome::within_aim) : 0)
-        parts.push_back(fmt::format("In {} 0.1° of aim would change as much: {}", counted(within, "reading"), within_aim(decision)));
+    if (all && decision.count(DecisionOutcome::within_aim) > 0)
+        parts.push_back(fmt::format("Within 0.1° of aim: {}", within_aim(decision)));
     if (const std::size_t same = all ? decision.count(DecisionOutcome::same) : 0)
         parts.push_back(fmt::format("{} without a difference", counted(same, "reading")));
     if (decision.aim_alone)
@@ -260,23 +256,34 @@ std::string decision_heading(const StudyResult& result, const std::vector<Decisi
 
 std::vector<std::string> same_results(const StudyResult& result, const std::vector<Decision>& decisions) {
     std::map<std::pair<std::string, std::string>, std::size_t> alike;
+    const auto cell_of = [&](std::size_t change) -> const CellResult& { return result.cells[result.changes[change].tested]; };
+    const auto off_drive = [](StudyCell cell) {
+        cell.drive = 0;
+        return cell;
+    };
     for (const Decision& decision : decisions)
         for (const DecidedReading& decided : decision.readings)
-            for (const auto& [change, counts_as] : decided.places)
-                if (change != counts_as)
-                    ++alike[{result.cells[result.changes[counts_as].tested].drive, result.cells[result.changes[change].tested].drive}];
+            for (auto i = decided.changes.begin(); i != decided.changes.end(); ++i)
+                if (const auto same = std::find_if(decided.changes.begin(), i,
+                                                   [&](std::size_t k) {
+                                                       return cell_of(k).drive != cell_of(*i).drive &&
+                                                              is_same_place(off_drive(cell_of(k).cell), off_drive(cell_of(*i).cell)) &&
+                                                              is_same_result(result.changes[k], result.changes[*i]);
+                                                   });
+                    same != i)
+                    ++alike[{cell_of(*same).drive, cell_of(*i).drive}];
     std::vector<std::string> sentences;
-    for (const auto& [drives, readings] : alike)
-        if (drives.first != drives.second)
-            sentences.push_back(fmt::format("{} repeats {} of {}, counted once", drives.second, counted(readings, "result"), drives.first));
+    for (const auto& [drives, results] : alike)
+        sentences.push_back(fmt::format("{} of {} repeat{} what {} has: no further evidence", counted(results, "result"), drives.second,
+                                        results == 1 ? "s" : "", drives.first));
     return sentences;
 }
 
 Table decision_table(const StudyResult& result, const std::vector<Decision>& decisions) {
     const bool several = decisions.size() > 1;
     Table table{.name = "decision",
-                .caption = "Old, new and change of each reading's median result by per cent, of the real ones where there are any; the "
-                           "smaller of a middle two",
+                .caption = "Old, new and change are those of the middle one of a reading's results, ranked by change in per cent: of the "
+                           "real ones where there are any. Of two in the middle it is the one that changes less",
                 .columns = columns_of(std::string(several ? "new / old<|" : "") +
                                       "reading<|is<|old|new|change|%|± 0.1° of aim|unit<|results|where<"),
                 .rows = {},

@@ -23,10 +23,9 @@ const char* outcome_name(DecisionOutcome outcome); ///< "better", "within aim"
 struct DecidedReading {
     ReadingKey reading;
     DecisionOutcome outcome = DecisionOutcome::same;
-    std::vector<std::size_t> changes; ///< of the study, one a distinct result: places that give the same one count once
-    std::vector<std::pair<std::size_t, std::size_t>> places; ///< every change, and the one among `changes` that it counts as
-    std::vector<std::size_t> decided_by;                     ///< those of `changes` that make the outcome
-    std::size_t told = 0; ///< of `decided_by` the one whose change is the median in size, of two the smaller
+    std::vector<std::size_t> changes;    ///< of the study: one for each place
+    std::vector<std::size_t> decided_by; ///< those of `changes` that make the outcome
+    std::size_t told = 0;                ///< of `decided_by` the one whose change is the median in size, of two the smaller
 };
 
 struct Decision {
@@ -37,8 +36,7 @@ struct Decision {
     std::size_t count(DecisionOutcome outcome) const;
 };
 
-/// For each comparison of which something was compared. Two changes are the same result where neither their old nor their new values differ
-/// by more than their uncertainty.
+/// For each comparison of which something was compared.
 std::vector<Decision> decide(const StudyResult& result);
 
 /// "Better by ...", "Worse by ...", "Undecided: ... because ...": what there is of these, without full stops.
@@ -53,7 +51,8 @@ std::string mounted_words(const Decision& decision);
 std::string decision_count(const StudyResult& result, const Decision& decision);
 /// That of one comparison, "What 2 comparisons decide" of several.
 std::string decision_heading(const StudyResult& result, const std::vector<Decision>& decisions);
-/// "straight-1 and village-1 give one result in 7 deciding readings; it counts once"; one for each such pair of places.
+/// "7 results of village-1 repeat what straight-1 has: no further evidence", for each such pair of drives: under one condition neither old
+/// nor new values differ by more than their uncertainty.
 std::vector<std::string> same_results(const StudyResult& result, const std::vector<Decision>& decisions);
 /// One row for each deciding reading of each comparison.
 Table decision_table(const StudyResult& result, const std::vector<Decision>& decisions);

@@ -297,7 +297,7 @@ Section lamps_section(const StudyResult& result) {
         Listing told{{}, fmt::format("{} against {} ({})", pair.tested, pair.against, pair.side)};
         told.items.insert(told.items.end(), all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(most, all.size())));
         if (all.size() > most)
-            told.items.emplace_back(fmt::format("and {} more zones, all in study.json", all.size() - most));
+            told.items.emplace_back(fmt::format("and {} more, all in study.json", all.size() - most));
         section.blocks.emplace_back(std::move(told));
         Table places = named_places_table(pair.difference);
         places.name = fmt::format("places-{}-{}-{}", pair.tested, pair.against, pair.side);

@@ -120,7 +120,7 @@ std::string place_off_axis(const CellResult& cell, const StudyAxis& axis, bool o
 /// What is read, without where: "detection distance of pedestrian-light".
 std::string axis_label(const ReadingKey& key) {
     const std::string label = reading_label(key);
-    return short_text(label.substr(0, label.find(", ")), 40);
+    return short_text(label.substr(0, label.find(", ")), 60);
 }
 
 std::string words_over(const StudyResult& result, const StudyAxis& axis, const ReadingKey& key, const OverAxis& found) {
@@ -148,7 +148,7 @@ void add_over_axes(const StudyResult& result, std::vector<StudyFigure>& figures)
             figure.subtitle = most == 1 ? place_off_axis(result.cells[found.cells.front()], axis, drives.size() == 1)
                                         : fmt::format("median of up to {} cells a point, the smaller of the middle two", most);
             figure.width_px = 420.0;
-            figure.height_px = 230.0;
+            figure.height_px = 240.0 + 20.0 * static_cast<double>(found.values.size());
             if (found.bounds)
                 figure.subtitle += "; bounds as if they were numbers";
             std::vector<double> xs, ys;

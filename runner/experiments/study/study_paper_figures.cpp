@@ -16,7 +16,7 @@ namespace {
 constexpr const char *paper_dashes[] = {"", "6 3", "1.5 2.5", "9 3 2 3", "14 4", "9 3 2 3 2 3"},
                      *dash_names[] = {"full", "dashed", "dotted", "dash-dotted", "long-dashed", "dash-dot-dotted"};
 
-/// ". 9 of 660 moments of each drive were played (--frames 0:8)"; "" where all were.
+/// ". Of the 660 moments of each drive 9 were played (--frames 0:8)"; "" where all were.
 std::string part_of_drives(const StudyResult& result) { return result.played_in_part.empty() ? "" : ". " + result.played_in_part; }
 
 /// "Source: cells country_halogen and country_xenon of the study standard-1, fernlicht 1.2".
@@ -58,7 +58,7 @@ PaperFigure lines_for_paper(const StudyResult& result, const StudyFigure& drawn)
     figure.title.clear();
     figure.subtitle.clear();
     figure.width_px = 360.0;
-    figure.height_px = 240.0;
+    figure.height_px = 200.0 + 20.0 * static_cast<double>(std::max<std::size_t>(figure.series.size(), 2)); // a line of the legend each
     paper.figure = std::move(figure);
     return paper;
 }

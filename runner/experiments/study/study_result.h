@@ -58,7 +58,7 @@ struct StudyResult : Findings {
     std::string played_by;         ///< "52 of 60 cells came from the store; 8 were played, 2 at a time"
     std::string only;              ///< "straight*,*xenon": the cells asked for; "" for all
     std::string frames;            ///< "0:8": the moments asked for; "" for all
-    std::string played_in_part;    ///< "9 of 660 moments of each drive were asked for (--frames 0:8)"; "" where all of all cells were
+    std::string played_in_part;    ///< "Of the 660 moments of each drive 9 were played (--frames 0:8)"; "" where all of all cells were
     std::vector<CellResult> cells;
     std::vector<LampComparison> lamps;
     std::filesystem::path folder;      ///< with the reports of its cells

@@ -19,9 +19,12 @@ void check(const Axis& axis) {
 
 std::string label_of(const Axis& axis) { return axis.unit.empty() ? axis.label : axis.label + " [" + axis.unit + "]"; }
 
+constexpr double line_px = 15.0; ///< from one line of an axis' words to the next
+
 /// The plot area in pixels of the document.
 struct Area {
     double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
+    std::vector<std::string> y_lines = {}; ///< what stands beside it
     double right() const { return left + width; }
     double bottom() const { return top + height; }
 };
@@ -72,23 +75,27 @@ double widest_label(const Axis& axis, int most) {
 
 int ticks_along(double length_px, double each_px) { return std::max(2, static_cast<int>(length_px / each_px)); }
 
-/// Between words, so that none is cut off at the figure's right edge.
-std::vector<std::string> subtitle_lines(const Figure& f) {
+/// Broken between words, so that none is cut off.
+std::vector<std::string> lines_of(const std::string& text, double size_px, double width_px) {
     std::vector<std::string> lines;
-    std::istringstream words(f.subtitle);
+    std::istringstream words(text);
     for (std::string word; words >> word;)
-        if (lines.empty() || text_width(lines.back() + " " + word, 12.0) > f.width_px - 90.0)
+        if (lines.empty() || text_width(lines.back() + " " + word, size_px) > width_px)
             lines.push_back(word);
         else
             lines.back() += " " + word;
     return lines;
 }
+std::vector<std::string> subtitle_lines(const Figure& f) { return lines_of(f.subtitle, 12.0, f.width_px - 90.0); }
 
 Area area_of(const Figure& f, const Legend& legend) {
     Area a;
     a.top = (f.title.empty() ? 12.0 : 36.0) + 18.0 * static_cast<double>(subtitle_lines(f).size()) + 20.0 * legend.rows;
     a.height = f.height_px - a.top - 50.0;
-    a.left = 38.0 + widest_label(f.y, ticks_along(a.height, 42.0));
+    const double centre = a.top + 0.5 * a.height;
+    a.y_lines = lines_of(label_of(f.y), 13.0, 2.0 * std::min(centre, f.height_px - centre) - 8.0);
+    a.left = 38.0 + widest_label(f.y, ticks_along(a.height, 42.0)) +
+             line_px * static_cast<double>(std::max<std::size_t>(a.y_lines.size(), 1) - 1);
     a.width = f.width_px - a.left - (f.colour_bar ? 84.0 + widest_label(f.colour_bar->axis, ticks_along(a.height, 42.0)) : 20.0);
     a.width = std::max(a.width, 10.0);
     a.height = std::max(a.height, 10.0);
@@ -133,8 +140,9 @@ void draw_axes(Drawing& c, const Figure& f, const Area& a) {
         c.text(a.left - 8.0, y + 4.0, t.label, {.size_px = 12.0, .colour = ink, .anchor = "end"});
     }
     c.text(a.left + 0.5 * a.width, a.bottom() + 39.0, label_of(f.x), {.size_px = 13.0, .colour = ink, .anchor = "middle"});
-    const double across = a.left - 14.0 - widest_label(f.y, ticks_along(a.height, 42.0));
-    c.text(across, a.top + 0.5 * a.height, label_of(f.y), {.size_px = 13.0, .colour = ink, .anchor = "middle", .turn_deg = -90.0});
+    double across = a.left - 14.0 - widest_label(f.y, ticks_along(a.height, 42.0));
+    for (auto line = a.y_lines.rbegin(); line != a.y_lines.rend(); ++line, across -= line_px)
+        c.text(across, a.top + 0.5 * a.height, *line, {.size_px = 13.0, .colour = ink, .anchor = "middle", .turn_deg = -90.0});
 }
 
 void draw_colour_bar(Drawing& c, const ColourBar& bar, const Area& a) {

@@ -292,7 +292,7 @@ TEST_F(Baselines, OtherInputsAreAnotherKeyAndAreNamed) {
     ASSERT_EQ(verdicts.size(), 1U);
     EXPECT_THAT(verdicts[0].text,
                 HasSubstr("road changed since " + id_of("halogen") + ": all 2 readings agree; no baseline has these inputs"));
-    EXPECT_THAT(verdicts[0].text, testing::EndsWith("`fernlicht accept` takes them if they are meant"));
+    EXPECT_THAT(verdicts[0].text, testing::EndsWith("if that is meant, `fernlicht accept` takes these results"));
     other.report.played[0].readings[0].value = 61.8;
     EXPECT_THAT(other.judged(store)[0].text,
                 HasSubstr(": of 2 readings 1 differ, largest deviation: reach_5lx_road_own_m, 61.8 m, accepted 60 m, off by 1.8 m (3 %)"));
