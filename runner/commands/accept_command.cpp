@@ -68,27 +68,23 @@ bool is_study_folder(const std::filesystem::path& folder) {
     return std::filesystem::exists(folder / "study.json", ignored) && std::filesystem::is_directory(folder / "cells", ignored);
 }
 
-/// In the order of the cells' names; the time is the first one's.
-RunResults read_cells(const std::filesystem::path& folder) {
+/// In the order of the cells' names.
+std::vector<Baseline> read_cells(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> cells;
     for (const std::filesystem::directory_entry& cell : std::filesystem::directory_iterator(folder / "cells"))
         cells.push_back(cell.path());
     std::ranges::sort(cells);
-    RunResults all;
-    for (const std::filesystem::path& cell : cells) {
-        RunResults one = read_run(cell);
-        if (all.started_utc.empty())
-            all.started_utc = one.started_utc;
-        std::ranges::move(one.baselines, std::back_inserter(all.baselines));
-    }
+    std::vector<Baseline> all;
+    for (const std::filesystem::path& cell : cells)
+        std::ranges::move(read_run(cell), std::back_inserter(all));
     return all;
 }
 
 } // namespace
 
-RunResults read_run(const std::filesystem::path& run_folder) {
+std::vector<Baseline> read_run(const std::filesystem::path& run_folder) {
     if (is_reference_folder(run_folder))
-        return read_ray_folder(run_folder);
+        return {read_ray_folder(run_folder)};
     if (is_marked_incomplete(run_folder))
         throw InputError({run_folder, 0, 0, {}}, "holds an incomplete run", "a complete one");
     if (is_study_folder(run_folder))
@@ -97,19 +93,19 @@ RunResults read_run(const std::filesystem::path& run_folder) {
         throw InputError({run_folder, 0, 0, {}}, "is no folder of a run, a study or a reference",
                          "one that `fernlicht run`, `study` or `reference` wrote");
     const Report report = read_report(run_folder);
-    RunResults results{{}, report.context.started_utc};
+    std::vector<Baseline> results;
     for (const PlayedCell& played : report.played) {
         refuse_unfit(played, run_folder / "report.json");
-        results.baselines.push_back(results_of(played, report.context, run_folder, played.technique));
+        results.push_back(results_of(played, report.context, run_folder, played.technique));
     }
     return results;
 }
 
 Accepted accept_run(const std::filesystem::path& run_folder, const std::filesystem::path& baselines_folder, Acceptance how,
                     const std::string& note, bool readings_only) {
-    RunResults results = read_run(run_folder);
+    std::vector<Baseline> results = read_run(run_folder);
     if (readings_only)
-        for (Baseline& baseline : results.baselines) {
+        for (Baseline& baseline : results) {
             if (baseline.readings.empty())
                 throw InputError({run_folder, 0, 0, "--readings-only"}, "found no readings in " + printable(cell_text(baseline.key), 200),
                                  "a run that measures");
@@ -117,8 +113,8 @@ Accepted accept_run(const std::filesystem::path& run_folder, const std::filesyst
             baseline.frames_left_out = true;
         }
     Accepted accepted;
-    accepted.stored = store_baselines(baselines_folder, results.baselines, how, note, results.started_utc);
-    accepted.baselines = std::move(results.baselines);
+    accepted.stored = store_baselines(baselines_folder, results, how, note);
+    accepted.baselines = std::move(results);
     for (const StoredBaseline& entry : list_baselines(baselines_folder))
         for (std::size_t i = 0; i < accepted.baselines.size(); ++i)
             if (const BaselineKey& key = accepted.baselines[i].key;

@@ -9,7 +9,7 @@ namespace fernlicht {
 /// A run's results as they would be accepted, one for each lamp set of each drive: readings (times left out) with their spread over the
 /// run's repeats, and captured EXR frames. Of a study's folder: of all its cells. Of a folder of `fernlicht reference`: its one picture
 /// with each pixel's variance. Throws InputError for a folder without a complete run.
-RunResults read_run(const std::filesystem::path& run_folder);
+std::vector<Baseline> read_run(const std::filesystem::path& run_folder);
 
 struct Accepted {
     std::vector<Baseline> baselines;

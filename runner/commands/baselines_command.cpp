@@ -136,7 +136,7 @@ int show(const BaselinesFlags& flags) {
 
 /// The same drive, lamp set and technique among a run's results; or its only result, whatever it is called: another lamp has another name.
 Baseline counterpart(const std::string& folder, const BaselineKey& key) {
-    std::vector<Baseline> all = read_run(folder).baselines;
+    std::vector<Baseline> all = read_run(folder);
     if (all.size() == 1)
         return std::move(all.front());
     for (Baseline& results : all) // one drive may be played under several conditions

@@ -38,12 +38,7 @@ struct Baseline {
     std::vector<AcceptedReading> readings; ///< times left out
     std::vector<BaselineFrame> frames;
     bool frames_left_out = false; ///< accepted without its frames: readings alone are compared
-};
-
-/// What a run or a picture by rays found, as it would be accepted.
-struct RunResults {
-    std::vector<Baseline> baselines; ///< one for each lamp set of each drive
-    std::string started_utc;
+    std::string played_utc = {};  ///< of what is to be accepted: the store's index has it
 };
 
 /// The same readings and the same bytes of frames, whoever made them.

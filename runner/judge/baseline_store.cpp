@@ -186,8 +186,8 @@ Baseline load_baseline(const fs::path& store, const StoredBaseline& entry) {
     return baseline;
 }
 
-std::vector<Stored> store_baselines(const fs::path& store, const std::vector<Baseline>& baselines, Acceptance how, const std::string& note,
-                                    const std::string& played_utc) {
+std::vector<Stored> store_baselines(const fs::path& store, const std::vector<Baseline>& baselines, Acceptance how,
+                                    const std::string& note) {
     make_folder(store);
     const FolderLock lock(store);
     remove_leftovers(store);
@@ -197,7 +197,7 @@ std::vector<Stored> store_baselines(const fs::path& store, const std::vector<Bas
     for (Baseline& baseline : to_write) {
         StoredBaseline entry = name_baseline(baseline);
         entry.note = note;
-        entry.played_utc = played_utc;
+        entry.played_utc = baseline.played_utc;
         outcome.push_back(place(store, entries, std::move(entry), baseline, how));
     }
     // A note is about what is new; where nothing is, about what was accepted before.

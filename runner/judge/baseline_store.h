@@ -40,7 +40,7 @@ struct Stored {
 /// Throws InputError where `how` is `first` and other results are accepted, when a frame cannot be read or the index is damaged;
 /// DeviceError when the folder cannot be written.
 std::vector<Stored> store_baselines(const std::filesystem::path& store, const std::vector<Baseline>& baselines, Acceptance how,
-                                    const std::string& note, const std::string& played_utc);
+                                    const std::string& note);
 
 struct Removal {
     std::size_t baselines = 0, objects = 0;

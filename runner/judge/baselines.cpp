@@ -229,6 +229,7 @@ Baseline results_of(const PlayedCell& played, const RunContext& context, const s
     Baseline results;
     results.key = baseline_key(played.drive, played.lamp_set, technique, context, played.input_hashes);
     results.producer = {context.versions, context.gl_version, context.cpu, context.os, played.input_hashes};
+    results.played_utc = context.started_utc;
     for (const Reading& reading : played.readings) {
         if (is_time(reading.key))
             continue;

@@ -46,7 +46,7 @@ bool is_reference_folder(const std::filesystem::path& folder) {
     return std::filesystem::exists(folder / description, ignored) && !std::filesystem::exists(folder / "report.json", ignored);
 }
 
-RunResults read_ray_folder(const std::filesystem::path& folder) {
+Baseline read_ray_folder(const std::filesystem::path& folder) {
     const CheckedJson json = CheckedJson::read(folder / description);
     if (const CheckedJson schema = json.at("schema"); schema.text() != "fernlicht-reference")
         schema.refuse("fernlicht-reference");
@@ -61,7 +61,8 @@ RunResults read_ray_folder(const std::filesystem::path& folder) {
                                 "reference-" + json.at("settings").at("integrator").text(), context, inputs);
     baseline.producer = {context.versions, "", context.cpu, context.os, std::move(inputs)};
     baseline.frames.push_back({json.at("tick").whole(), json.at("view").text(), folder / picture, ""});
-    return {{std::move(baseline)}, context.started_utc};
+    baseline.played_utc = context.started_utc;
+    return baseline;
 }
 
 } // namespace fernlicht

@@ -10,6 +10,6 @@ bool is_reference_folder(const std::filesystem::path& folder);
 
 /// Its technique is "reference-" and the integrator; its device class is Embree's. Seed, samples and the error asked for are no inputs:
 /// two pictures of the same light may differ in them. Throws InputError for one that is not whole or damaged.
-RunResults read_ray_folder(const std::filesystem::path& folder);
+Baseline read_ray_folder(const std::filesystem::path& folder);
 
 } // namespace fernlicht

@@ -46,8 +46,18 @@ std::vector<TrendLevel> levels_of(const std::vector<Night>& nights, const std::s
     return levels;
 }
 
+/// "better", "worse"; "" where nobody can tell.
+std::string better_words(const ReadingKey& key, const Value& before, const Value& now) {
+    const Better better = row_of(key.quantity).better;
+    const Value change = difference(now, before, unit_of(key));
+    const bool is_more = change.low() > 0.0, is_less = change.high() < 0.0;
+    return key.aspect != Aspect::value || better == Better::neither || (!is_more && !is_less) ? ""
+           : is_more == (better == Better::higher)                                            ? "better"
+                                                                                              : "worse";
+}
+
 Table trend_table() {
-    Table table{"trend", "", columns_of("cell<|reading`|from [UTC]<|to [UTC]<|nights|value|unit<|change [%]|cause<"), {}};
+    Table table{"trend", "", columns_of("cell<|reading`|from [UTC]<|to [UTC]<|nights|value|unit<|change [%]|is<|cause<"), {}};
     table.sortable = true;
     return table;
 }
@@ -64,7 +74,7 @@ void add_levels(Table& table, const std::vector<Night>& nights, const std::strin
              level.value.measured() ? Cell(with_bound(level.value, fmt::format("{:.7g}", *level.value.figure())), *level.value.figure())
                                     : Cell("not measured"),
              key ? unit_label(unit_of(*key)) : "", share ? Cell(fmt::format("{:+.3g}", 100.0 * *share), 100.0 * *share) : Cell(""),
-             i == 0 ? "" : phrase_of(level.causes)});
+             i == 0 || !key ? "" : better_words(*key, levels[i - 1].value, level.value), i == 0 ? "" : phrase_of(level.causes)});
     }
 }
 
@@ -96,7 +106,7 @@ void add_times(Table& table, const std::vector<Night>& nights, const std::string
              Cell(fmt::format("{:.4g} ({:.4g} to {:.4g})", level.median, level.minimum, level.maximum), level.median), "s",
              before ? Cell(fmt::format("{:+.3g}", 100.0 * (level.median / *before - 1.0)), 100.0 * (level.median / *before - 1.0))
                     : Cell(""),
-             i == 0 ? "" : phrase_of(causes)});
+             before ? level.median < *before ? "better" : "worse" : "", i == 0 ? "" : phrase_of(causes)});
         before = level.median;
     }
 }

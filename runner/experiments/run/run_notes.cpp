@@ -1,5 +1,6 @@
 #include "runner/experiments/run/run_notes.h"
 
+#include "runner/findings/gazes.h"
 #include "runner/findings/lamp_aim.h"
 #include "runner/findings/run_context.h"
 #include "runner/play/capture.h"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -47,24 +49,17 @@ std::vector<std::string> notes_for(const Stage& stage, const LampSet& lamp_set, 
 }
 
 std::vector<std::string> gaze_warnings(const std::vector<PlayedCell>& played) {
-    constexpr double least_deg = 1.0, within_m = 120.0; // on a straight, lamps of the next lane stand 1.7 degrees aside at 120 m
-    std::map<std::pair<std::string, std::string>, double> nearest;
+    Gazes gazes;
     for (const PlayedCell& cell : played)
         for (const SeeingSeries& series : cell.seeing)
             for (const SeeingSeries::Column& column : series.columns)
-                for (std::size_t i = 0; i < column.values.size(); ++i)
-                    if (const auto theta = column.values[i].number(); theta && *theta < least_deg && column.name.starts_with("theta_") &&
-                                                                      series.over.ends_with("to the observer") &&
-                                                                      series.at_m[i] <= within_m) {
-                        double& known = nearest.try_emplace({cell.drive, series.title}, *theta).first->second;
-                        known = std::min(known, *theta);
-                    }
-    std::vector<std::string> warnings;
-    for (const auto& [eye, theta] : nearest)
-        warnings.push_back(fmt::format("{}: {}: the line of sight passes the lamps at {:.2f}°: veil and threshold increment are of one who "
-                                       "looks into them",
-                                       eye.first, eye.second, theta));
-    return warnings;
+                if (column.name.starts_with("theta_")) {
+                    std::vector<double> theta_deg;
+                    for (const Value& value : column.values)
+                        theta_deg.push_back(value.number().value_or(std::numeric_limits<double>::quiet_NaN()));
+                    add_gaze(gazes, cell.drive, series, series.at_m, theta_deg);
+                }
+    return gaze_warnings(gazes);
 }
 
 void add_warnings(const std::deque<Stage>& stages, const std::vector<Drive>& drives, const TickRange& ticks, Report& report) {

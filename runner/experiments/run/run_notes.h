@@ -12,8 +12,7 @@ namespace fernlicht {
 /// What bounds the figures of one lamp set: of its files, of the road, of what the technique leaves out.
 std::vector<std::string> notes_for(const Stage& stage, const LampSet& lamp_set, const Renderer& renderer);
 
-/// Of eyes of oncoming drivers that look along their lane into the lamps, where it bends: equations then tell of a light in the middle of
-/// their sight. One sentence for each drive and eye.
+/// Of eyes that look into the lamps (gazes.h).
 std::vector<std::string> gaze_warnings(const std::vector<PlayedCell>& played);
 
 /// So that nobody takes a part for the whole drive, a technique's own shadows, or none, for those that were asked for, what a display hides

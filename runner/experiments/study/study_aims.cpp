@@ -44,4 +44,14 @@ void add_aim_warnings(StudyResult& result) {
                 result.warnings.push_back(warning);
 }
 
+void add_gaze_warnings(StudyResult& result) {
+    Gazes all;
+    for (const CellResult& cell : result.cells)
+        for (const auto& [eye, theta_deg] : cell.gazes) {
+            double& nearest = all.try_emplace(eye, theta_deg).first->second;
+            nearest = std::min(nearest, theta_deg);
+        }
+    std::ranges::copy(gaze_warnings(all), std::back_inserter(result.warnings));
+}
+
 } // namespace fernlicht

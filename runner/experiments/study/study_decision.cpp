@@ -98,7 +98,7 @@ bool is_told(const StudyResult& result, std::size_t axis) {
 /// "reach at 5 lx on a target, own lane +14.2 m (+21 %) in 3 of 4 results, at most +18.0 m (+25 %) on country-1"
 std::string told(const StudyResult& result, const DecidedReading& decided) {
     const std::size_t of = decided.changes.size(), by = decided.decided_by.size();
-    const std::size_t largest = *std::ranges::max_element(decided.decided_by, {}, [&](std::size_t i) { return result.changes[i].size(); });
+    const std::size_t largest = *std::ranges::max_element(decided.decided_by, {}, [&](std::size_t i) { return result.changes[i].least(); });
     const CellResult& cell = result.cells[result.changes[largest].tested];
     std::string place = cell.drive;
     for (std::size_t i = 0; i < cell.cell.axes.size(); ++i)

@@ -16,7 +16,7 @@ namespace {
 constexpr const char *paper_dashes[] = {"", "6 3", "1.5 2.5", "9 3 2 3", "14 4", "9 3 2 3 2 3"},
                      *dash_names[] = {"full", "dashed", "dotted", "dash-dotted", "long-dashed", "dash-dot-dotted"};
 
-/// ". Of the 660 moments of each drive 9 were played (--frames 0:8)"; "" where all were.
+/// ". Only moments 0:8 of each drive were played: 9 of 660"; "" where all were.
 std::string part_of_drives(const StudyResult& result) { return result.played_in_part.empty() ? "" : ". " + result.played_in_part; }
 
 /// "Source: cells country_halogen and country_xenon of the study standard-1, fernlicht 1.2".

@@ -58,7 +58,7 @@ struct StudyResult : Findings {
     std::string played_by;         ///< "52 of 60 cells came from the store; 8 were played, 2 at a time"
     std::string only;              ///< "straight*,*xenon": the cells asked for; "" for all
     std::string frames;            ///< "0:8": the moments asked for; "" for all
-    std::string played_in_part;    ///< "Of the 660 moments of each drive 9 were played (--frames 0:8)"; "" where all of all cells were
+    std::string played_in_part;    ///< "Only moments 0:8 of each drive were played: 9 of 660"; "" where all of all cells were
     std::vector<CellResult> cells;
     std::vector<LampComparison> lamps;
     std::filesystem::path folder;      ///< with the reports of its cells
@@ -112,6 +112,9 @@ void apply_known_failures(StudyResult& result, const KnownFailures& known, const
 
 /// Lamps whose beams stand outside the band of UN R48, each once.
 void add_aim_warnings(StudyResult& result);
+
+/// Eyes that look into the lamps (gazes.h), each once.
+void add_gaze_warnings(StudyResult& result);
 
 /// Axes of which several values read the same in every cell.
 void add_axis_warnings(StudyResult& result);

@@ -206,6 +206,7 @@ void finish(StudyResult& result, const StudyOptions& options, OutputFolder& fold
     if (options.known)
         apply_known_failures(result, *options.known, options.run.today);
     add_aim_warnings(result);
+    add_gaze_warnings(result);
     add_axis_warnings(result);
     span.emplace("write figures and report", "write");
     result.figures = study_figures(result, options.folder);

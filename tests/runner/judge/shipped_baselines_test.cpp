@@ -45,8 +45,9 @@ TEST(ShippedBaselines, AreOfTheCellsOfTheStandardStudy) {
         EXPECT_TRUE(std::ranges::any_of(hashes, [&](const auto& row) { return row.second == drive->second; }))
             << key_text(entry.key) << ": no cell has this drive; ci/rewrite-baseline-hashes, or ci/accept-nightly where results changed";
         baseline.key.inputs = hash_of_inputs(baseline.producer.inputs);
+        baseline.played_utc = entry.played_utc;
         if (rewritten)
-            store_baselines(rewritten, {baseline}, Acceptance::add, entry.note, entry.played_utc);
+            store_baselines(rewritten, {baseline}, Acceptance::add, entry.note);
     }
 }
 

@@ -163,9 +163,8 @@ std::vector<std::pair<std::string, std::string>> difference_lines(const LampFile
         lines.emplace_back("difference", sentences[i]);
     if (sentences.size() > max_reported)
         lines.emplace_back("", fmt::format("and {} more; --json has them all", sentences.size() - max_reported));
-    lines.emplace_back("noise",
-                       fmt::format("{:.3g} % where there is more than a tenth of the peak; claimed is what lies beyond {:.2f} of it",
-                                   100.0 * difference.noise_relative, difference.z_limit));
+    lines.emplace_back("noise", fmt::format("{:.3g} % where there is more than a tenth of the peak; told is what exceeds {:.2f} times that",
+                                            100.0 * difference.noise_relative, difference.z_limit));
     lines.emplace_back("compared",
                        fmt::format("{} with at least {:.3g} cd", counted(difference.directions, "direction"), difference.floor_cd));
     return lines;

@@ -40,6 +40,9 @@ void read_glares(const PlayedCell& played, const CsvFile& moments, PlayedResult&
                 glare.at_m.push_back(at_m[i]);
                 glare.facing_lx.push_back(facing_lx[i]);
             }
+        for (std::size_t column = 0; column < moments.heads.size(); ++column)
+            if (moments.heads[column].starts_with(series.subject + ".theta_"))
+                add_gaze(result.gazes, played.drive, series, at_m, figures_in(moments, column));
         if (!glare.at_m.empty())
             result.glares.push_back(std::move(glare));
     }

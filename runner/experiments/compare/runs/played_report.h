@@ -3,6 +3,7 @@
 
 #include "metrics/readings/significance.h"
 #include "runner/files/csv_file.h"
+#include "runner/findings/gazes.h"
 #include "runner/findings/report.h"
 
 namespace fernlicht {
@@ -24,6 +25,7 @@ struct PlayedResult : ReadingsOfCell {
     std::string drive, lamp_set;         ///< names as the report has them; "" when it was not played
     std::vector<ReachOverDrive> reaches; ///< rendered
     std::vector<GlareOverDrive> glares;
+    Gazes gazes;
     std::vector<StoredFrame> frames; ///< paths below what the folder is named by
     std::vector<LampAim> aims;
     std::shared_ptr<const SeriesFindings> series;         ///< as PlayedCell

@@ -393,7 +393,7 @@ TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
     result.study.limits[0].reading = "reach_5lx_target_own_m";
     result.study.limits[0].at_least = 1.0;
     compare_cells(result);
-    const std::string part = "Of the 660 moments of each drive 9 were played (--frames 0:8)";
+    const std::string part = "Only moments 0:8 of each drive were played: 9 of 660";
     for (const std::string& text : {document_text(study_summary(result)), study_json_of(result), document_markdown(study_paper(result)),
                                     document_latex(study_paper(result)), document_html(document(result), result)})
         EXPECT_THAT(text, HasSubstr(part));
@@ -401,7 +401,7 @@ TEST(StudyCompare, ADrivePlayedInPartIsNamedAndNoLimitsAreNoPass) {
     EXPECT_THAT(document_html(document(result), result), HasSubstr("Within limits"));
     result.cells[1].moments_of_drive = 900;
     compare_cells(result);
-    EXPECT_THAT(document_text(study_summary(result)), HasSubstr("Of the 660 to 900 moments of each drive 9 were"));
+    EXPECT_THAT(document_text(study_summary(result)), HasSubstr("each drive were played: 9 of 660 to 900"));
 }
 
 /// Whoever sees it on a CI server's page wants the verdict, then what to repeat, then the decision; the table after all that.
@@ -493,6 +493,16 @@ TEST(StudyText, TablesEscapeWhatTheirFormatsMean) {
                 AllOf(HasSubstr("& m$^2$ &"), HasSubstr("\\resizebox{\\linewidth}"), Not(HasSubstr("²"))));
     EXPECT_THAT(document_markdown(study_paper(result)), HasSubstr("| m² |"));
     EXPECT_THAT(study_csv_of(result), HasSubstr(",m2,"));
+}
+
+TEST(StudyCompare, AnEyeThatLooksIntoTheLampsIsNamedOnce) {
+    StudyResult result;
+    result.cells.resize(2);
+    result.cells[0].gazes = {{{"bend-1", "Oncoming driver opposite"}, 0.9}};
+    result.cells[1].gazes = {{{"bend-1", "Oncoming driver opposite"}, 0.4}};
+    add_gaze_warnings(result);
+    EXPECT_THAT(result.warnings,
+                testing::ElementsAre(testing::HasSubstr("bend-1: Oncoming driver opposite: the line of sight passes the lamps at 0.40°")));
 }
 
 } // namespace

@@ -147,7 +147,7 @@ TEST_F(StudyProgram, PlaysComparesAndTracesEveryFigureToARow) {
         std::istringstream lines(content_of(folder / (std::string("out/paper/") + name)));
         for (std::string line; std::getline(lines, line);)
             if (line.find(captions) != std::string::npos) {
-                EXPECT_THAT(line, HasSubstr("moments of each drive "));
+                EXPECT_THAT(line, HasSubstr("of each drive were played"));
             }
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "out/INCOMPLETE"));
@@ -421,7 +421,7 @@ TEST_F(StudyProgram, AFinishedStudyIsReportedAgainFromItsCells) {
     ASSERT_EQ(run_program("study " + write_study_file(folder, xenon) + quick + out).exit_code, 0);
     const std::string page = content_of(folder / "out/report.html");
     EXPECT_THAT(page, HasSubstr("No limits were set"));
-    EXPECT_THAT(page, HasSubstr("Of the 100 moments of each drive 6 were played (--frames 0:5)"));
+    EXPECT_THAT(page, HasSubstr("Only moments 0:5 of each drive were played: 6 of 100"));
     EXPECT_THAT(content_of(folder / "out/cells/straight_old/report.html"), HasSubstr("6 of 100 moments, as --frames asks"));
     const std::string first = content_of(folder / "out/study.csv"),
                       cell = without_command(content_of(folder / "out/cells/straight_old/report.json"));
