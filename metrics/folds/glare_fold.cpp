@@ -106,6 +106,8 @@ Readings OncomingFold::readings() const {
             const Value lx = none.empty() ? value_at(eyes_[i].followed.facing.approach, distance_m) : Value::not_measured(none);
             readings.push_back({eye, lx, fmt::format("{}, the bumper {} m before it, facing the lamps", where, distance_m)});
             readings.back().key.distance_m = distance_m;
+            if (lx.measured())
+                readings.back().between_moments = unknown_at(eyes_[i].followed.facing.approach, distance_m);
         }
     }
     return readings;

@@ -176,8 +176,11 @@ Readings SensorFold::readings() const {
         for (const double limit : parameters.thresholds_lx)
             say({.quantity = Quantity::sensor_reach, .threshold = {limit, ThresholdUnit::lx}},
                 reached_from_m(here.approach, limit, here.passed));
-        for (const double distance_m : parameters.distances_m)
+        for (const double distance_m : parameters.distances_m) {
             say({.quantity = Quantity::sensor_illuminance, .distance_m = distance_m}, value_at(here.approach, distance_m));
+            if (readings.back().value.measured())
+                readings.back().between_moments = unknown_at(here.approach, distance_m);
+        }
         say({.quantity = Quantity::sensor_illuminance, .statistic = Statistic::maximum},
             Value::of(largest(here.approach), "no moment of the drive before this place was measured"));
     }

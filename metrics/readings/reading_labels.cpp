@@ -57,7 +57,7 @@ std::string filled(std::string_view slot, const ReadingKey& key) {
         {"distance", distance},
         {"before", distance.empty() || key.place == ReadingPlace::mirrors ? ""
                    : key.to_m                                             ? fmt::format(" at {} to {} m", *key.distance_m, *key.to_m)
-                                                                          : fmt::format(" {} before it", distance)},
+                                                                          : " at " + distance},
         {"most", key.statistic == Statistic::maximum   ? "largest "
                  : key.statistic == Statistic::minimum ? "smallest "
                  : key.statistic == Statistic::p05     ? "5th percentile of "

@@ -1,6 +1,7 @@
 #include "metrics/readings/significance.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <iterator>
 
 namespace fernlicht {
@@ -130,9 +131,10 @@ std::optional<double> noise_effect(const Reading& a, const Reading& b, double la
 
 /// The key that looks farther, of what lies beyond.
 std::string beyond(const ReadingKey& key) {
-    return key.quantity == Quantity::reach   ? " (`measure.extent.ahead_m` looks farther)"
-           : key.quantity == Quantity::width ? " (`measure.extent.beside_m` looks farther)"
-                                             : "";
+    const char* const which = key.quantity == Quantity::reach ? "ahead_m" : key.quantity == Quantity::width ? "beside_m" : "";
+    return *which == '\0'
+               ? ""
+               : fmt::format(" (a larger `measure.extent.{}` of the drives looks farther; in a study it is one of `axes:`)", which);
 }
 
 /// `of_moments`: what both would leave open were there a moment everywhere.

@@ -147,6 +147,23 @@ Value value_at(const Approach& approach, double distance_m) {
         fmt::format("the drive comes from {:.1f} m away to {:.1f} m", approach.front().distance_m, approach.back().distance_m));
 }
 
+std::optional<double> unknown_at(const Approach& approach, double distance_m) {
+    const std::optional<double> all = value_at(approach, distance_m).number();
+    if (!all)
+        return std::nullopt;
+    if (std::ranges::count(approach, distance_m, &ApproachSample::distance_m) > 0)
+        return 0.0;
+    std::optional<double> most;
+    for (const std::size_t first : {0U, 1U}) {
+        Approach half;
+        for (std::size_t i = first; i < approach.size(); i += 2)
+            half.push_back(approach[i]);
+        if (const auto by_half = value_at(half, distance_m).number())
+            most = std::max(most.value_or(0.0), std::abs(*by_half - *all));
+    }
+    return most;
+}
+
 ValueShares value_at_shares(const Approach& approach, double distance_m) {
     for (std::size_t i = 0; i < approach.size(); ++i) {
         if (approach[i].distance_m == distance_m && approach[i].value)

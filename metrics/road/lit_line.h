@@ -68,6 +68,10 @@ using Approach = std::vector<ApproachSample>;
 /// With distances to go: the value where so many metres are left. Not measured where the drive comes from nearer or ends farther away.
 Value value_at(const Approach& approach, double distance_m);
 
+/// How far value_at() may be off between two samples: the most that either half of the samples alone would move it by; with samples at
+/// equal steps no less than the error of what bends evenly. 0 at a sample; nullopt where neither half tells it.
+std::optional<double> unknown_at(const Approach& approach, double distance_m);
+
 /// An approach that comes so near is finished though the place is not passed: a lamp is hardly a point of light from there on.
 inline constexpr double near_enough_m = 10.0;
 

@@ -184,7 +184,9 @@ void CellStore::make() const {
         return name != "lost+found" && !name.starts_with('.');
     };
     std::error_code ignored;
-    if (!fs::exists(mark(), ignored) && std::any_of(fs::directory_iterator(folder_, ignored), fs::directory_iterator(), is_somebodys))
+    const auto is_marked = [&] { return fs::exists(mark(), ignored); };
+    if (!is_marked() && std::any_of(fs::directory_iterator(folder_, ignored), fs::directory_iterator(), is_somebodys) &&
+        !is_marked()) // another process may have made the store in between, its mark first
         throw InputError({folder_, 0, 0, "--store"}, "is a folder with other files in it",
                          "a new or empty one, or one that `fernlicht study` made");
     make_folder(folder_);

@@ -310,9 +310,11 @@ HistoryFindings explain_nights(std::vector<Night> nights, const HistoryOptions& 
             const Night& before = findings.before();
             const NightCell& earlier = *before.cell(cell.name);
             const InputChanges causes = changes_between(before, earlier, findings.tonight(), cell);
-            for (auto& [moved, beyond] : moved_between(earlier, cell, causes))
+            for (auto& [moved, beyond] : moved_between(earlier, cell, causes)) {
+                ++findings.bits_moved;
                 if (beyond)
                     findings.since.push_back(std::move(moved));
+            }
         }
     }
     for (auto& [reading, all] : steps) {

@@ -171,6 +171,9 @@ std::string headline(const HistoryFindings& findings) {
     std::string all = parts.front();
     for (std::size_t i = 1; i < parts.size(); ++i)
         all += (i + 1 < parts.size() ? ", " : " and ") + parts[i];
+    if (findings.came_back())
+        return fmt::format("{} {}, and back: {} of {} are as then, to the last bit.{}{}", all, since,
+                           counted(findings.readings_compared, "reading"), counted(findings.cells_compared, "cell"), absent, accepted);
     return fmt::format("{} {}.{}{}", all, since, absent, accepted);
 }
 

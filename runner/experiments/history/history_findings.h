@@ -105,6 +105,7 @@ struct HistoryFindings : Findings {
     std::vector<std::string> absent;                       ///< cells that one of both nights has not, or did not play
     std::size_t cells_compared = 0, readings_compared = 0; ///< of tonight, with the base
     std::vector<MovedReading> since;                       ///< base against tonight beyond rounding, what decides first, then the largest
+    std::size_t bits_moved = 0;                            ///< readings that are not the base's to the last bit
     std::map<std::pair<std::string, std::string>, double> aim_effects; ///< what 0.1° does tonight, by cell and reading; where it is known
     std::map<std::string, NightReadings> replays;                      ///< what was played tonight to tell causes apart, by cell
     std::vector<NightFrames> frames;
@@ -116,9 +117,11 @@ struct HistoryFindings : Findings {
     bool is_first() const { return base + 1 == nights.size(); } ///< nothing before it read anything
     bool is_accepted() const { return before().accepted; }
     bool nothing_changed() const { return events.empty() && drifts.empty() && times.changes.empty(); } ///< in what is compared
-    /// What --fail-on-change asks: whether anything changed since the base or cannot be compared with it. Whoever accepts a night accepts
+    /// Changes came and went: tonight is the base to the last bit.
+    bool came_back() const { return !nothing_changed() && times.changes.empty() && cells_compared > 0 && bits_moved == 0; }
+    /// What --fail-on-change asks: whether tonight is another than the base or cannot be compared with it. Whoever accepts a night accepts
     /// its changes; a first night has no base.
-    bool is_off_base() const { return !is_first() && !tonight().accepted && !(nothing_changed() && absent.empty()); }
+    bool is_off_base() const { return !is_first() && !tonight().accepted && !((nothing_changed() || came_back()) && absent.empty()); }
 };
 
 struct HistoryOptions {

@@ -148,8 +148,9 @@ std::string where_words(const StudyResult& result, const std::vector<const Chang
             real.push_back(change);
     const auto is_better = [&](const Change* change) { return (real_gain(*change) > 0.0) == best_is_tested; };
     const auto better = std::ranges::count_if(real, is_better), worse = std::ssize(real) - better;
-    std::string text =
-        changes.size() == 1 && better == 1 ? "better" : fmt::format("better {} {} of {} {}", at, better, changes.size(), places);
+    if (changes.size() == 1 && better == 1) // the place is named before it
+        return fmt::format("better ({})", signed_words(*real.front(), !best_is_tested));
+    std::string text = fmt::format("better {} {} of {} {}", at, better, changes.size(), places);
     if (worse > 0)
         text += fmt::format(", worse {} {}", at, worse);
     const auto unknown = std::ranges::count(changes, ChangeKind::unknown, &Change::kind);
@@ -166,7 +167,7 @@ std::string where_words(const StudyResult& result, const std::vector<const Chang
     };
     if (const std::string words = signed_words(**most, !best_is_tested); real.size() > 1 && words == signed_words(**least, !best_is_tested))
         return text + fmt::format(", {} {} each", words, at);
-    text += fmt::format(", {}on {}", real.size() > 1 ? "most " : "", told(**most));
+    text += fmt::format(", most on {}", told(**most));
     return (*most)->least() > (*least)->least() ? text + fmt::format(", least on {}", told(**least)) : text;
 }
 

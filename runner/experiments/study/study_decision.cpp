@@ -6,6 +6,7 @@
 #include "scenarios/values/pose.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -257,21 +258,19 @@ std::string decision_heading(const StudyResult& result, const std::vector<Decisi
 std::vector<std::string> same_results(const StudyResult& result, const std::vector<Decision>& decisions) {
     std::map<std::pair<std::string, std::string>, std::size_t> alike;
     const auto cell_of = [&](std::size_t change) -> const CellResult& { return result.cells[result.changes[change].tested]; };
-    const auto off_drive = [](StudyCell cell) {
-        cell.drive = 0;
-        return cell;
-    };
     for (const Decision& decision : decisions)
-        for (const DecidedReading& decided : decision.readings)
-            for (auto i = decided.changes.begin(); i != decided.changes.end(); ++i)
-                if (const auto same = std::find_if(decided.changes.begin(), i,
-                                                   [&](std::size_t k) {
-                                                       return cell_of(k).drive != cell_of(*i).drive &&
-                                                              is_same_place(off_drive(cell_of(k).cell), off_drive(cell_of(*i).cell)) &&
-                                                              is_same_result(result.changes[k], result.changes[*i]);
-                                                   });
-                    same != i)
-                    ++alike[{cell_of(*same).drive, cell_of(*i).drive}];
+        for (const DecidedReading& decided : decision.readings) {
+            std::map<std::array<std::size_t, 6>, std::vector<std::size_t>> known; // under one condition: one for each drive
+            for (const std::size_t i : decided.changes) {
+                const StudyCell& at = cell_of(i).cell;
+                std::vector<std::size_t>& earlier = known[{at.technique, at.time_of_day, at.aim, at.voltage, at.mirror, at.point}];
+                const auto same =
+                    std::ranges::find_if(earlier, [&](std::size_t k) { return is_same_result(result.changes[k], result.changes[i]); });
+                if (same != earlier.end())
+                    ++alike[{cell_of(*same).drive, cell_of(i).drive}];
+                earlier.push_back(i);
+            }
+        }
     std::vector<std::string> sentences;
     for (const auto& [drives, results] : alike)
         sentences.push_back(fmt::format("{} of {} repeat{} what {} has: no further evidence", counted(results, "result"), drives.second,

@@ -146,7 +146,8 @@ void add_over_axes(const StudyResult& result, std::vector<StudyFigure>& figures)
             plots::Figure figure;
             figure.title = capitalised(reading_label(key));
             figure.subtitle = most == 1 ? place_off_axis(result.cells[found.cells.front()], axis, drives.size() == 1)
-                                        : fmt::format("median of up to {} cells a point, the smaller of the middle two", most);
+                                        : fmt::format("median of up to {} cells a point{}", most,
+                                                      most % 2 == 0 ? ", of two in the middle the smaller" : "");
             figure.width_px = 420.0;
             figure.height_px = 240.0 + 20.0 * static_cast<double>(found.values.size());
             if (found.bounds)

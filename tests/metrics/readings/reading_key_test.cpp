@@ -250,7 +250,7 @@ TEST(ReadingWords, SayWhatANameSaysAndLeaveNothingOpen) {
         {"width_1lx_road_all_at_20m_min_m", "width at 1 lx on the road, whole width, 20 m ahead, least"},
         {"area_1lx_road_all_p05_m2", "area at 1 lx on the road, whole width, 5th percentile"},
         {"probe_kerb_lx", "illuminance, probe kerb"},
-        {"sensor_right-edge_at_50m_lx", "illuminance 50 m before it, sensor right-edge"},
+        {"sensor_right-edge_at_50m_lx", "illuminance at 50 m, sensor right-edge"},
         {"glare_oncoming_facing_max_lx", "largest illuminance, eyes of an oncoming driver"},
         {"glare_opposite_facing_from_30_to_60m_max_lx", "largest illuminance at 30 to 60 m, eyes of oncoming driver opposite"},
         {"glare_opposite_facing_from_30_to_60m_lx", "illuminance at 30 to 60 m, eyes of oncoming driver opposite"},
@@ -258,7 +258,7 @@ TEST(ReadingWords, SayWhatANameSaysAndLeaveNothingOpen) {
         {"mirror_left_at_15m_p95_lx", "95th percentile of illuminance on the mirror left of a car 15 m ahead"},
         {"glare_opposite_de_boer_from_30_to_60m_min", "smallest de Boer rating at 30 to 60 m, eyes of oncoming driver opposite"},
         {"glare_own_adaptation_cdm2", "adaptation luminance, eyes of the own driver"},
-        {"glare_opposite_at_50m_lx", "illuminance 50 m before it, eyes of oncoming driver opposite"},
+        {"glare_opposite_at_50m_lx", "illuminance at 50 m, eyes of oncoming driver opposite"},
         {"glare_far_away_length_above_0.5lx_m", "metres above 0.5 lx, eyes of oncoming driver far_away"},
         {"glare_mirrors_at_15m_de_boer_min", "smallest de Boer rating, mirrors of a car 15 m ahead"},
         {"glare_own_time_above_10percent_s", "time above 10 % of threshold increment, eyes of the own driver"},
@@ -365,7 +365,7 @@ TEST(Significance, ABoundIsExactAsABound) {
     }
     EXPECT_EQ(change(Value::at_least(200.0), 199.9).kind, ChangeKind::unknown) << "it may be much more";
     EXPECT_EQ(change(Value::at_least(200.0), Value::at_least(200.0)).reason_unknown,
-              "both are over 200 m (`measure.extent.ahead_m` looks farther)");
+              "both are over 200 m (a larger `measure.extent.ahead_m` of the drives looks farther; in a study it is one of `axes:`)");
 }
 
 TEST(Significance, QuantilesOfGlareAreJudgedAsTheLargestIs) {

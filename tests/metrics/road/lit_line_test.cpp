@@ -112,6 +112,8 @@ TEST(Approach, RunsStraightInTheLogarithmAndIsReachedFromFarthestAway) {
     EXPECT_DOUBLE_EQ(value_at(course, 0.0).number().value(), 0.0);
     EXPECT_THAT(value_at(course, 41.0).reason(), HasSubstr("from 40.0 m away to 0.0 m"));
     EXPECT_FALSE(value_at(Approach{}, 5.0).measured());
+    EXPECT_EQ(unknown_at(course, 30.0), 0.0) << "a sample";
+    EXPECT_FALSE(unknown_at(course, 41.0));
     EXPECT_NEAR(reached_from_m(course, 4.0, false).number().value(), 25.0, 1e-12); // between 2 and 8
     EXPECT_NEAR(reached_from_m(course, 2.0, false).number().value(), 30.0, 1e-12);
     EXPECT_EQ(reached_from_m(course, 9.0, false).number().value(), 0.0) << "nowhere";

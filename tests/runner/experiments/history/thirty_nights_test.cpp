@@ -431,6 +431,12 @@ TEST(HistoryCauses, ThereAndBackIsTwoChangesAndNoneInSum) {
     const HistoryFindings found = explained({{}, other, {}});
     EXPECT_EQ(found.events.size(), 2U);
     EXPECT_THAT(found.since, IsEmpty());
+    EXPECT_FALSE(found.is_off_base());
+    EXPECT_THAT(document_text(document(found)), HasSubstr("2 changes since the accepted night of 2026-01-01, in 2 nights, and back: 24 "
+                                                          "readings of 6 cells are as then, to the last bit."));
+    World rounded;
+    rounded.last_digits = 1e-15;
+    EXPECT_TRUE(explained({{}, other, rounded}).is_off_base()) << "but for rounding";
 }
 
 TEST(HistoryCauses, WhatWasNotPlayedOrNotMeasuredIsSaid) {

@@ -223,7 +223,8 @@ TEST(Answer, TellsOneSizeOnceAndHowFarApartTheCutOffsLie) {
     for (CellResult& cell : study.result.cells)
         cell.aims = {{.lamp = "left", .percent = cell.cell.lamp == 1 ? -0.6 : -1.0}};
     const FirstScreen screen(study);
-    EXPECT_EQ(screen.where(), "Median over 2 routes: better on 2 of 2 routes, +10.0 m on each.");
+    EXPECT_EQ(screen.where(),
+              "Median over 2 routes by change in per cent, the smaller of the middle two: better on 2 of 2 routes, +10.0 m on each.");
     EXPECT_THAT(screen.section.title, testing::EndsWith("(+10.0 m, +25 %); the cut-off of new lies 0.23° higher"));
 }
 
