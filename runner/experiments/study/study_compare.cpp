@@ -58,7 +58,7 @@ std::string played_in_part(const StudyResult& result) {
         parts.push_back(fmt::format("Only {} of {} cells {} asked for (--only {})", result.cells.size(), all,
                                     result.cells.size() == 1 ? "was" : "were", result.only));
     if (std::ranges::any_of(result.cells, [](const CellResult& cell) { return cell.moments < cell.moments_of_drive; }))
-        parts.push_back(fmt::format("Only moments {} of each drive were played: {} of {}", result.frames,
+        parts.push_back(fmt::format("{} moments {} of each drive were played: {} of {}", parts.empty() ? "Only" : "only", result.frames,
                                     range_over(result.cells, &CellResult::moments),
                                     range_over(result.cells, &CellResult::moments_of_drive)));
     return fmt::format("{}", fmt::join(parts, "; "));
